@@ -1,0 +1,90 @@
+//! What can go wrong: one variant per cause. Each says where, what was expected, what was found and what to do.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The error of every fallible operation of this crate. Its text is complete: it ends with what to do.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file or folder cannot be opened or read.
+    #[error("cannot read {}: {source}; check that the path is right and readable", path.display())]
+    Unreadable { path: PathBuf, source: io::Error },
+
+    /// A file is there, but is not an image that can be decoded.
+    #[error("{} is not a readable image: {problem}; {remedy}", path.display())]
+    BadImage { path: PathBuf, problem: String, remedy: String },
+
+    /// What was read is not the four maps of a material.
+    #[error("{} is not a material: expected {expected}, found {found}; {remedy}", path.display())]
+    NotAMaterial { path: PathBuf, expected: String, found: String, remedy: String },
+
+    /// Two things that must have the same size do not.
+    #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; {remedy}",
+        first_size[0], first_size[1], second_size[0], second_size[1])]
+    SizesDiffer {
+        first: String,
+        first_size: [usize; 2],
+        second: String,
+        second_size: [usize; 2],
+        remedy: &'static str,
+    },
+
+    /// A value lies where none may.
+    #[error(
+        "{whose}: {map} map, column {column}, row {row}: expected {expected}, found {found}; correct the map"
+    )]
+    OutOfRange {
+        whose: String,
+        map: &'static str,
+        column: usize,
+        row: usize,
+        expected: &'static str,
+        found: String,
+    },
+
+    /// A scene file is not one, or one of its scenes cannot be rendered.
+    #[error("{} is not a usable scene file: {problem}; expected \
+        {{\"scenes\": [{{\"kind\": \"near\" or \"distant\", \"view\": [x, y, z], \"light\": [x, y, z]}}, ...]}}, \
+        finite, light and view above the plane", path.display())]
+    BadScene { path: PathBuf, problem: String },
+
+    /// A scene given by hand cannot be rendered.
+    #[error("the scene cannot be rendered: {problem}; move it above the plane, within 1e9 of the origin")]
+    UnusableScene { problem: String },
+
+    /// A name that is none of the known ones.
+    #[error("unknown {what} `{found}`; use one of: {known}")]
+    UnknownName { what: &'static str, found: String, known: String },
+
+    /// A value of an option or a combination of options that makes no sense.
+    #[error("{0}")]
+    Usage(String),
+
+    /// A result cannot be written.
+    #[error("cannot write {}: {source}; {remedy}", path.display())]
+    Unwritable { path: PathBuf, source: io::Error, remedy: &'static str },
+
+    /// No graphics adapter can do what is asked.
+    #[error("no usable graphics adapter: {problem}; {remedy}")]
+    NoAdapter { problem: String, remedy: &'static str },
+
+    /// The graphics adapter or its driver refused or failed.
+    #[error("the graphics adapter failed: {problem}; {remedy}")]
+    Gpu { problem: String, remedy: &'static str },
+
+    /// No window can be opened.
+    #[error("cannot open a window: {problem}; {remedy}")]
+    NoWindow { problem: String, remedy: &'static str },
+
+    /// The caller cancelled the work.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+impl Error {
+    /// [`Error::Unreadable`] for `path`.
+    pub fn unreadable(path: &Path, source: io::Error) -> Self {
+        Self::Unreadable { path: path.to_owned(), source }
+    }
+}

@@ -1,0 +1,16 @@
+pub mod brdf;
+pub mod camera;
+pub mod convention;
+pub mod error;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+pub mod loss;
+pub mod material;
+pub mod progress;
+pub mod real;
+pub mod render;
+pub mod scene;
+pub mod vec3;
+pub mod view;
+#[cfg(feature = "viewer")]
+pub mod viewer;

@@ -1,0 +1,209 @@
+//! Algorithm 1: the rendering loss of predictions against a ground truth over given scenes.
+
+mod statistics;
+
+use std::str::FromStr;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+pub use statistics::Estimate;
+
+use crate::brdf::Model;
+use crate::convention::Convention;
+use crate::error::Error;
+use crate::material::Material;
+use crate::progress::Progress;
+use crate::real::Real;
+use crate::render::render_texel;
+use crate::scene::{self, Scene};
+
+/// Rows are summed within blocks of this many texels, and blocks in order: threads never change a sum.
+const TEXELS_PER_BLOCK: usize = 4096;
+
+/// What the loss is asked for: the same struct behind the command line and the panel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LossParams {
+    /// N_S, the number of near-field scenes.
+    pub near: usize,
+    /// N_D, the number of distant scenes.
+    pub distant: usize,
+    /// Names the scenes: the i-th scene depends on it and on i alone.
+    pub seed: u64,
+    pub convention: Convention,
+    pub precision: Precision,
+}
+
+impl Default for LossParams {
+    fn default() -> Self {
+        Self { near: 6, distant: 3, seed: 0, convention: Convention::default(), precision: Precision::F32 }
+    }
+}
+
+impl LossParams {
+    /// Most scenes that a loss may be asked for, of both kinds together.
+    pub const MAX_SCENES: usize = 10_000_000;
+
+    /// The scenes that these parameters name.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] without scenes or with more than [`LossParams::MAX_SCENES`].
+    pub fn scenes(&self) -> Result<Vec<Scene>, Error> {
+        let count = self.near.saturating_add(self.distant);
+        if count == 0 {
+            return Err(Error::Usage(
+                "a loss needs at least one scene; ask for more near-field or distant scenes".to_owned(),
+            ));
+        }
+        if count > Self::MAX_SCENES {
+            return Err(Error::Usage(format!(
+                "{count} scenes are more than {}; ask for fewer",
+                Self::MAX_SCENES
+            )));
+        }
+        Ok(scene::sample(self.seed, self.near, self.distant, &self.convention))
+    }
+}
+
+/// What renderings are computed in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    #[default]
+    F32,
+    F64,
+}
+
+impl FromStr for Precision {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self, Error> {
+        match name {
+            "f32" => Ok(Self::F32),
+            "f64" => Ok(Self::F64),
+            _ => Err(Error::UnknownName {
+                what: "precision",
+                found: name.to_owned(),
+                known: "f32, f64".to_owned(),
+            }),
+        }
+    }
+}
+
+/// The loss of one prediction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loss {
+    /// The name of the prediction.
+    pub prediction: String,
+    /// The loss over all scenes, with its error.
+    pub estimate: Estimate,
+    /// The loss of each scene, in the order of the scenes: the mean over texels and RGB of
+    /// `|ln(R_gt + epsilon) - ln(R_pred + epsilon)|`.
+    pub per_scene: Vec<f64>,
+}
+
+/// The losses of `predictions` against `ground_truth` over `scenes`, in the order of the predictions.
+///
+/// All predictions see the same scenes. The result does not depend on the number of threads.
+///
+/// # Errors
+/// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::Usage`] without scenes, [`Error::Cancelled`].
+pub fn losses<T: Real>(
+    ground_truth: &Material<T>,
+    predictions: &[&Material<T>],
+    scenes: &[Scene],
+    convention: &Convention,
+    progress: &Progress,
+) -> Result<Vec<Loss>, Error> {
+    check(ground_truth, predictions, scenes)?;
+    let model = Model::from(convention);
+    let epsilon = T::of(convention.epsilon);
+    let texels = ground_truth.width() * ground_truth.height();
+    let blocks = texels.div_ceil(TEXELS_PER_BLOCK);
+    progress.begin((scenes.len() * blocks) as u64);
+
+    let sums = (0..scenes.len() * blocks)
+        .into_par_iter()
+        .map(|job| {
+            let (scene, block) = (&scenes[job / blocks], job % blocks);
+            let range = block * TEXELS_PER_BLOCK..texels.min((block + 1) * TEXELS_PER_BLOCK);
+            let rays = scene.rays();
+            let sums = block_sums(ground_truth, predictions, range, |material, column, row| {
+                render_texel(material, &model, &rays, column, row).map(|radiance| (radiance + epsilon).ln())
+            });
+            progress.step()?;
+            Ok(sums)
+        })
+        .collect::<Result<Vec<_>, Error>>()?;
+
+    let count = 3.0 * texels as f64;
+    Ok(predictions
+        .iter()
+        .enumerate()
+        .map(|(p, prediction)| {
+            let scene_mean = |sums: &[Vec<f64>]| sums.iter().map(|block| block[p]).sum::<f64>() / count;
+            let per_scene: Vec<f64> = sums.chunks(blocks).map(scene_mean).collect();
+            Loss {
+                prediction: prediction.name().to_owned(),
+                estimate: Estimate::of_scenes(scenes, &per_scene),
+                per_scene,
+            }
+        })
+        .collect())
+}
+
+/// For each prediction the sum of `|log R_gt - log R_pred|` over the texels of `range` and RGB.
+fn block_sums<T: Real>(
+    ground_truth: &Material<T>,
+    predictions: &[&Material<T>],
+    range: std::ops::Range<usize>,
+    log_radiance: impl Fn(&Material<T>, usize, usize) -> [T; 3],
+) -> Vec<f64> {
+    let width = ground_truth.width();
+    let mut sums = vec![0.0; predictions.len()];
+    for index in range {
+        let (column, row) = (index % width, index / width);
+        let expected = log_radiance(ground_truth, column, row);
+        for (sum, prediction) in sums.iter_mut().zip(predictions) {
+            let got = log_radiance(prediction, column, row);
+            for (a, b) in expected.into_iter().zip(got) {
+                *sum += (a - b).abs().f64();
+            }
+        }
+    }
+    sums
+}
+
+fn check<T: Real>(
+    ground_truth: &Material<T>,
+    predictions: &[&Material<T>],
+    scenes: &[Scene],
+) -> Result<(), Error> {
+    if scenes.is_empty() {
+        return Err(Error::Usage("a loss needs at least one scene".to_owned()));
+    }
+    for scene in scenes {
+        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+    }
+    for prediction in predictions {
+        check_same_size(ground_truth, prediction)?;
+    }
+    Ok(())
+}
+
+/// Whether a prediction can be compared with its ground truth texel by texel.
+///
+/// # Errors
+/// [`Error::SizesDiffer`].
+pub fn check_same_size<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) -> Result<(), Error> {
+    if ground_truth.size() == prediction.size() {
+        return Ok(());
+    }
+    Err(Error::SizesDiffer {
+        first: format!("ground truth {}", ground_truth.name()),
+        first_size: ground_truth.size(),
+        second: format!("prediction {}", prediction.name()),
+        second_size: prediction.size(),
+        remedy: "resize one of them so that their texels correspond",
+    })
+}

@@ -1,0 +1,232 @@
+//! The four maps of a material, with their invariants checked once.
+
+use crate::brdf::Texel;
+use crate::error::Error;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// The maps of a material as planes of `width * height` values, row 0 on top.
+///
+/// What they mean and their ranges are those of [`Texel`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Planes<T> {
+    pub normal: [Vec<T>; 3],
+    pub diffuse: [Vec<T>; 3],
+    pub specular: [Vec<T>; 3],
+    pub roughness: Vec<T>,
+}
+
+/// An SVBRDF: normal, diffuse, specular and roughness of every texel of a plane.
+///
+/// Every texel is finite, its normal has length 1, its other values lie in [0, 1], and there is at least one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material<T> {
+    name: String,
+    width: usize,
+    height: usize,
+    planes: Planes<T>,
+}
+
+impl<T: Real> Material<T> {
+    /// Takes over `planes` of `width` x `height` texels; normals of any length are normalized.
+    ///
+    /// # Errors
+    /// [`Error::NotAMaterial`] without texels, [`Error::SizesDiffer`] where a plane has not `width * height` values,
+    /// [`Error::OutOfRange`] at the first texel that is not finite, has no normal or lies outside [0, 1].
+    pub fn new(
+        name: impl Into<String>,
+        width: usize,
+        height: usize,
+        mut planes: Planes<T>,
+    ) -> Result<Self, Error> {
+        let name = name.into();
+        check_sizes(&name, width, height, &planes)?;
+        let place = |index: usize| (index % width, index / width);
+        let scalar_maps = [
+            ("diffuse", planes.diffuse.as_slice()),
+            ("specular", planes.specular.as_slice()),
+            ("roughness", std::slice::from_ref(&planes.roughness)),
+        ];
+        for (map, channels) in scalar_maps {
+            for channel in channels {
+                check_range(&name, map, channel, place)?;
+            }
+        }
+        normalize_normals(&name, &mut planes.normal, place)?;
+        Ok(Self { name, width, height, planes })
+    }
+
+    /// The same texel everywhere: for tests and examples.
+    ///
+    /// # Errors
+    /// As [`Material::new`].
+    pub fn uniform(
+        name: impl Into<String>,
+        width: usize,
+        height: usize,
+        texel: &Texel<T>,
+    ) -> Result<Self, Error> {
+        let plane = |value: T| vec![value; width * height];
+        let planes = Planes {
+            normal: texel.normal.to_array().map(plane),
+            diffuse: texel.diffuse.map(plane),
+            specular: texel.specular.map(plane),
+            roughness: plane(texel.roughness),
+        };
+        Self::new(name, width, height, planes)
+    }
+
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The same material under another name.
+    #[must_use]
+    pub fn renamed(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// (width, height) in texels.
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    pub fn planes(&self) -> &Planes<T> {
+        &self.planes
+    }
+
+    pub fn grid(&self) -> Grid {
+        Grid { width: self.width, height: self.height }
+    }
+
+    /// The texel at `index` = row * width + column.
+    ///
+    /// # Panics
+    /// Where there is no such texel, as indexing a slice does.
+    pub fn texel(&self, index: usize) -> Texel<T> {
+        let at = |plane: &[Vec<T>; 3]| [plane[0][index], plane[1][index], plane[2][index]];
+        Texel {
+            normal: at(&self.planes.normal).into(),
+            diffuse: at(&self.planes.diffuse),
+            specular: at(&self.planes.specular),
+            roughness: self.planes.roughness[index],
+        }
+    }
+
+    /// The same material in another precision.
+    pub fn cast<U: Real>(&self) -> Material<U> {
+        let plane = |plane: &Vec<T>| plane.iter().map(|x| U::of(x.f64())).collect();
+        Material {
+            name: self.name.clone(),
+            width: self.width,
+            height: self.height,
+            planes: Planes {
+                normal: self.planes.normal.each_ref().map(plane),
+                diffuse: self.planes.diffuse.each_ref().map(plane),
+                specular: self.planes.specular.each_ref().map(plane),
+                roughness: plane(&self.planes.roughness),
+            },
+        }
+    }
+}
+
+/// Where the texels of a material lie in the plane z = 0.
+///
+/// Column i of W is at x = linspace(-1, 1, W)[i]; row 0 is on top, at the largest y; texels are square, so the
+/// height spans +-(H - 1) / (W - 1). A single column lies at x = 0, with rows as far apart as those of two columns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grid {
+    pub width: usize,
+    pub height: usize,
+}
+
+impl Grid {
+    /// The position C of the texel in column `column` of row `row`.
+    pub fn position<T: Real>(&self, column: usize, row: usize) -> Vec3<T> {
+        let scale = self.width.saturating_sub(1).max(1) as f64;
+        let x = (2.0 * column as f64 - (self.width - 1) as f64) / scale;
+        let y = ((self.height - 1) as f64 - 2.0 * row as f64) / scale;
+        Vec3::new(T::of(x), T::of(y), T::zero())
+    }
+}
+
+fn check_sizes<T>(name: &str, width: usize, height: usize, planes: &Planes<T>) -> Result<(), Error> {
+    let expected = width.checked_mul(height).filter(|&count| count > 0);
+    let Some(expected) = expected else {
+        return Err(Error::NotAMaterial {
+            path: name.into(),
+            expected: "at least one texel".to_owned(),
+            found: format!("{width} x {height}"),
+            remedy: "give maps of at least 1 x 1".to_owned(),
+        });
+    };
+    let all = planes.normal.iter().chain(&planes.diffuse);
+    let all = all.chain(&planes.specular).chain([&planes.roughness]);
+    for plane in all {
+        if plane.len() != expected {
+            return Err(Error::NotAMaterial {
+                path: name.into(),
+                expected: format!("{expected} values in every plane ({width} x {height})"),
+                found: format!("a plane of {}", plane.len()),
+                remedy: "give planes of the same size".to_owned(),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_range<T: Real>(
+    name: &str,
+    map: &'static str,
+    plane: &[T],
+    place: impl Fn(usize) -> (usize, usize),
+) -> Result<(), Error> {
+    let valid = |x: &T| *x >= T::zero() && *x <= T::one();
+    match plane.iter().position(|x| !valid(x)) {
+        None => Ok(()),
+        Some(index) => {
+            let (column, row) = place(index);
+            Err(Error::OutOfRange {
+                whose: name.to_owned(),
+                map,
+                column,
+                row,
+                expected: "a value in [0, 1]",
+                found: plane[index].to_string(),
+            })
+        }
+    }
+}
+
+fn normalize_normals<T: Real>(
+    name: &str,
+    normal: &mut [Vec<T>; 3],
+    place: impl Fn(usize) -> (usize, usize),
+) -> Result<(), Error> {
+    let [xs, ys, zs] = normal;
+    for (index, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
+        // In f64, so that f32 normals are the correctly rounded ones.
+        let n = Vec3::new(x.f64(), y.f64(), z.f64());
+        if !n.is_direction() {
+            let (column, row) = place(index);
+            return Err(Error::OutOfRange {
+                whose: name.to_owned(),
+                map: "normal",
+                column,
+                row,
+                expected: "a finite vector of some length",
+                found: format!("({}, {}, {})", n.x, n.y, n.z),
+            });
+        }
+        [*x, *y, *z] = n.normalize().to_array().map(T::of);
+    }
+    Ok(())
+}

@@ -1,0 +1,57 @@
+//! Algorithm 3 over a whole material, on the CPU.
+
+use rayon::prelude::*;
+
+use crate::brdf::{self, Model};
+use crate::convention::Convention;
+use crate::error::Error;
+use crate::material::Material;
+use crate::progress::Progress;
+use crate::real::Real;
+use crate::scene::{Rays, Scene};
+
+/// A picture of linear radiance: `width * height` RGB values, row 0 on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image<T> {
+    pub width: usize,
+    pub height: usize,
+    pub pixels: Vec<[T; 3]>,
+}
+
+/// Renders every texel of `material` under `scene`, in parallel by rows.
+///
+/// # Errors
+/// [`Error::UnusableScene`] where [`Scene::check`] refuses the scene, [`Error::Cancelled`].
+pub fn render<T: Real>(
+    material: &Material<T>,
+    scene: &Scene,
+    convention: &Convention,
+    progress: &Progress,
+) -> Result<Image<T>, Error> {
+    scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+    let model = Model::from(convention);
+    let rays = scene.rays();
+    let (width, height) = (material.width(), material.height());
+    let mut pixels = vec![[T::zero(); 3]; width * height];
+    progress.begin(height as u64);
+    pixels.par_chunks_mut(width).enumerate().try_for_each(|(row, pixels)| {
+        for (column, pixel) in pixels.iter_mut().enumerate() {
+            *pixel = render_texel(material, &model, &rays, column, row);
+        }
+        progress.step()
+    })?;
+    Ok(Image { width, height, pixels })
+}
+
+/// Renders the texel in column `column` of row `row`.
+pub fn render_texel<T: Real>(
+    material: &Material<T>,
+    model: &Model<T>,
+    rays: &Rays<T>,
+    column: usize,
+    row: usize,
+) -> [T; 3] {
+    let (w_l, w_v) = rays.from_texel(material.grid().position(column, row));
+    let texel = material.texel(row * material.width() + column);
+    brdf::render(model, &texel, w_l, w_v)
+}

@@ -1,0 +1,16 @@
+//! Every integration test, in one binary: it links once.
+
+mod support;
+
+mod bad_input;
+mod cli;
+mod end_to_end;
+mod fused;
+mod golden_loss;
+mod golden_points;
+mod gpu_parity;
+mod physics;
+mod reading;
+mod sampling;
+mod shaders;
+mod ui;
