@@ -48,7 +48,7 @@ pub fn blurred_normals(truth: &Planes<f64>) -> Planes<f64> {
         *plane = blur(plane, 4).iter().map(|slope| 0.7 * slope).collect();
     }
     normalize(&mut planes.normal);
-    planes.diffuse = planes.diffuse.map(|plane| blur(&plane, 2));
+    planes.diffuse = planes.diffuse.map(|plane| blur(&plane, 1));
     planes
 }
 

@@ -9,7 +9,7 @@ const SQRT_HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Half the width of the grout.
 const GROUT: f64 = 0.013;
 /// Width of the rounded edge of a tile.
-const BEVEL: f64 = 0.035;
+const BEVEL: f64 = 0.03;
 /// Height of a tile above the grout.
 const THICKNESS: f64 = 0.02;
 /// Half the width of the brass band along the edge of a star.
@@ -81,10 +81,10 @@ fn star([x, y]: [f64; 2], size: f64) -> f64 {
 /// A glazed tile of `colour`, `inside` its edge: rounded there, uneven within.
 fn glazed(x: f64, y: f64, inside: f64, colour: [f64; 3], seed: u64) -> Surface {
     let rounded = step(0.0, BEVEL, inside - GROUT);
-    let waves = 0.006 * noise(x * 9.0, y * 9.0, seed) + 0.0012 * noise(x * 31.0, y * 31.0, seed + 1);
+    let waves = 0.006 * noise(x * 9.0, y * 9.0, seed) + 0.0007 * noise(x * 27.0, y * 27.0, seed + 1);
     // Glaze runs thin over edges and pools in the hollows between waves.
     let pooled = 0.75 + 0.5 * clouds(x * 5.0, y * 5.0, seed + 2);
-    let thin = 0.6 * (1.0 - rounded);
+    let thin = 0.5 * step(0.4, 0.0, rounded);
     Surface {
         height: THICKNESS * rounded + waves,
         diffuse: mix3(colour.map(|c| c * pooled), [0.5, 0.45, 0.36], thin),
@@ -99,7 +99,7 @@ fn inlay(tile: &mut Surface, x: f64, y: f64, inside: f64, metal: [f64; 3], dome:
     let groove = step(GROOVE, 0.0, inside.abs());
     if inside > 0.0 {
         let tarnish = step(0.45, 0.8, clouds(x * 6.0, y * 6.0, 40));
-        let polish = 0.08 + 0.1 * noise(x * 60.0, y * 8.0, 41);
+        let polish = 0.1 + 0.08 * noise(x * 40.0, y * 6.0, 41);
         tile.height = THICKNESS + dome;
         tile.diffuse = [0.0; 3];
         tile.specular = metal.map(|c| c * mix(1.0, 0.72, tarnish));
@@ -122,7 +122,7 @@ fn star_tile(x: f64, y: f64, p: [f64; 2], edge: f64) -> Surface {
     if medallion > -0.02 {
         let r2 = (p[0] * p[0] + p[1] * p[1]) / (MEDALLION * MEDALLION);
         let ring = step(0.025, 0.0, (r2.sqrt() - 0.55).abs()) + step(0.022, 0.0, (r2.sqrt() - 0.3).abs());
-        inlay(&mut tile, x, y, medallion, COPPER, 0.03 * (1.0 - r2) - 0.004 * ring);
+        inlay(&mut tile, x, y, medallion, COPPER, 0.014 * (1.0 - r2) - 0.003 * ring);
         patina(&mut tile, x, y, medallion, ring);
     }
     tile
@@ -203,7 +203,7 @@ fn fill_joints(surface: &mut Surface, x: f64, y: f64, edge: f64) {
     surface.cover([0.06, 0.05, 0.04], 0.7, 0.55 * dirt);
     let joint = step(0.004, -0.004, edge - GROUT);
     let grain = noise(x * 55.0, y * 55.0, 96);
-    let gray = mix(0.16, 0.26, 0.5 * grain + 0.5 * clouds(x * 4.0, y * 4.0, 97));
+    let gray = mix(0.05, 0.12, 0.5 * grain + 0.5 * clouds(x * 4.0, y * 4.0, 97));
     surface.cover([gray, gray * 0.93, gray * 0.84], 0.86 + 0.04 * grain, joint);
     surface.height = mix(surface.height, 0.003 * grain, joint);
 }
