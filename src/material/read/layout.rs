@@ -75,7 +75,8 @@ pub fn unpack(path: &Path, strip: Raster) -> Result<Found, Error> {
 fn separate(path: &Path, folder: &Path, prefix: &str, progress: &Progress) -> Result<Found, Error> {
     let names = list(folder, prefix)?;
     if names.is_empty() && !prefix.is_empty() {
-        return Err(Error::unreadable(path, io::ErrorKind::NotFound.into()));
+        let absent = io::Error::new(io::ErrorKind::NotFound, "no file, folder or prefix of files is there");
+        return Err(Error::unreadable(path, absent));
     }
     let [n, d, r, s] = Map::ALL.map(|map| claim(path, map, prefix, &names));
     let chosen = [n?, d?, r?, s?];
@@ -121,8 +122,7 @@ fn claim<'a>(path: &Path, map: Map, prefix: &str, names: &'a [String]) -> Result
         png && Map::of_words(&words(stem.strip_prefix(prefix).unwrap_or(""))) == Some(map)
     };
     let mut holding = names.iter().filter(holds);
-    let expected =
-        format!("one PNG file for the {} map, named by one of: {}", map.name(), map.words().join(", "));
+    let expected = format!("one PNG file for the {} map (named {})", map.name(), map.words().join(", "));
     match (holding.next(), holding.next()) {
         (Some(name), None) => Ok(name),
         (Some(first), Some(second)) => Err(Error::NotAMaterial {
