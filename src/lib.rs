@@ -9,6 +9,7 @@ pub mod material;
 pub mod progress;
 pub mod real;
 pub mod render;
+pub mod samples;
 pub mod scene;
 pub mod vec3;
 pub mod view;

@@ -1,5 +1,7 @@
 //! The four maps of a material, with their invariants checked once.
 
+pub mod read;
+
 use crate::brdf::Texel;
 use crate::error::Error;
 use crate::real::Real;
