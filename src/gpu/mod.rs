@@ -1,1 +1,29 @@
-//! Algorithm 3 on the graphics adapter.
+//! Algorithm 3 on the graphics adapter, offscreen and in a window. Knows the core and wgpu, and no egui.
+//!
+//! Two passes. [`Shading`] runs one fragment per texel of the map and writes linear floats: Algorithm 3 under a
+//! scene, or one of the maps. [`Display`] runs one fragment per pixel of the screen: from the camera's ray to the
+//! texels that are seen, averaged where they are smaller than a pixel, exposed and encoded. So shading is never
+//! computed on filtered maps, and moving the camera costs no shading.
+//!
+//! `shaders/` holds one idea a file; [`shaders`] says which files make a shader. Bad input and bad hardware never
+//! panic: they are an [`Error::Gpu`](crate::error::Error::Gpu) or wait in [`Gpu::take_fault`].
+
+mod adapter;
+mod colour_map;
+mod context;
+mod display;
+mod fault;
+mod pipeline;
+mod probe;
+mod read_back;
+pub mod shaders;
+mod shading;
+mod textures;
+pub mod uniforms;
+
+pub use adapter::AdapterReport;
+pub use colour_map::heat;
+pub use context::Gpu;
+pub use display::{Display, DisplayMode, DisplayParams, Encoding, Pane};
+pub use shading::{ShadeParams, Shaded, Shading};
+pub use textures::MaterialTextures;

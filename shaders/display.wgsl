@@ -1,0 +1,83 @@
+// Pass 2: one fragment a screen pixel. What the camera sees of the shaded texels, encoded for the screen.
+
+const MODE_SHOWN = 0u;
+const MODE_WIPE = 1u;
+const MODE_DIFFERENCE = 2u;
+// The log difference that takes the colour map's last colour at exposure 0.
+const FULL_DIFFERENCE = 2.0f;
+
+struct Display {
+    camera: Camera,
+    background: vec3f,
+    encoding: u32,
+    exposure: f32,
+    epsilon: f32,
+    wipe: f32,
+    mode: u32,
+    show_clipping: u32,
+}
+
+@group(0) @binding(0) var<uniform> params: Display;
+@group(0) @binding(1) var shown: texture_2d<f32>;
+@group(0) @binding(2) var reference: texture_2d<f32>;
+
+// Of renderings the loss's summand, the difference of the logarithms; of maps the plain difference.
+fn difference(a: vec3f, b: vec3f) -> f32 {
+    let logarithmic = abs(log(a + params.epsilon) - log(b + params.epsilon));
+    let each = select(abs(a - b), logarithmic, params.encoding == ENCODING_RADIANCE);
+    return (each.x + each.y + each.z) / 3.0;
+}
+
+fn load(place: vec2i, from_reference: bool) -> vec3f {
+    if params.mode == MODE_DIFFERENCE {
+        return vec3f(difference(textureLoad(shown, place, 0).rgb, textureLoad(reference, place, 0).rgb));
+    }
+    if from_reference {
+        return textureLoad(reference, place, 0).rgb;
+    }
+    return textureLoad(shown, place, 0).rgb;
+}
+
+// The mean of what the pixel covers. Scaled down before it is summed, so that no sum overflows.
+fn average(columns: Span, rows: Span, from_reference: bool) -> vec3f {
+    const SCALE = 1.0 / f32(MOST_TEXELS * MOST_TEXELS);
+    var sum = vec3f(0.0);
+    var total = 0.0;
+    for (var row = rows.first; row <= rows.last; row += rows.stride) {
+        for (var column = columns.first; column <= columns.last; column += columns.stride) {
+            let weight = SCALE * coverage(columns, column) * coverage(rows, row);
+            sum += weight * load(vec2i(column, row), from_reference);
+            total += weight;
+        }
+    }
+    return sum / total;
+}
+
+fn colour(value: vec3f, pixel: vec2u) -> vec3f {
+    if !is_finite(value) {
+        return MARK_NOT_FINITE;
+    }
+    if params.mode == MODE_DIFFERENCE {
+        let gain = select(1.0, params.exposure / FULL_DIFFERENCE, params.encoding == ENCODING_RADIANCE);
+        return heat(min(value.x * gain, 1.0));
+    }
+    return encode(value, params.encoding, params.exposure, params.show_clipping != 0u, pixel);
+}
+
+@fragment
+fn display(corner: Corner) -> @location(0) vec4f {
+    let seen = plane_from_ndc(params.camera, corner.ndc);
+    let extent = abs(dpdx(seen.point)) + abs(dpdy(seen.point));
+
+    let from_reference = params.mode == MODE_WIPE && corner.ndc.x < params.wipe;
+    let size = select(textureDimensions(shown), textureDimensions(reference), vec2<bool>(from_reference));
+    let place = texel_from_plane(seen.point, size);
+    if !seen.hit || any(place < vec2f(0.0)) || any(place >= vec2f(size)) {
+        return vec4f(params.background, 1.0);
+    }
+    let covered = texels_from_plane_extent(extent, size);
+    let columns = span(place.x, covered.x, size.x);
+    let rows = span(place.y, covered.y, size.y);
+    let value = average(columns, rows, from_reference);
+    return vec4f(colour(value, vec2u(corner.position.xy)), 1.0);
+}

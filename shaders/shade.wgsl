@@ -1,0 +1,45 @@
+// Pass 1: one fragment a texel of the map. Algorithm 3, or one of the maps, as linear floats.
+
+const SHOWN_RENDERING = 0u;
+const SHOWN_NORMAL = 1u;
+const SHOWN_DIFFUSE = 2u;
+const SHOWN_SPECULAR = 3u;
+const SHOWN_ROUGHNESS = 4u;
+
+struct Shading {
+    rays: Rays,
+    model: Model,
+    shown: u32,
+    // The largest number that the target holds.
+    largest: f32,
+}
+
+@group(0) @binding(0) var<uniform> shading: Shading;
+@group(0) @binding(1) var normal_roughness: texture_2d<f32>;
+@group(0) @binding(2) var diffuse: texture_2d<f32>;
+@group(0) @binding(3) var specular: texture_2d<f32>;
+
+fn load_texel(place: vec2u) -> Texel {
+    let first = textureLoad(normal_roughness, place, 0);
+    return Texel(first.xyz, textureLoad(diffuse, place, 0).rgb, textureLoad(specular, place, 0).rgb, first.w);
+}
+
+fn shade_texel(place: vec2u) -> vec3f {
+    let texel = load_texel(place);
+    switch shading.shown {
+        case SHOWN_NORMAL { return texel.normal * 0.5 + 0.5; }
+        case SHOWN_DIFFUSE { return texel.diffuse; }
+        case SHOWN_SPECULAR { return texel.specular; }
+        case SHOWN_ROUGHNESS { return vec3f(texel.roughness); }
+        default {}
+    }
+    let c = position(place.x, place.y, textureDimensions(normal_roughness));
+    let directions = from_texel(shading.rays, c);
+    return render(shading.model, texel, directions.w_l, directions.w_v);
+}
+
+@fragment
+fn shade(corner: Corner) -> @location(0) vec4f {
+    let value = shade_texel(vec2u(corner.position.xy));
+    return vec4f(min(value, vec3f(shading.largest)), 1.0);
+}

@@ -1,0 +1,103 @@
+//! The device that everything of this module runs on.
+
+use wgpu::{Adapter, Backends, Device, DeviceDescriptor, InstanceDescriptor, Queue, Surface};
+
+use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY, select};
+use super::fault::Faults;
+use super::{MaterialTextures, ShadeParams, Shading};
+use crate::convention::Convention;
+use crate::error::Error;
+use crate::material::Material;
+use crate::render::Image;
+use crate::scene::Scene;
+use crate::view::Shown;
+
+/// A graphics device, its queue, and what is known about it. Clones share the device.
+#[derive(Clone, Debug)]
+pub struct Gpu {
+    pub device: Device,
+    pub queue: Queue,
+    pub report: AdapterReport,
+    faults: Faults,
+}
+
+impl Gpu {
+    /// The best adapter, with no window. `WGPU_BACKEND` (`vulkan`, `metal`, `dx12`, `gl`) narrows the choice.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`] where there is none, [`Error::Gpu`] where its driver refuses.
+    pub fn headless() -> Result<Self, Error> {
+        let instance = wgpu::Instance::new(InstanceDescriptor::new_without_display_handle_from_env());
+        let adapters = pollster::block_on(instance.enumerate_adapters(Backends::all()));
+        let (adapter, reason) = select(&adapters, None).ok_or_else(|| no_adapter("none was found"))?;
+        let descriptor = Self::device_descriptor(&adapter);
+        let (device, queue) =
+            pollster::block_on(adapter.request_device(&descriptor)).map_err(|e| Error::Gpu {
+                problem: format!("{} gives no device: {e}", adapter.get_info().name),
+                remedy: "update its driver, or use the CPU",
+            })?;
+        Self::new(&adapter, device, queue, reason)
+    }
+
+    /// The device of a window.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`] where the adapter cannot render to floats.
+    pub fn from_eframe_parts(adapter: &Adapter, device: &Device, queue: &Queue) -> Result<Self, Error> {
+        Self::new(adapter, device.clone(), queue.clone(), "chosen for the window".to_owned())
+    }
+
+    /// The choice of [`Gpu::headless`] for a window: among those of `adapters` that can present to `surface`.
+    ///
+    /// # Errors
+    /// In words, where there is none: the form that egui-wgpu's `native_adapter_selector` wants.
+    pub fn select_adapter(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter, String> {
+        let (adapter, _) = select(adapters, surface)
+            .ok_or_else(|| no_adapter("none can present to a window").to_string())?;
+        Ok(adapter)
+    }
+
+    /// Asks for all that the adapter can do in size, and for no feature that is not everywhere.
+    pub fn device_descriptor(adapter: &Adapter) -> DeviceDescriptor<'static> {
+        DeviceDescriptor {
+            label: Some("svbrdf"),
+            required_limits: adapter.limits(),
+            ..DeviceDescriptor::default()
+        }
+    }
+
+    /// The first failure since the last call that no function could return: of drawing, or of the driver.
+    pub fn take_fault(&self) -> Option<Error> {
+        self.faults.take()
+    }
+
+    /// Algorithm 3 over a whole material, as [`crate::render::render`] computes it on the CPU.
+    ///
+    /// # Errors
+    /// [`Error::UnusableScene`] where [`Scene::check`] refuses the scene, [`Error::Gpu`] where the adapter cannot
+    /// render to 32-bit floats, the material is too large for it, or it fails.
+    pub fn render(
+        &self,
+        material: &Material<f32>,
+        scene: &Scene,
+        convention: &Convention,
+    ) -> Result<Image<f32>, Error> {
+        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+        let textures = MaterialTextures::upload(self, material)?;
+        let shading = Shading::new(self)?;
+        let target = shading.target(self, material.size())?;
+        let params = ShadeParams { scene: *scene, convention: *convention, shown: Shown::Rendering };
+        shading.draw(self, &textures, &params, &target);
+        target.read_back(self)
+    }
+
+    fn new(adapter: &Adapter, device: Device, queue: Queue, reason: String) -> Result<Self, Error> {
+        let report = AdapterReport::new(adapter, reason, device.limits().max_texture_dimension_2d)?;
+        let faults = Faults::watch(&device);
+        Ok(Self { device, queue, report, faults })
+    }
+}
+
+fn no_adapter(problem: &str) -> Error {
+    Error::NoAdapter { problem: problem.to_owned(), remedy: NO_ADAPTER_REMEDY }
+}

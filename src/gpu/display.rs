@@ -1,0 +1,127 @@
+//! Pass 2: what the camera sees of shaded texels, encoded for the screen, one fragment per pixel.
+
+use wgpu::{
+    BindGroup, BindGroupLayout, BindingResource, Buffer, BufferBindingType, Queue, RenderPass,
+    RenderPipeline, ShaderStages, TextureFormat,
+};
+
+use super::fault::scoped;
+use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
+use super::{Gpu, Shaded, shaders, uniforms};
+use crate::camera::Camera;
+use crate::error::Error;
+use crate::view::Shown;
+
+/// How a pane shows its pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplayParams {
+    pub camera: Camera,
+    /// Radiance is multiplied by 2 to this power.
+    pub exposure_ev: f32,
+    pub mode: DisplayMode,
+    pub encoding: Encoding,
+    /// Stripes pixels of [`Encoding::Radiance`] that are too bright in a channel (magenta) or black (blue).
+    pub show_clipping: bool,
+    /// Epsilon of the difference's logarithms: that of the convention.
+    pub epsilon: f32,
+    /// What is shown beside the material, already encoded for the screen.
+    pub background: [f32; 3],
+}
+
+/// What of a pane's two pictures is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DisplayMode {
+    /// The first.
+    Shown,
+    /// The reference left of this x of the pane, which runs from -1 to 1, and the first right of it.
+    Wipe(f32),
+    /// How far they differ, as a colour of [`heat`](super::heat): of renderings (of [`Encoding::Radiance`])
+    /// `|ln(shown + epsilon) - ln(reference + epsilon)|`, where exposure 0 maps 2 to the last colour; of maps
+    /// `|shown - reference|`, where 1 is the last colour. The mean of RGB; both pictures have the same size.
+    Difference,
+}
+
+/// How numbers become colours of the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// Exposed, then sRGB.
+    Radiance,
+    /// sRGB, never exposed.
+    Albedo,
+    /// As they are.
+    Data,
+}
+
+impl From<Shown> for Encoding {
+    fn from(shown: Shown) -> Self {
+        match shown {
+            Shown::Rendering => Self::Radiance,
+            Shown::Diffuse | Shown::Specular => Self::Albedo,
+            Shown::Normal | Shown::Roughness => Self::Data,
+        }
+    }
+}
+
+/// The pipeline of pass 2.
+#[derive(Debug)]
+pub struct Display {
+    pipeline: RenderPipeline,
+    layout: BindGroupLayout,
+}
+
+/// Two pictures and how they are shown; as many as there are panes.
+#[derive(Debug)]
+pub struct Pane {
+    uniforms: Buffer,
+    group: BindGroup,
+}
+
+impl Pane {
+    /// Sets how the next frame shows the pane.
+    pub fn write(&self, queue: &Queue, params: &DisplayParams) {
+        queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms::Display::from(params)));
+    }
+}
+
+impl Display {
+    /// Compiles the shader for a target that does not encode by itself, as egui's.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where the target encodes sRGB itself, or the driver refuses.
+    pub fn new(gpu: &Gpu, target_format: TextureFormat) -> Result<Self, Error> {
+        if target_format.is_srgb() {
+            return Err(Error::Gpu {
+                problem: format!(
+                    "the window's format is {target_format:?}, which encodes sRGB a second time"
+                ),
+                remedy: "choose another backend with WGPU_BACKEND",
+            });
+        }
+        scoped(&gpu.device, "compiling the display pass", || {
+            let types = [buffer_type(BufferBindingType::Uniform), texture_type(), texture_type()];
+            let layout = layout(&gpu.device, ShaderStages::FRAGMENT, &types);
+            let pipeline = fullscreen(&gpu.device, &shaders::DISPLAY, &layout, target_format);
+            Self { pipeline, layout }
+        })
+    }
+
+    /// A pane of two pictures; the same one twice where there is no reference. Shows nothing before
+    /// [`Pane::write`]. A failure waits in [`Gpu::take_fault`].
+    pub fn pane(&self, gpu: &Gpu, shown: &Shaded, reference: &Shaded) -> Pane {
+        let uniforms = uniform_buffer(&gpu.device, &[0; size_of::<uniforms::Display>()]);
+        let resources = [
+            uniforms.as_entire_binding(),
+            BindingResource::TextureView(&shown.view),
+            BindingResource::TextureView(&reference.view),
+        ];
+        let group = bind(&gpu.device, &self.layout, &resources);
+        Pane { uniforms, group }
+    }
+
+    /// Draws `pane` over the viewport of `pass`, which is the pane's rectangle.
+    pub fn draw(&self, pass: &mut RenderPass<'_>, pane: &Pane) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &pane.group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}

@@ -1,0 +1,57 @@
+//! Which files make a shader: pieces of `shaders/`, joined in order.
+
+/// A WGSL module made of pieces.
+#[derive(Clone, Copy, Debug)]
+pub struct Shader {
+    /// For messages.
+    pub name: &'static str,
+    /// File names and texts, in the order in which they are joined.
+    pub pieces: &'static [(&'static str, &'static str)],
+}
+
+impl Shader {
+    /// The text of the module.
+    pub fn source(&self) -> String {
+        self.pieces.iter().map(|(_, text)| *text).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// A file of `shaders/` with its name.
+macro_rules! piece {
+    ($file:literal) => {
+        ($file, include_str!(concat!("../../shaders/", $file)))
+    };
+}
+
+/// Pass 1: a texel a fragment.
+pub const SHADE: Shader = Shader {
+    name: "shade",
+    pieces: &[
+        piece!("brdf.wgsl"),
+        piece!("scene.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("shade.wgsl"),
+    ],
+};
+
+/// Pass 2: a screen pixel a fragment.
+pub const DISPLAY: Shader = Shader {
+    name: "display",
+    pieces: &[
+        piece!("grid.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("camera.wgsl"),
+        piece!("footprint.wgsl"),
+        piece!("srgb.wgsl"),
+        piece!("colour_map.wgsl"),
+        piece!("encode.wgsl"),
+        piece!("display.wgsl"),
+    ],
+};
+
+/// The BRDF at single points, for tests.
+pub const PROBE: Shader = Shader { name: "probe", pieces: &[piece!("brdf.wgsl"), piece!("probe.wgsl")] };
+
+/// Every shader of this crate.
+pub const ALL: [Shader; 3] = [SHADE, DISPLAY, PROBE];

@@ -1,0 +1,122 @@
+//! Pass 1: Algorithm 3, or one of the maps, one fragment per texel.
+
+use wgpu::{
+    BindGroupLayout, BufferBindingType, LoadOp, Operations, RenderPassColorAttachment, RenderPassDescriptor,
+    RenderPipeline, ShaderStages, StoreOp, Texture, TextureDescriptor, TextureFormat, TextureUsages,
+    TextureView,
+};
+
+use super::fault::scoped;
+use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
+use super::textures::extent;
+use super::{Gpu, MaterialTextures, shaders, uniforms};
+use crate::convention::Convention;
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::view::Shown;
+
+/// The largest 16-bit float.
+const LARGEST_F16: f32 = 65504.0;
+
+/// What is shaded, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadeParams {
+    pub scene: Scene,
+    pub convention: Convention,
+    pub shown: Shown,
+}
+
+/// The pipeline of pass 1.
+#[derive(Debug)]
+pub struct Shading {
+    pipeline: RenderPipeline,
+    layout: BindGroupLayout,
+}
+
+/// What pass 1 writes: linear floats, a texel each, row 0 on top.
+#[derive(Debug)]
+pub struct Shaded {
+    pub(super) texture: Texture,
+    pub(super) view: TextureView,
+    size: [usize; 2],
+}
+
+impl Shaded {
+    /// (width, height) in texels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+}
+
+impl Shading {
+    /// Compiles the shader.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where the driver refuses.
+    pub fn new(gpu: &Gpu) -> Result<Self, Error> {
+        scoped(&gpu.device, "compiling the shading pass", || {
+            let uniform = buffer_type(BufferBindingType::Uniform);
+            let types = [uniform, texture_type(), texture_type(), texture_type()];
+            let layout = layout(&gpu.device, ShaderStages::FRAGMENT, &types);
+            let pipeline = fullscreen(&gpu.device, &shaders::SHADE, &layout, gpu.report.shading_format);
+            Self { pipeline, layout }
+        })
+    }
+
+    /// A target for materials of `size` = (width, height).
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where it is too large for the adapter or for its memory.
+    pub fn target(&self, gpu: &Gpu, size: [usize; 2]) -> Result<Shaded, Error> {
+        let extent = extent(gpu, size)?;
+        scoped(&gpu.device, "creating a picture to shade into", || {
+            let texture = gpu.device.create_texture(&TextureDescriptor {
+                label: Some("shaded"),
+                size: extent,
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: gpu.report.shading_format,
+                usage: TextureUsages::RENDER_ATTACHMENT
+                    | TextureUsages::TEXTURE_BINDING
+                    | TextureUsages::COPY_SRC,
+                view_formats: &[],
+            });
+            let view = texture.create_view(&Default::default());
+            Shaded { texture, view, size }
+        })
+    }
+
+    /// Shades every texel of `textures` into `target`, which has their size, and submits that.
+    ///
+    /// A failure waits in [`Gpu::take_fault`].
+    pub fn draw(&self, gpu: &Gpu, textures: &MaterialTextures, params: &ShadeParams, target: &Shaded) {
+        let largest = match gpu.report.shading_format {
+            TextureFormat::Rgba16Float => LARGEST_F16,
+            _ => f32::MAX,
+        };
+        let uniforms = uniforms::Shading::new(params, largest);
+        let buffer = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
+        let [normal_roughness, diffuse, specular] = &textures.views;
+        let maps = [normal_roughness, diffuse, specular].map(wgpu::BindingResource::TextureView);
+        let [a, b, c] = maps;
+        let group = bind(&gpu.device, &self.layout, &[buffer.as_entire_binding(), a, b, c]);
+
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
+            label: Some("shading"),
+            color_attachments: &[Some(RenderPassColorAttachment {
+                view: &target.view,
+                resolve_target: None,
+                depth_slice: None,
+                ops: Operations { load: LoadOp::Clear(wgpu::Color::BLACK), store: StoreOp::Store },
+            })],
+            ..RenderPassDescriptor::default()
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.draw(0..3, 0..1);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+    }
+}

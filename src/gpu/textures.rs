@@ -1,0 +1,115 @@
+//! A material on the device: the core's f32 numbers, exactly.
+
+use wgpu::{Extent3d, Origin3d, Texture, TextureDescriptor, TextureFormat, TextureUsages, TextureView};
+
+use super::Gpu;
+use super::fault::scoped;
+use crate::error::Error;
+use crate::material::{Material, Planes};
+
+/// About how many bytes are sent at once: bounds the memory that an upload takes beside the textures.
+const BAND_BYTES: usize = 16 << 20;
+/// Bytes of a texel of one texture: four f32.
+const TEXEL_BYTES: usize = 16;
+
+/// The four maps as three float textures: normal with roughness, diffuse, specular.
+#[derive(Debug)]
+pub struct MaterialTextures {
+    pub(super) views: [TextureView; 3],
+    size: [usize; 2],
+}
+
+impl MaterialTextures {
+    /// Copies `material` to the device.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where the material is too large for the adapter or for its memory.
+    pub fn upload(gpu: &Gpu, material: &Material<f32>) -> Result<Self, Error> {
+        let size = material.size();
+        let extent = extent(gpu, size)?;
+        let textures = scoped(&gpu.device, "uploading a material", || {
+            let create = |label| gpu.device.create_texture(&descriptor(label, extent));
+            let textures = [create("normal and roughness"), create("diffuse"), create("specular")];
+            for (texture, texel) in textures.iter().zip([normal_roughness, diffuse, specular]) {
+                write(gpu, texture, size, |index| texel(material.planes(), index));
+            }
+            textures
+        })?;
+        Ok(Self { views: textures.map(|t| t.create_view(&Default::default())), size })
+    }
+
+    /// (width, height) in texels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+}
+
+/// `size` as wgpu wants it, if the device can hold it.
+pub(super) fn extent(gpu: &Gpu, size: [usize; 2]) -> Result<Extent3d, Error> {
+    let limit = gpu.report.max_texture_side;
+    let side = |side: usize| u32::try_from(side).ok().filter(|side| (1..=limit).contains(side));
+    match size.map(side) {
+        [Some(width), Some(height)] => Ok(Extent3d { width, height, depth_or_array_layers: 1 }),
+        _ => Err(Error::Gpu {
+            problem: format!(
+                "{} x {} texels; {} takes at most {limit} along a side",
+                size[0], size[1], gpu.report.name
+            ),
+            remedy: "use a smaller material, or use the CPU",
+        }),
+    }
+}
+
+fn descriptor(label: &'static str, size: Extent3d) -> TextureDescriptor<'static> {
+    TextureDescriptor {
+        label: Some(label),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: TextureFormat::Rgba32Float,
+        usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+        view_formats: &[],
+    }
+}
+
+/// Sends the texels band by band.
+fn write(gpu: &Gpu, texture: &Texture, [width, height]: [usize; 2], texel: impl Fn(usize) -> [f32; 4]) {
+    let rows_per_band = (BAND_BYTES / (width * TEXEL_BYTES)).max(1);
+    for top in (0..height).step_by(rows_per_band) {
+        let rows = rows_per_band.min(height - top);
+        let band: Vec<[f32; 4]> = (top * width..(top + rows) * width).map(&texel).collect();
+        gpu.queue.write_texture(
+            wgpu::TexelCopyTextureInfo {
+                origin: Origin3d { x: 0, y: top as u32, z: 0 },
+                ..texture.as_image_copy()
+            },
+            bytemuck::cast_slice(&band),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some((width * TEXEL_BYTES) as u32),
+                rows_per_image: None,
+            },
+            Extent3d { width: width as u32, height: rows as u32, depth_or_array_layers: 1 },
+        );
+        // Sends the band now: wgpu would keep every band in memory until the first submission.
+        gpu.queue.submit([]);
+    }
+}
+
+fn normal_roughness(planes: &Planes<f32>, index: usize) -> [f32; 4] {
+    let [x, y, z] = &planes.normal;
+    [x[index], y[index], z[index], planes.roughness[index]]
+}
+
+fn diffuse(planes: &Planes<f32>, index: usize) -> [f32; 4] {
+    colour(&planes.diffuse, index)
+}
+
+fn specular(planes: &Planes<f32>, index: usize) -> [f32; 4] {
+    colour(&planes.specular, index)
+}
+
+fn colour([r, g, b]: &[Vec<f32>; 3], index: usize) -> [f32; 4] {
+    [r[index], g[index], b[index], 0.0]
+}

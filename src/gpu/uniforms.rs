@@ -1,0 +1,175 @@
+//! What the shaders are given, laid out as WGSL lays it out; a test holds every offset against naga's.
+//!
+//! Names are those of the WGSL structs and of their members; members called `pad` are not in WGSL.
+
+use bytemuck::{Pod, Zeroable};
+
+use super::display::{DisplayMode, DisplayParams, Encoding};
+use super::shading::ShadeParams;
+use crate::brdf;
+use crate::camera;
+use crate::scene::{self, Kind};
+use crate::vec3::Vec3;
+use crate::view::Shown;
+
+/// `Model` of brdf.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Model {
+    pub intensity: f32,
+    pub roughness_floor: f32,
+    pub light_z_floor: f32,
+    pub clamp_n_dot_h: u32,
+    pub d_floor: f32,
+    pub g_floor: f32,
+    pub pad: [u32; 2],
+}
+
+impl From<&brdf::Model<f32>> for Model {
+    fn from(m: &brdf::Model<f32>) -> Self {
+        Self {
+            intensity: m.intensity,
+            roughness_floor: m.roughness_floor,
+            light_z_floor: m.light_z_floor,
+            clamp_n_dot_h: m.clamp_n_dot_h.into(),
+            d_floor: m.d_floor,
+            g_floor: m.g_floor,
+            pad: [0; 2],
+        }
+    }
+}
+
+/// `Rays` of scene.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Rays {
+    pub view: [f32; 3],
+    pub near: u32,
+    pub light: [f32; 3],
+    pub pad: u32,
+}
+
+impl From<&scene::Scene> for Rays {
+    fn from(scene: &scene::Scene) -> Self {
+        // What a texel at the origin sees is what the core computes with, in its precision.
+        let (light, view) = scene.rays::<f32>().from_texel(Vec3::zero());
+        Self {
+            view: view.to_array(),
+            near: (scene.kind == Kind::Near).into(),
+            light: light.to_array(),
+            pad: 0,
+        }
+    }
+}
+
+/// `Shading` of shade.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Shading {
+    pub rays: Rays,
+    pub model: Model,
+    pub shown: u32,
+    pub largest: f32,
+    pub pad: [u32; 2],
+}
+
+impl Shading {
+    /// For a target whose largest number is `largest`.
+    pub(super) fn new(params: &ShadeParams, largest: f32) -> Self {
+        let shown = match params.shown {
+            Shown::Rendering => 0,
+            Shown::Normal => 1,
+            Shown::Diffuse => 2,
+            Shown::Specular => 3,
+            Shown::Roughness => 4,
+        };
+        let model = Model::from(&brdf::Model::from(&params.convention));
+        Self { rays: Rays::from(&params.scene), model, shown, largest, pad: [0; 2] }
+    }
+}
+
+/// `Point` of probe.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Point {
+    pub normal: [f32; 3],
+    pub roughness: f32,
+    pub diffuse: [f32; 3],
+    pub pad: u32,
+    pub specular: [f32; 3],
+    pub pad_1: u32,
+    pub w_l: [f32; 3],
+    pub pad_2: u32,
+    pub w_v: [f32; 3],
+    pub pad_3: u32,
+}
+
+/// A vec3f with the padding behind it.
+pub type Padded = [f32; 4];
+
+/// `Camera` of camera.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Camera {
+    pub origin: Padded,
+    pub origin_right: Padded,
+    pub origin_up: Padded,
+    pub direction: Padded,
+    pub direction_right: Padded,
+    pub direction_up: Padded,
+}
+
+impl From<&camera::Camera> for Camera {
+    fn from(c: &camera::Camera) -> Self {
+        let padded = |v: Vec3<f32>| [v.x, v.y, v.z, 0.0];
+        Self {
+            origin: padded(c.origin),
+            origin_right: padded(c.origin_right),
+            origin_up: padded(c.origin_up),
+            direction: padded(c.direction),
+            direction_right: padded(c.direction_right),
+            direction_up: padded(c.direction_up),
+        }
+    }
+}
+
+/// `Display` of display.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Display {
+    pub camera: Camera,
+    pub background: [f32; 3],
+    pub encoding: u32,
+    pub exposure: f32,
+    pub epsilon: f32,
+    pub wipe: f32,
+    pub mode: u32,
+    pub show_clipping: u32,
+    pub pad: [u32; 3],
+}
+
+impl From<&DisplayParams> for Display {
+    fn from(p: &DisplayParams) -> Self {
+        let (mode, wipe) = match p.mode {
+            DisplayMode::Shown => (0, 0.0),
+            DisplayMode::Wipe(x) => (1, x),
+            DisplayMode::Difference => (2, 0.0),
+        };
+        let encoding = match p.encoding {
+            Encoding::Radiance => 0,
+            Encoding::Albedo => 1,
+            Encoding::Data => 2,
+        };
+        Self {
+            camera: Camera::from(&p.camera),
+            background: p.background,
+            encoding,
+            exposure: p.exposure_ev.exp2(),
+            epsilon: p.epsilon,
+            wipe,
+            mode,
+            show_clipping: p.show_clipping.into(),
+            pad: [0; 3],
+        }
+    }
+}
