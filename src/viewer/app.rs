@@ -259,7 +259,7 @@ impl App {
     /// Files that were dropped on the window.
     fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
         let paths: Vec<PathBuf> =
-            ctx.input(|i| i.raw.dropped_files.iter().filter_map(|f| f.path.clone()).collect());
+            ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
         let replace = self.slots.only_built_in();
         (!paths.is_empty()).then_some(Command::Open { paths, replace, read: self.settings.read })
     }

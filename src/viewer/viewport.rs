@@ -10,7 +10,7 @@ use super::slots::Slot;
 use super::state::{self, End, Layout, Projection, ViewState};
 use super::theme;
 use crate::camera::Camera;
-use crate::gpu::{DisplayMode, DisplayParams, Encoding, ShadeParams};
+use crate::gpu::{DisplayMode, DisplayParams, ShadeParams};
 use crate::material::Grid;
 use crate::view::Shown;
 
@@ -140,7 +140,7 @@ impl Viewport {
         let rect = pixel_aligned(ui, rect);
         self.pane_pixels = rect.size() * ui.pixels_per_point();
 
-        let response = ui.interact(rect, ui.id().with(("pane", number)), Sense::drag());
+        let response = ui.interact(rect, ui.scope_id().with(("pane", number)), Sense::drag());
         let label = format!("Pane {}", scenery.title(content.shown));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
@@ -177,7 +177,7 @@ impl Viewport {
             camera,
             exposure_ev: state.exposure_ev,
             mode: content.mode,
-            encoding: Encoding::of(state.shown),
+            encoding: state.shown.into(),
             show_clipping: state.show_clipping,
             epsilon: state.convention().epsilon as f32,
             background: [background[0], background[1], background[2]],
@@ -247,7 +247,7 @@ fn title_bar(
             format!("|ln| difference of {} from the ground truth", scenery.title(content.shown))
         }
     };
-    let response = ui.interact(rect, ui.id().with(("title", number)), Sense::click());
+    let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
