@@ -1,5 +1,7 @@
 //! Every integration test, in one binary: it links once.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
 mod support;
 
 mod bad_input;
