@@ -2,9 +2,9 @@
 //!
 //! `shaders/display.wgsl` is the twin of this file.
 
-/// The sRGB transfer curve (IEC 61966-2-1) of one linear value, which is first clipped to [0, 1]; NaN gives 0.
+/// The sRGB transfer curve (IEC 61966-2-1) of one linear value, which is first clipped to [0, 1]; NaN stays NaN.
 pub fn srgb_encode(linear: f32) -> f32 {
-    let clipped = linear.max(0.0).min(1.0);
+    let clipped = linear.clamp(0.0, 1.0);
     if clipped <= 0.003_130_8 { 12.92 * clipped } else { 1.055 * clipped.powf(1.0 / 2.4) - 0.055 }
 }
 

@@ -6,13 +6,17 @@ mod support;
 
 mod bad_input;
 mod cli;
+#[cfg(feature = "viewer")]
 mod end_to_end;
 mod fused;
 mod golden_loss;
 mod golden_points;
+#[cfg(feature = "gpu")]
 mod gpu_parity;
 mod physics;
 mod reading;
 mod sampling;
+#[cfg(feature = "gpu")]
 mod shaders;
+#[cfg(feature = "viewer")]
 mod ui;
