@@ -11,14 +11,23 @@ use crate::view::Shown;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
     /// Open materials: the first as ground truth where there is none or where `replace` is set, the others as predictions.
-    Open { paths: Vec<PathBuf>, replace: bool, read: ReadOptions },
+    Open {
+        paths: Vec<PathBuf>,
+        replace: bool,
+        read: ReadOptions,
+    },
     /// Ask for files or a folder with the system's dialog; what is chosen fills the open window's path field.
-    Browse { folder: bool },
+    Browse {
+        folder: bool,
+    },
     ShowOpen(bool),
     OpenBuiltIn,
     Reload,
     /// Read material `slot` again under other assumptions.
-    ReadAs { slot: usize, read: ReadOptions },
+    ReadAs {
+        slot: usize,
+        read: ReadOptions,
+    },
     ClosePrediction(usize),
     MakeGroundTruth(usize),
     SetWatch(bool),
@@ -28,7 +37,11 @@ pub enum Command {
     PutHighlight([f64; 2]),
     ScaleHeight(End, f64),
     ScaleDistance(End, f64),
-    Orbit { end: End, azimuth: f64, elevation: f64 },
+    Orbit {
+        end: End,
+        azimuth: f64,
+        elevation: f64,
+    },
     SetHighlightFollows(bool),
     CopyScene,
     PasteScene(String),
@@ -47,7 +60,10 @@ pub enum Command {
     SwapSides,
 
     /// Magnify by a factor about a point of the pane (x right, y up in [-1, 1]).
-    Zoom { factor: f32, at: [f32; 2] },
+    Zoom {
+        factor: f32,
+        at: [f32; 2],
+    },
     Pan([f32; 2]),
     Fit,
     OneToOne,
@@ -58,7 +74,11 @@ pub enum Command {
     ComputeLoss,
     CancelLoss,
     SetAutoLoss(bool),
-    SetScenes { near: usize, distant: usize, seed: u64 },
+    SetScenes {
+        near: usize,
+        distant: usize,
+        seed: u64,
+    },
 
     ShowSave(bool),
     /// Write the view to this file, as `svbrdf render` does.

@@ -46,7 +46,9 @@ impl Target<'_> {
             PointerButton::Primary if chord => Gesture::OrbitLight,
             PointerButton::Primary => self.grabbed(pos),
             PointerButton::Secondary if chord => Gesture::LightDistance,
-            PointerButton::Secondary if self.state.projection == Projection::Perspective => Gesture::OrbitView,
+            PointerButton::Secondary if self.state.projection == Projection::Perspective => {
+                Gesture::OrbitView
+            }
             PointerButton::Secondary => Gesture::View,
             _ => Gesture::Pan,
         }

@@ -71,5 +71,10 @@ pub fn paint_wipe(painter: &Painter, rect: Rect, wipe: f32) {
     painter.line_segment(line, Stroke::new(1.0, theme::EYE));
     let grip = Rect::from_center_size(pos2(x, rect.center().y), Vec2::new(8.0, 28.0));
     painter.rect_filled(grip, 4.0, theme::EYE);
-    painter.rect_stroke(grip, 4.0, Stroke::new(1.0, Color32::from_gray(40)), eframe::egui::StrokeKind::Outside);
+    painter.rect_stroke(
+        grip,
+        4.0,
+        Stroke::new(1.0, Color32::from_gray(40)),
+        eframe::egui::StrokeKind::Outside,
+    );
 }

@@ -101,7 +101,10 @@ impl Slots {
         let gpu = gpu.cloned();
         let what = sources.iter().map(|(p, _)| file_name(p)).collect::<Vec<_>>().join(", ");
         let job = Job::start(ctx, move |progress| {
-            Ok(sources.into_iter().map(|(path, options)| load(path, options, gpu.as_ref(), progress)).collect())
+            Ok(sources
+                .into_iter()
+                .map(|(path, options)| load(path, options, gpu.as_ref(), progress))
+                .collect())
         });
         self.openings.push(Opening { what, target, job });
     }
@@ -175,7 +178,8 @@ impl Slots {
         let new = Slot { id: self.new_id(), loaded: Arc::new(loaded) };
         if index == 0 {
             let material = &new.loaded.material;
-            let fits = |s: &Slot| loss::check_same_size(material, &s.loaded.material).map_err(|e| e.to_string());
+            let fits =
+                |s: &Slot| loss::check_same_size(material, &s.loaded.material).map_err(|e| e.to_string());
             let misfits = self.predictions().iter().filter_map(|s| fits(s).err());
             errors.extend(misfits.map(|e| format!("a prediction was closed: {e}")));
             let mut position = 0;

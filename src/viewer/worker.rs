@@ -46,7 +46,8 @@ impl<T: Send + 'static> Job<T> {
                 None
             }
             Err(TryRecvError::Disconnected) => Some(Err(Error::Usage(
-                "the work ended without a result, which is a mistake of this program; please report it".to_owned(),
+                "the work ended without a result, which is a mistake of this program; please report it"
+                    .to_owned(),
             ))),
         }
     }

@@ -105,14 +105,14 @@ impl LossPanel<'_> {
 /// One prediction's loss.
 fn result(ui: &mut egui::Ui, index: usize, loss: &Loss, chosen: bool) -> egui::Response {
     let name = format!("{}  {}", index + 1, loss.prediction);
-    let response = ui
-        .add(egui::Button::selectable(chosen, name).truncate())
-        .on_hover_text("Click to compare this one");
+    let response =
+        ui.add(egui::Button::selectable(chosen, name).truncate()).on_hover_text("Click to compare this one");
     let [mean, error, interval] = loss.estimate.texts();
     egui::Grid::new(("loss result", index)).num_columns(2).show(ui, |ui| {
         ui.label("    loss");
-        ui.label(RichText::new(format!("{mean} +- {error}")).monospace().strong())
-            .on_hover_text("Mean over the scenes +- its standard error, which is due to the choice of scenes");
+        ui.label(RichText::new(format!("{mean} +- {error}")).monospace().strong()).on_hover_text(
+            "Mean over the scenes +- its standard error, which is due to the choice of scenes",
+        );
         ui.end_row();
         ui.label("    95%");
         ui.label(RichText::new(interval).monospace());

@@ -67,7 +67,9 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
         Origin::BuiltIn => "built in".to_owned(),
         Origin::Path(path) => path.display().to_string(),
     };
-    ui.add(egui::Label::new(RichText::new(format!("{width} x {height}, {origin}")).small().weak()).truncate());
+    ui.add(
+        egui::Label::new(RichText::new(format!("{width} x {height}, {origin}")).small().weak()).truncate(),
+    );
     if matches!(loaded.origin, Origin::Path(_)) {
         let mut read = loaded.read;
         super::read_options(ui, "assumed", &mut read);

@@ -54,9 +54,9 @@ impl TopBar<'_> {
         };
         let other = other_projection(self.state.projection);
         button(ui, text, "Flat texture or perspective (P)", commands, Command::SetProjection(other));
-        let swap = ui
-            .selectable_label(self.swapped, "Swap")
-            .on_hover_text("Prediction and ground truth change places (X); hold G to peek at the ground truth");
+        let swap = ui.selectable_label(self.swapped, "Swap").on_hover_text(
+            "Prediction and ground truth change places (X); hold G to peek at the ground truth",
+        );
         if swap.clicked() {
             commands.push(Command::SwapSides);
         }
@@ -70,7 +70,13 @@ impl TopBar<'_> {
         if ev != self.state.exposure_ev {
             commands.push(Command::SetExposure(ev));
         }
-        button(ui, "N", "Normalize: the ground truth's brightest 1% just clips (N)", commands, Command::Normalize);
+        button(
+            ui,
+            "N",
+            "Normalize: the ground truth's brightest 1% just clips (N)",
+            commands,
+            Command::Normalize,
+        );
         let clipping = ui
             .selectable_label(self.state.show_clipping, "Clip")
             .on_hover_text("Mark pixels that are too bright or black (L)");
