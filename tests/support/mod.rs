@@ -1,3 +1,7 @@
 //! What the tests share.
 
+pub mod compare;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+pub mod points;
 pub mod tolerance;
