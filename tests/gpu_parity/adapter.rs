@@ -73,7 +73,12 @@ fn a_failure_that_no_function_can_return_waits_to_be_taken() {
     assert!(gpu.take_fault().is_none());
     let size = gpu.device.limits().max_buffer_size.saturating_add(4);
     let usage = wgpu::BufferUsages::COPY_DST;
-    gpu.device.create_buffer(&wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false });
+    let _ = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size,
+        usage,
+        mapped_at_creation: false,
+    });
     let fault = gpu.take_fault().expect("a fault").to_string();
     assert!(fault.contains("use the CPU"), "{fault}");
     assert!(gpu.take_fault().is_none());
