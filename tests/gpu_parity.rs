@@ -1,1 +1,239 @@
+//! The shaders against their Rust twins: numbers first, then renderings, then what a window shows.
+#![cfg(feature = "gpu")]
 
+mod adapter;
+mod display;
+
+use serde::Deserialize;
+use svbrdf::brdf::{self, Model, Texel};
+use svbrdf::convention::{self, Convention, PRINTED};
+use svbrdf::gpu::Gpu;
+use svbrdf::progress::Progress;
+use svbrdf::render;
+use svbrdf::scene::{self, Kind, Scene};
+use svbrdf::vec3::Vec3;
+
+use crate::support::compare::{Worst, compare_rgb_with};
+use crate::support::gpu::{bumpy, gpu};
+use crate::support::points::{Point, U, error_bound, exact, points};
+use crate::support::tolerance::{GOLDEN_FACTOR, GOLDEN_LARGEST_KAPPA, POINT_ULPS, RENDERING_ULPS};
+
+const SEED: u64 = 1;
+const COUNT: usize = 200_000;
+
+/// Compares radiances at `points` with f64 under the bounds of `ulps`.
+fn against_f64(
+    convention: &Convention,
+    points: &[Point],
+    got: &[[f32; 3]],
+    ulps: f64,
+) -> Result<Worst, String> {
+    let model = Model::from(convention);
+    let in_f64 = |p: &Point| {
+        let (texel, w_l, w_v) = exact(p);
+        brdf::render(&model, &texel, w_l, w_v)
+    };
+    let bound_of = |p: &Point| {
+        let (texel, w_l, w_v) = exact(p);
+        error_bound(&model, &texel, w_l, w_v, ulps)
+    };
+    let expected: Vec<[f64; 3]> = points.iter().map(in_f64).collect();
+    let bounds: Vec<[f64; 3]> = points.iter().map(bound_of).collect();
+    compare_rgb_with(got, &expected, |index, channel, _| bounds[index][channel])
+        .map_err(|e| format!("{}: {e}", convention.name))
+}
+
+fn probe(gpu: &Gpu, convention: &Convention, points: &[Point]) -> Vec<[f32; 3]> {
+    gpu.probe(&Model::from(convention), points).expect("the probe runs")
+}
+
+#[test]
+fn the_shader_agrees_with_f64_at_random_and_extreme_points() {
+    let Some(gpu) = gpu() else { return };
+    let points = points(SEED, COUNT);
+    for convention in convention::ALL {
+        let got = probe(gpu, &convention, &points);
+        let worst = against_f64(&convention, &points, &got, POINT_ULPS).unwrap_or_else(|e| panic!("{e}"));
+        println!("{}: worst share of the bound {:.3}", convention.name, worst.share);
+    }
+}
+
+#[test]
+fn f32_on_the_cpu_agrees_with_f64_at_the_same_points() {
+    let points = points(SEED, COUNT);
+    for convention in convention::ALL {
+        let model = Model::from(&convention);
+        let in_f32 = |(t, l, v): &Point| brdf::render(&model, t, Vec3::from(*l), Vec3::from(*v));
+        let got: Vec<[f32; 3]> = points.iter().map(in_f32).collect();
+        against_f64(&convention, &points, &got, POINT_ULPS).unwrap_or_else(|e| panic!("{e}"));
+    }
+}
+
+#[test]
+fn the_bound_is_tight_at_ordinary_points() {
+    let model = Model::from(&PRINTED);
+    let mut shares: Vec<f64> = points(SEED, 10_000)
+        .iter()
+        .map(exact)
+        .map(|(t, l, v)| (brdf::render(&model, &t, l, v), error_bound(&model, &t, l, v, POINT_ULPS)))
+        .filter(|(value, _)| value[0] > 0.0)
+        .map(|(value, bound)| bound[0] / value[0])
+        .collect();
+    shares.sort_by(f64::total_cmp);
+    let [median, ninetieth] = [shares[shares.len() / 2], shares[shares.len() * 9 / 10]];
+    println!("relative bound: median {median:.1e}, 90th percentile {ninetieth:.1e}");
+    assert!(median < 2e-5);
+}
+
+#[test]
+fn the_comparison_with_f64_goes_red_on_planted_faults() {
+    let Some(gpu) = gpu() else { return };
+    let points = points(SEED, 2_000);
+    let faulty = |change: fn(&mut Point)| {
+        let mut changed = points.clone();
+        changed.iter_mut().for_each(change);
+        let got = probe(gpu, &PRINTED, &changed);
+        against_f64(&PRINTED, &points, &got, POINT_ULPS)
+    };
+    faulty(|_| ()).expect("no fault");
+    faulty(|(_, l, v)| std::mem::swap(l, v)).expect_err("light and view swapped");
+    faulty(|(t, _, _)| t.roughness = t.roughness.sqrt()).expect_err("alpha = r");
+    faulty(|(t, _, _)| t.roughness *= 1.0001).expect_err("a roughness slightly off");
+    faulty(|(t, _, _)| t.normal.y = -t.normal.y).expect_err("normals +Y down");
+    faulty(|(t, _, _)| t.specular.swap(0, 2)).expect_err("channels swapped");
+    faulty(|(t, _, _)| t.diffuse[1] *= 1.0001).expect_err("a diffuse albedo slightly off");
+    faulty(|(_, _, v)| v[0] += 0.001).expect_err("a view slightly off");
+    let got = probe(gpu, &convention::GUIDED_2020, &points);
+    against_f64(&PRINTED, &points, &got, POINT_ULPS).expect_err("another convention");
+}
+
+#[derive(Deserialize)]
+struct Golden {
+    rows: Vec<Row>,
+}
+
+/// A point computed with 60 digits by an outside program.
+#[derive(Deserialize)]
+struct Row {
+    n: [f64; 3],
+    l: [f64; 3],
+    v: [f64; 3],
+    r: f64,
+    d: [f64; 3],
+    s: [f64; 3],
+    check: String,
+    /// Null where nothing but a finite number is required.
+    expected: Option<[f64; 3]>,
+    kappa: Option<f64>,
+}
+
+impl Row {
+    fn point(&self) -> Point {
+        let texel = Texel {
+            normal: Vec3::from(self.n).normalize().cast(),
+            diffuse: self.d.map(|x| x as f32),
+            specular: self.s.map(|x| x as f32),
+            roughness: self.r as f32,
+        };
+        (texel, self.l.map(|x| x as f32), self.v.map(|x| x as f32))
+    }
+}
+
+#[test]
+fn the_shader_agrees_with_the_golden_points() {
+    let Some(gpu) = gpu() else { return };
+    let golden: Golden = serde_json::from_str(include_str!("points.json")).expect("golden points");
+    let points: Vec<Point> = golden.rows.iter().map(Row::point).collect();
+    let got = probe(gpu, &PRINTED, &points);
+    assert!(got.iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
+    let told = |kappa: f64| kappa <= GOLDEN_LARGEST_KAPPA;
+    let usable = |row: &Row| row.check == "ok" && row.kappa.is_some_and(told);
+    let rows: Vec<_> = golden.rows.iter().zip(got).filter(|(row, _)| usable(row)).collect();
+    assert!(rows.len() > 100, "only {} of {} rows are used", rows.len(), golden.rows.len());
+    let expected: Vec<[f64; 3]> = rows.iter().filter_map(|(row, _)| row.expected).collect();
+    let got: Vec<[f32; 3]> = rows.iter().map(|(_, got)| *got).collect();
+    let bound = |index: usize, _: usize, expected: f64| {
+        let kappa: f64 = rows[index].0.kappa.unwrap_or(1.0);
+        GOLDEN_FACTOR * kappa.max(1.0) * U * expected + f64::from(f32::MIN_POSITIVE)
+    };
+    let worst = compare_rgb_with(&got, &expected, bound).unwrap_or_else(|e| panic!("{e}"));
+    println!("{} rows, worst share of the bound {:.3}", rows.len(), worst.share);
+}
+
+/// The texels and directions of a rendering, as the f32 CPU path has them.
+fn points_of(width: usize, height: usize, scene: &Scene) -> Vec<Point> {
+    let material = bumpy(width, height);
+    let rays = scene.rays::<f32>();
+    let point = |index: usize| {
+        let c = material.grid().position(index % width, index / width);
+        let (w_l, w_v) = rays.from_texel(c);
+        (material.texel(index), w_l.to_array(), w_v.to_array())
+    };
+    (0..width * height).map(point).collect()
+}
+
+/// Scenes of both kinds, and lights in a corner, so that no flip or transposition goes unseen.
+fn scenes(convention: &Convention) -> Vec<Scene> {
+    let corner = Scene { kind: Kind::Near, view: [-0.5, 0.25, 1.5], light: [0.9, 0.8, 0.3] };
+    let mut scenes = scene::sample(SEED, 3, 2, convention);
+    scenes.push(corner);
+    scenes
+}
+
+#[test]
+fn renderings_agree_with_the_cpu_texel_by_texel() {
+    let Some(gpu) = gpu() else { return };
+    for [width, height] in [[33, 33], [64, 40], [17, 50], [1, 5], [5, 1], [1, 1]] {
+        let material = bumpy(width, height);
+        for convention in convention::ALL {
+            for scene in scenes(&convention) {
+                let image = gpu.render(&material, &scene, &convention).expect("rendered");
+                assert_eq!([image.width, image.height], [width, height]);
+                let points = points_of(width, height, &scene);
+                against_f64(&convention, &points, &image.pixels, RENDERING_ULPS)
+                    .unwrap_or_else(|e| panic!("{width} x {height}, {scene:?}: {e}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
+    let Some(gpu) = gpu() else { return };
+    let material = bumpy(40, 30);
+    let scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.5, 0.2, 0.8] };
+    let on_gpu = gpu.render(&material, &scene, &PRINTED).expect("rendered");
+    let on_cpu = render::render(&material, &scene, &PRINTED, &Progress::default()).expect("rendered");
+    let mean = |image: &render::Image<f32>| image.pixels.iter().flatten().map(|&x| f64::from(x)).sum::<f64>();
+    let ratio = mean(&on_gpu) / mean(&on_cpu);
+    assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
+}
+
+#[test]
+fn a_rendering_larger_than_one_band_of_reading_back_is_whole() {
+    let Some(gpu) = gpu() else { return };
+    let (width, height) = (1030, 1100);
+    let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.5, 0.2, 0.8] };
+    let image = gpu.render(&bumpy(width, height), &scene, &PRINTED).expect("rendered");
+    let points = points_of(width, height, &scene);
+    against_f64(&PRINTED, &points, &image.pixels, RENDERING_ULPS).unwrap_or_else(|e| panic!("{e}"));
+}
+
+#[test]
+fn the_comparison_of_renderings_goes_red_on_a_flipped_or_transposed_grid() {
+    let Some(gpu) = gpu() else { return };
+    let side = 24;
+    let scene = Scene { kind: Kind::Near, view: [-0.5, 0.25, 1.5], light: [0.9, 0.8, 0.3] };
+    let image = gpu.render(&bumpy(side, side), &scene, &PRINTED).expect("rendered");
+    let points = points_of(side, side, &scene);
+    let planted = |from: fn(usize, usize, usize) -> usize| {
+        let pixels: Vec<[f32; 3]> =
+            (0..side * side).map(|i| image.pixels[from(i % side, i / side, side)]).collect();
+        against_f64(&PRINTED, &points, &pixels, RENDERING_ULPS)
+    };
+    planted(|column, row, side| row * side + column).expect("no fault");
+    planted(|column, row, side| (side - 1 - row) * side + column).expect_err("rows flipped");
+    planted(|column, row, side| row * side + side - 1 - column).expect_err("columns flipped");
+    planted(|column, row, side| column * side + row).expect_err("transposed");
+    planted(|column, row, side| row * side + (column + 1).min(side - 1)).expect_err("shifted");
+}

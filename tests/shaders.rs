@@ -1,1 +1,145 @@
+//! The shaders without a GPU: naga parses and validates them, and tells where their members lie.
+#![cfg(feature = "gpu")]
 
+use std::collections::BTreeSet;
+use std::mem::offset_of;
+use std::path::Path;
+
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use svbrdf::gpu::shaders::ALL;
+use svbrdf::gpu::uniforms::{Camera, Display, Model, Point, Rays, Shading};
+
+/// A struct as Rust lays it out: its name in WGSL, its size, its members with their offsets.
+#[derive(Debug)]
+struct Layout {
+    name: &'static str,
+    size: usize,
+    members: Vec<(&'static str, usize)>,
+}
+
+macro_rules! layout {
+    ($name:ident { $($member:ident),+ }) => {
+        Layout {
+            name: stringify!($name),
+            size: size_of::<$name>(),
+            members: vec![$((stringify!($member), offset_of!($name, $member))),+],
+        }
+    };
+}
+
+fn layouts() -> Vec<Layout> {
+    vec![
+        layout!(Model { intensity, roughness_floor, light_z_floor, clamp_n_dot_h, d_floor, g_floor }),
+        layout!(Rays { view, near, light }),
+        layout!(Shading { rays, model, shown, largest }),
+        layout!(Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
+        layout!(Display { camera, background, encoding, exposure, epsilon, wipe, mode, show_clipping }),
+        layout!(Point { normal, roughness, diffuse, specular, w_l, w_v }),
+    ]
+}
+
+fn parse(source: &str) -> Result<naga::Module, String> {
+    let module = naga::front::wgsl::parse_str(source).map_err(|e| e.emit_to_string(source))?;
+    Validator::new(ValidationFlags::all(), Capabilities::empty())
+        .validate(&module)
+        .map_err(|e| e.emit_to_string(source))?;
+    Ok(module)
+}
+
+/// (offset, size) of every member and the size of the struct called `name`, in the first shader that has it.
+fn reflected(modules: &[naga::Module], name: &str) -> Option<(usize, Vec<(String, usize)>)> {
+    let structs = modules.iter().flat_map(|m| m.types.iter().map(|(_, ty)| ty));
+    structs.filter(|ty| ty.name.as_deref() == Some(name)).find_map(|ty| match &ty.inner {
+        naga::TypeInner::Struct { members, span } => {
+            let member = |m: &naga::StructMember| (m.name.clone().unwrap_or_default(), m.offset as usize);
+            Some((*span as usize, members.iter().map(member).collect()))
+        }
+        _ => None,
+    })
+}
+
+/// What of `layout` is not as in WGSL.
+fn complaints(modules: &[naga::Module], layout: &Layout) -> Vec<String> {
+    let Some((size, members)) = reflected(modules, layout.name) else {
+        return vec![format!("no shader has a struct {}", layout.name)];
+    };
+    let rust: Vec<_> = layout.members.iter().map(|(name, offset)| ((*name).to_owned(), *offset)).collect();
+    let mut complaints = Vec::new();
+    if size != layout.size {
+        complaints.push(format!("{}: {} bytes in Rust, {size} in WGSL", layout.name, layout.size));
+    }
+    if rust != members {
+        complaints.push(format!("{}: in Rust {rust:?}, in WGSL {members:?}", layout.name));
+    }
+    complaints
+}
+
+#[test]
+fn every_shader_is_valid() {
+    assert!(!ALL.is_empty());
+    let failures: Vec<String> = ALL
+        .iter()
+        .filter_map(|shader| Some(format!("{}:\n{}", shader.name, parse(&shader.source()).err()?)))
+        .collect();
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn every_shader_has_its_entry_points() {
+    for shader in ALL {
+        let module = parse(&shader.source()).expect("valid");
+        assert!(module.entry_points.iter().any(|e| e.name == shader.name), "{}", shader.name);
+    }
+}
+
+#[test]
+fn every_file_of_the_shader_folder_is_in_a_shader() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    let files: BTreeSet<String> = std::fs::read_dir(folder)
+        .expect("the folder is readable")
+        .map(|entry| entry.expect("readable").file_name().into_string().expect("a plain name"))
+        .collect();
+    let pieces: BTreeSet<String> =
+        ALL.iter().flat_map(|s| s.pieces).map(|(file, _)| (*file).to_owned()).collect();
+    assert!(!files.is_empty());
+    assert_eq!(files, pieces);
+}
+
+#[test]
+fn an_invalid_shader_is_refused() {
+    for shader in ALL {
+        let source = shader.source();
+        let faults = [source.replace(": vec3f", ": vec9f"), "fn (".into()];
+        for faulty in faults {
+            assert!(parse(&faulty).is_err(), "{}", shader.name);
+        }
+    }
+}
+
+#[test]
+fn uniforms_are_laid_out_as_the_shaders_read_them() {
+    let modules: Vec<_> = ALL.iter().map(|s| parse(&s.source()).expect("valid")).collect();
+    let wrong: Vec<String> = layouts().iter().flat_map(|layout| complaints(&modules, layout)).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn a_wrong_layout_is_seen() {
+    let modules: Vec<_> = ALL.iter().map(|s| parse(&s.source()).expect("valid")).collect();
+    for planted in layouts() {
+        let Layout { name, size, members } = planted;
+        let last = members.len() - 1;
+        let mut moved = members.clone();
+        moved[last].1 += 4;
+        let mut swapped = members.clone();
+        (swapped[0].0, swapped[1].0) = (members[1].0, members[0].0);
+        let dropped = members[..last].to_vec();
+        for members in [moved, swapped, dropped] {
+            assert!(!complaints(&modules, &Layout { name, size, members }).is_empty(), "{name}");
+        }
+        let longer = Layout { name, size: size + 16, members };
+        assert!(!complaints(&modules, &longer).is_empty(), "{name}");
+    }
+    let unknown = Layout { name: "Unknown", size: 0, members: Vec::new() };
+    assert!(!complaints(&modules, &unknown).is_empty());
+}

@@ -1,0 +1,85 @@
+//! The adapter: what is said about it, and what happens without one or beyond its limits.
+
+use std::process::Command;
+
+use svbrdf::error::Error;
+use svbrdf::gpu::{Gpu, MaterialTextures, Shading};
+
+use crate::support::gpu::{bumpy, gpu};
+
+#[test]
+fn the_report_is_one_line_that_says_what_is_used_and_why() {
+    let Some(gpu) = gpu() else { return };
+    let line = gpu.report.to_string();
+    assert!(!line.contains('\n'));
+    assert!(line.starts_with(&gpu.report.name), "{line}");
+    assert!(line.contains(&gpu.report.backend) && line.contains(&gpu.report.reason), "{line}");
+    assert!(line.contains(if gpu.report.software { "software" } else { "hardware" }), "{line}");
+    assert!(gpu.report.max_texture_side >= 4096);
+}
+
+/// This test binary's test of the report, on a machine that seems to have no driver.
+fn report_without_driver(ci: bool) -> (bool, String) {
+    let mut child = Command::new(std::env::current_exe().expect("this program has a path"));
+    child.args(["--exact", "--nocapture", "--test-threads=1"]);
+    child.arg("gpu_parity::adapter::the_report_is_one_line_that_says_what_is_used_and_why");
+    child.env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none").env("WGPU_BACKEND", "vulkan");
+    child.env_remove("CI");
+    if ci {
+        child.env("CI", "true");
+    }
+    let output = child.output().expect("it runs");
+    let text = [output.stdout, output.stderr].concat();
+    (output.status.success(), String::from_utf8_lossy(&text).into_owned())
+}
+
+#[test]
+fn without_an_adapter_gpu_tests_say_that_they_are_ignored() {
+    let (success, text) = report_without_driver(false);
+    assert!(success, "{text}");
+    assert!(text.contains("ignored: no graphics adapter"), "{text}");
+    assert!(text.contains("mesa-vulkan-drivers") && text.contains("use the CPU"), "{text}");
+}
+
+#[test]
+fn without_an_adapter_gpu_tests_fail_in_ci() {
+    let (success, text) = report_without_driver(true);
+    assert!(!success, "{text}");
+    assert!(text.contains("no graphics adapter in CI"), "{text}");
+}
+
+#[test]
+fn a_material_beyond_the_limits_is_refused_with_both_sizes() {
+    let Some(gpu) = gpu() else { return };
+    let mut small = gpu.clone();
+    small.report.max_texture_side = 8;
+    let refused = |result: Result<(), Error>| {
+        let message = result.expect_err("too large").to_string();
+        assert!(message.contains("9 x 4") && message.contains("at most 8"), "{message}");
+    };
+    refused(MaterialTextures::upload(&small, &bumpy(9, 4)).map(drop));
+    let shading = Shading::new(gpu).expect("compiled");
+    refused(shading.target(&small, [9, 4]).map(drop));
+    MaterialTextures::upload(&small, &bumpy(8, 4)).expect("just within the limit");
+}
+
+#[test]
+fn a_failure_that_no_function_can_return_waits_to_be_taken() {
+    if gpu().is_none() {
+        return;
+    }
+    // A device of its own: other tests take faults too.
+    let gpu = Gpu::headless().expect("an adapter");
+    assert!(gpu.take_fault().is_none());
+    let size = gpu.device.limits().max_buffer_size.saturating_add(4);
+    let usage = wgpu::BufferUsages::COPY_DST;
+    let _ = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size,
+        usage,
+        mapped_at_creation: false,
+    });
+    let fault = gpu.take_fault().expect("a fault").to_string();
+    assert!(fault.contains("use the CPU"), "{fault}");
+    assert!(gpu.take_fault().is_none());
+}

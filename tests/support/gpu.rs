@@ -1,0 +1,113 @@
+//! The graphics adapter of the tests, and pictures of panes.
+
+use std::sync::OnceLock;
+
+use svbrdf::gpu::{Display, DisplayParams, Gpu, Shaded};
+use svbrdf::material::{Material, Planes};
+
+/// The adapter, the same for every test; `None`, said aloud, where there is none.
+///
+/// # Panics
+/// In CI, where a software driver is always there.
+pub fn gpu() -> Option<&'static Gpu> {
+    static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
+    match GPU.get_or_init(|| Gpu::headless().map_err(|e| e.to_string())) {
+        Ok(gpu) => Some(gpu),
+        Err(problem) if std::env::var_os("CI").is_some() => panic!("no graphics adapter in CI: {problem}"),
+        Err(problem) => {
+            println!("ignored: no graphics adapter: {problem}");
+            None
+        }
+    }
+}
+
+/// A bumpy material in which no two texels, rows, columns or channels are alike.
+pub fn bumpy(width: usize, height: usize) -> Material<f32> {
+    let plane = |f: &dyn Fn(f32, f32) -> f32| -> Vec<f32> {
+        let place = |i: usize| ((i % width) as f32 / width as f32, (i / width) as f32 / height as f32);
+        (0..width * height).map(place).map(|(u, v)| f(u, v)).collect()
+    };
+    let planes = Planes {
+        normal: [
+            plane(&|u, v| 0.6 * (9.0 * u + 2.0 * v).sin()),
+            plane(&|u, v| 0.6 * (7.0 * v - 3.0 * u).cos()),
+            plane(&|_, _| 1.0),
+        ],
+        diffuse: [plane(&|u, _| u), plane(&|_, v| v), plane(&|u, v| 0.5 + 0.5 * (20.0 * u * v).sin())],
+        specular: [plane(&|u, v| u * v), plane(&|u, v| 0.04 + 0.9 * u * (1.0 - v)), plane(&|_, v| 1.0 - v)],
+        roughness: plane(&|u, v| (0.5 + 0.5 * (5.0 * u + 11.0 * v).sin()).powi(2)),
+    };
+    Material::new("bumpy", width, height, planes).expect("a valid material")
+}
+
+/// An 8-bit picture, RGBA, row 0 on top.
+pub struct Picture {
+    pub width: usize,
+    pub pixels: Vec<[u8; 4]>,
+}
+
+impl Picture {
+    pub fn at(&self, column: usize, row: usize) -> [u8; 3] {
+        let [r, g, b, _] = self.pixels[row * self.width + column];
+        [r, g, b]
+    }
+}
+
+/// What a window would show of a pane of `width` x `height` pixels.
+pub fn picture(
+    gpu: &Gpu,
+    [width, height]: [u32; 2],
+    shown: &Shaded,
+    reference: &Shaded,
+    params: &DisplayParams,
+) -> Picture {
+    let format = wgpu::TextureFormat::Rgba8Unorm;
+    let display = Display::new(gpu, format).expect("the display pass compiles");
+    let pane = display.pane(gpu, shown, reference);
+    pane.write(&gpu.queue, params);
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("window"),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&Default::default());
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &view,
+            resolve_target: None,
+            depth_slice: None,
+            ops: wgpu::Operations::default(),
+        })],
+        ..Default::default()
+    });
+    display.draw(&mut pass, &pane);
+    drop(pass);
+    let pixels = read(gpu, encoder, &texture);
+    assert!(gpu.take_fault().is_none());
+    Picture { width: width as usize, pixels }
+}
+
+fn read(gpu: &Gpu, mut encoder: wgpu::CommandEncoder, texture: &wgpu::Texture) -> Vec<[u8; 4]> {
+    let stride = (4 * texture.width()).next_multiple_of(256);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("pixels"),
+        size: u64::from(stride * texture.height()),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
+    let target = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+    encoder.copy_texture_to_buffer(texture.as_image_copy(), target, texture.size());
+    gpu.queue.submit([encoder.finish()]);
+    buffer.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("mapped"));
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("polled");
+    let bytes = buffer.get_mapped_range(..).expect("mapped").to_vec();
+    let row = |row: &[u8]| row[..4 * texture.width() as usize].to_vec();
+    bytes.chunks(stride as usize).flat_map(row).collect::<Vec<u8>>().as_chunks::<4>().0.to_vec()
+}

@@ -1,0 +1,166 @@
+//! Random and extreme points of the BRDF, the same on every rung of precision, and how far f32 may be off there.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use svbrdf::brdf::{self, Model, Texel};
+use svbrdf::vec3::Vec3;
+
+/// Half the distance of 1 and the next f32.
+pub const U: f64 = 1.0 / (1 << 24) as f64;
+
+/// A texel, and the directions w_l and w_v of any length.
+pub type Point = (Texel<f32>, [f32; 3], [f32; 3]);
+
+/// `count` points: a third of the choices are random, the others at the edges of the domain.
+pub fn points(seed: u64, count: usize) -> Vec<Point> {
+    let mut generator = Generator(ChaCha8Rng::seed_from_u64(seed));
+    (0..count).map(|_| generator.point()).collect()
+}
+
+struct Generator(ChaCha8Rng);
+
+impl Generator {
+    fn uniform(&mut self) -> f64 {
+        f64::from(self.0.next_u32()) / f64::from(u32::MAX)
+    }
+
+    fn pick(&mut self, choices: usize) -> usize {
+        self.0.next_u32() as usize % choices
+    }
+
+    fn one_of<const N: usize>(&mut self, values: [f64; N]) -> f64 {
+        values[self.pick(N)]
+    }
+
+    fn azimuth(&mut self, z: f64) -> Vec3<f64> {
+        let phi = std::f64::consts::TAU * self.uniform();
+        let rho = (1.0 - z * z).max(0.0).sqrt();
+        Vec3::new(rho * phi.cos(), rho * phi.sin(), z)
+    }
+
+    /// A unit direction: anywhere above the plane, at the zenith, grazing, or below the plane.
+    fn direction(&mut self) -> Vec3<f64> {
+        let z = match self.pick(8) {
+            0 => 1.0,
+            1 => self.one_of([1e-6, 1e-5, 1e-4, 1e-3, 0.01]),
+            2 => -self.uniform(),
+            _ => self.uniform(),
+        };
+        self.azimuth(z)
+    }
+
+    /// Mostly out of the plane; now and then exactly along z, or nearly in the plane.
+    fn normal(&mut self) -> Vec3<f64> {
+        let z = match self.pick(4) {
+            0 => 1.0,
+            1 => self.uniform(),
+            _ => 0.5 + 0.5 * self.uniform(),
+        };
+        self.azimuth(z)
+    }
+
+    fn albedo(&mut self) -> f32 {
+        let value = self.uniform();
+        self.one_of([0.0, 1.0, value, value]) as f32
+    }
+
+    fn roughness(&mut self) -> f32 {
+        let (value, square) = (self.uniform(), self.uniform().powi(4));
+        self.one_of([0.0, 1e-5, 1e-4, 1e-3, 1.0 / 255.0, 0.01, 0.1, 0.5, 1.0, value, value, square]) as f32
+    }
+
+    /// A direction for a light along `l`: any, its mirror image on `n`, `l` itself, or its opposite, the last
+    /// three a little off.
+    fn partner(&mut self, n: Vec3<f64>, l: Vec3<f64>) -> Vec3<f64> {
+        let exact = match self.pick(6) {
+            0 | 1 => n * (2.0 * n.dot(l)) - l,
+            2 => l,
+            3 => l * -1.0,
+            _ => return self.direction(),
+        };
+        let off = self.one_of([0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1]);
+        (exact + self.direction() * off).normalize()
+    }
+
+    fn point(&mut self) -> Point {
+        let (n, l) = (self.normal(), self.direction());
+        let v = self.partner(n, l);
+        let mut lengthened = |w: Vec3<f64>| (w * 10f64.powf(4.0 * self.uniform() - 2.0)).cast().to_array();
+        let (w_l, w_v) = (lengthened(l), lengthened(v));
+        let texel = Texel {
+            normal: n.cast(),
+            diffuse: [(); 3].map(|()| self.albedo()),
+            specular: [(); 3].map(|()| self.albedo()),
+            roughness: self.roughness(),
+        };
+        (texel, w_l, w_v)
+    }
+}
+
+/// A point in f64, exactly.
+pub fn exact((texel, w_l, w_v): &Point) -> (Texel<f64>, Vec3<f64>, Vec3<f64>) {
+    let texel = Texel {
+        normal: texel.normal.cast(),
+        diffuse: texel.diffuse.map(f64::from),
+        specular: texel.specular.map(f64::from),
+        roughness: f64::from(texel.roughness),
+    };
+    (texel, Vec3::from(*w_l).cast(), Vec3::from(*w_v).cast())
+}
+
+/// How far each channel of `brdf::render` may be off where every operation, on vectors of length about 1, is off by
+/// `ulps` * [`U`] at most.
+///
+/// Not one condition number: where the lobe is narrower than that error (r < 0.002 or so), the radiance is not
+/// linear in it. So D is taken over all half vectors within reach; the other factors are smooth, and taken to first
+/// order. Where l is nearly -v, the half vector's reach grows as 1 / |l + v|.
+pub fn error_bound(
+    model: &Model<f64>,
+    texel: &Texel<f64>,
+    w_l: Vec3<f64>,
+    w_v: Vec3<f64>,
+    ulps: f64,
+) -> [f64; 3] {
+    let e = ulps * U;
+    let (n, l, v) = (texel.normal, w_l.normalize(), w_v.normalize());
+    let n_dot_l = n.dot(l);
+    if n_dot_l <= -e || l.z <= 0.0 {
+        return [0.0; 3];
+    }
+    let reach = (e * (1.0 + 1.0 / (l + v).length())).min(2.0);
+    let h = brdf::half_vector(n, l, v);
+    let a = texel.roughness.max(model.roughness_floor).powi(2);
+    let k = 0.5 * a;
+    let sine = n.cross(h).length();
+    let d = |sine: f64| {
+        let cosine_squared = (1.0 - sine * sine).max(0.0);
+        let denominator = sine * sine + a * a * cosine_squared;
+        let ratio = a / denominator.max(model.d_floor);
+        std::f64::consts::FRAC_1_PI * ratio * ratio
+    };
+    let spread = (d((sine - reach).max(0.0)) - d((sine + reach).min(1.0))) * (1.0 + e);
+    let largest = d((sine - reach).max(0.0));
+
+    let cosines = [n_dot_l.max(0.0), n.dot(v).max(0.0)];
+    let factors = cosines.map(|c| brdf::geometry_factor(model, c, k));
+    let g = factors[0] * factors[1];
+    let g_off = g * ((1.0 + e * factors[0]) * (1.0 + e * factors[1]) - 1.0);
+
+    // The slope of the logarithm of the Fresnel weight is at most ln 2 (2 * 5.55473 + 6.98316) < 13.
+    let f_off = (13.0 * reach).min(f64::MAX).exp_m1();
+    let weight = brdf::fresnel_weight(v.dot(h).clamp(0.0, 1.0));
+    let scale = model.intensity / l.z.max(model.light_z_floor);
+    let (light, light_off) = (cosines[0] * scale, e * scale);
+
+    let channel = |c: usize| {
+        let f = brdf::fresnel(texel.specular[c], weight);
+        let f_off = ((1.0 - texel.specular[c]) * weight * f_off).min(1.0);
+        let lobe = 0.25 * f * g * d(sine);
+        let lobe_off = 0.25 * (f * g * spread + (f * g_off + f_off * (g + g_off)) * largest);
+        let diffuse = brdf::lambert(texel.diffuse[c], texel.specular[c]);
+        let value = lobe + diffuse;
+        let off = lobe_off + e * value;
+        (light + light_off) * off + light_off * value
+    };
+    [channel(0), channel(1), channel(2)]
+}
