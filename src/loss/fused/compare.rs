@@ -39,17 +39,28 @@ impl<S: Simd> LogSum<S> {
     pub(super) fn add<const CAREFUL: bool>(&mut self, simd: S, a: &Radiance, b: &Radiance) {
         for pair in 0..vectors::<S>() / 2 {
             for i in [2 * pair, 2 * pair + 1] {
-                for (a, b) in a.0.iter().zip(&b.0) {
-                    let (a, b) = (a.load(simd, i), b.load(simd, i));
-                    self.larger *= a.max(b);
-                    self.smaller *= a.min(b);
-                    if CAREFUL {
+                let load = |radiance: &Radiance| radiance.0.each_ref().map(|plane| plane.load(simd, i));
+                let (a, b): ([V<S>; 3], [V<S>; 3]) = (load(a), load(b));
+                let larger: [V<S>; 3] = std::array::from_fn(|c| a[c].max(b[c]));
+                let smaller: [V<S>; 3] = std::array::from_fn(|c| a[c].min(b[c]));
+                if CAREFUL {
+                    for c in 0..3 {
+                        self.multiply(larger[c], smaller[c]);
                         self.normalize();
                     }
+                } else {
+                    // In this order, only one multiplication waits for the vector before.
+                    self.multiply(larger[0] * larger[1] * larger[2], smaller[0] * smaller[1] * smaller[2]);
                 }
             }
             self.normalize();
         }
+    }
+
+    #[inline(always)]
+    fn multiply(&mut self, larger: V<S>, smaller: V<S>) {
+        self.larger *= larger;
+        self.smaller *= smaller;
     }
 
     /// Moves the exponents of the products to the integer.

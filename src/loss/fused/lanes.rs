@@ -23,6 +23,10 @@ pub(super) trait Lanes: Simd {
     fn rsqrt(self, x: V<Self>) -> V<Self> {
         V::<Self>::splat(self, 1.0) / x.sqrt()
     }
+
+    /// Asks for the cache line of the first of `values` before it is needed.
+    #[inline(always)]
+    fn prefetch(self, _values: &[f32]) {}
 }
 
 /// c - a b.
@@ -72,6 +76,18 @@ macro_rules! estimate {
                     }
                 );
                 refine_rsqrt::<Self>(x, estimate(self, x.into()).simd_into(self))
+            }
+
+            #[inline(always)]
+            fn prefetch(self, values: &[f32]) {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn prefetch(_token: $token, values: &[f32]) {
+                        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+                        _mm_prefetch::<_MM_HINT_T0>(values.as_ptr().cast());
+                    }
+                );
+                prefetch(self, values);
             }
         }
     };
@@ -124,21 +140,45 @@ macro_rules! dispatch {
     ($level:expr, $simd:ident => $call:expr) => {
         match $level.0 {
             #[cfg(target_arch = "x86_64")]
-            fearless_simd::Level::Avx512($simd) => $simd.vectorize(#[inline(always)] || $call),
+            fearless_simd::Level::Avx512($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
             #[cfg(target_arch = "x86_64")]
-            fearless_simd::Level::Avx2($simd) => $simd.vectorize(#[inline(always)] || $call),
+            fearless_simd::Level::Avx2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
             #[cfg(target_arch = "x86_64")]
-            fearless_simd::Level::Sse4_2($simd) => $simd.vectorize(#[inline(always)] || $call),
+            fearless_simd::Level::Sse4_2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
             #[cfg(target_arch = "x86_64")]
-            fearless_simd::Level::Sse2($simd) => $simd.vectorize(#[inline(always)] || $call),
+            fearless_simd::Level::Sse2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
             #[cfg(target_arch = "aarch64")]
-            fearless_simd::Level::Neon($simd) => $simd.vectorize(#[inline(always)] || $call),
+            fearless_simd::Level::Neon($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-            fearless_simd::Level::WasmSimd128($simd) => $simd.vectorize(#[inline(always)] || $call),
-            fearless_simd::Level::Fallback($simd) => $simd.vectorize(#[inline(always)] || $call),
+            fearless_simd::Level::WasmSimd128($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            fearless_simd::Level::Fallback($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
             _ => {
                 let $simd = Fallback::new();
-                $simd.vectorize(#[inline(always)] || $call)
+                $simd.vectorize(
+                    #[inline(always)]
+                    || $call,
+                )
             }
         }
     };

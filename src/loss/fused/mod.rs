@@ -35,6 +35,8 @@ use tile::{Axes, Places, TEXELS, Terms};
 const TEXELS_PER_BLOCK: usize = 16 * TEXELS;
 /// Scenes that pass over a tile while it is in cache. More would push it out.
 const SCENES_PER_GROUP: usize = 64;
+/// Floats in a cache line.
+const FLOATS_PER_LINE: usize = 16;
 /// Most sums that are held at a time.
 const MAX_SUMS: usize = 1 << 20;
 
@@ -91,6 +93,8 @@ struct Job<'a> {
     convention: &'a Convention,
     model: Model,
     axes: Axes,
+    /// All planes of all materials.
+    planes: Vec<&'a [f32]>,
     texels: usize,
     blocks: usize,
 }
@@ -108,6 +112,11 @@ impl<'a> Job<'a> {
             convention,
             model: Model::from(convention),
             axes: Axes::from(ground_truth.grid()),
+            planes: [&ground_truth]
+                .into_iter()
+                .chain(predictions)
+                .flat_map(|m| tile::planes(m.planes()))
+                .collect(),
             texels,
             blocks: texels.div_ceil(TEXELS_PER_BLOCK),
         }
@@ -126,12 +135,15 @@ impl<'a> Job<'a> {
         let groups: Vec<_> = sources.chunks(SCENES_PER_GROUP).collect();
         let sums = (0..groups.len() * self.blocks)
             .into_par_iter()
-            .map(|i| {
-                let (group, block) = (groups[i / self.blocks], i % self.blocks);
-                let sums = dispatch!(level, simd => self.block(simd, group, block));
-                progress.step()?;
-                Ok(sums)
-            })
+            .map_init(
+                || Tile::new(self.predictions.len()),
+                |tile, i| {
+                    let (group, block) = (groups[i / self.blocks], i % self.blocks);
+                    let sums = dispatch!(level, simd => self.block(simd, tile, group, block));
+                    progress.step()?;
+                    Ok(sums)
+                },
+            )
             .collect::<Result<Vec<_>, Error>>()?;
         let count = 3.0 * self.texels as f64;
         for (group, sums) in groups.iter().zip(sums.chunks(self.blocks)) {
@@ -147,17 +159,30 @@ impl<'a> Job<'a> {
 
     /// The sums of one block: for each scene, for each prediction.
     #[inline(always)]
-    fn block<S: Lanes>(&self, simd: S, sources: &[Source], block: usize) -> Vec<f64> {
+    fn block<S: Lanes>(&self, simd: S, tile: &mut Tile, sources: &[Source], block: usize) -> Vec<f64> {
         let mut sums = vec![LogSum::<S>::new(simd); sources.len() * self.predictions.len()];
-        let mut tile = Tile::new(self.predictions.len());
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
             tile.fill(self, start..end.min(start + TEXELS));
-            for (source, sums) in sources.iter().zip(sums.chunks_mut(self.predictions.len())) {
+            let next = start + TEXELS..self.texels.min(start + 2 * TEXELS);
+            for (i, (source, sums)) in sources.iter().zip(sums.chunks_mut(self.predictions.len())).enumerate()
+            {
+                self.prefetch(simd, next.clone(), i, sources.len());
                 tile.add(simd, &self.model, source, sums);
             }
         }
         sums.iter().map(LogSum::total).collect()
+    }
+
+    /// Asks for the texels `at`, spread over `parts` calls, so that memory works while the kernel computes.
+    #[inline(always)]
+    fn prefetch<S: Lanes>(&self, simd: S, at: std::ops::Range<usize>, part: usize, parts: usize) {
+        let first = |part| part * self.planes.len() / parts;
+        for plane in &self.planes[first(part)..first(part + 1)] {
+            for line in plane.get(at.clone()).unwrap_or_default().chunks(FLOATS_PER_LINE) {
+                simd.prefetch(line);
+            }
+        }
     }
 }
 

@@ -10,6 +10,9 @@ use crate::convention::Convention;
 /// Where a highlight or a boost is above it, radiances are computed and multiplied in the careful way.
 pub(super) const TAME: f32 = 1_048_576.0;
 
+/// Largest radiance and largest factor of one, 2^126: two of its mantissas fit a float.
+const LARGEST: f32 = 8.507_059e37;
+
 /// The clamps of a convention, in the units of the kernel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clamps {
@@ -72,7 +75,7 @@ impl Radiance {
             for c in 0..3 {
                 let diffuse = terms.lambert[c].load(simd, i).mul_add(e, base);
                 let value = terms.specular[c].load(simd, i).mul_add(rising, diffuse);
-                let value = if CAREFUL { value.min(V::<S>::splat(simd, f32::MAX)) } else { value };
+                let value = if CAREFUL { value.min(V::<S>::splat(simd, LARGEST)) } else { value };
                 self.0[c].store::<S>(i, value);
             }
         }
@@ -117,7 +120,7 @@ fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
     if CAREFUL {
         // Never below its least, a^2 |q|^2, and ratios first: none overflows, none is 0 / 0.
         let ratio = peak / d.max(a * peak * ROOT_PI);
-        return ((ratio / factor_l * (ratio / factor_v) * e).min(splat(f32::MAX)), e);
+        return ((ratio / factor_l * (ratio / factor_v) * e).min(splat(LARGEST)), e);
     }
     // One reciprocal: (peak / d)^2 / g = peak / (d g) * g * peak / (d g).
     let g = factor_l * factor_v;

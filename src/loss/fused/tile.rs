@@ -91,6 +91,12 @@ impl Terms {
     }
 }
 
+/// The planes of a material, in the order that a tile is filled.
+pub(super) fn planes(planes: &Planes<f32>) -> impl Iterator<Item = &[f32]> {
+    let vectors = planes.normal.iter().chain(&planes.specular).chain(&planes.diffuse);
+    vectors.chain([&planes.roughness]).map(Vec::as_slice)
+}
+
 /// The coordinates of all columns and rows of a grid.
 #[derive(Debug)]
 pub(super) struct Axes {
