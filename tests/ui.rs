@@ -7,10 +7,10 @@ use svbrdf::loss::{self, LossParams};
 use svbrdf::material::Material;
 use svbrdf::progress::Progress;
 use svbrdf::samples;
+use svbrdf::view::Shown;
 use svbrdf::viewer::ViewerOptions;
 use svbrdf::viewer::app::App;
 use svbrdf::viewer::state::{Layout, Projection};
-use svbrdf::view::Shown;
 
 use crate::support::gpu;
 
@@ -25,7 +25,9 @@ fn window<'a>(options: ViewerOptions) -> Option<Window<'a>> {
         .wgpu()
         .build_eframe(|cc| App::new(cc, options));
     window.set_render_cursor(false);
-    wait(&mut window, "the materials to be read", |app| !app.names().is_empty() || !app.messages().is_empty());
+    wait(&mut window, "the materials to be read", |app| {
+        !app.names().is_empty() || !app.messages().is_empty()
+    });
     Some(window)
 }
 
@@ -199,7 +201,7 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     let samples = samples::load::<f32>().unwrap();
     let predictions: Vec<&Material<f32>> = samples.predictions.iter().map(|r| &r.material).collect();
     let params = LossParams { seed: 7, ..LossParams::default() };
-    let expected = loss::losses(
+    let expected = loss::losses_f32(
         &samples.ground_truth.material,
         &predictions,
         &params.scenes().unwrap(),
@@ -235,7 +237,9 @@ fn a_file_that_is_not_there_is_an_error_in_the_window_and_keeps_what_was_open() 
     window.get_by_label("Open").click();
     window.run_steps(4);
     let field = "Files, folders or name prefixes, one a line:";
-    window.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field).type_text("no/such/brick.png");
+    window
+        .get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field)
+        .type_text("no/such/brick.png");
     window.run_steps(3);
     window.get_by_label("Open these").click();
     wait(&mut window, "the error", |app| !app.messages().is_empty());

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use svbrdf::convention::Convention;
 use svbrdf::error::Error;
-use svbrdf::loss::{self, LossParams, Precision};
+use svbrdf::loss::{self, Loss, LossParams, Precision};
+use svbrdf::material::Material;
+use svbrdf::progress::Progress;
 use svbrdf::real::Real;
 use svbrdf::scene::{self, Scene};
 
@@ -57,19 +59,23 @@ pub struct LossArgs {
 /// Where a material or the scenes cannot be read or used.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
     let report = match args.precision {
-        Precision::F32 => report::<f32>(args)?,
-        Precision::F64 => report::<f64>(args)?,
+        Precision::F32 => report(args, loss::losses_f32)?,
+        Precision::F64 => report(args, loss::losses::<f64>)?,
     };
     exit::put(&report.to_text(args.format).map_err(exit::unwritable)?)
 }
 
-fn report<T: Real>(args: &LossArgs) -> Result<Report, Error> {
+/// Algorithm 1 in one precision: [`loss::losses`] or a faster twin of it.
+type Losses<T> =
+    fn(&Material<T>, &[&Material<T>], &[Scene], &Convention, &Progress) -> Result<Vec<Loss>, Error>;
+
+fn report<T: Real>(args: &LossArgs, losses: Losses<T>) -> Result<Report, Error> {
     check_predictions(&args.materials)?;
     let scenes = scenes(args)?;
     let opened = materials::open::<T>(&args.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let losses = watched("rendering", |progress| {
-        loss::losses(&opened.ground_truth, &predictions, &scenes, &args.convention, progress)
+        losses(&opened.ground_truth, &predictions, &scenes, &args.convention, progress)
     })?;
     Ok(Report {
         convention: args.convention,

@@ -142,7 +142,7 @@ impl<T: Real> Material<T> {
 
 /// Where the texels of a material lie in the plane z = 0.
 ///
-/// Column i of W is at x = linspace(-1, 1, W)[i]; row 0 is on top, at the largest y; texels are square, so the
+/// Column i of W is at `x = linspace(-1, 1, W)[i]`; row 0 is on top, at the largest y; texels are square, so the
 /// height spans +-(H - 1) / (W - 1). A single column lies at x = 0, with rows as far apart as those of two columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {

@@ -91,7 +91,7 @@ impl LossRun {
             let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
             let start = std::time::Instant::now();
             let (ground_truth, predictions) = (materials[0], &materials[1..]);
-            let losses = loss::losses(ground_truth, predictions, &scenes, &params.convention, progress)?;
+            let losses = loss::losses_f32(ground_truth, predictions, &scenes, &params.convention, progress)?;
             Ok((losses, start.elapsed()))
         });
         self.running = Some((key, job));

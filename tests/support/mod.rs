@@ -1,7 +1,7 @@
 //! What the tests share.
 
-pub mod fixtures;
 pub mod compare;
+pub mod fixtures;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod points;

@@ -29,14 +29,8 @@ fn header(report: &Report) -> String {
 }
 
 fn cells(loss: &Loss) -> [String; 4] {
-    let unknown = || "unknown".to_owned();
-    let estimate = &loss.estimate;
-    [
-        loss.prediction.clone(),
-        format!("{:.6}", estimate.mean),
-        estimate.standard_error.map_or_else(unknown, |e| format!("{e:.6}")),
-        estimate.interval95.map_or_else(unknown, |[low, high]| format!("{low:.6} to {high:.6}")),
-    ]
+    let [mean, error, interval] = loss.estimate.texts();
+    [loss.prediction.clone(), mean, error, interval]
 }
 
 fn line([name, loss, error, interval]: &[String; 4], [a, b, c, d]: [usize; 4]) -> String {
