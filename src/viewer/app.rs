@@ -158,13 +158,7 @@ impl App {
             (_, _, Some(_)) => Command::ShowSave(false),
             _ => Command::CancelLoss,
         };
-        let now = keys::Context {
-            state: &self.state,
-            highlight_follows: self.settings.highlight_follows,
-            side_panel: self.settings.side_panel,
-            enter_is_free: ctx.memory(|m| m.focused()).is_none(),
-            escape: &escape,
-        };
+        let now = keys::Context { enter_is_free: ctx.memory(|m| m.focused()).is_none(), escape: &escape };
         keys::commands(ctx, now)
     }
 
@@ -183,7 +177,7 @@ impl App {
             |ui| commands.extend(self.side(ui)),
         );
         if side_panel != self.settings.side_panel {
-            commands.push(Command::SetSidePanel(side_panel));
+            commands.push(Command::ToggleSidePanel);
         }
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
         commands.extend(self.windows(ui.ctx()));

@@ -9,6 +9,7 @@ mod gestures;
 mod gpu_view;
 mod handles;
 pub mod keys;
+pub mod legend;
 mod loss_run;
 mod panels;
 mod save;

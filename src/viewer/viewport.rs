@@ -6,6 +6,7 @@ use super::command::Command;
 use super::gestures::{self, Gesture, Target};
 use super::gpu_view::GpuView;
 use super::handles;
+use super::legend;
 use super::slots::Slot;
 use super::state::{self, End, Layout, Projection, ViewState};
 use super::theme;
@@ -198,6 +199,9 @@ impl Viewport {
         gpu.paint(&painter, rect, ids, params);
         if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.wipe);
+        }
+        if content.mode == DisplayMode::Difference {
+            legend::paint(&painter, rect, state);
         }
         if state.shown == Shown::Rendering {
             paint_handles(&painter, rect, &camera, state);
