@@ -1,7 +1,10 @@
+//! What SVBRDF predictions look like beside their ground truth, and how far they are from it.
 pub mod brdf;
 pub mod camera;
 pub mod convention;
+pub mod display;
 pub mod error;
+pub mod export;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod loss;
@@ -9,6 +12,7 @@ pub mod material;
 pub mod progress;
 pub mod real;
 pub mod render;
+pub mod samples;
 pub mod scene;
 pub mod vec3;
 pub mod view;

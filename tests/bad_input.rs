@@ -1,1 +1,273 @@
+//! Bad material files: one clear error each, and never a panic.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use image::GrayImage;
+use svbrdf::material::Material;
+use svbrdf::material::read::{ReadOptions, read, read_bytes};
+use svbrdf::progress::Progress;
+use tempfile::tempdir;
+
+use crate::support::fixtures::{flat, map, png_bytes, save, save_maps, strip};
+
+/// A kind of bad input: what it is, what makes it (in an empty folder) and returns what to open, and the words that
+/// the message must contain: file, map, what was expected, what was found, what to do.
+type Bad = (&'static str, fn(&Path) -> PathBuf, &'static [&'static str]);
+
+fn assert_all_refused(table: &[Bad]) {
+    for (what, make, words) in table {
+        let folder = tempdir().unwrap();
+        let path = make(folder.path());
+        let started = Instant::now();
+        let message = match read::<f32>(&path, &ReadOptions::default(), &Progress::default()) {
+            Ok(_) => panic!("{what} was read without an error"),
+            Err(error) => error.to_string(),
+        };
+        println!("{what}:\n    {message}");
+        assert!(started.elapsed() < Duration::from_secs(1), "{what} took {:?}", started.elapsed());
+        for word in *words {
+            assert!(message.contains(word), "{what}: `{word}` is not in: {message}");
+        }
+    }
+}
+
+#[test]
+fn paths_that_lead_to_no_material_are_refused() {
+    assert_all_refused(&[
+        (
+            "a missing file",
+            |f| f.join("absent.png"),
+            &["cannot read", "absent.png", "no file, folder or prefix", "check"],
+        ),
+        ("a missing folder", |f| f.join("no/such/gt"), &["cannot read", "no/such", "check"]),
+        ("a file as folder", |f| save(f, "a.png", &strip(0)).join("gt"), &["cannot read", "a.png", "check"]),
+        ("an empty folder", |f| f.to_owned(), &["not a material", "normal map", "found no files", "add"]),
+        (
+            "a folder without maps",
+            |f| {
+                fs::write(f.join("readme.txt"), "x").unwrap();
+                save(f, "photo.png", &flat(4, 4, [1; 3]));
+                f.to_owned()
+            },
+            &["not a material", "one PNG file for the normal map", "nrm", "found photo.png, readme.txt"],
+        ),
+        (
+            "a folder of many files without maps",
+            |f| {
+                (0..40).for_each(|i| fs::write(f.join(format!("{i:02}.txt")), "x").unwrap());
+                f.to_owned()
+            },
+            &["11.txt and 28 more"],
+        ),
+        (
+            "a prefix of one file without a map",
+            |f| {
+                save(f, "gt.png", &strip(0));
+                f.join("gt")
+            },
+            &["normal map", "found gt.png"],
+        ),
+    ]);
+}
+
+#[test]
+fn wrong_sets_of_maps_are_refused() {
+    assert_all_refused(&[
+        (
+            "a missing map",
+            |f| {
+                save_maps(f, "gt_");
+                fs::rename(f.join("gt_roughness.png"), f.join("gt_roughness.jpg")).unwrap();
+                f.join("gt")
+            },
+            &["gt is not a material", "one PNG file for the roughness map", "rgh", "gt_roughness.jpg", "add"],
+        ),
+        (
+            "two files for one map",
+            |f| {
+                save_maps(f, "");
+                save(f, "other_Albedo.png", &map(1));
+                f.to_owned()
+            },
+            &["diffuse map", "found diffuse.png and other_Albedo.png", "prefix"],
+        ),
+        (
+            "maps of different sizes",
+            |f| {
+                save_maps(f, "");
+                save(f, "specular.png", &flat(5, 6, [9; 3]));
+                f.to_owned()
+            },
+            &["sizes differ", "normals.png is 4 x 4", "specular map", "specular.png is 5 x 6", "resize"],
+        ),
+        (
+            "a gray normal map",
+            |f| {
+                save_maps(f, "");
+                save(f, "normals.png", &GrayImage::new(4, 4).into());
+                f.to_owned()
+            },
+            &["normals.png", "a normal map in RGB", "found one in gray", "height map"],
+        ),
+    ]);
+}
+
+#[test]
+fn strips_of_the_wrong_shape_are_refused() {
+    assert_all_refused(&[
+        (
+            "a strip of three tiles",
+            |f| save(f, "three.png", &flat(12, 4, [200; 3])),
+            &["three.png is not a material", "normal | diffuse | roughness | specular", "12 x 4", "prefix"],
+        ),
+        (
+            "a strip that is no multiple of its height",
+            |f| save(f, "odd.png", &flat(17, 4, [200; 3])),
+            &["odd.png is not a material", "4 or more times as wide as high", "17 x 4", "correct"],
+        ),
+        ("an upright strip", |f| save(f, "up.png", &flat(4, 16, [200; 3])), &["up.png", "found 4 x 16"]),
+    ]);
+}
+
+#[test]
+fn files_that_are_no_whole_image_are_refused() {
+    assert_all_refused(&[
+        (
+            "an empty file",
+            |f| written(f, b""),
+            &["x.png", "packed strip: expected PNG", "no known image", "give"],
+        ),
+        ("a text", |f| written(f, b"not an image at all"), &["x.png", "expected PNG", "no known image"]),
+        (
+            "a JPEG",
+            |f| written(f, b"\xff\xd8\xff\xe0 and so on"),
+            &["x.png", "expected PNG, found Jpeg", "convert"],
+        ),
+        (
+            "a truncated strip",
+            |f| {
+                let bytes = png_bytes(&strip(0));
+                written(f, &bytes[..bytes.len() * 2 / 3])
+            },
+            &["x.png", "packed strip: expected the whole image", "end of the file", "again"],
+        ),
+        (
+            "a truncated map of a folder",
+            |f| {
+                save_maps(f, "");
+                let bytes = png_bytes(&map(2));
+                fs::write(f.join("roughness.png"), &bytes[..50]).unwrap();
+                f.to_owned()
+            },
+            &["roughness.png", "roughness map: expected the whole image", "end of the file"],
+        ),
+        (
+            "a damaged strip",
+            |f| {
+                let mut bytes = png_bytes(&strip(0));
+                bytes[45] ^= 0xff;
+                written(f, &bytes)
+            },
+            &["x.png", "packed strip: expected a valid PNG", "again"],
+        ),
+    ]);
+}
+
+#[test]
+fn absurd_sizes_are_refused_at_once() {
+    assert_all_refused(&[
+        (
+            "30000 x 30000 pixels",
+            |f| written(f, &header_only(30_000, 30_000)),
+            &["x.png", "expected at most 65536 x 16384", "found 30000 x 30000", "scale"],
+        ),
+        (
+            "the widest PNG",
+            |f| written(f, &header_only(0x7fff_ffff, 1)),
+            &["x.png", "expected at most 4 GiB of pixels, found more", "scale"],
+        ),
+        (
+            "the largest PNG",
+            |f| written(f, &header_only(0x7fff_ffff, 0x7fff_ffff)),
+            &["x.png", "packed strip"],
+        ),
+        ("no column", |f| written(f, &header_only(0, 4)), &["x.png", "expected a valid PNG"]),
+        ("no row", |f| written(f, &header_only(16, 0)), &["x.png", "expected a valid PNG"]),
+    ]);
+}
+
+#[test]
+fn damaged_strips_give_an_error_or_a_valid_material() {
+    let small = png_bytes(&strip(0).crop_imm(0, 0, 4, 1));
+    let (mut opened, mut refused) = (0, 0);
+    let mut check = |bytes: &[u8]| match read_bytes::<f32>("damaged", bytes, &ReadOptions::default()) {
+        Ok(read) => {
+            assert_valid(&read.material);
+            opened += 1;
+        }
+        Err(error) => {
+            assert!(error.to_string().contains("damaged"), "{error}");
+            refused += 1;
+        }
+    };
+    for length in 0..small.len() {
+        check(&small[..length]);
+    }
+    for position in 0..small.len() {
+        for bit in 0..8 {
+            let mut bytes = small.clone();
+            bytes[position] ^= 1 << bit;
+            check(&bytes);
+            // With checksums that are right again, the damage gets past them.
+            sign(&mut bytes);
+            check(&bytes);
+        }
+    }
+    println!("{opened} opened, {refused} refused");
+    assert!(opened > 100 && refused > 100, "the damage does not reach both sides: {opened}, {refused}");
+}
+
+fn assert_valid(material: &Material<f32>) {
+    for index in 0..material.width() * material.height() {
+        let texel = material.texel(index);
+        assert!((texel.normal.length_squared() - 1.0).abs() < 1e-5, "{texel:?}");
+        let values = texel.diffuse.into_iter().chain(texel.specular).chain([texel.roughness]);
+        assert!(values.into_iter().all(|x| (0.0..=1.0).contains(&x)), "{texel:?}");
+    }
+}
+
+fn written(folder: &Path, bytes: &[u8]) -> PathBuf {
+    let path = folder.join("x.png");
+    fs::write(&path, bytes).unwrap();
+    path
+}
+
+/// A PNG in 8-bit RGB that claims its size and holds no more than the beginning of its pixels.
+fn header_only(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = png_bytes(&flat(1, 1, [0; 3]));
+    bytes[16..20].copy_from_slice(&width.to_be_bytes());
+    bytes[20..24].copy_from_slice(&height.to_be_bytes());
+    sign(&mut bytes);
+    bytes
+}
+
+/// Makes the checksum of every chunk of a PNG right.
+fn sign(png: &mut [u8]) {
+    let mut start = 8;
+    while let Some(length) = png.get(start..start + 4) {
+        let length = u32::from_be_bytes(length.try_into().unwrap()) as usize;
+        let end = start + 8 + length;
+        let Some(checked) = png.get(start + 4..end) else { return };
+        let checksum = crc32(checked).to_be_bytes();
+        let Some(place) = png.get_mut(end..end + 4) else { return };
+        place.copy_from_slice(&checksum);
+        start = end + 4;
+    }
+}
+
+fn crc32(bytes: &[u8]) -> u32 {
+    let shift = |crc: u32, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
+    !bytes.iter().fold(!0, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), shift))
+}

@@ -1,1 +1,138 @@
+//! Losses, renderings and single texels against numbers that were computed independently of this project.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+use svbrdf::convention::{ALL, Convention};
+use svbrdf::loss::losses;
+use svbrdf::material::Material;
+use svbrdf::material::read::{ReadOptions, read};
+use svbrdf::progress::Progress;
+use svbrdf::real::Real;
+use svbrdf::render::render;
+use svbrdf::scene::Scene;
+
+use crate::support::tolerance::{GOLDEN_LOSS_F32, GOLDEN_LOSS_F64, GOLDEN_PROBE_F32, GOLDEN_PROBE_F64};
+
+/// The worst relative errors: of losses and mean renderings, and of single texels.
+struct Worst {
+    loss: f64,
+    probe: f64,
+}
+
+#[test]
+#[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
+fn losses_and_renderings_in_f64_are_the_golden_ones() {
+    let worst = check_all::<f64>();
+    assert!(worst.loss <= GOLDEN_LOSS_F64, "loss off by {:e}, at most {GOLDEN_LOSS_F64:e}", worst.loss);
+    assert!(worst.probe <= GOLDEN_PROBE_F64, "texel off by {:e}, at most {GOLDEN_PROBE_F64:e}", worst.probe);
+}
+
+#[test]
+#[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
+fn losses_and_renderings_in_f32_are_close_to_the_golden_ones() {
+    let worst = check_all::<f32>();
+    assert!(worst.loss <= GOLDEN_LOSS_F32, "loss off by {:e}, at most {GOLDEN_LOSS_F32:e}", worst.loss);
+    assert!(worst.probe <= GOLDEN_PROBE_F32, "texel off by {:e}, at most {GOLDEN_PROBE_F32:e}", worst.probe);
+}
+
+#[test]
+fn a_wrong_loss_is_seen() {
+    assert!(relative_error(1.0 + 2e-9, 1.0) > GOLDEN_LOSS_F64);
+    assert!(relative_error(1.0 + 5e-5, 1.0) > GOLDEN_LOSS_F32);
+    assert!(relative_error(f64::NAN, 1.0).is_infinite());
+    assert!(relative_error(1e-300, 0.0).is_infinite());
+}
+
+fn golden() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden")
+}
+
+fn check_all<T: Real>() -> Worst {
+    let mut worst = Worst { loss: 0.0, probe: 0.0 };
+    let mut cases = 0;
+    for entry in fs::read_dir(golden().join("loss")).unwrap() {
+        let text = fs::read_to_string(entry.unwrap().path()).unwrap();
+        check_case::<T>(&serde_json::from_str(&text).unwrap(), &mut worst);
+        cases += 1;
+    }
+    assert!(cases >= 7, "only {cases} golden cases were found");
+    println!("{}: worst loss {:e}, worst texel {:e}", T::NAME, worst.loss, worst.probe);
+    worst
+}
+
+fn check_case<T: Real>(case: &Value, worst: &mut Worst) {
+    let materials = ["ground_truth", "prediction"].map(|key| material::<T>(&case[key]));
+    let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).unwrap();
+    for convention in ALL {
+        let expected = &case["expected"][convention.name];
+        let [ground_truth, prediction] = &materials;
+        let loss =
+            &losses(ground_truth, &[prediction], &scenes, &convention, &Progress::default()).unwrap()[0];
+        let mut compare = |got: f64, expected: &Value| {
+            worst.loss = worst.loss.max(relative_error(got, expected.as_f64().unwrap()));
+        };
+        compare(loss.estimate.mean, &expected["loss"]);
+        for (i, scene) in scenes.iter().enumerate() {
+            compare(loss.per_scene[i], &expected["per_scene"][i]);
+            compare(
+                mean_rendering(ground_truth, scene, &convention),
+                &expected["mean_rendering_ground_truth"][i],
+            );
+            compare(
+                mean_rendering(prediction, scene, &convention),
+                &expected["mean_rendering_prediction"][i],
+            );
+        }
+        for probe in case["probes"].as_array().unwrap() {
+            let which = usize::from(probe["material"] == "prediction");
+            let scene = &scenes[probe["scene"].as_u64().unwrap() as usize];
+            worst.probe = worst.probe.max(worst_probe(&materials[which], scene, &convention, probe));
+        }
+    }
+}
+
+fn material<T: Real>(described: &Value) -> Material<T> {
+    let path = golden().join(described["file"].as_str().unwrap());
+    let albedo = described["albedo"].as_str().unwrap().parse().unwrap();
+    let options = ReadOptions { albedo, ..ReadOptions::default() };
+    read(&path, &options, &Progress::default()).unwrap().material
+}
+
+fn mean_rendering<T: Real>(material: &Material<T>, scene: &Scene, convention: &Convention) -> f64 {
+    let image = render(material, scene, convention, &Progress::default()).unwrap();
+    let sum: f64 = image.pixels.iter().flatten().map(|x| x.f64()).sum();
+    sum / (3.0 * image.pixels.len() as f64)
+}
+
+/// The worst relative error of the texels of `probe` that were computed in `convention`.
+fn worst_probe<T: Real>(
+    material: &Material<T>,
+    scene: &Scene,
+    convention: &Convention,
+    probe: &Value,
+) -> f64 {
+    let image = render(material, scene, convention, &Progress::default()).unwrap();
+    let mut worst = 0.0_f64;
+    for pixel in probe["pixels"].as_array().unwrap() {
+        let Some(expected) = pixel.get(convention.name) else { continue };
+        let [row, column] = ["row", "col"].map(|key| pixel[key].as_u64().unwrap() as usize);
+        for (channel, got) in image.pixels[row * image.width + column].into_iter().enumerate() {
+            worst = worst.max(relative_error(got.f64(), expected[channel].as_f64().unwrap()));
+        }
+    }
+    worst
+}
+
+/// |got - expected| / |expected|; infinite where `got` is NaN, or not 0 though 0 is expected.
+fn relative_error(got: f64, expected: f64) -> f64 {
+    let error = (got - expected).abs();
+    if error == 0.0 {
+        0.0
+    } else if error.is_nan() || expected == 0.0 {
+        f64::INFINITY
+    } else {
+        error / expected.abs()
+    }
+}

@@ -16,7 +16,7 @@ use svbrdf::vec3::Vec3;
 use crate::support::compare::{Worst, compare_rgb_with};
 use crate::support::gpu::{bumpy, gpu};
 use crate::support::points::{Point, U, error_bound, exact, points};
-use crate::support::tolerance::{GOLDEN_FACTOR, GOLDEN_LARGEST_KAPPA, POINT_ULPS, RENDERING_ULPS};
+use crate::support::tolerance::{GOLDEN_POINTS, GOLDEN_POINTS_F32_KAPPA, POINT_ULPS, RENDERING_ULPS};
 
 const SEED: u64 = 1;
 const COUNT: usize = 200_000;
@@ -146,7 +146,7 @@ fn the_shader_agrees_with_the_golden_points() {
     let points: Vec<Point> = golden.rows.iter().map(Row::point).collect();
     let got = probe(gpu, &PRINTED, &points);
     assert!(got.iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
-    let told = |kappa: f64| kappa <= GOLDEN_LARGEST_KAPPA;
+    let told = |kappa: f64| kappa <= GOLDEN_POINTS_F32_KAPPA;
     let usable = |row: &Row| row.check == "ok" && row.kappa.is_some_and(told);
     let rows: Vec<_> = golden.rows.iter().zip(got).filter(|(row, _)| usable(row)).collect();
     assert!(rows.len() > 100, "only {} of {} rows are used", rows.len(), golden.rows.len());
@@ -154,7 +154,7 @@ fn the_shader_agrees_with_the_golden_points() {
     let got: Vec<[f32; 3]> = rows.iter().map(|(_, got)| *got).collect();
     let bound = |index: usize, _: usize, expected: f64| {
         let kappa: f64 = rows[index].0.kappa.unwrap_or(1.0);
-        GOLDEN_FACTOR * kappa.max(1.0) * U * expected + f64::from(f32::MIN_POSITIVE)
+        GOLDEN_POINTS * kappa.max(1.0) * U * expected + f64::from(f32::MIN_POSITIVE)
     };
     let worst = compare_rgb_with(&got, &expected, bound).unwrap_or_else(|e| panic!("{e}"));
     println!("{} rows, worst share of the bound {:.3}", rows.len(), worst.share);

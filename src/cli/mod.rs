@@ -1,1 +1,63 @@
-//! The command line.
+//! The command line: one file per subcommand.
+
+mod bar;
+mod exit;
+mod loss;
+mod materials;
+mod render;
+mod report;
+mod view;
+
+use clap::{Parser, Subcommand};
+use svbrdf::error::Error;
+
+pub use exit::{exit_code, explain};
+
+const EXAMPLES: &str = "\
+Examples:
+  svbrdf                                  the built-in pair in a window
+  svbrdf gt.png prediction.png            your own materials in a window
+  svbrdf loss gt.png a.png b.png          the losses of two predictions
+  svbrdf loss gt.png a.png --format json  the same for a program to read
+  svbrdf render gt.png -o gt.exr          a rendering, as floats
+
+Exit codes:
+   0  fine
+   1  bad input, or the work failed
+   2  no display, or no graphics adapter
+  64  the command line was not understood";
+
+/// Shows SVBRDF materials under a light that you drag, and computes the rendering loss between them.
+///
+/// A material is a packed PNG strip (photos, then normal | diffuse | roughness | specular), or a folder or name
+/// prefix with one file a map. Without a subcommand: `view`.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    view: view::ViewArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Opens the window on a ground truth and predictions, or on the built-in pair
+    View(view::ViewArgs),
+    Loss(loss::LossArgs),
+    Render(render::RenderArgs),
+}
+
+impl Cli {
+    /// Does what the command line asks for.
+    ///
+    /// # Errors
+    /// Those of the subcommand.
+    pub fn run(self) -> Result<(), Error> {
+        match self.command.unwrap_or(Command::View(self.view)) {
+            Command::View(args) => view::run(args),
+            Command::Loss(args) => loss::run(&args),
+            Command::Render(args) => render::run(&args),
+        }
+    }
+}

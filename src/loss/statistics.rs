@@ -44,6 +44,16 @@ impl Estimate {
             interval95: Some([(mean - reach).max(0.0), mean + reach]),
         }
     }
+
+    /// Mean, standard error and interval as people read them, in the window and on the command line alike.
+    pub fn texts(&self) -> [String; 3] {
+        let unknown = || "unknown".to_owned();
+        [
+            format!("{:.6}", self.mean),
+            self.standard_error.map_or_else(unknown, |e| format!("{e:.6}")),
+            self.interval95.map_or_else(unknown, |[low, high]| format!("{low:.6} to {high:.6}")),
+        ]
+    }
 }
 
 /// `None` where there are no values; a variance of NaN where there is one.

@@ -1,1 +1,113 @@
-//! The window.
+//! The window: ground truth and predictions side by side under a light and a view that a person drags.
+//!
+//! Panels and keys return [`command::Command`]s; [`app::App`] carries them out; slow work runs in [`worker::Job`]s.
+
+pub mod app;
+mod apply;
+pub mod command;
+mod gestures;
+mod gpu_view;
+mod handles;
+pub mod keys;
+mod loss_run;
+mod panels;
+mod save;
+mod settings;
+mod slots;
+pub mod state;
+mod theme;
+mod viewport;
+mod watch;
+pub mod worker;
+
+use std::panic::AssertUnwindSafe;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use eframe::egui_wgpu::{WgpuError, WgpuSetup, WgpuSetupCreateNew};
+use eframe::{egui, wgpu};
+
+use crate::error::Error;
+use crate::gpu::Gpu;
+use crate::material::read::ReadOptions;
+
+/// What the window starts with.
+#[derive(Clone, Debug, Default)]
+pub struct ViewerOptions {
+    /// `None` for the built-in pair.
+    pub ground_truth: Option<PathBuf>,
+    pub predictions: Vec<PathBuf>,
+    pub ground_truth_read: ReadOptions,
+    pub prediction_read: ReadOptions,
+}
+
+/// Opens the window and returns when it is closed.
+///
+/// # Errors
+/// [`Error::NoWindow`] without a display or the libraries of the window system, [`Error::NoAdapter`] without a
+/// graphics adapter that can draw into it.
+pub fn run(options: ViewerOptions) -> Result<(), Error> {
+    // The window system's layer panics where a library of it is missing; its words are kept for the error.
+    let panic_text = Arc::new(Mutex::new(String::new()));
+    let earlier_hook = std::panic::take_hook();
+    let heard = panic_text.clone();
+    std::panic::set_hook(Box::new(move |info| {
+        *heard.lock().unwrap_or_else(PoisonError::into_inner) = info.to_string();
+    }));
+    let start = || {
+        eframe::run_native(
+            "svbrdf",
+            native_options(),
+            Box::new(|cc| Ok(Box::new(app::App::new(cc, options)))),
+        )
+    };
+    let result = std::panic::catch_unwind(AssertUnwindSafe(start));
+    std::panic::set_hook(earlier_hook);
+    match result {
+        Ok(result) => result.map_err(|e| no_window(&e)),
+        Err(_) => Err(Error::NoWindow {
+            problem: format!(
+                "the window system failed: {}",
+                panic_text.lock().unwrap_or_else(PoisonError::into_inner)
+            ),
+            remedy: "install libxkbcommon0 and libxkbcommon-x11-0, then try again",
+        }),
+    }
+}
+
+fn native_options() -> eframe::NativeOptions {
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.power_preference = wgpu::PowerPreference::HighPerformance;
+    setup.device_descriptor = Arc::new(Gpu::device_descriptor);
+    let mut options = eframe::NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("svbrdf")
+            .with_app_id("svbrdf")
+            .with_inner_size([1360.0, 860.0])
+            .with_min_inner_size([640.0, 420.0])
+            .with_drag_and_drop(true),
+        renderer: eframe::Renderer::Wgpu,
+        ..Default::default()
+    };
+    options.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);
+    options
+}
+
+fn no_window(error: &eframe::Error) -> Error {
+    match error {
+        eframe::Error::Wgpu(WgpuError::CreateSurfaceError(_) | WgpuError::RequestAdapterError(_)) => {
+            Error::NoAdapter {
+                problem: "no driver for Vulkan or OpenGL was found".to_owned(),
+                remedy: "install one, for example the software driver in Debian's mesa-vulkan-drivers",
+            }
+        }
+        eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => Error::NoWindow {
+            problem: "there is no display".to_owned(),
+            remedy: "set DISPLAY or WAYLAND_DISPLAY, or start a virtual one with xvfb-run",
+        },
+        other => Error::NoWindow {
+            problem: other.to_string(),
+            remedy: "check the graphics driver and the display",
+        },
+    }
+}

@@ -1,6 +1,7 @@
 //! What the tests share.
 
 pub mod compare;
+pub mod fixtures;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod points;

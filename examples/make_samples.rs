@@ -1,0 +1,27 @@
+//! Makes the sample materials anew: `cargo run --example make_samples` writes them into `assets/`.
+
+use std::error::Error;
+use std::fs::File;
+use std::path::Path;
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
+use svbrdf::material::Planes;
+use svbrdf::samples::generate::{SIDE, blurred_normals, ground_truth, pack, wrong_roughness};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let truth = ground_truth();
+    write("worn_tiles.png", &truth)?;
+    write("blurred_normals.png", &blurred_normals(&truth))?;
+    write("wrong_roughness.png", &wrong_roughness(&truth))
+}
+
+fn write(name: &str, planes: &Planes<f64>) -> Result<(), Box<dyn Error>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets").join(name);
+    let encoder =
+        PngEncoder::new_with_quality(File::create(&path)?, CompressionType::Best, FilterType::Adaptive);
+    let side = u32::try_from(SIDE)?;
+    encoder.write_image(&pack(planes), 4 * side, side, ExtendedColorType::Rgb8)?;
+    println!("wrote {name}, {} bytes", path.metadata()?.len());
+    Ok(())
+}

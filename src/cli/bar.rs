@@ -1,0 +1,50 @@
+//! A progress bar for long work, where a person is watching.
+
+use std::io::{IsTerminal, stderr};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use svbrdf::progress::Progress;
+
+/// Work that ends sooner gets no bar.
+const PATIENCE: Duration = Duration::from_millis(500);
+const REFRESH: Duration = Duration::from_millis(100);
+
+/// Does `work` with a bar on stderr that says `what` it is, where stderr is a terminal and the work is long.
+pub fn watched<R>(what: &str, work: impl FnOnce(&Progress) -> R) -> R {
+    let progress = Progress::default();
+    if !stderr().is_terminal() {
+        return work(&progress);
+    }
+    let (working, finished) = channel::<()>();
+    thread::scope(|scope| {
+        let progress = &progress;
+        scope.spawn(move || show(what, progress, &finished));
+        let result = work(progress);
+        drop(working);
+        result
+    })
+}
+
+/// Shows a bar until the other end of `finished` is dropped.
+fn show(what: &str, progress: &Progress, finished: &Receiver<()>) {
+    let waits = |time| finished.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
+    if !waits(PATIENCE) {
+        return;
+    }
+    let bar = ProgressBar::new(0).with_message(what.to_owned()).with_style(style());
+    while {
+        let (done, total) = progress.counts();
+        bar.set_length(total);
+        bar.set_position(done);
+        waits(REFRESH)
+    } {}
+    bar.finish_and_clear();
+}
+
+fn style() -> ProgressStyle {
+    let template = "{msg} [{bar:40}] {percent}% (ready in {eta})";
+    ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
+}

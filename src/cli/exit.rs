@@ -1,0 +1,70 @@
+//! How the program ends, and what it prints.
+
+use std::error::Error as _;
+use std::io::{self, Write};
+use std::path::Path;
+use std::process::ExitCode;
+
+use svbrdf::error::Error;
+
+/// Bad input, or the work failed.
+const FAILED: u8 = 1;
+/// No display or no graphics adapter.
+const NO_GRAPHICS: u8 = 2;
+/// The command line was not understood (EX_USAGE of sysexits.h).
+const USAGE: u8 = 64;
+
+/// Prints the error of the program, if any, and says with which code it ends.
+pub fn exit_code(result: Result<(), Error>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    tell(&format!("error: {error}"));
+    for cause in unspoken_causes(&error) {
+        tell(&format!("caused by: {cause}"));
+    }
+    ExitCode::from(code_of(&error))
+}
+
+/// Prints what the parser of the command line has to say: help, version or a misunderstanding.
+pub fn explain(unusual: &clap::Error) -> ExitCode {
+    // A closed pipe is the reader's choice.
+    let _ = unusual.print();
+    if unusual.use_stderr() { ExitCode::from(USAGE) } else { ExitCode::SUCCESS }
+}
+
+/// A line on stderr, under the program's name. A closed stderr is no reason to stop.
+pub fn tell(line: &str) {
+    let _ = writeln!(io::stderr(), "svbrdf: {line}");
+}
+
+/// Writes a result to stdout. A reader that has closed the pipe has seen enough.
+///
+/// # Errors
+/// [`Error::Unwritable`], as on a full disk.
+pub fn put(text: &str) -> Result<(), Error> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(source) if source.kind() != io::ErrorKind::BrokenPipe => Err(unwritable(source)),
+        _ => Ok(()),
+    }
+}
+
+/// The error of a result that cannot be written to stdout.
+pub fn unwritable(source: io::Error) -> Error {
+    let path = Path::new("standard output").to_owned();
+    Error::Unwritable { path, source, remedy: "check where it is redirected to" }
+}
+
+fn code_of(error: &Error) -> u8 {
+    match error {
+        Error::NoWindow { .. } | Error::NoAdapter { .. } => NO_GRAPHICS,
+        Error::Usage(_) => USAGE,
+        _ => FAILED,
+    }
+}
+
+/// The causes of an error whose text does not already contain theirs.
+fn unspoken_causes(error: &Error) -> Vec<String> {
+    let text = error.to_string();
+    let causes = std::iter::successors(error.source(), |&cause| cause.source());
+    causes.map(ToString::to_string).filter(|cause| !text.contains(cause.as_str())).collect()
+}

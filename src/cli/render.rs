@@ -1,0 +1,163 @@
+//! `svbrdf render`: Algorithm 3 over whole materials, into a file.
+
+use std::path::PathBuf;
+
+use svbrdf::convention::Convention;
+use svbrdf::error::Error;
+use svbrdf::export::{Destination, Provenance};
+use svbrdf::material::Material;
+use svbrdf::render::{self, Image};
+use svbrdf::scene::{Kind, Scene};
+
+use super::bar::watched;
+use super::materials;
+
+/// Writes a rendering of one material, or of several side by side, into a file
+///
+/// The material fills x in [-1, 1] of the plane z = 0, y up, z towards the viewer. Without GT and PRED: the
+/// built-in materials.
+#[derive(Debug, clap::Args)]
+pub struct RenderArgs {
+    /// File to write: linear floats into .exr, exposed and sRGB-encoded 8 bits into .png
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+
+    /// Position of the viewer; its direction with --distant
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
+        default_value = "0,0,2.5")]
+    view: [f64; 3],
+
+    /// Position of the light; its direction with --distant
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
+        default_value = "0.4,0.5,1.2")]
+    light: [f64; 3],
+
+    /// Light and viewer infinitely far away
+    #[arg(long)]
+    distant: bool,
+
+    /// printed, single-image-2018, multi-image-2019 or guided-2020
+    #[arg(long, value_name = "NAME", default_value = "printed")]
+    convention: Convention,
+
+    /// Stops by which a PNG is brightened; an EXR keeps the radiance
+    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
+    exposure: f32,
+
+    /// Renders on the graphics adapter instead of the CPU
+    #[arg(long)]
+    gpu: bool,
+
+    #[command(flatten)]
+    materials: materials::MaterialArgs,
+}
+
+/// Renders and writes the file.
+///
+/// # Errors
+/// Where the output cannot be written, or a material cannot be read or rendered.
+pub fn run(args: &RenderArgs) -> Result<(), Error> {
+    let destination = Destination::new(&args.output)?;
+    let scene = scene(args);
+    scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+    let materials = materials::open::<f32>(&args.materials)?.into_all();
+    check_heights(&materials)?;
+    let (panes, renderer) = panes(args, &materials, &scene)?;
+    destination.write(&panes, &provenance(args, &materials, scene, renderer))
+}
+
+fn scene(args: &RenderArgs) -> Scene {
+    let kind = if args.distant { Kind::Distant } else { Kind::Near };
+    Scene { kind, view: args.view, light: args.light }
+}
+
+fn provenance(args: &RenderArgs, materials: &[Material<f32>], scene: Scene, renderer: String) -> Provenance {
+    Provenance {
+        scene,
+        convention: args.convention,
+        exposure_ev: args.exposure,
+        sources: materials.iter().map(|m| m.name().to_owned()).collect(),
+        renderer,
+    }
+}
+
+/// Materials stand side by side only where they are equally high.
+fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
+    let different = |pair: &&[Material<f32>]| pair[0].height() != pair[1].height();
+    let Some(pair) = materials.windows(2).find(different) else { return Ok(()) };
+    Err(Error::SizesDiffer {
+        first: pair[0].name().to_owned(),
+        first_size: pair[0].size(),
+        second: pair[1].name().to_owned(),
+        second_size: pair[1].size(),
+        remedy: "only equally high materials can stand side by side; render them one by one",
+    })
+}
+
+/// The renderings, and what rendered them.
+fn panes(
+    args: &RenderArgs,
+    materials: &[Material<f32>],
+    scene: &Scene,
+) -> Result<(Vec<Image<f32>>, String), Error> {
+    if args.gpu {
+        return panes_of_gpu(args, materials, scene);
+    }
+    let one = |material| {
+        watched("rendering", |progress| render::render(material, scene, &args.convention, progress))
+    };
+    let panes = materials.iter().map(one).collect::<Result<_, _>>()?;
+    Ok((panes, "CPU, f32".to_owned()))
+}
+
+#[cfg(feature = "gpu")]
+fn panes_of_gpu(
+    args: &RenderArgs,
+    materials: &[Material<f32>],
+    scene: &Scene,
+) -> Result<(Vec<Image<f32>>, String), Error> {
+    let gpu = svbrdf::gpu::Gpu::headless()?;
+    let renderer = gpu.report.to_string();
+    super::exit::tell(&format!("note: {renderer}"));
+    let one = |material| gpu.render(material, scene, &args.convention);
+    Ok((materials.iter().map(one).collect::<Result<_, _>>()?, renderer))
+}
+
+#[cfg(not(feature = "gpu"))]
+fn panes_of_gpu(_: &RenderArgs, _: &[Material<f32>], _: &Scene) -> Result<(Vec<Image<f32>>, String), Error> {
+    Err(Error::NoAdapter {
+        problem: "this svbrdf was built without the feature `gpu`".to_owned(),
+        remedy: "leave out --gpu, or build it with the feature",
+    })
+}
+
+/// Three numbers with commas between them.
+fn triple(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let expected = || format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`");
+    numbers.ok().and_then(|numbers| numbers.try_into().ok()).ok_or_else(expected)
+}
+
+fn stops(text: &str) -> Result<f32, String> {
+    let finite = text.parse().ok().filter(|stops: &f32| stops.is_finite());
+    finite.ok_or_else(|| format!("expected a number of stops like -1.5, found `{text}`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triple_is_three_numbers() {
+        assert_eq!(triple("1,-2, 3e-1"), Ok([1.0, -2.0, 0.3]));
+        for wrong in ["1,2", "1,2,3,4", "", "a,b,c", "1,,2"] {
+            assert!(triple(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn stops_are_finite() {
+        assert_eq!(stops("-1.5"), Ok(-1.5));
+        assert!(["nan", "inf", "", "x"].iter().all(|wrong| stops(wrong).is_err()));
+    }
+}

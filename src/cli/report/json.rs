@@ -1,0 +1,61 @@
+//! One JSON object for programs.
+
+use std::io;
+
+use serde::Serialize;
+use svbrdf::loss::Loss;
+use svbrdf::scene::{Kind, Scene};
+
+use super::Report;
+
+#[derive(Serialize)]
+struct Object<'a> {
+    convention: &'a str,
+    epsilon: f64,
+    size: [usize; 2],
+    near: usize,
+    distant: usize,
+    seed: Option<u64>,
+    results: Vec<Entry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    prediction: &'a str,
+    loss: f64,
+    standard_error: Option<f64>,
+    interval95: Option<[f64; 2]>,
+    scenes: Vec<SceneLoss<'a>>,
+}
+
+/// A scene and the loss in it.
+#[derive(Serialize)]
+struct SceneLoss<'a> {
+    #[serde(flatten)]
+    scene: &'a Scene,
+    loss: f64,
+}
+
+pub(super) fn write(report: &Report) -> io::Result<String> {
+    let object = Object {
+        convention: report.convention.name,
+        epsilon: report.convention.epsilon,
+        size: report.size,
+        near: report.count(Kind::Near),
+        distant: report.count(Kind::Distant),
+        seed: report.seed,
+        results: report.losses.iter().map(|loss| entry(&report.scenes, loss)).collect(),
+    };
+    Ok(serde_json::to_string_pretty(&object)? + "\n")
+}
+
+fn entry<'a>(scenes: &'a [Scene], loss: &'a Loss) -> Entry<'a> {
+    let per_scene = scenes.iter().zip(&loss.per_scene);
+    Entry {
+        prediction: &loss.prediction,
+        loss: loss.estimate.mean,
+        standard_error: loss.estimate.standard_error,
+        interval95: loss.estimate.interval95,
+        scenes: per_scene.map(|(scene, &loss)| SceneLoss { scene, loss }).collect(),
+    }
+}

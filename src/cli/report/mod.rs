@@ -1,0 +1,50 @@
+//! Losses as text: one file per format.
+
+mod csv;
+mod json;
+mod text;
+
+use std::io;
+
+use svbrdf::convention::Convention;
+use svbrdf::loss::Loss;
+use svbrdf::scene::{Kind, Scene};
+
+/// What a report is written in.
+#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+pub enum Format {
+    #[default]
+    Text,
+    Json,
+    Csv,
+}
+
+/// Losses with everything that gives them a meaning.
+#[derive(Debug)]
+pub struct Report {
+    pub convention: Convention,
+    /// The name of the ground truth.
+    pub ground_truth: String,
+    /// Width and height in texels.
+    pub size: [usize; 2],
+    /// `None` where the scenes come from a file.
+    pub seed: Option<u64>,
+    pub precision: &'static str,
+    pub scenes: Vec<Scene>,
+    pub losses: Vec<Loss>,
+}
+
+impl Report {
+    /// The report in one of the formats, complete with its last line break.
+    pub fn to_text(&self, format: Format) -> io::Result<String> {
+        match format {
+            Format::Text => Ok(text::write(self)),
+            Format::Json => json::write(self),
+            Format::Csv => Ok(csv::write(self)),
+        }
+    }
+
+    fn count(&self, kind: Kind) -> usize {
+        self.scenes.iter().filter(|scene| scene.kind == kind).count()
+    }
+}

@@ -1,0 +1,44 @@
+//! A table for people.
+
+use svbrdf::loss::Loss;
+use svbrdf::scene::Kind;
+
+use super::Report;
+
+const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interval"];
+
+pub(super) fn write(report: &Report) -> String {
+    let mut rows = vec![HEADINGS.map(str::to_owned)];
+    rows.extend(report.losses.iter().map(cells));
+    let widths: [usize; 4] =
+        std::array::from_fn(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0));
+    let lines: String = rows.iter().map(|row| line(row, widths)).collect();
+    format!("{}\n{lines}", header(report))
+}
+
+fn header(report: &Report) -> String {
+    let Report { convention, ground_truth, size: [width, height], precision, .. } = report;
+    let (near, distant) = (report.count(Kind::Near), report.count(Kind::Distant));
+    let origin = report.seed.map_or("from a file".to_owned(), |seed| format!("of seed {seed}"));
+    format!(
+        "rendering loss against {ground_truth}, {width} x {height} texels, {precision}\n\
+         convention {}, epsilon {}\n\
+         {near} near-field and {distant} distant scenes {origin}\n",
+        convention.name, convention.epsilon
+    )
+}
+
+fn cells(loss: &Loss) -> [String; 4] {
+    let unknown = || "unknown".to_owned();
+    let estimate = &loss.estimate;
+    [
+        loss.prediction.clone(),
+        format!("{:.6}", estimate.mean),
+        estimate.standard_error.map_or_else(unknown, |e| format!("{e:.6}")),
+        estimate.interval95.map_or_else(unknown, |[low, high]| format!("{low:.6} to {high:.6}")),
+    ]
+}
+
+fn line([name, loss, error, interval]: &[String; 4], [a, b, c, d]: [usize; 4]) -> String {
+    format!("{name:<a$}  {loss:>b$}  {error:>c$}  {interval:>d$}\n")
+}

@@ -1,0 +1,42 @@
+//! `svbrdf view`: the window.
+
+use svbrdf::error::Error;
+
+use super::exit::tell;
+use super::materials::MaterialArgs;
+
+#[derive(Debug, clap::Args)]
+pub struct ViewArgs {
+    #[command(flatten)]
+    materials: MaterialArgs,
+}
+
+/// Opens the window and returns when it is closed.
+///
+/// # Errors
+/// [`Error::NoWindow`] without a display, [`Error::NoAdapter`] without a graphics adapter.
+pub fn run(args: ViewArgs) -> Result<(), Error> {
+    let shown = open_window(args.materials);
+    if let Err(Error::NoWindow { .. } | Error::NoAdapter { .. }) = shown {
+        tell("note: without a window, `svbrdf loss` prints the losses and `svbrdf render` writes pictures");
+    }
+    shown
+}
+
+#[cfg(feature = "viewer")]
+fn open_window(materials: MaterialArgs) -> Result<(), Error> {
+    svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
+        ground_truth_read: materials.reading.of_ground_truth(),
+        prediction_read: materials.reading.of_predictions(),
+        ground_truth: materials.ground_truth,
+        predictions: materials.predictions,
+    })
+}
+
+#[cfg(not(feature = "viewer"))]
+fn open_window(_: MaterialArgs) -> Result<(), Error> {
+    Err(Error::NoWindow {
+        problem: "this svbrdf was built without the feature `viewer`".to_owned(),
+        remedy: "build it with its default features",
+    })
+}

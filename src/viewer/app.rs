@@ -1,0 +1,307 @@
+//! The application: owns the model, polls the workers, draws the panels, carries out what they return.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use eframe::egui;
+use eframe::egui::util::undoer::{self, Undoer};
+
+use super::command::Command;
+use super::gpu_view::GpuView;
+use super::loss_run::LossRun;
+use super::panels::loss::LossPanel;
+use super::panels::materials::MaterialsPanel;
+use super::panels::open::OpenWindow;
+use super::panels::save::SaveWindow;
+use super::panels::scene::ScenePanel;
+use super::panels::status::StatusBar;
+use super::panels::top::TopBar;
+use super::settings::{self, Settings};
+use super::slots::{Slots, Target};
+use super::state::ViewState;
+use super::viewport::{Scenery, Viewport};
+use super::watch::Watch;
+use super::worker::Job;
+use super::{ViewerOptions, keys, panels, theme};
+use crate::loss::{Loss, LossParams, Precision};
+
+/// The viewer. What it shows is public for tests; what changes it are [`Command`]s.
+#[derive(Debug)]
+pub struct App {
+    pub state: ViewState,
+    pub settings: Settings,
+    pub(super) slots: Slots,
+    pub(super) undoer: Undoer<ViewState>,
+    pub(super) loss: LossRun,
+    pub(super) gpu: Option<GpuView>,
+    pub(super) viewport: Viewport,
+    pub(super) watch: Watch,
+    pub(super) browsing: Option<Job<Vec<PathBuf>>>,
+    pub(super) saving: Option<Job<PathBuf>>,
+    pub(super) open_window: Option<OpenWindow>,
+    pub(super) save_window: Option<SaveWindow>,
+    pub(super) help: bool,
+    pub(super) swapped: bool,
+    /// What went wrong or was done, until a person has read it.
+    pub(super) messages: Vec<String>,
+    adapter: String,
+    frame_ms: f32,
+}
+
+impl App {
+    /// Starts to read what `options` names; the window is there before it has been read.
+    pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
+        theme::install(&cc.egui_ctx);
+        let settings: Settings =
+            cc.storage.and_then(|s| eframe::get_value(s, settings::KEY)).unwrap_or_default();
+        let mut messages = Vec::new();
+        let gpu = match cc.wgpu_render_state.as_ref().map(GpuView::new) {
+            Some(Ok(gpu)) => Some(gpu),
+            Some(Err(error)) => {
+                messages.push(error.to_string());
+                None
+            }
+            None => None,
+        };
+        let adapter = gpu.as_ref().map_or("no graphics adapter".to_owned(), |g| g.gpu.report.to_string());
+        let undo = undoer::Settings { stable_time: 0.4, ..Default::default() };
+        let mut app = Self {
+            state: ViewState::default(),
+            settings,
+            slots: Slots::default(),
+            undoer: Undoer::with_settings(undo),
+            loss: LossRun::default(),
+            gpu,
+            viewport: Viewport::default(),
+            watch: Watch::default(),
+            browsing: None,
+            saving: None,
+            open_window: None,
+            save_window: None,
+            help: false,
+            swapped: false,
+            messages,
+            adapter,
+            frame_ms: 0.0,
+        };
+        app.open_first(&cc.egui_ctx, options);
+        app
+    }
+
+    fn open_first(&mut self, ctx: &egui::Context, options: ViewerOptions) {
+        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+        let Some(ground_truth) = options.ground_truth else {
+            return self.slots.open_built_in(ctx, gpu);
+        };
+        let predictions = options.predictions.into_iter().map(|p| (p, options.prediction_read));
+        let sources: Vec<_> =
+            std::iter::once((ground_truth, options.ground_truth_read)).chain(predictions).collect();
+        sources.iter().rev().for_each(|(path, _)| self.settings.remember(path));
+        self.slots.open(ctx, gpu, sources, Target::Everything);
+    }
+
+    /// What the loss is asked for: the numbers of the settings, the convention that is rendered.
+    pub(super) fn loss_params(&self) -> LossParams {
+        LossParams {
+            near: self.settings.near,
+            distant: self.settings.distant,
+            seed: self.settings.seed,
+            convention: self.state.convention(),
+            precision: Precision::F32,
+        }
+    }
+
+    /// The losses of the predictions, where they have been computed for what is shown now.
+    pub fn losses(&self) -> Option<&[Loss]> {
+        let (done, current) = self.loss.done(&self.slots, &self.loss_params())?;
+        current.then_some(done.losses.as_slice())
+    }
+
+    /// The names of the materials, the ground truth first.
+    pub fn names(&self) -> Vec<String> {
+        self.slots.slots.iter().map(|s| s.name().to_owned()).collect()
+    }
+
+    /// What the window tells the person: errors and what was done.
+    pub fn messages(&self) -> &[String] {
+        &self.messages
+    }
+
+    /// Takes over what the workers have finished.
+    fn poll(&mut self, ctx: &egui::Context) {
+        self.messages.extend(self.slots.poll(ctx));
+        self.messages.extend(self.loss.poll(ctx));
+        if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
+            self.saving = None;
+            self.messages.push(match result {
+                Ok(path) => format!("Saved {}", path.display()),
+                Err(error) => error.to_string(),
+            });
+        }
+        if let Some(result) = self.browsing.as_ref().and_then(|job| job.poll(ctx)) {
+            self.browsing = None;
+            let paths = result.unwrap_or_default();
+            let window = self.open_window.get_or_insert_default();
+            paths.iter().for_each(|path| window.add(&path.display().to_string()));
+        }
+        if self.settings.watch {
+            let stale = self.watch.poll(ctx, &self.slots);
+            let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+            self.slots.reload(ctx, gpu, Some(&stale));
+        }
+        if self.settings.auto_loss && !self.slots.predictions().is_empty() {
+            self.loss.keep_up(ctx, &self.slots, &self.loss_params());
+        }
+    }
+
+    fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
+        let now = keys::Context {
+            state: &self.state,
+            highlight_follows: self.settings.highlight_follows,
+            side_panel: self.settings.side_panel,
+            help: self.help,
+        };
+        keys::commands(ctx, now)
+    }
+
+    /// Draws everything; what a person does in it is returned.
+    fn show(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        egui::Panel::top("top").show(ui, |ui| commands.extend(self.top(ui)));
+        egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
+        if !self.messages.is_empty() {
+            egui::Panel::bottom("messages").show(ui, |ui| commands.extend(messages(ui, &self.messages)));
+        }
+        let mut side_panel = self.settings.side_panel;
+        egui::Panel::right("side").default_size(320.0).size_range(240.0..=520.0).show_collapsible(
+            ui,
+            &mut side_panel,
+            |ui| commands.extend(self.side(ui)),
+        );
+        if side_panel != self.settings.side_panel {
+            commands.push(Command::SetSidePanel(side_panel));
+        }
+        egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
+        commands.extend(self.windows(ui.ctx()));
+        commands
+    }
+
+    fn top(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let bar = TopBar {
+            state: &self.state,
+            dark: self.settings.dark,
+            side_panel: self.settings.side_panel,
+            swapped: self.swapped,
+        };
+        bar.ui(ui)
+    }
+
+    fn status(&self, ui: &mut egui::Ui) {
+        let bar = StatusBar {
+            state: &self.state,
+            slots: &self.slots.slots,
+            hovered: self.viewport.hovered,
+            adapter: &self.adapter,
+            frame_ms: self.frame_ms,
+        };
+        bar.ui(ui);
+    }
+
+    fn side(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let section = |ui: &mut egui::Ui, name: &str, add: &mut dyn FnMut(&mut egui::Ui)| {
+            egui::CollapsingHeader::new(name).default_open(true).show_unindented(ui, |ui| add(ui));
+        };
+        let scene = ScenePanel { state: &self.state, highlight_follows: self.settings.highlight_follows };
+        let params = self.loss_params();
+        let loss = LossPanel {
+            params: &params,
+            auto: self.settings.auto_loss,
+            run: &self.loss,
+            slots: &self.slots,
+            chosen: self.state.prediction,
+        };
+        let materials = MaterialsPanel { slots: &self.slots, watch: self.settings.watch };
+        egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+            section(ui, "Scene", &mut |ui| commands.extend(scene.ui(ui)));
+            section(ui, "Rendering loss", &mut |ui| commands.extend(loss.ui(ui)));
+            section(ui, "Materials", &mut |ui| commands.extend(materials.ui(ui)));
+        });
+        commands
+    }
+
+    fn panes(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
+        let peek = ui.input(|i| i.key_down(egui::Key::G)) && !ui.ctx().text_edit_focused();
+        let scenery = Scenery {
+            slots: &self.slots.slots,
+            state: &self.state,
+            dark: self.settings.dark,
+            highlight_follows: self.settings.highlight_follows,
+            peek,
+            swapped: self.swapped,
+        };
+        self.viewport.ui(ui, &scenery, self.gpu.as_mut())
+    }
+
+    fn windows(&mut self, ctx: &egui::Context) -> Vec<Command> {
+        let mut commands = Vec::new();
+        if self.help {
+            commands.extend(panels::help::ui(ctx));
+        }
+        if let Some(window) = &mut self.open_window {
+            commands.extend(window.ui(ctx, &self.settings.recent));
+        }
+        if let Some(window) = &mut self.save_window {
+            commands.extend(window.ui(ctx));
+        }
+        commands
+    }
+
+    /// Files that were dropped on the window.
+    fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
+        let paths: Vec<PathBuf> =
+            ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
+        let replace = self.slots.only_built_in();
+        (!paths.is_empty()).then_some(Command::Open { paths, replace, read: self.settings.read })
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        let start = Instant::now();
+        let ctx = ui.ctx().clone();
+        theme::choose(&ctx, self.settings.dark);
+        self.poll(&ctx);
+        let mut commands = self.keys(&ctx);
+        commands.extend(self.dropped(&ctx));
+        commands.extend(self.show(ui));
+        for command in commands {
+            self.apply(&ctx, command);
+            ctx.request_repaint();
+        }
+        self.undoer.feed_state(ctx.input(|i| i.time), &self.state);
+        self.frame_ms = start.elapsed().as_secs_f32() * 1e3;
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, settings::KEY, &self.settings);
+    }
+}
+
+/// Errors and what was done, until they are dismissed.
+fn messages(ui: &mut egui::Ui, messages: &[String]) -> Option<Command> {
+    let mut dismissed = false;
+    ui.horizontal_top(|ui| {
+        dismissed = ui.button("Dismiss").clicked();
+        egui::ScrollArea::vertical().max_height(110.0).show(ui, |ui| {
+            ui.vertical(|ui| {
+                for message in messages {
+                    let colour =
+                        if message.starts_with("Saved") { ui.visuals().text_color() } else { theme::PROBLEM };
+                    ui.label(egui::RichText::new(message).color(colour));
+                }
+            });
+        });
+    });
+    dismissed.then_some(Command::DismissMessage)
+}

@@ -1,0 +1,90 @@
+//! What a person can do, as values: panels and keys return commands, the application carries them out.
+
+use std::path::PathBuf;
+
+use super::state::{End, Layout, Projection};
+use crate::material::read::ReadOptions;
+use crate::scene::Scene;
+use crate::view::Shown;
+
+/// One act. Nothing else changes the model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    /// Open materials: the first as ground truth where there is none or where `replace` is set, the others as predictions.
+    Open {
+        paths: Vec<PathBuf>,
+        replace: bool,
+        read: ReadOptions,
+    },
+    /// Ask for files or a folder with the system's dialog; what is chosen fills the open window's path field.
+    Browse {
+        folder: bool,
+    },
+    ShowOpen(bool),
+    OpenBuiltIn,
+    Reload,
+    /// Read material `slot` again under other assumptions.
+    ReadAs {
+        slot: usize,
+        read: ReadOptions,
+    },
+    ClosePrediction(usize),
+    MakeGroundTruth(usize),
+    SetWatch(bool),
+
+    SetScene(Scene),
+    SetFoot(End, [f64; 2]),
+    PutHighlight([f64; 2]),
+    ScaleHeight(End, f64),
+    ScaleDistance(End, f64),
+    Orbit {
+        end: End,
+        azimuth: f64,
+        elevation: f64,
+    },
+    SetHighlightFollows(bool),
+    CopyScene,
+    PasteScene(String),
+
+    SetShown(Shown),
+    CycleShown(isize),
+    SetLayout(Layout),
+    CycleLayout,
+    SetProjection(Projection),
+    SetExposure(f32),
+    Normalize,
+    SetClipping(bool),
+    SetWipe(f32),
+    SetConvention(&'static str),
+    ChoosePrediction(usize),
+    SwapSides,
+
+    /// Magnify by a factor about a point of the pane (x right, y up in [-1, 1]).
+    Zoom {
+        factor: f32,
+        at: [f32; 2],
+    },
+    Pan([f32; 2]),
+    Fit,
+    OneToOne,
+    Reset,
+    Undo,
+    Redo,
+
+    ComputeLoss,
+    CancelLoss,
+    SetAutoLoss(bool),
+    SetScenes {
+        near: usize,
+        distant: usize,
+        seed: u64,
+    },
+
+    ShowSave(bool),
+    /// Write the view to this file, as `svbrdf render` does.
+    SaveView(PathBuf),
+    SetDark(bool),
+    SetSidePanel(bool),
+    SetHelp(bool),
+    DismissMessage,
+}

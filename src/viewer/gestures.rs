@@ -1,0 +1,176 @@
+//! What the mouse does in a pane: one gesture, decided when a button goes down, never two things at once.
+
+use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
+
+use super::command::Command;
+use super::handles::{self, REACH};
+use super::state::{self, End, Layout, Projection, ViewState};
+use crate::camera::Camera;
+use crate::scene::Kind;
+
+/// Radians of orbit per point that the pointer moves.
+const ORBIT_SPEED: f64 = 0.008;
+/// Factor of a height or a distance per notch of the wheel or 50 points of a drag.
+const SCALE_STEP: f64 = 1.1;
+/// Factor of the magnification per notch of the wheel.
+const ZOOM_STEP: f32 = 1.15;
+
+/// What the drag that is going on does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Gesture {
+    Light,
+    View,
+    OrbitView,
+    OrbitLight,
+    LightDistance,
+    Pan,
+    Wipe,
+}
+
+/// A pane as the mouse meets it.
+#[derive(Clone, Copy, Debug)]
+pub struct Target<'a> {
+    pub rect: Rect,
+    pub camera: &'a Camera,
+    pub state: &'a ViewState,
+    pub highlight_follows: bool,
+}
+
+impl Target<'_> {
+    /// Which gesture a press at `pos` begins.
+    fn begin(&self, ui: &egui::Ui, button: PointerButton, pos: Pos2) -> Gesture {
+        let (modifiers, space) = ui.input(|i| (i.modifiers, i.key_down(egui::Key::Space)));
+        let chord = modifiers.command && modifiers.shift;
+        match button {
+            PointerButton::Primary if space => Gesture::Pan,
+            PointerButton::Primary if chord => Gesture::OrbitLight,
+            PointerButton::Primary => self.grabbed(pos),
+            PointerButton::Secondary if chord => Gesture::LightDistance,
+            PointerButton::Secondary if self.state.projection == Projection::Perspective => {
+                Gesture::OrbitView
+            }
+            PointerButton::Secondary => Gesture::View,
+            _ => Gesture::Pan,
+        }
+    }
+
+    /// What a left press takes hold of: the sun first, then the eye, then the wipe line; otherwise it moves the light.
+    fn grabbed(&self, pos: Pos2) -> Gesture {
+        if self.over(End::Light, pos) {
+            Gesture::Light
+        } else if self.state.projection == Projection::Flat && self.over(End::View, pos) {
+            Gesture::View
+        } else if self.over_wipe(pos) {
+            Gesture::Wipe
+        } else {
+            Gesture::Light
+        }
+    }
+
+    fn over(&self, end: End, pos: Pos2) -> bool {
+        let foot = state::foot(&self.state.scene, end);
+        handles::pos_from_plane(self.camera, self.rect, foot).is_some_and(|(at, _)| at.distance(pos) <= REACH)
+    }
+
+    fn over_wipe(&self, pos: Pos2) -> bool {
+        let line = self.rect.left() + self.state.wipe * self.rect.width();
+        self.state.layout == Layout::Wipe && (pos.x - line).abs() <= REACH * 0.6
+    }
+
+    /// The pointer's shape over this pane.
+    fn cursor(&self, pos: Pos2) -> egui::CursorIcon {
+        match self.grabbed(pos) {
+            Gesture::Wipe => egui::CursorIcon::ResizeHorizontal,
+            Gesture::View => egui::CursorIcon::Grab,
+            _ if self.over(End::Light, pos) => egui::CursorIcon::Grab,
+            _ => egui::CursorIcon::Crosshair,
+        }
+    }
+
+    /// What `gesture` does as the pointer stands at `pos` after moving by `delta`.
+    fn carry_on(&self, gesture: Gesture, pos: Pos2, delta: Vec2) -> Option<Command> {
+        let [x, y] = handles::ndc_from_pos(self.rect, pos);
+        let plane = || self.camera.plane_from_ndc(x, y).map(|p| p.map(f64::from));
+        let (across, upwards) = (f64::from(delta.x) * ORBIT_SPEED, -f64::from(delta.y) * ORBIT_SPEED);
+        match gesture {
+            Gesture::Light if self.highlight_follows && self.state.scene.kind == Kind::Near => {
+                plane().map(Command::PutHighlight)
+            }
+            Gesture::Light => plane().map(|p| Command::SetFoot(End::Light, p)),
+            Gesture::View => plane().map(|p| Command::SetFoot(End::View, p)),
+            Gesture::OrbitView => {
+                Some(Command::Orbit { end: End::View, azimuth: -across, elevation: -upwards })
+            }
+            Gesture::OrbitLight => {
+                Some(Command::Orbit { end: End::Light, azimuth: across, elevation: upwards })
+            }
+            Gesture::LightDistance => {
+                Some(Command::ScaleDistance(End::Light, SCALE_STEP.powf(-f64::from(delta.y) / 25.0)))
+            }
+            Gesture::Pan => {
+                let by = delta / (self.rect.size() * 0.5);
+                Some(Command::Pan([by.x, -by.y]))
+            }
+            Gesture::Wipe => Some(Command::SetWipe((pos.x - self.rect.left()) / self.rect.width())),
+        }
+    }
+
+    /// What the wheel does over this pane.
+    fn wheel(&self, ui: &egui::Ui, pos: Pos2) -> Vec<Command> {
+        let at = handles::ndc_from_pos(self.rect, pos);
+        ui.input(|input| {
+            let notches = input.events.iter().filter_map(|event| match event {
+                egui::Event::MouseWheel { unit, delta, modifiers, .. } => {
+                    // Shift turns the wheel into a sideways one on some systems: either axis counts.
+                    let delta = delta.x + delta.y;
+                    let notches = if *unit == egui::MouseWheelUnit::Point { delta / 50.0 } else { delta };
+                    Some((notches, *modifiers))
+                }
+                _ => None,
+            });
+            notches
+                .filter(|(notches, modifiers)| *notches != 0.0 && !modifiers.command)
+                .map(|(notches, modifiers)| {
+                    let factor = SCALE_STEP.powf(f64::from(notches));
+                    if modifiers.shift {
+                        Command::ScaleHeight(End::Light, factor)
+                    } else if modifiers.alt {
+                        Command::ScaleHeight(End::View, factor)
+                    } else {
+                        Command::Zoom { factor: ZOOM_STEP.powf(notches), at }
+                    }
+                })
+                .collect()
+        })
+    }
+}
+
+/// The commands of the mouse over one pane; `current` is the gesture that is going on in any pane.
+pub fn commands(
+    ui: &egui::Ui,
+    response: &Response,
+    target: &Target<'_>,
+    current: &mut Option<Gesture>,
+) -> Vec<Command> {
+    let mut commands = Vec::new();
+    for button in [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle] {
+        if response.drag_started_by(button)
+            && let Some(pos) = ui.input(|i| i.pointer.press_origin())
+        {
+            *current = Some(target.begin(ui, button, pos));
+        }
+    }
+    if response.dragged()
+        && let (Some(gesture), Some(pos)) = (*current, response.interact_pointer_pos())
+    {
+        commands.extend(target.carry_on(gesture, pos, response.drag_delta()));
+    }
+    if response.drag_stopped() {
+        *current = None;
+    }
+    if let Some(pos) = response.hover_pos() {
+        ui.ctx().set_cursor_icon(target.cursor(pos));
+        commands.extend(target.wheel(ui, pos));
+    }
+    commands
+}

@@ -1,0 +1,109 @@
+//! The keys: one table that is obeyed, and shown by `?`.
+
+use eframe::egui::{self, Key, Modifiers};
+
+use super::command::Command;
+use super::state::ViewState;
+
+/// Every gesture and key, for the help window and the README: (what to do, what it does).
+pub const HELP: &[(&str, &str)] = &[
+    ("left-drag", "move the light (its x, y follow the pointer)"),
+    ("right-drag", "move the view (in perspective: orbit it)"),
+    ("Shift + wheel", "height of the light"),
+    ("Alt + wheel", "height of the view"),
+    ("Ctrl + Shift + left-drag", "orbit the light"),
+    ("Ctrl + Shift + right-drag", "distance of the light"),
+    ("H", "highlight follows the pointer, on / off"),
+    ("wheel", "zoom at the pointer"),
+    ("middle-drag, Space + left-drag", "pan"),
+    ("F / 0 / R", "fit / one texel per pixel / reset light, view and display"),
+    ("G (hold)", "peek at the ground truth in every pane"),
+    ("X", "swap prediction and ground truth"),
+    ("1 .. 9", "choose the prediction"),
+    ("C", "layout: side by side, wipe, single, log difference"),
+    ("P", "flat / perspective"),
+    ("M / Shift + M", "next / previous map shown"),
+    ("E / Shift + E", "exposure up / down by 0.5 EV"),
+    ("N", "normalize the exposure to the ground truth"),
+    ("L", "mark clipped pixels, on / off"),
+    ("Enter", "compute the loss"),
+    ("Esc", "cancel the loss, close this help"),
+    ("B", "side panel, on / off"),
+    ("Ctrl + O / Ctrl + S", "open / save the view as a picture"),
+    ("Ctrl + R", "read all files again"),
+    ("Ctrl + Z / Ctrl + Shift + Z", "undo / redo light, view and display"),
+    ("Ctrl + C / Ctrl + V", "copy / paste the scene as JSON"),
+    ("double-click a number", "back to its default"),
+    ("?", "this help"),
+];
+
+/// What the command of a key depends on.
+#[derive(Clone, Copy, Debug)]
+pub struct Context<'a> {
+    pub state: &'a ViewState,
+    pub highlight_follows: bool,
+    pub side_panel: bool,
+    pub help: bool,
+}
+
+/// The commands of the keys pressed in this frame. While a text field has the focus there are none.
+pub fn commands(ctx: &egui::Context, now: Context<'_>) -> Vec<Command> {
+    if ctx.text_edit_focused() {
+        return Vec::new();
+    }
+    let mut commands = ctx.input_mut(|input| {
+        let mut found = Vec::new();
+        for (modifiers, key, command) in table(now) {
+            if input.consume_key(modifiers, key) {
+                found.push(command);
+            }
+        }
+        found
+    });
+    commands.extend(ctx.input(|input| input.events.iter().filter_map(event_command).collect::<Vec<_>>()));
+    commands
+}
+
+/// Copy and paste reach a program as events of their own, and `?` is another key on every keyboard.
+fn event_command(event: &egui::Event) -> Option<Command> {
+    match event {
+        egui::Event::Copy => Some(Command::CopyScene),
+        egui::Event::Paste(text) => Some(Command::PasteScene(text.clone())),
+        egui::Event::Text(text) if text == "?" => Some(Command::SetHelp(true)),
+        _ => None,
+    }
+}
+
+/// Longer chords first: `consume_key` takes a shorter one for them.
+fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
+    use Command as C;
+    let none = Modifiers::NONE;
+    let state = now.state;
+    let mut table = vec![
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, C::Redo),
+        (Modifiers::COMMAND, Key::Z, C::Undo),
+        (Modifiers::COMMAND, Key::O, C::ShowOpen(true)),
+        (Modifiers::COMMAND, Key::S, C::ShowSave(true)),
+        (Modifiers::COMMAND, Key::R, C::Reload),
+        (Modifiers::SHIFT, Key::M, C::CycleShown(-1)),
+        (Modifiers::SHIFT, Key::E, C::SetExposure(state.exposure_ev - 0.5)),
+        (none, Key::M, C::CycleShown(1)),
+        (none, Key::E, C::SetExposure(state.exposure_ev + 0.5)),
+        (none, Key::N, C::Normalize),
+        (none, Key::C, C::CycleLayout),
+        (none, Key::P, C::SetProjection(super::state::other_projection(state.projection))),
+        (none, Key::L, C::SetClipping(!state.show_clipping)),
+        (none, Key::H, C::SetHighlightFollows(!now.highlight_follows)),
+        (none, Key::B, C::SetSidePanel(!now.side_panel)),
+        (none, Key::X, C::SwapSides),
+        (none, Key::F, C::Fit),
+        (none, Key::Num0, C::OneToOne),
+        (none, Key::R, C::Reset),
+        (none, Key::Enter, C::ComputeLoss),
+        (none, Key::Escape, if now.help { C::SetHelp(false) } else { C::CancelLoss }),
+    ];
+    let digits =
+        [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+    table.extend(digits.into_iter().enumerate().map(|(i, key)| (none, key, C::ChoosePrediction(i))));
+    table
+}

@@ -1,0 +1,83 @@
+//! The materials in the window, and what was assumed in reading each.
+
+use eframe::egui::{self, RichText};
+
+use crate::viewer::command::Command;
+use crate::viewer::slots::{Origin, Slot, Slots};
+use crate::viewer::theme;
+
+/// What the section shows.
+#[derive(Debug)]
+pub struct MaterialsPanel<'a> {
+    pub slots: &'a Slots,
+    pub watch: bool,
+}
+
+impl MaterialsPanel<'_> {
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        ui.horizontal_wrapped(|ui| {
+            if ui.button("Reload").on_hover_text("Read all files again (Ctrl+R)").clicked() {
+                commands.push(Command::Reload);
+            }
+            let mut watch = self.watch;
+            ui.checkbox(&mut watch, "Watch").on_hover_text("Read files again when they change on the disk");
+            if watch != self.watch {
+                commands.push(Command::SetWatch(watch));
+            }
+            if ui.button("Built-in pair").clicked() {
+                commands.push(Command::OpenBuiltIn);
+            }
+        });
+        for opening in &self.slots.openings {
+            ui.horizontal(|ui| {
+                ui.spinner();
+                ui.add(egui::Label::new(format!("reading {}", opening.what)).truncate());
+            });
+            if ui.small_button("Cancel reading").clicked() {
+                opening.job.cancel();
+            }
+        }
+        for (index, slot) in self.slots.slots.iter().enumerate() {
+            ui.separator();
+            ui.push_id(slot.id, |ui| material(ui, index, slot, &mut commands));
+        }
+        commands
+    }
+}
+
+fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
+    let loaded = &slot.loaded;
+    let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
+    let colour = if index == 0 { theme::ACCENT } else { ui.visuals().text_color() };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(role).color(colour).small());
+        if index > 0 {
+            if ui.small_button("Make ground truth").clicked() {
+                commands.push(Command::MakeGroundTruth(index));
+            }
+            if ui.small_button("Close").clicked() {
+                commands.push(Command::ClosePrediction(index));
+            }
+        }
+    });
+    let [width, height] = loaded.material.size();
+    ui.add(egui::Label::new(RichText::new(slot.name()).strong()).truncate());
+    let origin = match &loaded.origin {
+        Origin::BuiltIn => "built in".to_owned(),
+        Origin::Path(path) => path.display().to_string(),
+    };
+    ui.add(
+        egui::Label::new(RichText::new(format!("{width} x {height}, {origin}")).small().weak()).truncate(),
+    );
+    if matches!(loaded.origin, Origin::Path(_)) {
+        let mut read = loaded.read;
+        super::read_options(ui, "assumed", &mut read);
+        if read != loaded.read {
+            commands.push(Command::ReadAs { slot: index, read });
+        }
+    }
+    for note in &loaded.notes {
+        ui.label(RichText::new(note).small());
+    }
+}

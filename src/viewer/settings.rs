@@ -1,0 +1,59 @@
+//! What is remembered from one start to the next.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::material::read::ReadOptions;
+
+/// Under this key the settings are stored.
+pub const KEY: &str = "settings";
+/// How many opened materials are remembered.
+const RECENT: usize = 12;
+
+/// Persisted; every field has a default, so that settings of an older version still load.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    pub dark: bool,
+    pub side_panel: bool,
+    /// Whether a left-drag puts the highlight, not the light, under the pointer.
+    pub highlight_follows: bool,
+    /// Whether the loss is computed again whenever something that it depends on changes.
+    pub auto_loss: bool,
+    pub near: usize,
+    pub distant: usize,
+    pub seed: u64,
+    /// Whether files that change on the disk are read again.
+    pub watch: bool,
+    /// How materials are read that are opened next.
+    pub read: ReadOptions,
+    /// Materials opened before, the latest first.
+    pub recent: Vec<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            dark: true,
+            side_panel: true,
+            highlight_follows: false,
+            auto_loss: true,
+            near: 6,
+            distant: 3,
+            seed: 0,
+            watch: false,
+            read: ReadOptions::default(),
+            recent: Vec::new(),
+        }
+    }
+}
+
+impl Settings {
+    /// Puts `path` first among the recent ones.
+    pub fn remember(&mut self, path: &Path) {
+        self.recent.retain(|p| p != path);
+        self.recent.insert(0, path.to_owned());
+        self.recent.truncate(RECENT);
+    }
+}

@@ -1,0 +1,261 @@
+//! The materials in the window: read on a worker, kept whole, replaced only by what has been read.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::SystemTime;
+
+use eframe::egui;
+
+use super::worker::Job;
+use crate::error::Error;
+use crate::gpu::{Gpu, MaterialTextures};
+use crate::loss;
+use crate::material::Material;
+use crate::material::read::{self, Read, ReadOptions};
+use crate::progress::Progress;
+use crate::samples;
+
+/// Where a material came from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Origin {
+    BuiltIn,
+    Path(PathBuf),
+}
+
+/// A material that has been read and, where there is an adapter, uploaded.
+#[derive(Debug)]
+pub struct Loaded {
+    pub origin: Origin,
+    pub read: ReadOptions,
+    pub material: Material<f32>,
+    /// What was assumed in reading, for the user.
+    pub notes: Vec<String>,
+    /// The files that were read, each with the time at which it was last changed.
+    pub files: Vec<(PathBuf, Option<SystemTime>)>,
+    /// `None` without an adapter; an error where the adapter cannot hold the material.
+    pub textures: Option<Result<MaterialTextures, String>>,
+}
+
+/// A material in the window, with a number that no other one ever had: the key of everything derived from it.
+#[derive(Clone, Debug)]
+pub struct Slot {
+    pub id: u64,
+    pub loaded: Arc<Loaded>,
+}
+
+impl Slot {
+    pub fn name(&self) -> &str {
+        self.loaded.material.name()
+    }
+}
+
+/// What becomes of materials that are being read.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// The first replaces the ground truth, the others the predictions.
+    Everything,
+    /// All are added as predictions.
+    Predictions,
+    /// The one replaces the slot of this id, which stays where it is.
+    Again(u64),
+}
+
+/// Materials that are being read.
+#[derive(Debug)]
+pub struct Opening {
+    pub what: String,
+    target: Target,
+    pub job: Job<Vec<Result<Loaded, Error>>>,
+}
+
+/// The ground truth first, then the predictions; and what is still being read.
+#[derive(Debug, Default)]
+pub struct Slots {
+    pub slots: Vec<Slot>,
+    pub openings: Vec<Opening>,
+    next_id: u64,
+}
+
+impl Slots {
+    pub fn ground_truth(&self) -> Option<&Slot> {
+        self.slots.first()
+    }
+
+    pub fn predictions(&self) -> &[Slot] {
+        self.slots.get(1..).unwrap_or_default()
+    }
+
+    /// Whether nothing but the built-in pair is here: then what a person opens replaces it.
+    pub fn only_built_in(&self) -> bool {
+        self.slots.iter().all(|s| s.loaded.origin == Origin::BuiltIn)
+    }
+
+    /// Starts to read `sources`, each under its options.
+    pub fn open(
+        &mut self,
+        ctx: &egui::Context,
+        gpu: Option<&Gpu>,
+        sources: Vec<(PathBuf, ReadOptions)>,
+        target: Target,
+    ) {
+        let gpu = gpu.cloned();
+        let what = sources.iter().map(|(p, _)| file_name(p)).collect::<Vec<_>>().join(", ");
+        let job = Job::start(ctx, move |progress| {
+            Ok(sources
+                .into_iter()
+                .map(|(path, options)| load(path, options, gpu.as_ref(), progress))
+                .collect())
+        });
+        self.openings.push(Opening { what, target, job });
+    }
+
+    /// Starts to read the built-in pair.
+    pub fn open_built_in(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>) {
+        let gpu = gpu.cloned();
+        let job = Job::start(ctx, move |_| {
+            let samples = samples::load::<f32>()?;
+            let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
+            Ok(all
+                .map(|read| Ok(loaded(Origin::BuiltIn, ReadOptions::default(), read, gpu.as_ref())))
+                .collect())
+        });
+        self.openings.push(Opening { what: "built-in pair".to_owned(), target: Target::Everything, job });
+    }
+
+    /// Takes over what has been read since the last call; returns the errors, for the user.
+    pub fn poll(&mut self, ctx: &egui::Context) -> Vec<String> {
+        let mut errors = Vec::new();
+        let mut finished = Vec::new();
+        self.openings.retain(|opening| match opening.job.poll(ctx) {
+            None => true,
+            Some(result) => {
+                finished.push((opening.target.clone(), result));
+                false
+            }
+        });
+        for (target, result) in finished {
+            let all = result.unwrap_or_else(|e| vec![Err(e)]);
+            self.place(target, all, &mut errors);
+        }
+        errors
+    }
+
+    fn place(&mut self, target: Target, all: Vec<Result<Loaded, Error>>, errors: &mut Vec<String>) {
+        let mut loaded = Vec::new();
+        let failed_first = matches!(all.first(), Some(Err(_)));
+        for result in all {
+            match result {
+                Ok(one) => loaded.push(one),
+                Err(Error::Cancelled) => {}
+                Err(error) => errors.push(error.to_string()),
+            }
+        }
+        match target {
+            // Without its ground truth a prediction is no prediction: keep what was there.
+            Target::Everything if failed_first || loaded.is_empty() => {}
+            Target::Everything => {
+                self.slots.clear();
+                loaded.into_iter().for_each(|one| self.add(one, errors));
+            }
+            Target::Predictions => loaded.into_iter().for_each(|one| self.add(one, errors)),
+            Target::Again(id) => loaded.into_iter().for_each(|one| self.replace(id, one, errors)),
+        }
+    }
+
+    fn add(&mut self, loaded: Loaded, errors: &mut Vec<String>) {
+        if let Some(ground_truth) = self.ground_truth()
+            && let Err(e) = loss::check_same_size(&ground_truth.loaded.material, &loaded.material)
+        {
+            return errors.push(e.to_string());
+        }
+        let id = self.new_id();
+        self.slots.push(Slot { id, loaded: Arc::new(loaded) });
+    }
+
+    /// Puts `loaded` in the place of the slot `id`. A ground truth of another size sends the predictions away.
+    fn replace(&mut self, id: u64, loaded: Loaded, errors: &mut Vec<String>) {
+        let Some(index) = self.slots.iter().position(|s| s.id == id) else { return };
+        let new = Slot { id: self.new_id(), loaded: Arc::new(loaded) };
+        if index == 0 {
+            let material = &new.loaded.material;
+            let fits =
+                |s: &Slot| loss::check_same_size(material, &s.loaded.material).map_err(|e| e.to_string());
+            let misfits = self.predictions().iter().filter_map(|s| fits(s).err());
+            errors.extend(misfits.map(|e| format!("a prediction was closed: {e}")));
+            let mut position = 0;
+            self.slots.retain(|s| {
+                position += 1;
+                position == 1 || fits(s).is_ok()
+            });
+        } else if let Some(ground_truth) = self.ground_truth()
+            && let Err(e) = loss::check_same_size(&ground_truth.loaded.material, &new.loaded.material)
+        {
+            return errors.push(e.to_string());
+        }
+        self.slots[index] = new;
+    }
+
+    fn new_id(&mut self) -> u64 {
+        self.next_id += 1;
+        self.next_id
+    }
+
+    /// Reads again what came from files: all of them, or those whose index is given.
+    pub fn reload(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, only: Option<&[usize]>) {
+        for index in 0..self.slots.len() {
+            if only.is_none_or(|only| only.contains(&index)) {
+                let read = self.slots[index].loaded.read;
+                self.read_as(ctx, gpu, index, read);
+            }
+        }
+    }
+
+    /// Reads the material at `index` again under other options.
+    pub fn read_as(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, options: ReadOptions) {
+        let Some(slot) = self.slots.get(index) else { return };
+        let Origin::Path(path) = &slot.loaded.origin else { return };
+        let (path, target) = (path.clone(), Target::Again(slot.id));
+        self.openings.retain(|o| o.target != target);
+        self.open(ctx, gpu, vec![(path, options)], target);
+    }
+
+    /// Closes the prediction in slot `index`.
+    pub fn close(&mut self, index: usize) {
+        if index > 0 && index < self.slots.len() {
+            self.slots.remove(index);
+        }
+    }
+
+    /// Makes the material in slot `index` the ground truth; the old one becomes a prediction in its place.
+    pub fn make_ground_truth(&mut self, index: usize) {
+        if index < self.slots.len() {
+            self.slots.swap(0, index);
+        }
+    }
+}
+
+fn load(
+    path: PathBuf,
+    options: ReadOptions,
+    gpu: Option<&Gpu>,
+    progress: &Progress,
+) -> Result<Loaded, Error> {
+    let read = read::read::<f32>(&path, &options, progress)?;
+    Ok(loaded(Origin::Path(path), options, read, gpu))
+}
+
+fn loaded(origin: Origin, options: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
+    let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
+    let files = read.files.into_iter().map(|path| (changed(&path), path)).map(|(t, p)| (p, t)).collect();
+    Loaded { origin, read: options, material: read.material, notes: read.notes, files, textures }
+}
+
+/// When a file was last changed; `None` where that cannot be told.
+pub fn changed(path: &std::path::Path) -> Option<SystemTime> {
+    std::fs::metadata(path).and_then(|m| m.modified()).ok()
+}
+
+/// The last part of a path, for people.
+pub fn file_name(path: &std::path::Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned())
+}

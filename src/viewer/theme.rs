@@ -1,0 +1,48 @@
+//! Colours: a neutral, quiet window, so that the materials are the only colour in it; one accent.
+
+use eframe::egui::{self, Color32, Stroke, Theme, Visuals};
+
+/// The one accent colour: what is chosen, what belongs to the ground truth.
+pub const ACCENT: Color32 = Color32::from_rgb(0xe0, 0x93, 0x2f);
+/// The sun handle.
+pub const SUN: Color32 = Color32::from_rgb(0xff, 0xd2, 0x4a);
+/// The eye handle and the wipe line.
+pub const EYE: Color32 = Color32::from_rgb(0xf5, 0xf5, 0xf5);
+/// What is wrong.
+pub const PROBLEM: Color32 = Color32::from_rgb(0xe5, 0x6b, 0x5d);
+
+/// What surrounds the images: mid-gray, without tint.
+pub fn surround(dark: bool) -> Color32 {
+    Color32::from_gray(if dark { 0x4b } else { 0x8c })
+}
+
+/// Sets both themes once; `dark` is chosen later, by the person.
+pub fn install(ctx: &egui::Context) {
+    ctx.set_visuals_of(Theme::Dark, visuals(Visuals::dark(), [0x23, 0x2e, 0x3c], 0xe6));
+    ctx.set_visuals_of(Theme::Light, visuals(Visuals::light(), [0xea, 0xdd, 0xcc], 0x16));
+    ctx.all_styles_mut(|style| {
+        style.spacing.item_spacing = egui::vec2(8.0, 5.0);
+        style.spacing.button_padding = egui::vec2(7.0, 3.0);
+        style.interaction.selectable_labels = true;
+    });
+}
+
+pub fn choose(ctx: &egui::Context, dark: bool) {
+    ctx.set_theme(if dark { Theme::Dark } else { Theme::Light });
+}
+
+/// Grays for panel, widget and hovered widget, and for text.
+fn visuals(mut visuals: Visuals, [panel, widget, hovered]: [u8; 3], text: u8) -> Visuals {
+    let gray = Color32::from_gray;
+    visuals.panel_fill = gray(panel);
+    visuals.window_fill = gray(panel);
+    visuals.override_text_color = Some(gray(text));
+    visuals.widgets.inactive.weak_bg_fill = gray(widget);
+    visuals.widgets.inactive.bg_fill = gray(widget);
+    visuals.widgets.hovered.weak_bg_fill = gray(hovered);
+    visuals.widgets.hovered.bg_fill = gray(hovered);
+    visuals.selection.bg_fill = ACCENT.gamma_multiply(0.55);
+    visuals.selection.stroke = Stroke::new(1.0, gray(text));
+    visuals.hyperlink_color = ACCENT;
+    visuals
+}

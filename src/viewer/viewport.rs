@@ -1,0 +1,313 @@
+//! The panes: which there are, where they lie, what each shows.
+
+use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2, vec2};
+
+use super::command::Command;
+use super::gestures::{self, Gesture, Target};
+use super::gpu_view::GpuView;
+use super::handles;
+use super::slots::Slot;
+use super::state::{self, End, Layout, Projection, ViewState};
+use super::theme;
+use crate::camera::Camera;
+use crate::gpu::{DisplayMode, DisplayParams, ShadeParams};
+use crate::material::Grid;
+use crate::view::Shown;
+
+/// Height of the line above a pane that names what it shows.
+const TITLE: f32 = 24.0;
+/// Room between two panes.
+const GAP: f32 = 6.0;
+
+/// What the panes need to know, for one frame.
+#[derive(Debug)]
+pub struct Scenery<'a> {
+    pub slots: &'a [Slot],
+    pub state: &'a ViewState,
+    pub dark: bool,
+    pub highlight_follows: bool,
+    /// Whether every pane shows the ground truth for the moment.
+    pub peek: bool,
+    /// Whether the chosen prediction and the ground truth have changed places.
+    pub swapped: bool,
+}
+
+/// What outlives a frame.
+#[derive(Debug, Default)]
+pub struct Viewport {
+    gesture: Option<Gesture>,
+    /// The point of the plane under the pointer.
+    pub hovered: Option<[f32; 2]>,
+    /// Size of a pane in physical pixels.
+    pane_pixels: Vec2,
+}
+
+/// One pane: the slot it shows, the slot it is compared with, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Content {
+    shown: usize,
+    reference: usize,
+    mode: DisplayMode,
+}
+
+impl Scenery<'_> {
+    /// The slot that the chosen prediction is in; the ground truth's where there is no prediction.
+    fn chosen(&self) -> usize {
+        (self.state.prediction + 1).min(self.slots.len().saturating_sub(1))
+    }
+
+    /// The slot that is seen where slot `index` would be.
+    fn seen(&self, index: usize) -> usize {
+        match index {
+            _ if self.peek => 0,
+            0 if self.swapped => self.chosen(),
+            i if self.swapped && i == self.chosen() => 0,
+            i => i,
+        }
+    }
+
+    fn contents(&self) -> Vec<Content> {
+        let alone = |shown, mode| Content { shown, reference: 0, mode };
+        let chosen = self.seen(self.chosen());
+        match self.state.layout {
+            Layout::SideBySide => {
+                (0..self.slots.len()).map(|i| alone(self.seen(i), DisplayMode::Shown)).collect()
+            }
+            Layout::Single => vec![alone(chosen, DisplayMode::Shown)],
+            Layout::Difference => vec![alone(chosen, DisplayMode::Difference)],
+            Layout::Wipe => vec![Content {
+                shown: chosen,
+                reference: self.seen(0),
+                mode: DisplayMode::Wipe(self.state.wipe * 2.0 - 1.0),
+            }],
+        }
+    }
+
+    fn camera(&self, grid: Grid, aspect: f32) -> Camera {
+        let fitted = match self.state.projection {
+            Projection::Flat => Camera::flat(grid, aspect),
+            Projection::Perspective => Camera::of_scene(&self.state.scene, grid, aspect),
+        };
+        fitted.zoomed(self.state.zoom, self.state.pan)
+    }
+
+    /// The name of slot `index` as titles give it.
+    fn title(&self, index: usize) -> String {
+        let name = self.slots[index].name();
+        if index == 0 { format!("GROUND TRUTH  {name}") } else { format!("{index}  {name}") }
+    }
+}
+
+impl Viewport {
+    /// Shows the panes and returns what a person does in them.
+    pub fn ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        scenery: &Scenery<'_>,
+        gpu: Option<&mut GpuView>,
+    ) -> Vec<Command> {
+        let area = ui.available_rect_before_wrap();
+        ui.painter().rect_filled(area, 0.0, theme::surround(scenery.dark));
+        self.hovered = None;
+        let Some(gpu) = gpu else {
+            note(ui, area, "No graphics adapter: nothing can be drawn. The loss works.");
+            return Vec::new();
+        };
+        if scenery.slots.is_empty() {
+            note(ui, area, "Open a material: Ctrl+O, or drop files here.");
+            return Vec::new();
+        }
+        if let Err(problem) = shade(gpu, scenery) {
+            note(ui, area, &problem);
+            return Vec::new();
+        }
+        let contents = scenery.contents();
+        let cells = cells(area, contents.len(), scenery.slots[0].loaded.material.grid());
+        let mut commands = Vec::new();
+        for (i, (content, cell)) in contents.into_iter().zip(cells).enumerate() {
+            commands.extend(self.pane(ui, scenery, gpu, i, content, cell));
+        }
+        commands
+    }
+
+    fn pane(
+        &mut self,
+        ui: &mut egui::Ui,
+        scenery: &Scenery<'_>,
+        gpu: &GpuView,
+        number: usize,
+        content: Content,
+        cell: Rect,
+    ) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let (title, rect) = cell.split_top_bottom_at_y(cell.top() + TITLE);
+        commands.extend(title_bar(ui, scenery, number, content, title));
+        let rect = pixel_aligned(ui, rect);
+        self.pane_pixels = rect.size() * ui.pixels_per_point();
+
+        let response = ui.interact(rect, ui.scope_id().with(("pane", number)), Sense::drag());
+        let label = format!("Pane {}", scenery.title(content.shown));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
+        let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
+        self.paint(ui, scenery, gpu, content, rect, camera);
+
+        let target = Target {
+            rect,
+            camera: &camera,
+            state: scenery.state,
+            highlight_follows: scenery.highlight_follows,
+        };
+        commands.extend(gestures::commands(ui, &response, &target, &mut self.gesture));
+        let pointer = response.hover_pos().or_else(|| response.interact_pointer_pos());
+        if let Some(pos) = pointer {
+            let [x, y] = handles::ndc_from_pos(rect, pos);
+            self.hovered = camera.plane_from_ndc(x, y);
+        }
+        commands
+    }
+
+    fn paint(
+        &self,
+        ui: &egui::Ui,
+        scenery: &Scenery<'_>,
+        gpu: &GpuView,
+        content: Content,
+        rect: Rect,
+        camera: Camera,
+    ) {
+        let state = scenery.state;
+        let painter = ui.painter_at(rect);
+        let background = theme::surround(scenery.dark).to_normalized_gamma_f32();
+        let params = DisplayParams {
+            camera,
+            exposure_ev: state.exposure_ev,
+            mode: content.mode,
+            encoding: state.shown.into(),
+            show_clipping: state.show_clipping,
+            epsilon: state.convention().epsilon as f32,
+            background: [background[0], background[1], background[2]],
+        };
+        let ids = [content.shown, content.reference].map(|i| scenery.slots[i].id);
+        gpu.paint(&painter, rect, ids, params);
+        if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
+            handles::paint_wipe(&painter, rect, state.wipe);
+        }
+        if state.shown == Shown::Rendering {
+            paint_handles(&painter, rect, &camera, state);
+        }
+    }
+
+    /// The magnification at which a texel of `grid` covers one physical pixel.
+    pub fn one_to_one_zoom(&self, grid: Grid) -> f32 {
+        let [half_width, _] = grid.half_extent();
+        let aspect = self.pane_pixels.x / self.pane_pixels.y;
+        let fitted = Camera::flat(grid, aspect).origin_right.x;
+        let pixels_per_texel = self.pane_pixels.x * half_width / fitted / grid.width as f32;
+        if pixels_per_texel.is_finite() && pixels_per_texel > 0.0 { pixels_per_texel.recip() } else { 1.0 }
+    }
+}
+
+/// Shades every material that a pane shows.
+fn shade(gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
+    let state = scenery.state;
+    let params = ShadeParams { scene: state.scene, convention: state.convention(), shown: state.shown };
+    gpu.keep_only(scenery.slots);
+    for content in scenery.contents() {
+        for index in [content.shown, content.reference] {
+            gpu.shade(&scenery.slots[index], params)?;
+        }
+    }
+    Ok(())
+}
+
+fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState) {
+    if state.projection == Projection::Flat
+        && let Some((at, outside)) =
+            handles::pos_from_plane(camera, rect, state::foot(&state.scene, End::View))
+    {
+        handles::paint_eye(painter, at, outside);
+    }
+    if let Some((at, outside)) = handles::pos_from_plane(camera, rect, state::foot(&state.scene, End::Light))
+    {
+        handles::paint_sun(painter, at, outside);
+    }
+}
+
+/// The line above a pane. A click on a prediction's chooses it.
+fn title_bar(
+    ui: &egui::Ui,
+    scenery: &Scenery<'_>,
+    number: usize,
+    content: Content,
+    rect: Rect,
+) -> Option<Command> {
+    let prediction = content.shown.checked_sub(1);
+    let chosen = content.shown == scenery.chosen() && content.shown != 0;
+    let text = match content.mode {
+        DisplayMode::Shown => scenery.title(content.shown),
+        DisplayMode::Wipe(_) => {
+            format!("{}   |   {}", scenery.title(content.reference), scenery.title(content.shown))
+        }
+        DisplayMode::Difference => {
+            format!("|ln| difference of {} from the ground truth", scenery.title(content.shown))
+        }
+    };
+    let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
+    let colour = if content.shown == 0 { theme::ACCENT } else { ui.visuals().text_color() };
+    let font = FontId::proportional(13.5);
+    let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
+        .into_galley(ui, Some(egui::TextWrapMode::Truncate), rect.width() - 16.0, font);
+    let at = rect.left_center() + vec2(8.0, -galley.size().y * 0.5);
+    painter.galley(at, galley, colour);
+    if chosen && scenery.state.layout == Layout::SideBySide && scenery.slots.len() > 2 {
+        let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
+        painter.rect_filled(line, 0.0, theme::ACCENT);
+    }
+    let response = response.on_hover_text(text);
+    prediction.filter(|_| response.clicked()).map(Command::ChoosePrediction)
+}
+
+/// Splits `area` into `count` cells, in as many columns as leave the material largest.
+fn cells(area: Rect, count: usize, grid: Grid) -> Vec<Rect> {
+    let [half_width, half_height] = grid.half_extent();
+    let size = |columns: usize| {
+        let rows = count.div_ceil(columns);
+        let cell = cell_size(area, columns, rows);
+        ((cell.x) / half_width).min((cell.y - TITLE) / half_height)
+    };
+    let columns = (1..=count.max(1)).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(1);
+    let cell = cell_size(area, columns, count.div_ceil(columns));
+    (0..count)
+        .map(|i| {
+            let place = vec2((i % columns) as f32, (i / columns) as f32);
+            Rect::from_min_size(area.min + place * (cell + Vec2::splat(GAP)), cell)
+        })
+        .collect()
+}
+
+fn cell_size(area: Rect, columns: usize, rows: usize) -> Vec2 {
+    let gaps = vec2(columns as f32 - 1.0, rows as f32 - 1.0) * GAP;
+    ((area.size() - gaps) / vec2(columns as f32, rows as f32)).max(Vec2::splat(TITLE + 8.0))
+}
+
+/// The rectangle moved onto whole physical pixels: the shader's pixels are then the screen's.
+fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
+    let scale = ui.pixels_per_point();
+    let round = |p: egui::Pos2| (p.to_vec2() * scale).round() / scale;
+    Rect::from_min_max(round(rect.min).to_pos2(), round(rect.max).to_pos2())
+}
+
+/// A sentence in the middle of an empty area.
+fn note(ui: &egui::Ui, area: Rect, text: &str) {
+    let galley = ui.painter().layout(
+        text.to_owned(),
+        FontId::proportional(15.0),
+        egui::Color32::from_gray(235),
+        area.width() * 0.8,
+    );
+    let rect = Align2::CENTER_CENTER.anchor_size(area.center(), galley.size());
+    ui.painter().galley(rect.min, galley, egui::Color32::from_gray(235));
+}

@@ -1,0 +1,74 @@
+//! Slow work off the window's thread.
+
+use std::sync::Arc;
+use std::sync::mpsc::{self, Receiver, TryRecvError};
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+
+use crate::error::Error;
+use crate::progress::Progress;
+
+/// How often a running job is looked at for its progress.
+const LOOK_AGAIN: Duration = Duration::from_millis(80);
+
+/// One piece of work on a thread of its own. Dropping it asks the work to stop: the latest request wins.
+#[derive(Debug)]
+pub struct Job<T> {
+    progress: Arc<Progress>,
+    result: Receiver<Result<T, Error>>,
+    started: Instant,
+}
+
+impl<T: Send + 'static> Job<T> {
+    /// Starts `work`; the window is drawn again when it ends.
+    pub fn start(
+        ctx: &egui::Context,
+        work: impl FnOnce(&Progress) -> Result<T, Error> + Send + 'static,
+    ) -> Self {
+        let progress = Arc::new(Progress::default());
+        let (sender, result) = mpsc::channel();
+        let (ctx, seen) = (ctx.clone(), progress.clone());
+        std::thread::spawn(move || {
+            // The window may have dropped this job: then nobody wants the result.
+            let _ = sender.send(work(&seen));
+            ctx.request_repaint();
+        });
+        Self { progress, result, started: Instant::now() }
+    }
+
+    /// The result, once: `None` while the work goes on. A worker that died without a word is an error.
+    pub fn poll(&self, ctx: &egui::Context) -> Option<Result<T, Error>> {
+        match self.result.try_recv() {
+            Ok(result) => Some(result),
+            Err(TryRecvError::Empty) => {
+                ctx.request_repaint_after(LOOK_AGAIN);
+                None
+            }
+            Err(TryRecvError::Disconnected) => Some(Err(Error::Usage(
+                "the work ended without a result, which is a mistake of this program; please report it"
+                    .to_owned(),
+            ))),
+        }
+    }
+
+    /// Share of the work that is done, in [0, 1].
+    pub fn fraction(&self) -> f32 {
+        let (done, total) = self.progress.counts();
+        if total == 0 { 0.0 } else { done as f32 / total as f32 }
+    }
+
+    pub fn elapsed(&self) -> Duration {
+        self.started.elapsed()
+    }
+
+    pub fn cancel(&self) {
+        self.progress.cancel();
+    }
+}
+
+impl<T> Drop for Job<T> {
+    fn drop(&mut self) {
+        self.progress.cancel();
+    }
+}
