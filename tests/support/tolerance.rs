@@ -55,7 +55,7 @@ pub const POINT_ULPS: f64 = 8.0;
 
 /// The same for whole renderings on the GPU, where the shader also computes positions and directions.
 ///
-/// Measured: 3.8 needed on lavapipe, whose divisions are correctly rounded. Vulkan allows 2.5 units in the last place.
+/// Measured: 2.9 needed on lavapipe, whose divisions are correctly rounded; Vulkan allows 2.5 units in the last place.
 pub const RENDERING_ULPS: f64 = 16.0;
 
 /// Levels of 255 that a pixel of the screen may be off: rounding, at most half a level each way.
