@@ -1,1 +1,137 @@
+//! The real program in a real window on a display without a screen (Xvfb), with a simulated mouse and keyboard.
 
+use std::io::{BufRead as _, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use image::RgbImage;
+
+/// Stops the program when the test ends, however it ends.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// A display, a home folder of its own, and the window in it.
+struct Desktop {
+    display: String,
+    folder: tempfile::TempDir,
+    _server: Running,
+}
+
+impl Desktop {
+    /// `None` where the programs that it takes are missing; in CI that is a failure.
+    fn start() -> Option<Self> {
+        for program in ["Xvfb", "xdotool", "import"] {
+            let there = Command::new("which").arg(program).stdout(Stdio::null()).status();
+            if !there.is_ok_and(|s| s.success()) {
+                assert!(std::env::var_os("CI").is_none(), "CI must have {program}");
+                eprintln!("ignored: {program} is not installed; ./test installs it");
+                return None;
+            }
+        }
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut number = String::new();
+        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
+        let display = format!(":{}", number.trim());
+        Some(Self { display, folder: tempfile::tempdir().unwrap(), _server: Running(server) })
+    }
+
+    fn command(&self, program: impl AsRef<std::ffi::OsStr>) -> Command {
+        let mut command = Command::new(program);
+        command
+            .env("DISPLAY", &self.display)
+            .env_remove("WAYLAND_DISPLAY")
+            .env("HOME", self.folder.path())
+            .env("XDG_RUNTIME_DIR", self.folder.path())
+            .env_remove("XDG_DATA_HOME")
+            .stdin(Stdio::null());
+        command
+    }
+
+    fn xdotool(&self, arguments: &str) {
+        let status = self.command("xdotool").args(arguments.split(' ')).stdout(Stdio::null()).status();
+        assert!(status.unwrap().success(), "xdotool {arguments}");
+        std::thread::sleep(Duration::from_millis(150));
+    }
+
+    fn screenshot(&self) -> RgbImage {
+        let path = self.folder.path().join("screen.png");
+        let status = self.command("import").args(["-window", "root"]).arg(&path).status().unwrap();
+        assert!(status.success());
+        image::open(&path).unwrap().to_rgb8()
+    }
+
+    /// Takes screenshots until `holds`, or fails after half a minute.
+    fn wait(&self, what: &str, holds: impl Fn(&RgbImage) -> bool) -> RgbImage {
+        let start = Instant::now();
+        loop {
+            let picture = self.screenshot();
+            if holds(&picture) {
+                return picture;
+            }
+            if start.elapsed() > Duration::from_secs(60) {
+                keep(&picture);
+                panic!("waited in vain for {what}");
+            }
+            std::thread::sleep(Duration::from_millis(300));
+        }
+    }
+}
+
+/// Leaves a screenshot where it can be looked at after a failure.
+fn keep(picture: &RgbImage) {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("end_to_end_failed.png");
+    let _ = picture.save(&path);
+    eprintln!("the screen is in {}", path.display());
+}
+
+/// How many pixels differ visibly.
+fn changed(a: &RgbImage, b: &RgbImage) -> usize {
+    let far = |(p, q): &(&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|c| p.0[c].abs_diff(q.0[c]) > 12);
+    a.pixels().zip(b.pixels()).filter(far).count()
+}
+
+fn colours(picture: &RgbImage) -> usize {
+    picture.pixels().collect::<std::collections::HashSet<_>>().len()
+}
+
+#[test]
+fn the_window_opens_follows_the_mouse_and_obeys_a_key() {
+    let Some(desktop) = Desktop::start() else { return };
+    let log = std::fs::File::create(desktop.folder.path().join("log")).unwrap();
+    let program = desktop
+        .command(env!("CARGO_BIN_EXE_svbrdf"))
+        .stdout(Stdio::null())
+        .stderr(log)
+        .spawn()
+        .map(Running)
+        .unwrap();
+    // An empty screen has one colour, the window without materials a few hundred.
+    let before = desktop.wait("the built-in pair to be drawn", |p| colours(p) > 3000);
+    assert_eq!(changed(&before, &before), 0);
+
+    desktop.xdotool("mousemove 200 300");
+    desktop.xdotool("mousedown 1");
+    desktop.xdotool("mousemove 260 220");
+    desktop.xdotool("mousemove 330 180");
+    desktop.xdotool("mouseup 1");
+    let after = desktop.wait("the light to follow the drag", |p| changed(p, &before) > 20_000);
+
+    desktop.xdotool("search --sync --name svbrdf windowfocus");
+    desktop.xdotool("key m");
+    desktop.wait("the normal map to be shown", |p| changed(p, &after) > 60_000);
+
+    let mut program = program;
+    assert!(program.0.try_wait().unwrap().is_none(), "the program still runs");
+}

@@ -20,15 +20,15 @@ use super::{exit, materials};
 #[derive(Debug, clap::Args)]
 pub struct LossArgs {
     /// Number of near-field scenes
-    #[arg(long, value_name = "N", default_value_t = 6)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 6)]
     near: usize,
 
     /// Number of distant scenes
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 3)]
     distant: usize,
 
     /// Names the scenes that are drawn
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
 
     /// printed, single-image-2018, multi-image-2019 or guided-2020

@@ -1,5 +1,6 @@
 //! Algorithm 1: the rendering loss of predictions against a ground truth over given scenes.
 
+pub mod fused;
 mod statistics;
 
 use std::str::FromStr;
@@ -7,6 +8,7 @@ use std::str::FromStr;
 use rayon::prelude::*;
 use serde::Serialize;
 
+pub use fused::losses_f32;
 pub use statistics::Estimate;
 
 use crate::brdf::Model;

@@ -44,7 +44,6 @@ pub struct App {
     pub(super) swapped: bool,
     /// What went wrong or was done, until a person has read it.
     pub(super) messages: Vec<String>,
-    adapter: String,
     frame_ms: f32,
 }
 
@@ -63,7 +62,6 @@ impl App {
             }
             None => None,
         };
-        let adapter = gpu.as_ref().map_or("no graphics adapter".to_owned(), |g| g.gpu.report.to_string());
         let undo = undoer::Settings { stable_time: 0.4, ..Default::default() };
         let mut app = Self {
             state: ViewState::default(),
@@ -81,7 +79,6 @@ impl App {
             help: false,
             swapped: false,
             messages,
-            adapter,
             frame_ms: 0.0,
         };
         app.open_first(&cc.egui_ctx, options);
@@ -155,11 +152,18 @@ impl App {
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
+        let escape = match (self.help, &self.open_window, &self.save_window) {
+            (true, _, _) => Command::SetHelp(false),
+            (_, Some(_), _) => Command::ShowOpen(false),
+            (_, _, Some(_)) => Command::ShowSave(false),
+            _ => Command::CancelLoss,
+        };
         let now = keys::Context {
             state: &self.state,
             highlight_follows: self.settings.highlight_follows,
             side_panel: self.settings.side_panel,
-            help: self.help,
+            enter_is_free: ctx.memory(|m| m.focused()).is_none(),
+            escape: &escape,
         };
         keys::commands(ctx, now)
     }
@@ -201,7 +205,7 @@ impl App {
             state: &self.state,
             slots: &self.slots.slots,
             hovered: self.viewport.hovered,
-            adapter: &self.adapter,
+            adapter: self.gpu.as_ref().map(|g| &g.gpu.report),
             frame_ms: self.frame_ms,
         };
         bar.ui(ui);
@@ -239,6 +243,7 @@ impl App {
             highlight_follows: self.settings.highlight_follows,
             peek,
             swapped: self.swapped,
+            reading: !self.slots.openings.is_empty(),
         };
         self.viewport.ui(ui, &scenery, self.gpu.as_mut())
     }

@@ -143,8 +143,7 @@ impl App {
             Command::SwapSides => self.swapped = !self.swapped,
             Command::SetHelp(on) => self.help = on,
             Command::ShowOpen(on) => {
-                let window = || OpenWindow { read: self.settings.read, ..OpenWindow::default() };
-                self.open_window = on.then(window);
+                self.open_window = on.then(|| OpenWindow::from(self.settings.read));
             }
             Command::ShowSave(on) => self.save_window = on.then(Default::default),
             Command::DismissMessage => self.messages.clear(),

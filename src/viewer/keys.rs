@@ -27,7 +27,7 @@ pub const HELP: &[(&str, &str)] = &[
     ("N", "normalize the exposure to the ground truth"),
     ("L", "mark clipped pixels, on / off"),
     ("Enter", "compute the loss"),
-    ("Esc", "cancel the loss, close this help"),
+    ("Esc", "close a window, or cancel the loss"),
     ("B", "side panel, on / off"),
     ("Ctrl + O / Ctrl + S", "open / save the view as a picture"),
     ("Ctrl + R", "read all files again"),
@@ -43,7 +43,10 @@ pub struct Context<'a> {
     pub state: &'a ViewState,
     pub highlight_follows: bool,
     pub side_panel: bool,
-    pub help: bool,
+    /// Whether no button has the focus, which Enter would press.
+    pub enter_is_free: bool,
+    /// What Escape does.
+    pub escape: &'a Command,
 }
 
 /// The commands of the keys pressed in this frame. While a text field has the focus there are none.
@@ -99,11 +102,13 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (none, Key::F, C::Fit),
         (none, Key::Num0, C::OneToOne),
         (none, Key::R, C::Reset),
-        (none, Key::Enter, C::ComputeLoss),
-        (none, Key::Escape, if now.help { C::SetHelp(false) } else { C::CancelLoss }),
+        (none, Key::Escape, now.escape.clone()),
     ];
     let digits =
         [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
+    if now.enter_is_free {
+        table.push((none, Key::Enter, C::ComputeLoss));
+    }
     table.extend(digits.into_iter().enumerate().map(|(i, key)| (none, key, C::ChoosePrediction(i))));
     table
 }

@@ -24,6 +24,7 @@ pub fn install(ctx: &egui::Context) {
         style.spacing.item_spacing = egui::vec2(8.0, 5.0);
         style.spacing.button_padding = egui::vec2(7.0, 3.0);
         style.interaction.selectable_labels = true;
+        style.text_styles.insert(egui::TextStyle::Small, egui::FontId::proportional(11.0));
     });
 }
 

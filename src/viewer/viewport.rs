@@ -30,6 +30,8 @@ pub struct Scenery<'a> {
     pub peek: bool,
     /// Whether the chosen prediction and the ground truth have changed places.
     pub swapped: bool,
+    /// Whether materials are being read.
+    pub reading: bool,
 }
 
 /// What outlives a frame.
@@ -114,7 +116,12 @@ impl Viewport {
             return Vec::new();
         };
         if scenery.slots.is_empty() {
-            note(ui, area, "Open a material: Ctrl+O, or drop files here.");
+            let text = if scenery.reading {
+                "Reading..."
+            } else {
+                "Open a material: Ctrl+O, or drop files or folders here."
+            };
+            note(ui, area, text);
             return Vec::new();
         }
         if let Err(problem) = shade(gpu, scenery) {
@@ -260,13 +267,14 @@ fn title_bar(
     let font = FontId::proportional(13.5);
     let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
         .into_galley(ui, Some(egui::TextWrapMode::Truncate), rect.width() - 16.0, font);
+    let elided = galley.elided;
     let at = rect.left_center() + vec2(8.0, -galley.size().y * 0.5);
     painter.galley(at, galley, colour);
     if chosen && scenery.state.layout == Layout::SideBySide && scenery.slots.len() > 2 {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
         painter.rect_filled(line, 0.0, theme::ACCENT);
     }
-    let response = response.on_hover_text(text);
+    let response = if elided { response.on_hover_text(text) } else { response };
     prediction.filter(|_| response.clicked()).map(Command::ChoosePrediction)
 }
 

@@ -16,8 +16,10 @@ pub const GOLDEN_PROBE_F32: f64 = 2e-5; // measured: 1.8e-6
 /// | f64 | 5.13 | 3.46 | 10.4 | 8.00 | 8.85 |
 /// | f32 | 2.19 | 2.10 | 7.8 | 6.28 | 7.55 |
 /// | lavapipe | 2.19 | | | | |
+/// | f64 | 5.13 | 4.36 | 7.64 | 8.00 | 8.84 |
+/// | f32 | 2.19 | 2.10 | 5.02 | 1.07 | 7.55 |
 ///
-/// The terms are held to the kappa of the whole, which may be smaller than their own.
+/// The terms D, G and F are held to the kappa of the whole, which may be smaller than their own.
 pub const GOLDEN_POINTS: f64 = 16.0;
 
 /// Golden points with a larger condition number are not held to a bound in f32, only to being finite and not negative.

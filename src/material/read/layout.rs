@@ -73,7 +73,7 @@ pub fn unpack(path: &Path, strip: Raster) -> Result<Found, Error> {
 
 /// Decodes one file a map out of `folder`, of the files whose names begin with `prefix`; `path` is what the user gave.
 fn separate(path: &Path, folder: &Path, prefix: &str, progress: &Progress) -> Result<Found, Error> {
-    let names = list(folder, prefix)?;
+    let names = list(path, folder, prefix)?;
     if names.is_empty() && !prefix.is_empty() {
         let absent = io::Error::new(io::ErrorKind::NotFound, "no file, folder or prefix of files is there");
         return Err(Error::unreadable(path, absent));
@@ -97,8 +97,10 @@ fn separate(path: &Path, folder: &Path, prefix: &str, progress: &Progress) -> Re
 }
 
 /// The names of the visible files in `folder` that begin with `prefix` and whose next word begins there, sorted.
-fn list(folder: &Path, prefix: &str) -> Result<Vec<String>, Error> {
-    let unreadable = |source| Error::unreadable(folder, source);
+///
+/// Where there is no such folder, the error names `path`, which the user gave.
+fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Error> {
+    let unreadable = |source| Error::unreadable(if folder.is_dir() { folder } else { path }, source);
     let prefix_words = words(prefix);
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {

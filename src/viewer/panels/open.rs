@@ -14,6 +14,14 @@ pub struct OpenWindow {
     pub text: String,
     pub as_predictions: bool,
     pub read: ReadOptions,
+    /// Whether the path field has had the focus that it gets when the window opens.
+    focused: bool,
+}
+
+impl From<ReadOptions> for OpenWindow {
+    fn from(read: ReadOptions) -> Self {
+        Self { read, ..Self::default() }
+    }
 }
 
 impl OpenWindow {
@@ -43,7 +51,10 @@ impl OpenWindow {
             .desired_rows(3)
             .desired_width(f32::INFINITY)
             .hint_text("materials/brick.png");
-        ui.add(field).labelled_by(label.id);
+        let field = ui.add(field).labelled_by(label.id);
+        if !std::mem::replace(&mut self.focused, true) {
+            field.request_focus();
+        }
         ui.horizontal(|ui| {
             if ui.button("Browse files...").clicked() {
                 commands.push(Command::Browse { folder: false });

@@ -76,7 +76,11 @@ fn coordinates(ui: &mut egui::Ui, name: &str, scene: &mut Scene, which: End) {
         for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
             let lowest = if axis == 2 { LOWEST } else { -FARTHEST };
             super::number(ui, &format!("{name} {letter}"), &mut p[axis], default[axis], |drag| {
-                drag.speed(0.01).range(lowest..=FARTHEST).fixed_decimals(3).prefix(format!("{letter} "))
+                drag.speed(0.01)
+                    .range(lowest..=FARTHEST)
+                    .fixed_decimals(3)
+                    .prefix(format!("{letter} "))
+                    .min_size(egui::vec2(74.0, 18.0))
             });
         }
     });

@@ -4,6 +4,7 @@ use eframe::egui::{self, RichText};
 
 use crate::brdf::Model;
 use crate::convention::Convention;
+use crate::gpu::AdapterReport;
 use crate::material::Material;
 use crate::render::render_texel;
 use crate::view::Shown;
@@ -16,7 +17,8 @@ pub struct StatusBar<'a> {
     pub state: &'a ViewState,
     pub slots: &'a [Slot],
     pub hovered: Option<[f32; 2]>,
-    pub adapter: &'a str,
+    /// `None` where there is no adapter.
+    pub adapter: Option<&'a AdapterReport>,
     pub frame_ms: f32,
 }
 
@@ -26,8 +28,10 @@ impl StatusBar<'_> {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ui.label(RichText::new(format!("{:5.1} ms", self.frame_ms)).monospace().weak())
                     .on_hover_text("Time that the last frame took on the processor");
-                let short = self.adapter.split(',').next().unwrap_or_default();
-                ui.label(RichText::new(short).weak()).on_hover_text(self.adapter);
+                if let Some(adapter) = self.adapter {
+                    let name = egui::Label::new(RichText::new(&adapter.name).weak()).truncate();
+                    ui.add_sized([150.0, 16.0], name).on_hover_text(adapter.to_string());
+                }
                 ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                     ui.add(egui::Label::new(RichText::new(self.readout()).monospace()).truncate());
                 });

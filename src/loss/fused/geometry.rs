@@ -1,0 +1,170 @@
+//! What all materials share: the light, the half vector and the Fresnel power of a scene at every texel of a tile.
+
+use fearless_simd::{Simd, prelude::*};
+
+use super::lanes::{Lanes, V};
+use super::tile::{Places, Plane, vectors};
+use crate::convention::Convention;
+use crate::scene::{Kind, Scene};
+use crate::vec3::Vec3;
+
+/// A light or view closer to the plane is lifted to this height, so that f32 can square and invert it.
+const LOWEST: f64 = 1e-18;
+/// Added to |q|^2, so that it is positive where light and view are opposite: far below the rounding of q there.
+const LEAST_SQUARE: f32 = 1e-18;
+
+/// The geometry of a vector of texels.
+///
+/// The half vector is never normalized: q = l + v, and |q|^2 = 4 VoH^2.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ray<F> {
+    pub(super) light: [F; 3],
+    /// q = l + v.
+    pub(super) q: [F; 3],
+    /// |q|^2 / sqrt(pi).
+    pub(super) square: F,
+    /// Schlick's power.
+    pub(super) weight: F,
+    /// The convention's intensity / l.z.
+    pub(super) boost: F,
+}
+
+/// A scene in the form that the kernel needs.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    near: bool,
+    light: [f32; 3],
+    view: [f32; 3],
+    /// Intensity / L.z for the light at L.
+    boost: f32,
+    /// Most that a boost may be: the convention's floor of l.z.
+    boost_limit: f32,
+    /// No boost exceeds this.
+    pub(super) most_boost: f32,
+}
+
+impl Source {
+    /// `reach` is the largest distance of a texel from the origin.
+    pub(super) fn new(scene: &Scene, convention: &Convention, reach: f64) -> Self {
+        let lift = |p: [f64; 3]| {
+            let p = if scene.kind == Kind::Near { p } else { Vec3::from(p).normalize().to_array() };
+            Vec3::from([p[0], p[1], p[2].max(LOWEST)])
+        };
+        let (light, view) = (lift(scene.light), lift(scene.view));
+        let boost = convention.intensity / light.z;
+        let limit = convention.intensity / convention.light_z_floor.max(1e-30);
+        let farthest = if scene.kind == Kind::Near { light.length() + reach } else { 1.0 };
+        Self {
+            near: scene.kind == Kind::Near,
+            light: light.to_array().map(|c| c as f32),
+            view: view.to_array().map(|c| c as f32),
+            boost: boost as f32,
+            boost_limit: limit as f32,
+            most_boost: (boost * farthest).min(limit) as f32,
+        }
+    }
+
+    /// The geometry of a distant scene, the same at every texel; `None` for a near-field one.
+    #[inline(always)]
+    pub(super) fn distant<S: Lanes>(&self, simd: S) -> Option<Ray<V<S>>> {
+        if self.near {
+            return None;
+        }
+        let splat = |p: [f32; 3]| p.map(|c| V::<S>::splat(simd, c));
+        let (light, view) = (splat(self.light), splat(self.view));
+        let boost = V::<S>::splat(simd, self.boost.min(self.boost_limit));
+        Some(ray(simd, light, std::array::from_fn(|i| light[i] + view[i]), boost))
+    }
+
+    /// The geometry of a near-field scene at a vector of texels.
+    #[inline(always)]
+    fn near<S: Lanes>(&self, simd: S, x: V<S>, y: V<S>) -> Ray<V<S>> {
+        let splat = |c| V::<S>::splat(simd, c);
+        let to = |p: [f32; 3]| [splat(p[0]) - x, splat(p[1]) - y, splat(p[2])];
+        let (to_light, to_view) = (to(self.light), to(self.view));
+        let (light_square, view_square) = (dot(to_light, to_light), dot(to_view, to_view));
+        let (per_light, per_view) = (simd.rsqrt(light_square), simd.rsqrt(view_square));
+        let light = to_light.map(|c| c * per_light);
+        let q = std::array::from_fn(|i| to_view[i].mul_add(per_view, light[i]));
+        let boost = (light_square * per_light * self.boost).min(splat(self.boost_limit));
+        ray(simd, light, q, boost)
+    }
+}
+
+/// a . b.
+#[inline(always)]
+pub(super) fn dot<S: Simd, F: SimdFloat<S>>(a: [F; 3], b: [F; 3]) -> F {
+    a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
+
+#[inline(always)]
+fn ray<S: Lanes>(simd: S, light: [V<S>; 3], q: [V<S>; 3], boost: V<S>) -> Ray<V<S>> {
+    let square = q[2].mul_add(q[2], V::<S>::splat(simd, LEAST_SQUARE));
+    let square = q[0].mul_add(q[0], q[1].mul_add(q[1], square));
+    let length = square * simd.rsqrt(square);
+    // (-5.55473 VoH - 6.98316) VoH, with VoH = |q| / 2.
+    let power = square.mul_add(-5.55473 / 4.0, length * (-6.98316 / 2.0));
+    let square = square * (std::f32::consts::FRAC_2_SQRT_PI / 2.0);
+    Ray { light, q, square, weight: exp2(simd, power), boost }
+}
+
+/// 2^x for x in [-126, 1], within a relative 1.5e-7.
+///
+/// The nearest integer goes to the exponent; the rest, in [-1/2, 1/2], to a minimax polynomial (Remez, 7.5e-8).
+#[inline(always)]
+fn exp2<S: Simd>(simd: S, x: V<S>) -> V<S> {
+    /// 1.5 x 2^23: adding it rounds to the nearest integer, which the low bits then hold.
+    const ROUND: f32 = 12_582_912.0;
+    let rounded = x + ROUND;
+    let rest = x - (rounded - ROUND);
+    let mut value = V::<S>::splat(simd, 0.001_327_647_2);
+    for coefficient in [0.009_675_541, 0.055_507_133, 0.240_221_2, 0.693_146_97, 1.000_000_1] {
+        value = value.mul_add(rest, V::<S>::splat(simd, coefficient));
+    }
+    V::<S>::from_bits(value.to_bits() + (rounded.to_bits() << 23))
+}
+
+/// The geometry of a near-field scene at every texel of a tile.
+#[derive(Clone, Debug)]
+pub(super) struct Rays {
+    light: [Plane; 3],
+    q: [Plane; 3],
+    square: Plane,
+    weight: Plane,
+    boost: Plane,
+}
+
+impl Rays {
+    pub(super) const ZERO: Self = Self {
+        light: [Plane::ZERO; 3],
+        q: [Plane::ZERO; 3],
+        square: Plane::ZERO,
+        weight: Plane::ZERO,
+        boost: Plane::ZERO,
+    };
+
+    #[inline(always)]
+    pub(super) fn fill<S: Lanes>(&mut self, simd: S, source: &Source, places: &Places) {
+        for i in 0..vectors::<S>() {
+            let ray = source.near(simd, places.x.load(simd, i), places.y.load(simd, i));
+            for c in 0..3 {
+                self.light[c].store::<S>(i, ray.light[c]);
+                self.q[c].store::<S>(i, ray.q[c]);
+            }
+            self.square.store::<S>(i, ray.square);
+            self.weight.store::<S>(i, ray.weight);
+            self.boost.store::<S>(i, ray.boost);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(&self, simd: S, i: usize) -> Ray<V<S>> {
+        Ray {
+            light: self.light.each_ref().map(|p| p.load(simd, i)),
+            q: self.q.each_ref().map(|p| p.load(simd, i)),
+            square: self.square.load(simd, i),
+            weight: self.weight.load(simd, i),
+            boost: self.boost.load(simd, i),
+        }
+    }
+}

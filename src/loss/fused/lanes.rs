@@ -1,0 +1,186 @@
+//! What the kernel needs beyond portable SIMD: fast reciprocals, and which instruction sets there are.
+
+use fearless_simd::{Fallback, Simd, prelude::*};
+
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::x86::{Avx2, Avx512, Sse2, Sse4_2};
+
+/// A vector of the native width of the instruction set `S`.
+pub(super) type V<S> = <S as Simd>::f32s;
+
+/// Reciprocals to about the last bit: exact by default, an estimate and a Newton step where that is faster.
+///
+/// The estimates are the vendor's: the last bits of a loss may differ between makes of processors.
+pub(super) trait Lanes: Simd {
+    /// 1 / x.
+    #[inline(always)]
+    fn recip(self, x: V<Self>) -> V<Self> {
+        V::<Self>::splat(self, 1.0) / x
+    }
+
+    /// 1 / sqrt(x), for normal x > 0.
+    #[inline(always)]
+    fn rsqrt(self, x: V<Self>) -> V<Self> {
+        V::<Self>::splat(self, 1.0) / x.sqrt()
+    }
+
+    /// Asks for the cache line of the first of `values` before it is needed.
+    #[inline(always)]
+    fn prefetch(self, _values: &[f32]) {}
+}
+
+/// c - a b.
+#[inline(always)]
+pub(super) fn neg_mul_add<S: Simd>(a: V<S>, b: V<S>, c: V<S>) -> V<S> {
+    (-a).mul_add(b, c)
+}
+
+/// One Newton step from an estimate of 1 / x: its relative error is squared. NaN where the estimate is infinite.
+#[inline(always)]
+fn refine_recip<S: Simd>(x: V<S>, estimate: V<S>) -> V<S> {
+    let error = (-x).mul_add(estimate, V::<S>::splat(x.token(), 1.0));
+    estimate.mul_add(error, estimate)
+}
+
+/// One Newton step from an estimate of 1 / sqrt(x): 1.5 times its relative error squared.
+#[inline(always)]
+fn refine_rsqrt<S: Simd>(x: V<S>, estimate: V<S>) -> V<S> {
+    let error = (-(x * estimate)).mul_add(estimate, V::<S>::splat(x.token(), 1.0));
+    (estimate * 0.5).mul_add(error, estimate)
+}
+
+#[cfg(target_arch = "aarch64")]
+impl Lanes for fearless_simd::aarch64::Neon {}
+
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+impl Lanes for fearless_simd::wasm32::WasmSimd128 {}
+
+impl Lanes for Fallback {}
+
+/// Implements [`Lanes`] with the estimates of an x86 instruction set (at most 1.5 x 2^-12 off).
+#[cfg(target_arch = "x86_64")]
+macro_rules! estimate {
+    ($token:ident, $register:ident, $rsqrt:ident) => {
+        impl Lanes for $token {
+            #[inline(always)]
+            fn recip(self, x: V<Self>) -> V<Self> {
+                refine_recip::<Self>(x, x.approximate_recip())
+            }
+
+            #[inline(always)]
+            fn rsqrt(self, x: V<Self>) -> V<Self> {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn estimate(_token: $token, x: $register) -> $register {
+                        std::arch::x86_64::$rsqrt(x)
+                    }
+                );
+                refine_rsqrt::<Self>(x, estimate(self, x.into()).simd_into(self))
+            }
+
+            #[inline(always)]
+            fn prefetch(self, values: &[f32]) {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn prefetch(_token: $token, values: &[f32]) {
+                        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+                        _mm_prefetch::<_MM_HINT_T0>(values.as_ptr().cast());
+                    }
+                );
+                prefetch(self, values);
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::*;
+    use std::arch::x86_64::{__m128, __m256, __m512};
+
+    estimate!(Sse2, __m128, _mm_rsqrt_ps);
+    estimate!(Sse4_2, __m128, _mm_rsqrt_ps);
+    estimate!(Avx2, __m256, _mm256_rsqrt_ps);
+    estimate!(Avx512, __m512, _mm512_rsqrt14_ps);
+}
+
+/// An instruction set that this machine has.
+#[derive(Clone, Copy, Debug)]
+pub struct Level(pub(super) fearless_simd::Level);
+
+impl Level {
+    /// The widest one.
+    pub fn best() -> Self {
+        Self(fearless_simd::Level::new())
+    }
+
+    /// Every instruction set that the kernel is written for on this architecture, the scalar one first; `None`
+    /// where this machine lacks it.
+    pub fn all() -> Vec<(&'static str, Option<Self>)> {
+        let mut all = vec![("scalar", Some(Self(fearless_simd::Level::fallback())))];
+        let best = fearless_simd::Level::new();
+        #[cfg(target_arch = "x86_64")]
+        all.extend([
+            ("sse2", best.as_sse2().map(|s| Self(s.level()))),
+            ("sse4.2", best.as_sse4_2().map(|s| Self(s.level()))),
+            ("avx2", best.as_avx2().map(|s| Self(s.level()))),
+            ("avx512", best.as_avx512().map(|s| Self(s.level()))),
+        ]);
+        #[cfg(target_arch = "aarch64")]
+        all.push(("neon", best.as_neon().map(|s| Self(s.level()))));
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        all.push(("simd128", best.as_wasm_simd128().map(|s| Self(s.level()))));
+        let _ = best;
+        all
+    }
+}
+
+/// Runs `$call` compiled for the instruction set of a [`Level`], with `$simd` as its token.
+macro_rules! dispatch {
+    ($level:expr, $simd:ident => $call:expr) => {
+        match $level.0 {
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Avx512($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Avx2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Sse4_2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Sse2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(target_arch = "aarch64")]
+            fearless_simd::Level::Neon($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            fearless_simd::Level::WasmSimd128($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            fearless_simd::Level::Fallback($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            _ => {
+                let $simd = Fallback::new();
+                $simd.vectorize(
+                    #[inline(always)]
+                    || $call,
+                )
+            }
+        }
+    };
+}
+pub(super) use dispatch;

@@ -1,0 +1,132 @@
+//! Algorithm 3 over a tile: the radiance plus epsilon, from the terms of a material and the geometry of a scene.
+
+use fearless_simd::prelude::*;
+
+use super::geometry::{Ray, dot};
+use super::lanes::{Lanes, V, neg_mul_add};
+use super::tile::{Plane, Terms, vectors};
+use crate::convention::Convention;
+
+/// Where a highlight or a boost is above it, radiances are computed and multiplied in the careful way.
+pub(super) const TAME: f32 = 1_048_576.0;
+
+/// Largest radiance and largest factor of one, 2^126: two of its mantissas fit a float.
+const LARGEST: f32 = 8.507_059e37;
+
+/// The clamps of a convention, in the units of the kernel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clamps {
+    /// Whether there are any.
+    pub(super) any: bool,
+    /// Where n . q is below, NoH counts as 0.
+    behind: f32,
+    d_floor: f32,
+    g_floor: f32,
+}
+
+/// What of a convention the kernel needs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Model {
+    pub(super) clamps: Clamps,
+    pub(super) epsilon: f32,
+    pub(super) roughness_floor: f32,
+}
+
+impl From<&Convention> for Model {
+    fn from(c: &Convention) -> Self {
+        let clamps = Clamps {
+            any: c.clamp_n_dot_h || c.d_floor > 0.0 || c.g_floor > 0.0,
+            behind: if c.clamp_n_dot_h { 0.0 } else { f32::NEG_INFINITY },
+            d_floor: (c.d_floor * std::f64::consts::PI.sqrt()) as f32,
+            g_floor: (2.0 * c.g_floor) as f32,
+        };
+        Self { clamps, epsilon: c.epsilon as f32, roughness_floor: c.roughness_floor as f32 }
+    }
+}
+
+/// R + epsilon of every texel of a tile.
+#[derive(Clone, Debug)]
+pub(super) struct Radiance(pub(super) [Plane; 3]);
+
+impl Radiance {
+    pub(super) const ZERO: Self = Self([Plane::ZERO; 3]);
+
+    /// Renders a tile; `ray(i)` is the geometry of vector i.
+    ///
+    /// Says whether every value is tame: finite and below 2 [`TAME`]. Where one is not, render it again with
+    /// `CAREFUL`.
+    #[inline(always)]
+    pub(super) fn fill<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
+        &mut self,
+        simd: S,
+        model: &Model,
+        terms: &Terms,
+        ray: impl Fn(usize) -> Ray<V<S>>,
+    ) -> bool {
+        let mut highlights = V::<S>::splat(simd, 0.0);
+        for i in 0..vectors::<S>() {
+            let ray = ray(i);
+            let (lobe, e) = lobe::<S, CLAMPED, CAREFUL>(simd, &model.clamps, terms, &ray, i);
+            // Sums of positive numbers: at least the largest, and NaN or infinite if any one is.
+            highlights += lobe;
+            // s (1 - w) lobe + w lobe + lambert E + epsilon
+            let rising = (V::<S>::splat(simd, 1.0) - ray.weight) * lobe;
+            let base = ray.weight.mul_add(lobe, V::<S>::splat(simd, model.epsilon));
+            for c in 0..3 {
+                let diffuse = terms.lambert[c].load(simd, i).mul_add(e, base);
+                let value = terms.specular[c].load(simd, i).mul_add(rising, diffuse);
+                let value = if CAREFUL { value.min(V::<S>::splat(simd, LARGEST)) } else { value };
+                self.0[c].store::<S>(i, value);
+            }
+        }
+        highlights.simd_le(V::<S>::splat(simd, TAME)).all_true()
+    }
+}
+
+/// (G D / 4 E, E) with the irradiance E = NoL / l.z times the convention's intensity.
+///
+/// D = (a / (|n x h|^2 + a^2 NoH^2))^2 / pi, all of it times |q|^2. |n x q| is the length of what is left of q without
+/// its part along n, exact to a rounding of q; where n is off unit length by a rounding, that adds along n, across
+/// what is left, and counts only squared.
+#[inline(always)]
+fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
+    simd: S,
+    clamps: &Clamps,
+    terms: &Terms,
+    ray: &Ray<V<S>>,
+    i: usize,
+) -> (V<S>, V<S>) {
+    let splat = |c| V::<S>::splat(simd, c);
+    let n = terms.normal.each_ref().map(|p| p.load(simd, i));
+    let a = terms.a.load(simd, i);
+    let n_dot_l = dot(n, ray.light);
+    let n_dot_q = dot(n, ray.q);
+    let n_dot_v = (n_dot_q - n_dot_l).max(splat(0.0));
+    let n_dot_l = n_dot_l.max(splat(0.0));
+    let e = n_dot_l * ray.boost;
+
+    let across: [V<S>; 3] = std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], ray.q[c]));
+    let along = a * n_dot_q;
+    let mut d = along.mul_add(along, dot(across, across));
+    let mut factor_l = n_dot_l.mul_add(terms.two_minus_a.load(simd, i), a);
+    let mut factor_v = n_dot_v.mul_add(terms.two_minus_a.load(simd, i), a);
+    let peak = a * ray.square;
+    if CLAMPED {
+        let whole = ray.square * ROOT_PI;
+        d = n_dot_q.simd_lt(splat(clamps.behind)).select(whole, d).max(ray.square * clamps.d_floor);
+        factor_l = factor_l.max(splat(clamps.g_floor));
+        factor_v = factor_v.max(splat(clamps.g_floor));
+    }
+    if CAREFUL {
+        // Never below its least, a^2 |q|^2, and ratios first: none overflows, none is 0 / 0.
+        let ratio = peak / d.max(a * peak * ROOT_PI);
+        return ((ratio / factor_l * (ratio / factor_v) * e).min(splat(LARGEST)), e);
+    }
+    // One reciprocal: (peak / d)^2 / g = peak / (d g) * g * peak / (d g).
+    let g = factor_l * factor_v;
+    let ratio = peak * simd.recip(d * g);
+    ((ratio * g) * (ratio * e), e)
+}
+
+/// sqrt(pi): [`Ray::square`] lacks it.
+const ROOT_PI: f32 = 1.772_453_9;

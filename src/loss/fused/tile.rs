@@ -1,0 +1,140 @@
+//! What is kept in the nearest cache while all scenes pass over a few texels.
+
+use fearless_simd::{Simd, prelude::*};
+
+use super::lanes::V;
+use crate::material::{Grid, Planes};
+
+/// Texels of a tile. Its planes (22 KiB for two materials) stay in the nearest cache; a multiple of two vectors of
+/// every instruction set.
+pub(super) const TEXELS: usize = 128;
+
+/// One number for each texel of a tile, aligned so that no vector straddles two cache lines.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(super) struct Plane([f32; TEXELS]);
+
+impl Plane {
+    pub(super) const ZERO: Self = Self([0.0; TEXELS]);
+
+    /// Texels per vector times `index`, and on.
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(&self, simd: S, index: usize) -> V<S> {
+        let at = index * V::<S>::LEN;
+        V::<S>::from_slice(simd, &self.0[at..at + V::<S>::LEN])
+    }
+
+    #[inline(always)]
+    pub(super) fn store<S: Simd>(&mut self, index: usize, value: V<S>) {
+        let at = index * V::<S>::LEN;
+        value.store_slice(&mut self.0[at..at + V::<S>::LEN]);
+    }
+
+    /// The first texels are `values`, the others `pad`.
+    #[inline(always)]
+    fn fill(&mut self, values: &[f32], pad: f32) {
+        let (used, unused) = self.0.split_at_mut(values.len());
+        used.copy_from_slice(values);
+        unused.fill(pad);
+    }
+}
+
+/// Vectors in a tile.
+#[inline(always)]
+pub(super) const fn vectors<S: Simd>() -> usize {
+    TEXELS / V::<S>::LEN
+}
+
+/// The terms of a material that do not depend on the scene.
+#[derive(Clone, Debug)]
+pub(super) struct Terms {
+    pub(super) normal: [Plane; 3],
+    /// The GGX width a = rough^2; k = a / 2.
+    pub(super) a: Plane,
+    /// 2 (1 - k).
+    pub(super) two_minus_a: Plane,
+    pub(super) specular: [Plane; 3],
+    /// d (1 - s) / pi.
+    pub(super) lambert: [Plane; 3],
+}
+
+impl Terms {
+    pub(super) const ZERO: Self = Self {
+        normal: [Plane::ZERO; 3],
+        a: Plane::ZERO,
+        two_minus_a: Plane::ZERO,
+        specular: [Plane::ZERO; 3],
+        lambert: [Plane::ZERO; 3],
+    };
+
+    /// The terms of the texels `at`, at most [`TEXELS`]. The rest of the tile is lit from nowhere: n = 0, R = 0 in
+    /// every material, so that it adds nothing to a loss.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, planes: &Planes<f32>, at: std::ops::Range<usize>, roughness_floor: f32) {
+        for (tile, plane) in self.normal.iter_mut().zip(&planes.normal) {
+            tile.fill(&plane[at.clone()], 0.0);
+        }
+        self.a.fill(&planes.roughness[at.clone()], 1.0);
+        for (a, other) in self.a.0.iter_mut().zip(&mut self.two_minus_a.0) {
+            let rough = a.max(roughness_floor);
+            *a = rough * rough;
+            *other = 2.0 - *a;
+        }
+        for channel in 0..3 {
+            let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
+            specular.fill(&planes.specular[channel][at.clone()], 0.0);
+            lambert.fill(&planes.diffuse[channel][at.clone()], 0.0);
+            for (l, s) in lambert.0.iter_mut().zip(&specular.0) {
+                *l = *l * (1.0 - s) * std::f32::consts::FRAC_1_PI;
+            }
+        }
+    }
+}
+
+/// The planes of a material, in the order that a tile is filled.
+pub(super) fn planes(planes: &Planes<f32>) -> impl Iterator<Item = &[f32]> {
+    let vectors = planes.normal.iter().chain(&planes.specular).chain(&planes.diffuse);
+    vectors.chain([&planes.roughness]).map(Vec::as_slice)
+}
+
+/// The coordinates of all columns and rows of a grid.
+#[derive(Debug)]
+pub(super) struct Axes {
+    x: Vec<f32>,
+    y: Vec<f32>,
+}
+
+impl From<Grid> for Axes {
+    fn from(grid: Grid) -> Self {
+        Self {
+            x: (0..grid.width).map(|column| grid.position(column, 0).x).collect(),
+            y: (0..grid.height).map(|row| grid.position(0, row).y).collect(),
+        }
+    }
+}
+
+/// Where the texels of a tile lie.
+#[derive(Clone, Debug)]
+pub(super) struct Places {
+    pub(super) x: Plane,
+    pub(super) y: Plane,
+}
+
+impl Places {
+    pub(super) const ZERO: Self = Self { x: Plane::ZERO, y: Plane::ZERO };
+
+    /// The places of the texels `at`, row by row; the rest of the tile keeps what it had.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, axes: &Axes, at: std::ops::Range<usize>) {
+        let width = axes.x.len();
+        let mut next = at.start;
+        while next < at.end {
+            let (row, column) = (next / width, next % width);
+            let count = (width - column).min(at.end - next);
+            let tile = next - at.start..next - at.start + count;
+            self.x.0[tile.clone()].copy_from_slice(&axes.x[column..column + count]);
+            self.y.0[tile].fill(axes.y[row]);
+            next += count;
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! The files that `svbrdf render` writes.
+
+use std::path::Path;
+
+use svbrdf::convention::PRINTED;
+use svbrdf::display::to_display;
+use svbrdf::export::GAP;
+use svbrdf::progress::Progress;
+use svbrdf::render::{Image, render};
+use svbrdf::samples;
+use svbrdf::scene::{Kind, Scene};
+
+use super::{folder, succeed};
+
+/// The built-in materials as `render` shows them: side by side.
+fn panes(scene: &Scene) -> Vec<Image<f32>> {
+    let built_in = samples::load::<f32>().unwrap();
+    let all = std::iter::once(built_in.ground_truth).chain(built_in.predictions);
+    all.map(|read| render(&read.material, scene, &PRINTED, &Progress::default()).unwrap()).collect()
+}
+
+/// What stands at (x, y) of panes side by side; `None` in a gap.
+fn pixel_at(panes: &[Image<f32>], mut x: usize, y: usize) -> Option<[f32; 3]> {
+    for pane in panes {
+        if x < pane.width {
+            return Some(pane.pixels[y * pane.width + x]);
+        }
+        x = x.checked_sub(pane.width + GAP)?;
+    }
+    None
+}
+
+fn width_of(panes: &[Image<f32>]) -> usize {
+    panes.iter().map(|pane| pane.width + GAP).sum::<usize>() - GAP
+}
+
+#[test]
+fn an_exr_holds_the_rendering_to_the_last_bit() {
+    let folder = folder();
+    succeed(folder.path(), "render -o out.exr --view 0.2,-0.3,2 --light -1,0.5,0.8 --distant --exposure 2");
+    let scene = Scene { kind: Kind::Distant, view: [0.2, -0.3, 2.0], light: [-1.0, 0.5, 0.8] };
+    let panes = panes(&scene);
+    let picture = image_of_exr(&folder.path().join("out.exr"));
+    assert_eq!((picture.width, picture.height), (width_of(&panes), panes[0].height));
+    for (i, pixel) in picture.pixels.iter().enumerate() {
+        let (x, y) = (i % picture.width, i / picture.width);
+        assert_eq!(*pixel, pixel_at(&panes, x, y).unwrap_or([0.0; 3]), "{x}, {y}");
+    }
+}
+
+fn image_of_exr(path: &Path) -> Image<f32> {
+    let read = exr::prelude::read_first_rgba_layer_from_file(
+        path,
+        |size, _| Image { width: size.0, height: size.1, pixels: vec![[0.0; 3]; size.area()] },
+        |image, at, (r, g, b, _): (f32, f32, f32, f32)| image.pixels[at.1 * image.width + at.0] = [r, g, b],
+    );
+    read.unwrap().layer_data.channel_data.pixels
+}
+
+#[test]
+fn an_exr_says_where_it_comes_from_and_is_the_same_in_every_run() {
+    let folder = folder();
+    for name in ["one.exr", "two.exr"] {
+        succeed(folder.path(), &format!("render gt.png -o {name} --light -1,0.5,0.8"));
+    }
+    let [one, two] = ["one.exr", "two.exr"].map(|name| std::fs::read(folder.path().join(name)).unwrap());
+    assert!(one == two, "the same picture shall be the same file");
+    let meta = exr::prelude::MetaData::read_from_file(folder.path().join("one.exr"), false).unwrap();
+    let attributes = &meta.headers[0].own_attributes;
+    let comments = attributes.comments.clone().unwrap().to_string();
+    for line in ["svbrdf:light: -1,0.5,0.8", "svbrdf:kind: near", "svbrdf:convention: printed"] {
+        assert!(comments.contains(line), "{line} is missing in\n{comments}");
+    }
+    assert!(attributes.software_name.clone().unwrap().to_string().starts_with("svbrdf "));
+}
+
+#[test]
+fn a_png_shows_the_rendering_and_says_where_it_comes_from() {
+    let folder = folder();
+    succeed(folder.path(), "render -o out.png --exposure -1 --light 0.5,0.5,1");
+    let panes = panes(&Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.5, 0.5, 1.0] });
+    let file = std::fs::File::open(folder.path().join("out.png")).unwrap();
+    let mut reader = png::Decoder::new(std::io::BufReader::new(file)).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut bytes).unwrap();
+    for (i, pixel) in bytes.chunks(3).enumerate() {
+        let (x, y) = (i % width_of(&panes), i / width_of(&panes));
+        let expected = pixel_at(&panes, x, y).map_or([128; 3], |rgb| to_display(rgb, -1.0));
+        assert_eq!(pixel, expected, "{x}, {y}");
+    }
+    let chunks = &reader.info().uncompressed_latin1_text;
+    let said = |key: &str| chunks.iter().find(|c| c.keyword == key).map(|c| c.text.as_str());
+    assert_eq!(said("svbrdf:light"), Some("0.5,0.5,1"));
+    assert_eq!(said("svbrdf:view"), Some("0,0,2.5"));
+    assert_eq!(said("svbrdf:kind"), Some("near"));
+    assert_eq!(said("svbrdf:exposure"), Some("-1 EV"));
+    assert_eq!(said("svbrdf:convention"), Some("printed"));
+    assert!(said("svbrdf:sources").is_some() && said("Software").is_some());
+}
