@@ -53,14 +53,17 @@ pub const LOSS_SUM_F64: f64 = 1e-14;
 /// units of 2^-24, from which `points::error_bound` derives a bound for each point.
 ///
 /// Measured on 800,000 random and extreme points in four conventions, lavapipe and CPU alike: 3.8 needed.
+#[cfg(feature = "gpu")]
 pub const POINT_ULPS: f64 = 8.0;
 
 /// The same for whole renderings on the GPU, where the shader also computes positions and directions.
 ///
 /// Measured: 2.9 needed on lavapipe, whose divisions are correctly rounded; Vulkan allows 2.5 units in the last place.
+#[cfg(feature = "gpu")]
 pub const RENDERING_ULPS: f64 = 16.0;
 
 /// Levels of 255 that a pixel of the screen may be off: rounding, at most half a level each way.
 ///
 /// Measured: 1.
+#[cfg(feature = "gpu")]
 pub const SCREEN_LEVELS: u8 = 1;
