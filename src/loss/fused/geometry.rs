@@ -80,19 +80,39 @@ impl Source {
         Some(ray(simd, light, std::array::from_fn(|i| light[i] + view[i]), boost))
     }
 
-    /// The geometry of a near-field scene at a vector of texels.
+    /// The numbers of the scene as vectors.
     #[inline(always)]
-    fn near<S: Lanes>(&self, simd: S, x: V<S>, y: V<S>) -> Ray<V<S>> {
+    fn splat<S: Simd>(&self, simd: S) -> Near<V<S>> {
         let splat = |c| V::<S>::splat(simd, c);
-        let to = |p: [f32; 3]| [splat(p[0]) - x, splat(p[1]) - y, splat(p[2])];
-        let (to_light, to_view) = (to(self.light), to(self.view));
-        let (light_square, view_square) = (dot(to_light, to_light), dot(to_view, to_view));
-        let (per_light, per_view) = (twice_rsqrt(simd, light_square), twice_rsqrt(simd, view_square));
-        let light = to_light.map(|c| c * per_light);
-        let q = std::array::from_fn(|i| to_view[i].mul_add(per_view, light[i]));
-        let boost = (light_square * per_light * self.boost).min(splat(self.boost_limit));
-        ray(simd, light, q, boost)
+        Near {
+            light: self.light.map(splat),
+            view: self.view.map(splat),
+            boost: splat(self.boost),
+            boost_limit: splat(self.boost_limit),
+        }
     }
+}
+
+/// A near-field scene in registers, see [`Source`].
+struct Near<F> {
+    light: [F; 3],
+    view: [F; 3],
+    boost: F,
+    boost_limit: F,
+}
+
+/// The geometry of a near-field scene at a vector of texels.
+#[inline(always)]
+fn near<S: Lanes>(simd: S, scene: &Near<V<S>>, x: V<S>, y: V<S>) -> Ray<V<S>> {
+    let from_texel = |p: [V<S>; 3]| [p[0] - x, p[1] - y, p[2]];
+    let (to_light, to_view) = (from_texel(scene.light), from_texel(scene.view));
+    let light_square = dot(to_light, to_light);
+    let per_light = twice_rsqrt(simd, light_square);
+    let per_view = twice_rsqrt(simd, dot(to_view, to_view));
+    let light = to_light.map(|c| c * per_light);
+    let q = std::array::from_fn(|i| to_view[i].mul_add(per_view, light[i]));
+    let boost = (light_square * per_light * scene.boost).min(scene.boost_limit);
+    ray(simd, light, q, boost)
 }
 
 /// a . b.
@@ -168,8 +188,9 @@ impl Rays {
 
     #[inline(always)]
     pub(super) fn fill<S: Lanes>(&mut self, simd: S, source: &Source, places: &Places) {
+        let scene = source.splat(simd);
         for i in 0..vectors::<S>() {
-            let ray = source.near(simd, places.x.load(simd, i), places.y.load(simd, i));
+            let ray = near(simd, &scene, places.x.load(simd, i), places.y.load(simd, i));
             for c in 0..3 {
                 self.light[c].store::<S>(i, ray.light[c]);
                 self.q[c].store::<S>(i, ray.q[c]);

@@ -33,6 +33,10 @@ impl Plane {
     /// The first texels are `values`, the others `pad`.
     #[inline(always)]
     fn fill(&mut self, values: &[f32], pad: f32) {
+        if let Ok(values) = values.try_into() {
+            self.0 = values;
+            return;
+        }
         let (used, unused) = self.0.split_at_mut(values.len());
         used.copy_from_slice(values);
         unused.fill(pad);
