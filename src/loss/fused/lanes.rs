@@ -2,8 +2,14 @@
 
 use fearless_simd::{Fallback, Simd, prelude::*};
 
+use super::tile::TEXELS;
+
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::x86::{Avx2, Avx512, Sse2, Sse4_2};
+
+/// Floats in a cache line.
+#[cfg(target_arch = "x86_64")]
+const FLOATS_PER_LINE: usize = 16;
 
 /// A vector of the native width of the instruction set `S`.
 pub(super) type V<S> = <S as Simd>::f32s;
@@ -24,9 +30,9 @@ pub(super) trait Lanes: Simd {
         V::<Self>::splat(self, 1.0) / x.sqrt()
     }
 
-    /// Asks for the cache line of the first of `values` before it is needed.
+    /// Asks for the cache lines of `values` before they are needed.
     #[inline(always)]
-    fn prefetch(self, _values: &[f32]) {}
+    fn prefetch(self, _values: &[f32; TEXELS]) {}
 }
 
 /// c - a b.
@@ -65,12 +71,14 @@ macro_rules! estimate {
             }
 
             #[inline(always)]
-            fn prefetch(self, values: &[f32]) {
+            fn prefetch(self, values: &[f32; TEXELS]) {
                 fearless_simd::kernel!(
                     #[inline(always)]
-                    fn prefetch(_token: $token, values: &[f32]) {
+                    fn prefetch(_token: $token, values: &[f32; TEXELS]) {
                         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-                        _mm_prefetch::<_MM_HINT_T0>(values.as_ptr().cast());
+                        for line in values.as_chunks::<FLOATS_PER_LINE>().0 {
+                            _mm_prefetch::<_MM_HINT_T0>(line.as_ptr().cast());
+                        }
                     }
                 );
                 prefetch(self, values);
