@@ -128,6 +128,7 @@ impl App {
     fn poll(&mut self, ctx: &egui::Context) {
         self.messages.extend(self.slots.poll(ctx));
         self.messages.extend(self.loss.poll(ctx));
+        self.messages.extend(self.gpu.as_ref().and_then(|g| g.gpu.take_fault()).map(|e| e.to_string()));
         if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
             self.saving = None;
             self.messages.push(match result {

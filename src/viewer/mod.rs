@@ -25,8 +25,8 @@ use std::panic::AssertUnwindSafe;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use eframe::egui;
 use eframe::egui_wgpu::{WgpuError, WgpuSetup, WgpuSetupCreateNew};
-use eframe::{egui, wgpu};
 
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -78,7 +78,7 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
 
 fn native_options() -> eframe::NativeOptions {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
-    setup.power_preference = wgpu::PowerPreference::HighPerformance;
+    setup.native_adapter_selector = Some(Arc::new(Gpu::select_adapter));
     setup.device_descriptor = Arc::new(Gpu::device_descriptor);
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
