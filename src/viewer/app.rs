@@ -172,11 +172,10 @@ impl App {
             egui::Panel::bottom("messages").show(ui, |ui| commands.extend(messages(ui, &self.messages)));
         }
         let mut side_panel = self.settings.side_panel;
-        egui::Panel::right("side").default_size(320.0).size_range(240.0..=520.0).show_collapsible(
-            ui,
-            &mut side_panel,
-            |ui| commands.extend(self.side(ui)),
-        );
+        egui::Panel::right("side")
+            .default_size(320.0)
+            .size_range(240.0..=(0.4 * ui.available_width()).max(240.0))
+            .show_collapsible(ui, &mut side_panel, |ui| commands.extend(self.side(ui)));
         if side_panel != self.settings.side_panel {
             commands.push(Command::ToggleSidePanel);
         }

@@ -36,7 +36,7 @@ pub fn paint(painter: &Painter, rect: Rect, state: &ViewState) {
     let words = [
         (Align2::LEFT_TOP, bar.left_bottom(), "0".to_owned()),
         (Align2::CENTER_TOP, bar.center_bottom(), what.to_owned()),
-        (Align2::RIGHT_TOP, bar.right_bottom(), format!("{:.3} or more", largest(state))),
+        (Align2::RIGHT_TOP, bar.right_bottom(), format!("{:.3}+", largest(state))),
     ];
     for (anchor, at, text) in words {
         painter.text(at + vec2(0.0, 3.0), anchor, text, FontId::monospace(11.0), Color32::from_gray(230));
