@@ -90,10 +90,7 @@ impl App {
             Command::CycleShown(by) => state.shown = cycled(&Shown::ALL, state.shown, by),
             Command::SetLayout(layout) => state.layout = layout,
             Command::CycleLayout => state.layout = cycled(&Layout::ALL, state.layout, 1),
-            Command::ToggleProjection => {
-                state.projection = state::other_projection(state.projection);
-                (state.zoom, state.pan) = (1.0, [0.0; 2]);
-            }
+            Command::ToggleProjection => state.projection = state::other_projection(state.projection),
             Command::SetExposure(ev) => state.exposure_ev = ev.clamp(-STOPS, STOPS),
             Command::StepExposure(by) => state.exposure_ev = (state.exposure_ev + by).clamp(-STOPS, STOPS),
             Command::Normalize => {
