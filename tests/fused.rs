@@ -93,9 +93,9 @@ fn plain(
     (loss.estimate.mean, loss.per_scene)
 }
 
-/// The largest relative error of the loss and of a scene's; an error where they are above the bounds or not numbers.
+/// The relative error of the loss and the largest one of a scene; an error where they are above the bounds or not numbers.
 fn compare(got: &(f64, Vec<f64>), want: &(f64, Vec<f64>), bounds: [f64; 2]) -> Result<[f64; 2], String> {
-    let off = |got: f64, want: f64| if got == want { 0.0 } else { (got - want).abs() / want.abs() };
+    let off = |got: f64, want: f64| (got - want).abs() / want.max(tolerance::FUSED_LEAST);
     let mean = off(got.0, want.0);
     let scene = got.1.iter().zip(&want.1).map(|(g, w)| off(*g, *w)).fold(0.0, f64::max);
     let sane = got.1.iter().all(|x| x.is_finite() && *x >= 0.0) && got.1.len() == want.1.len();
