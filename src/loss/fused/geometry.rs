@@ -77,7 +77,9 @@ impl Source {
         let splat = |p: [f32; 3]| p.map(|c| V::<S>::splat(simd, 2.0 * c));
         let (light, view) = (splat(self.light), splat(self.view));
         let boost = V::<S>::splat(simd, self.boost.min(self.boost_limit));
-        Some(ray(simd, light, std::array::from_fn(|i| light[i] + view[i]), boost))
+        let q = std::array::from_fn(|i| light[i] + view[i]);
+        let (square, weight) = half_way(simd, q);
+        Some(Ray { light, q, square, weight, boost })
     }
 
     /// The numbers of the scene as vectors.
@@ -101,9 +103,9 @@ struct Near<F> {
     boost_limit: F,
 }
 
-/// The geometry of a near-field scene at a vector of texels.
+/// (2 l, q, boost) of a near-field scene at a vector of texels.
 #[inline(always)]
-fn near<S: Lanes>(simd: S, scene: &Near<V<S>>, x: V<S>, y: V<S>) -> Ray<V<S>> {
+fn near<S: Lanes>(simd: S, scene: &Near<V<S>>, x: V<S>, y: V<S>) -> ([V<S>; 3], [V<S>; 3], V<S>) {
     let from_texel = |p: [V<S>; 3]| [p[0] - x, p[1] - y, p[2]];
     let (to_light, to_view) = (from_texel(scene.light), from_texel(scene.view));
     let light_square = dot(to_light, to_light);
@@ -112,7 +114,7 @@ fn near<S: Lanes>(simd: S, scene: &Near<V<S>>, x: V<S>, y: V<S>) -> Ray<V<S>> {
     let light = to_light.map(|c| c * per_light);
     let q = std::array::from_fn(|i| to_view[i].mul_add(per_view, light[i]));
     let boost = (light_square * per_light * scene.boost).min(scene.boost_limit);
-    ray(simd, light, q, boost)
+    (light, q, boost)
 }
 
 /// a . b.
@@ -121,12 +123,12 @@ pub(super) fn dot<S: Simd, F: SimdFloat<S>>(a: [F; 3], b: [F; 3]) -> F {
     a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
 }
 
+/// (|q|^2, Schlick's power).
 #[inline(always)]
-fn ray<S: Lanes>(simd: S, light: [V<S>; 3], q: [V<S>; 3], boost: V<S>) -> Ray<V<S>> {
-    let square = q[2].mul_add(q[2], V::<S>::splat(simd, LEAST_SQUARE));
-    let square = q[0].mul_add(q[0], q[1].mul_add(q[1], square));
-    let power = fresnel_power(simd, square);
-    Ray { light, q, square, weight: exp2(simd, power), boost }
+fn half_way<S: Lanes>(simd: S, q: [V<S>; 3]) -> (V<S>, V<S>) {
+    let least = V::<S>::splat(simd, LEAST_SQUARE);
+    let square = q.iter().fold(least, |sum, &c| c.mul_add(c, sum));
+    (square, exp2(simd, fresnel_power(simd, square)))
 }
 
 /// 2 / sqrt(x): a Newton step leaves 1.5 times the square of the estimate's relative error.
@@ -186,18 +188,23 @@ impl Rays {
         boost: Plane::ZERO,
     };
 
+    /// In two loops: one chain of operations from the place to the power would be so long that the processor runs
+    /// out of room to work on enough vectors at a time.
     #[inline(always)]
     pub(super) fn fill<S: Lanes>(&mut self, simd: S, source: &Source, places: &Places) {
         let scene = source.splat(simd);
         for i in 0..vectors::<S>() {
-            let ray = near(simd, &scene, places.x.load(simd, i), places.y.load(simd, i));
+            let (light, q, boost) = near(simd, &scene, places.x.load(simd, i), places.y.load(simd, i));
             for c in 0..3 {
-                self.light[c].store::<S>(i, ray.light[c]);
-                self.q[c].store::<S>(i, ray.q[c]);
+                self.light[c].store::<S>(i, light[c]);
+                self.q[c].store::<S>(i, q[c]);
             }
-            self.square.store::<S>(i, ray.square);
-            self.weight.store::<S>(i, ray.weight);
-            self.boost.store::<S>(i, ray.boost);
+            self.boost.store::<S>(i, boost);
+        }
+        for i in 0..vectors::<S>() {
+            let (square, weight) = half_way(simd, self.q.each_ref().map(|p| p.load(simd, i)));
+            self.square.store::<S>(i, square);
+            self.weight.store::<S>(i, weight);
         }
     }
 

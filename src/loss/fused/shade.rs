@@ -69,6 +69,7 @@ impl Radiance {
             let (lobe, e) = lobe::<S, CLAMPED, CAREFUL>(simd, &model.clamps, terms, &ray, i);
             // Sums of positive numbers: at least the largest, and NaN or infinite if any one is.
             highlights += lobe;
+            // The chain from the lobe, which comes last, is kept short: (s (1 - w) + w) lobe + (lambert E + epsilon).
             let rest = V::<S>::splat(simd, 1.0) - ray.weight;
             for c in 0..3 {
                 let fresnel = terms.specular[c].load(simd, i).mul_add(rest, ray.weight);
@@ -106,7 +107,8 @@ fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
 
     let across: [V<S>; 3] = std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], ray.q[c]));
     let along = a * n_dot_q;
-    let mut d = along.mul_add(along, dot(across, across));
+    // In this order only three additions wait for `across`.
+    let mut d = across.iter().fold(along * along, |sum, &c| c.mul_add(c, sum));
     let mut factor_l = n_dot_l.mul_add(terms.one_minus_k.load(simd, i), a);
     let mut factor_v = n_dot_v.mul_add(terms.one_minus_k.load(simd, i), a);
     let peak = a * ray.square;
