@@ -169,7 +169,8 @@ impl App {
         egui::Panel::top("top").show(ui, |ui| commands.extend(self.top(ui)));
         egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
         if !self.messages.is_empty() {
-            egui::Panel::bottom("messages").show(ui, |ui| commands.extend(messages(ui, &self.messages)));
+            egui::Panel::bottom("messages")
+                .show(ui, |ui| commands.extend(panels::messages::ui(ui, &self.messages)));
         }
         let mut side_panel = self.settings.side_panel;
         egui::Panel::right("side")
@@ -285,22 +286,4 @@ impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, settings::KEY, &self.settings);
     }
-}
-
-/// Errors and what was done, until they are dismissed.
-fn messages(ui: &mut egui::Ui, messages: &[String]) -> Option<Command> {
-    let mut dismissed = false;
-    ui.horizontal_top(|ui| {
-        dismissed = ui.button("Dismiss").clicked();
-        egui::ScrollArea::vertical().max_height(110.0).show(ui, |ui| {
-            ui.vertical(|ui| {
-                for message in messages {
-                    let colour =
-                        if message.starts_with("Saved") { ui.visuals().text_color() } else { theme::PROBLEM };
-                    ui.label(egui::RichText::new(message).color(colour));
-                }
-            });
-        });
-    });
-    dismissed.then_some(Command::DismissMessage)
 }

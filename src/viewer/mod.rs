@@ -4,6 +4,7 @@
 
 pub mod app;
 mod apply;
+mod cells;
 pub mod command;
 mod gestures;
 mod gpu_view;
@@ -17,6 +18,7 @@ mod settings;
 mod slots;
 pub mod state;
 mod theme;
+mod title;
 mod viewport;
 mod watch;
 pub mod worker;
