@@ -30,6 +30,8 @@ use crate::loss::{Loss, LossParams, Precision};
 pub struct App {
     pub state: ViewState,
     pub settings: Settings,
+    /// The settings as they were stored last.
+    kept: Settings,
     pub(super) slots: Slots,
     pub(super) undoer: Undoer<ViewState>,
     pub(super) loss: LossRun,
@@ -65,6 +67,7 @@ impl App {
         let undo = undoer::Settings { stable_time: 0.4, ..Default::default() };
         let mut app = Self {
             state: ViewState::default(),
+            kept: settings.clone(),
             settings,
             slots: Slots::default(),
             undoer: Undoer::with_settings(undo),
@@ -257,6 +260,18 @@ impl App {
         commands
     }
 
+    /// Stores changed settings at once, not only at the end: programs are killed, too.
+    fn keep_settings(&mut self, ctx: &egui::Context, storage: Option<&mut (dyn eframe::Storage + 'static)>) {
+        if self.settings == self.kept || ctx.input(|i| i.pointer.any_down()) {
+            return;
+        }
+        self.kept = self.settings.clone();
+        if let Some(storage) = storage {
+            eframe::set_value(storage, settings::KEY, &self.settings);
+            storage.flush();
+        }
+    }
+
     /// Files that were dropped on the window.
     fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
         let paths: Vec<PathBuf> =
@@ -267,7 +282,7 @@ impl App {
 }
 
 impl eframe::App for App {
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.settings.dark);
@@ -280,6 +295,7 @@ impl eframe::App for App {
             ctx.request_repaint();
         }
         self.undoer.feed_state(ctx.input(|i| i.time), &self.state);
+        self.keep_settings(&ctx, frame.storage_mut());
         self.frame_ms = start.elapsed().as_secs_f32() * 1e3;
     }
 
