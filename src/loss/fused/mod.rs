@@ -230,10 +230,24 @@ impl Tile {
         sums: &mut [LogSum<S>],
     ) {
         match distant {
-            Some(ray) => self.add_rays(simd, model, source, sums, |_, _| ray),
+            Some(ray) => self.add_rays(
+                simd,
+                model,
+                source,
+                sums,
+                #[inline(always)]
+                |_, _| ray,
+            ),
             None => {
                 self.rays.fill(simd, source, &self.places);
-                self.add_rays(simd, model, source, sums, |rays, i| rays.load(simd, i));
+                self.add_rays(
+                    simd,
+                    model,
+                    source,
+                    sums,
+                    #[inline(always)]
+                    |rays, i| rays.load(simd, i),
+                );
             }
         }
     }
@@ -248,16 +262,30 @@ impl Tile {
         ray: impl Fn(&Rays, usize) -> Ray<V<S>>,
     ) {
         let rays = &self.rays;
-        let shade = |radiance: &mut Radiance, terms| {
-            let ray = |i| ray(rays, i);
-            shade(simd, model, source, radiance, terms, ray)
-        };
-        let expected_tame = shade(&mut self.expected, &self.ground_truth);
+        let (expected, got) = (&mut self.expected, &mut self.got);
+        let expected_tame = shade(
+            simd,
+            model,
+            source,
+            expected,
+            &self.ground_truth,
+            #[inline(always)]
+            |i| ray(rays, i),
+        );
         for (terms, sum) in self.predictions.iter().zip(sums) {
-            if shade(&mut self.got, terms) && expected_tame {
-                sum.add::<false>(simd, &self.expected, &self.got);
+            let got_tame = shade(
+                simd,
+                model,
+                source,
+                got,
+                terms,
+                #[inline(always)]
+                |i| ray(rays, i),
+            );
+            if got_tame && expected_tame {
+                sum.add::<false>(simd, expected, got);
             } else {
-                sum.add::<true>(simd, &self.expected, &self.got);
+                sum.add::<true>(simd, expected, got);
             }
         }
     }
