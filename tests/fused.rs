@@ -1,5 +1,7 @@
 //! The fused kernel against the plain loss in f64, at every instruction set that this machine has.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic: that is how it fails")]
+
 use std::path::{Path, PathBuf};
 
 use svbrdf::brdf::Texel;
