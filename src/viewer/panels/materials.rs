@@ -49,7 +49,7 @@ impl MaterialsPanel<'_> {
 fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
     let loaded = &slot.loaded;
     let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
-    let colour = if index == 0 { theme::ACCENT } else { ui.visuals().text_color() };
+    let colour = if index == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
     ui.horizontal(|ui| {
         ui.label(RichText::new(role).color(colour).small());
         if index > 0 {
