@@ -72,7 +72,8 @@ fn display(corner: Corner) -> @location(0) vec4f {
     let from_reference = params.mode == MODE_WIPE && corner.ndc.x < params.wipe;
     let size = select(textureDimensions(shown), textureDimensions(reference), vec2<bool>(from_reference));
     let place = texel_from_plane(seen.point, size);
-    if !seen.hit || any(place < vec2f(0.0)) || any(place >= vec2f(size)) {
+    let inside = all(place >= vec2f(0.0)) && all(place < vec2f(size));
+    if !(seen.hit && inside) {
         return vec4f(params.background, 1.0);
     }
     let covered = texels_from_plane_extent(extent, size);

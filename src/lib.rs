@@ -1,4 +1,52 @@
 //! What SVBRDF predictions look like beside their ground truth, and how far they are from it.
+//!
+//! A material is four maps: normal, diffuse, specular, roughness. The headless core renders it under a light and a
+//! view (Algorithm 3 of Deschaintre et al. 2018-2020) and computes the rendering loss between two materials over
+//! sampled scenes (Algorithms 1 and 2):
+//!
+//! ```
+//! use svbrdf::loss::{self, LossParams};
+//! use svbrdf::progress::Progress;
+//! use svbrdf::samples;
+//!
+//! let built_in = samples::load::<f32>()?;
+//! let params = LossParams::default();
+//! let scenes = params.scenes()?;
+//! let prediction = &built_in.predictions[0].material;
+//! let ground_truth = &built_in.ground_truth.material;
+//! let losses =
+//!     loss::losses_f32(ground_truth, &[prediction], &scenes, &params.convention, &Progress::default())?;
+//! let estimate = &losses[0].estimate;
+//! assert!((estimate.mean - 0.3712).abs() < 1e-4);
+//! assert!(estimate.standard_error.is_some_and(|error| error < 0.05));
+//! # Ok::<(), svbrdf::error::Error>(())
+//! ```
+//!
+//! # The map
+//!
+//! | module | what |
+//! |---|---|
+//! | [`material`] | the four maps, checked once; [`material::read`] opens files; [`samples`] are built in |
+//! | [`convention`] | what differs between the printed algorithms and the released codes, as data |
+//! | [`brdf`] | Algorithm 3 at one point, a function a term, over [`real`] and [`vec3`] |
+//! | [`scene`] | Algorithm 2 and the scenes of Algorithm 1, functions of a point of the unit cube |
+//! | [`render`] | Algorithm 3 over a whole material |
+//! | [`loss`] | Algorithm 1: plain and generic, and fused for f32; standard errors |
+//! | [`display`], [`export`] | what a screen shows; renderings as PNG and EXR files |
+//! | [`camera`], [`view`] | where in a pane the material is seen, and what of it |
+//! | [`progress`], [`error`] | long work watched and cancelled; one error variant a cause |
+#![cfg_attr(
+    feature = "gpu",
+    doc = "| [`gpu`] | the shaders (twins of `brdf`), the two passes, a probe for numbers |"
+)]
+#![cfg_attr(
+    feature = "viewer",
+    doc = "| [`viewer`] | the window: panels return commands, one place carries them out |"
+)]
+//!
+//! The core knows no graphics; `gpu` knows the core; `viewer` knows both; the command line is in the binary. Cargo's
+//! features enforce it: `--no-default-features` is the core with the command line.
+
 pub mod brdf;
 pub mod camera;
 pub mod convention;

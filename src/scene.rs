@@ -22,6 +22,8 @@ const DISTANCE_MU: f64 = 0.5;
 const VIEW_DISTANCE_SIGMA: f64 = 0.75;
 /// Lower end of the uniform u1 (Algorithm 2).
 const U1_MIN: f64 = 0.001;
+/// Least height above the plane: closer to a texel, f32 squares of distances vanish.
+const LOWEST: f64 = 1e-9;
 /// Largest coordinate of a position; beyond it, f32 squares overflow.
 const FARTHEST: f64 = 1e9;
 
@@ -100,10 +102,11 @@ impl Scene {
         }
     }
 
-    /// Whether the scene can be rendered: finite, within 1e9 of the origin, light and view above the plane.
+    /// Whether the scene can be rendered: finite, positions within 1e9 of the origin, light and view at least 1e-9 above
+    /// the plane (directions: once they have length 1).
     ///
     /// # Errors
-    /// [`Error::BadScene`] names what is wrong, without saying which scene of which file it is.
+    /// What is wrong, without saying which scene it is.
     pub fn check(&self) -> Result<(), String> {
         for (what, p) in [("view", self.view), ("light", self.light)] {
             if p.iter().any(|c| !c.is_finite()) {
@@ -112,9 +115,15 @@ impl Scene {
             if p.iter().any(|c| c.abs() > FARTHEST) {
                 return Err(format!("its {what} {p:?} is farther away than {FARTHEST:e}"));
             }
-            if p[2] <= 0.0 {
+            let unit = match self.kind {
+                Kind::Near => 1.0,
+                Kind::Distant => Vec3::from(p).length(),
+            };
+            // NaN where a direction has no length.
+            let height = p[2] / unit;
+            if height.is_nan() || height < LOWEST {
                 return Err(format!(
-                    "its {what} {p:?} is not above the plane of the material (z must be > 0)"
+                    "its {what} {p:?} is not above the plane of the material (z must be at least {LOWEST:e})"
                 ));
             }
         }

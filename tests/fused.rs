@@ -1,1 +1,359 @@
+//! The fused kernel against the plain loss in f64, at every instruction set that this machine has.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic: that is how it fails")]
+
+use std::path::{Path, PathBuf};
+
+use svbrdf::brdf::Texel;
+use svbrdf::convention::{self, Convention};
+use svbrdf::error::Error;
+use svbrdf::loss::fused::{Level, losses_at};
+use svbrdf::loss::{self, LossParams, losses_f32};
+use svbrdf::material::{Material, Planes};
+use svbrdf::progress::Progress;
+use svbrdf::scene::{Kind, Scene};
+
+use crate::support::tolerance;
+
+/// Numbers in [0, 1), always the same ones (xorshift).
+struct Numbers(u32);
+
+impl Numbers {
+    fn next(&mut self) -> f32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 17;
+        self.0 ^= self.0 << 5;
+        (self.0 >> 8) as f32 / (1u32 << 24) as f32
+    }
+}
+
+/// A material of random texels with normals within `tilt` of +z and a roughness in [`least`, 1).
+fn random(seed: u32, [width, height]: [usize; 2], tilt: f32, least: f32) -> Material<f32> {
+    let mut numbers = Numbers(seed.wrapping_mul(0x9e37_79b9) | 1);
+    let mut planes = Planes::default();
+    for _ in 0..width * height {
+        for axis in 0..2 {
+            planes.normal[axis].push((numbers.next() - 0.5) * 2.0 * tilt);
+        }
+        planes.normal[2].push(1.0);
+        for channel in 0..3 {
+            planes.diffuse[channel].push(numbers.next());
+            planes.specular[channel].push(numbers.next() * numbers.next());
+        }
+        planes.roughness.push(least + (1.0 - least) * numbers.next() * numbers.next());
+    }
+    Material::new(format!("random {seed}"), width, height, planes).unwrap()
+}
+
+fn uniform(normal: [f32; 3], roughness: f32, diffuse: f32, specular: f32, size: [usize; 2]) -> Material<f32> {
+    let texel = Texel {
+        normal: normal.into(),
+        diffuse: [diffuse; 3],
+        specular: [specular, 0.5 * specular, 0.0],
+        roughness,
+    };
+    Material::uniform("uniform", size[0], size[1], &texel).unwrap()
+}
+
+fn scenes(near: usize, distant: usize, convention: &Convention) -> Vec<Scene> {
+    LossParams { near, distant, seed: 7, convention: *convention, ..LossParams::default() }.scenes().unwrap()
+}
+
+/// The instruction sets to test; says which ones are missing.
+fn levels() -> Vec<(&'static str, Level)> {
+    let all = Level::all();
+    for (name, level) in &all {
+        if level.is_none() {
+            eprintln!("NOT TESTED: this machine has no {name}");
+        }
+    }
+    all.into_iter().filter_map(|(name, level)| Some((name, level?))).collect()
+}
+
+/// (mean, per scene) of the fused loss.
+fn fused(
+    level: Level,
+    gt: &Material<f32>,
+    prediction: &Material<f32>,
+    scenes: &[Scene],
+    c: &Convention,
+) -> (f64, Vec<f64>) {
+    let loss = losses_at(level, gt, &[prediction], scenes, c, &Progress::default()).unwrap().remove(0);
+    (loss.estimate.mean, loss.per_scene)
+}
+
+/// (mean, per scene) of the plain loss in f64.
+fn plain(
+    gt: &Material<f32>,
+    prediction: &Material<f32>,
+    scenes: &[Scene],
+    c: &Convention,
+) -> (f64, Vec<f64>) {
+    let loss = loss::losses::<f64>(&gt.cast(), &[&prediction.cast()], scenes, c, &Progress::default())
+        .unwrap()
+        .remove(0);
+    (loss.estimate.mean, loss.per_scene)
+}
+
+/// The relative error of the loss and the largest one of a scene; an error where they are above the bounds or not numbers.
+fn compare(got: &(f64, Vec<f64>), want: &(f64, Vec<f64>), bounds: [f64; 2]) -> Result<[f64; 2], String> {
+    let off = |got: f64, want: f64| (got - want).abs() / want.max(tolerance::FUSED_LEAST);
+    let mean = off(got.0, want.0);
+    let scene = got.1.iter().zip(&want.1).map(|(g, w)| off(*g, *w)).fold(0.0, f64::max);
+    let sane = got.1.iter().all(|x| x.is_finite() && *x >= 0.0) && got.1.len() == want.1.len();
+    if mean <= bounds[0] && scene <= bounds[1] && sane {
+        return Ok([mean, scene]);
+    }
+    Err(format!("relative error {mean:e} of the loss, {scene:e} of a scene; got {got:?}, want {want:?}"))
+}
+
+/// Holds every instruction set against f64, and prints the worst errors.
+fn check_all(
+    what: &str,
+    gt: &Material<f32>,
+    prediction: &Material<f32>,
+    scenes: &[Scene],
+    c: &Convention,
+    bounds: [f64; 2],
+) {
+    let want = plain(gt, prediction, scenes, c);
+    for (name, level) in levels() {
+        match compare(&fused(level, gt, prediction, scenes, c), &want, bounds) {
+            Ok([mean, scene]) => println!("{what}, {}, {name}: loss {mean:.1e}, scene {scene:.1e}", c.name),
+            Err(problem) => panic!("{what}, {}, {name}: {problem}", c.name),
+        }
+    }
+}
+
+const BOUNDS: [f64; 2] = [tolerance::FUSED_LOSS, tolerance::FUSED_SCENE];
+
+#[test]
+fn random_materials() {
+    for c in &convention::ALL {
+        for least in [1.0 / 255.0, 0.05] {
+            let size = [71, 53];
+            let (gt, prediction) = (random(1, size, 0.5, least), random(2, size, 0.5, least));
+            check_all(&format!("r >= {least}"), &gt, &prediction, &scenes(12, 6, c), c, BOUNDS);
+        }
+    }
+}
+
+#[test]
+fn similar_materials() {
+    let c = &convention::PRINTED;
+    let gt = random(3, [64, 64], 0.3, 0.1);
+    let mut planes = gt.planes().clone();
+    planes.roughness.iter_mut().for_each(|r| *r = (*r + 0.01).min(1.0));
+    let prediction = Material::new("near", 64, 64, planes).unwrap();
+    check_all("similar", &gt, &prediction, &scenes(6, 3, c), c, [tolerance::FUSED_SIMILAR; 2]);
+}
+
+#[test]
+fn sizes_that_no_vector_divides() {
+    let c = &convention::PRINTED;
+    for size in [[1, 1], [7, 3], [129, 1], [1, 129], [127, 1], [2049, 1], [45, 91]] {
+        let (gt, prediction) = (random(4, size, 0.4, 0.2), random(5, size, 0.4, 0.2));
+        let bounds = [tolerance::FUSED_SCENE; 2];
+        check_all(&format!("{size:?}"), &gt, &prediction, &scenes(4, 3, c), c, bounds);
+    }
+}
+
+#[test]
+fn peaks_do_not_cancel() {
+    let at = |view: [f64; 3], light| Scene { kind: Kind::Distant, view, light };
+    let scenes = [at([0.0, 0.0, 1.0], [0.0, 0.0, 1.0]), at([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8])];
+    for c in &convention::ALL {
+        // Normals within four widths a = r^2 of the half vector.
+        let (gt, prediction) = (random(6, [256, 64], 6e-5, 0.0), random(7, [256, 64], 6e-5, 0.0));
+        let smooth = |m: Material<f32>| {
+            let planes = Planes { roughness: vec![1.0 / 255.0; 256 * 64], ..m.planes().clone() };
+            Material::new("smooth", 256, 64, planes).unwrap()
+        };
+        let bounds = [tolerance::FUSED_PEAK; 2];
+        check_all("peak", &smooth(gt), &smooth(prediction), &scenes, c, bounds);
+    }
+}
+
+#[test]
+fn extremes() {
+    let distant = |view, light| Scene { kind: Kind::Distant, view, light };
+    let near = |view, light| Scene { kind: Kind::Near, view, light };
+    let up = [0.0, 0.0, 1.0];
+    let scenes = [
+        distant(up, up),
+        distant([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]),
+        distant([1.0, 0.0, 1e-3], [0.0, 1.0, 1e-6]),
+        distant([1.0, 0.0, 1e-3], [0.0, 1.0, 1e-12]),
+        near(up, [0.3, 0.2, 1e-6]),
+        near([0.0, 0.0, 1e8], [1e8, 0.0, 1e3]),
+        near([-0.3, 0.1, 0.01], [0.3, 0.2, 0.01]),
+    ];
+    let rough = uniform([0.0, 0.0, 1.0], 0.5, 0.5, 0.5, [9, 9]);
+    let size = [9, 9];
+    let others = [
+        ("mirror", uniform([0.0, 0.0, 1.0], 0.0, 0.0, 1.0, size)),
+        ("black", uniform([0.0, 0.0, 1.0], 0.0, 0.0, 0.0, size)),
+        ("white", uniform([0.0, 0.0, 1.0], 1.0, 1.0, 0.0, size)),
+        ("grazing", uniform([1.0, 0.0, 1e-3], 0.0, 1.0, 1.0, size)),
+        ("from behind", uniform([0.0, 0.0, -1.0], 0.3, 1.0, 1.0, size)),
+    ];
+    for c in &convention::ALL {
+        for (what, other) in &others {
+            check_all(what, &rough, other, &scenes, c, [tolerance::FUSED_EXTREME; 2]);
+        }
+    }
+}
+
+#[test]
+fn opposite_directions_and_tiny_heights_stay_finite() {
+    let opposite = |x: f64, z: f64| Scene { kind: Kind::Distant, view: [x, 0.0, z], light: [-x, 0.0, z] };
+    let touching = |z: f64| Scene { kind: Kind::Near, view: [0.0, 0.0, z], light: [0.0, 0.0, z] };
+    let mut scenes: Vec<_> = [1e-3, 1e-7, 1e-12, 1e-30, 1e-300].map(|z| opposite(1.0, z)).to_vec();
+    scenes.extend([1e-3, 1e-12, 1e-30, 1e-300, 1e9].map(touching));
+    let (gt, mirror) = (random(8, [9, 9], 0.9, 0.0), uniform([0.0, 0.0, 1.0], 0.0, 1.0, 1.0, [9, 9]));
+    for c in &convention::ALL {
+        for (name, level) in levels() {
+            let (mean, per_scene) = fused(level, &gt, &mirror, &scenes, c);
+            let sane = per_scene.iter().all(|x| x.is_finite() && *x >= 0.0);
+            assert!(mean.is_finite() && sane, "{name}, {}: {per_scene:?}", c.name);
+        }
+    }
+}
+
+#[test]
+fn equal_materials_have_no_loss() {
+    let c = &convention::PRINTED;
+    let gt = random(9, [130, 7], 0.9, 0.0);
+    for (name, level) in levels() {
+        assert_eq!(fused(level, &gt, &gt, &scenes(6, 3, c), c), (0.0, vec![0.0; 9]), "{name}");
+    }
+}
+
+#[test]
+fn threads_change_no_bit() {
+    let c = &convention::GUIDED_2020;
+    let (gt, prediction) = (random(10, [200, 150], 0.5, 0.0), random(11, [200, 150], 0.5, 0.0));
+    let scenes = scenes(50, 30, c);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| fused(Level::best(), &gt, &prediction, &scenes, c))
+    };
+    let one = with(1);
+    for threads in [2, 3, 5] {
+        assert_eq!(one, with(threads), "{threads} threads");
+    }
+}
+
+#[test]
+fn batches_change_no_bit() {
+    let c = &convention::PRINTED;
+    let size = [61, 67];
+    let gt = random(12, size, 0.5, 0.0);
+    let predictions = [random(13, size, 0.5, 0.0), random(14, size, 0.5, 0.1), gt.clone()];
+    let scenes = scenes(70, 20, c);
+    for (name, level) in levels() {
+        let all: Vec<_> = predictions.iter().collect();
+        let together = losses_at(level, &gt, &all, &scenes, c, &Progress::default()).unwrap();
+        for (prediction, together) in predictions.iter().zip(&together) {
+            let alone = fused(level, &gt, prediction, &scenes, c).1;
+            assert_eq!(together.per_scene, alone, "{name}: predictions together and alone");
+            let one_by_one = scenes.iter().map(|s| fused(level, &gt, prediction, &[*s], c).0);
+            assert!(one_by_one.eq(alone), "{name}: scenes together and alone");
+        }
+    }
+}
+
+#[test]
+fn planted_faults_are_seen() {
+    let c = &convention::PRINTED;
+    let (gt, prediction) = (random(15, [40, 40], 0.4, 0.1), random(16, [40, 40], 0.4, 0.1));
+    let scenes = scenes(6, 3, c);
+    let want = plain(&gt, &prediction, &scenes, c);
+    let got = |m: &Material<f32>, s: &[Scene], c: &Convention| fused(Level::best(), &gt, m, s, c);
+    compare(&got(&prediction, &scenes, c), &want, BOUNDS).unwrap();
+
+    let faulty = |change: fn(&mut Planes<f32>)| {
+        let mut planes = prediction.planes().clone();
+        change(&mut planes);
+        Material::new("faulty", 40, 40, planes).unwrap()
+    };
+    let faults = [
+        faulty(|p| p.normal[1].iter_mut().for_each(|y| *y = -*y)),
+        faulty(|p| p.specular.swap(0, 2)),
+        faulty(|p| p.roughness[1599] *= 0.5),
+        faulty(|p| p.diffuse[1][800] = 0.0),
+    ];
+    for (i, fault) in faults.iter().enumerate() {
+        assert!(compare(&got(fault, &scenes, c), &want, BOUNDS).is_err(), "fault {i}");
+    }
+    let swapped: Vec<_> = scenes.iter().map(|s| Scene { view: s.light, light: s.view, ..*s }).collect();
+    assert!(compare(&got(&prediction, &swapped, c), &want, BOUNDS).is_err(), "light and view swapped");
+    for other in &convention::ALL[1..] {
+        assert!(compare(&got(&prediction, &scenes, other), &want, BOUNDS).is_err(), "{}", other.name);
+    }
+    assert!(compare(&(f64::NAN, vec![f64::NAN; 9]), &want, BOUNDS).is_err(), "NaN");
+    assert!(compare(&(want.0, want.1[1..].to_vec()), &want, BOUNDS).is_err(), "a scene missing");
+}
+
+#[test]
+fn what_cannot_be_computed_is_an_error() {
+    let c = &convention::PRINTED;
+    let (gt, other) = (random(17, [4, 4], 0.1, 0.1), random(18, [4, 5], 0.1, 0.1));
+    let progress = Progress::default();
+    let sizes = losses_f32(&gt, &[&other], &scenes(1, 1, c), c, &progress);
+    assert!(matches!(sizes, Err(Error::SizesDiffer { .. })));
+    assert!(matches!(losses_f32(&gt, &[&gt], &[], c, &progress), Err(Error::Usage(_))));
+    assert_eq!(losses_f32(&gt, &[], &scenes(1, 1, c), c, &progress).unwrap(), []);
+    progress.cancel();
+    assert!(matches!(losses_f32(&gt, &[&gt], &scenes(1, 1, c), c, &progress), Err(Error::Cancelled)));
+}
+
+/// The folder of golden cases, beside the repository where it is developed.
+fn golden() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden");
+    folder.exists().then_some(folder)
+}
+
+/// A packed 4x1 strip: normal | diffuse | roughness | specular, 8 bits.
+fn strip(folder: &Path, case: &serde_json::Value) -> Material<f32> {
+    let file = folder.join(case["file"].as_str().unwrap());
+    let image = image::open(file).unwrap().to_rgb8();
+    let (width, height) = (image.width() / 4, image.height());
+    let gamma = if case["albedo"] == "linear" { 1.0 } else { 2.2 };
+    let plane = |part: u32, channel: usize, decode: &dyn Fn(f64) -> f64| {
+        let texel = |row, column| f64::from(image.get_pixel(part * width + column, row)[channel]) / 255.0;
+        let rows = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
+        rows.map(|(row, column)| decode(texel(row, column)) as f32).collect::<Vec<_>>()
+    };
+    let planes = Planes {
+        normal: [0, 1, 2].map(|c| plane(0, c, &|x| 2.0 * x - 1.0)),
+        diffuse: [0, 1, 2].map(|c| plane(1, c, &|x| x.powf(gamma))),
+        roughness: plane(2, 0, &|x| x),
+        specular: [0, 1, 2].map(|c| plane(3, c, &|x| x.powf(gamma))),
+    };
+    Material::new("golden", width as usize, height as usize, planes).unwrap()
+}
+
+#[test]
+fn golden_cases() {
+    let Some(folder) = golden() else {
+        eprintln!("NOT TESTED: no golden cases beside the repository");
+        return;
+    };
+    for file in std::fs::read_dir(folder.join("loss")).unwrap() {
+        let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
+        let case: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).unwrap();
+        let (gt, prediction) = (strip(&folder, &case["ground_truth"]), strip(&folder, &case["prediction"]));
+        for c in &convention::ALL {
+            let Some(expected) = case["expected"].get(c.name) else { continue };
+            let numbers = expected["per_scene"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap());
+            let want = (expected["loss"].as_f64().unwrap(), numbers.collect());
+            for (name, level) in levels() {
+                let got = fused(level, &gt, &prediction, &scenes, c);
+                let [mean, scene] = compare(&got, &want, BOUNDS).unwrap();
+                println!("{}, {}, {name}: loss {mean:.1e}, scene {scene:.1e}", case["id"], c.name);
+            }
+        }
+    }
+}

@@ -83,8 +83,8 @@ pub fn open<T: Real>(args: &MaterialArgs) -> Result<Opened<T>, Error> {
     let Some(ground_truth) = &args.ground_truth else {
         let built_in = samples::load()?;
         return Ok(Opened {
-            ground_truth: noted(built_in.ground_truth),
-            predictions: built_in.predictions.into_iter().map(noted).collect(),
+            ground_truth: built_in.ground_truth.material,
+            predictions: built_in.predictions.into_iter().map(|read| read.material).collect(),
         });
     };
     let ground_truth = open_one(ground_truth, &args.reading.of_ground_truth())?;
@@ -99,9 +99,9 @@ fn open_one<T: Real>(path: &Path, options: &ReadOptions) -> Result<Material<T>, 
 }
 
 /// The material, after what there is to say about its files.
-fn noted<T>(read: Read<T>) -> Material<T> {
+fn noted<T: Real>(read: Read<T>) -> Material<T> {
     for note in &read.notes {
-        tell(&format!("note: {note}"));
+        tell(&format!("note: {}: {note}", read.material.name()));
     }
     read.material
 }

@@ -30,6 +30,8 @@ use crate::loss::{Loss, LossParams, Precision};
 pub struct App {
     pub state: ViewState,
     pub settings: Settings,
+    /// The settings as they were stored last.
+    kept: Settings,
     pub(super) slots: Slots,
     pub(super) undoer: Undoer<ViewState>,
     pub(super) loss: LossRun,
@@ -65,6 +67,7 @@ impl App {
         let undo = undoer::Settings { stable_time: 0.4, ..Default::default() };
         let mut app = Self {
             state: ViewState::default(),
+            kept: settings.clone(),
             settings,
             slots: Slots::default(),
             undoer: Undoer::with_settings(undo),
@@ -128,6 +131,7 @@ impl App {
     fn poll(&mut self, ctx: &egui::Context) {
         self.messages.extend(self.slots.poll(ctx));
         self.messages.extend(self.loss.poll(ctx));
+        self.messages.extend(self.gpu.as_ref().and_then(|g| g.gpu.take_fault()).map(|e| e.to_string()));
         if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
             self.saving = None;
             self.messages.push(match result {
@@ -158,13 +162,7 @@ impl App {
             (_, _, Some(_)) => Command::ShowSave(false),
             _ => Command::CancelLoss,
         };
-        let now = keys::Context {
-            state: &self.state,
-            highlight_follows: self.settings.highlight_follows,
-            side_panel: self.settings.side_panel,
-            enter_is_free: ctx.memory(|m| m.focused()).is_none(),
-            escape: &escape,
-        };
+        let now = keys::Context { enter_is_free: ctx.memory(|m| m.focused()).is_none(), escape: &escape };
         keys::commands(ctx, now)
     }
 
@@ -174,16 +172,16 @@ impl App {
         egui::Panel::top("top").show(ui, |ui| commands.extend(self.top(ui)));
         egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
         if !self.messages.is_empty() {
-            egui::Panel::bottom("messages").show(ui, |ui| commands.extend(messages(ui, &self.messages)));
+            egui::Panel::bottom("messages")
+                .show(ui, |ui| commands.extend(panels::messages::ui(ui, &self.messages)));
         }
         let mut side_panel = self.settings.side_panel;
-        egui::Panel::right("side").default_size(320.0).size_range(240.0..=520.0).show_collapsible(
-            ui,
-            &mut side_panel,
-            |ui| commands.extend(self.side(ui)),
-        );
+        egui::Panel::right("side")
+            .default_size(320.0)
+            .size_range(240.0..=(0.4 * ui.available_width()).max(240.0))
+            .show_collapsible(ui, &mut side_panel, |ui| commands.extend(self.side(ui)));
         if side_panel != self.settings.side_panel {
-            commands.push(Command::SetSidePanel(side_panel));
+            commands.push(Command::ToggleSidePanel);
         }
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
         commands.extend(self.windows(ui.ctx()));
@@ -262,6 +260,18 @@ impl App {
         commands
     }
 
+    /// Stores changed settings at once, not only at the end: programs are killed, too.
+    fn keep_settings(&mut self, ctx: &egui::Context, storage: Option<&mut (dyn eframe::Storage + 'static)>) {
+        if self.settings == self.kept || ctx.input(|i| i.pointer.any_down()) {
+            return;
+        }
+        self.kept = self.settings.clone();
+        if let Some(storage) = storage {
+            eframe::set_value(storage, settings::KEY, &self.settings);
+            storage.flush();
+        }
+    }
+
     /// Files that were dropped on the window.
     fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
         let paths: Vec<PathBuf> =
@@ -272,7 +282,7 @@ impl App {
 }
 
 impl eframe::App for App {
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.settings.dark);
@@ -285,28 +295,11 @@ impl eframe::App for App {
             ctx.request_repaint();
         }
         self.undoer.feed_state(ctx.input(|i| i.time), &self.state);
+        self.keep_settings(&ctx, frame.storage_mut());
         self.frame_ms = start.elapsed().as_secs_f32() * 1e3;
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, settings::KEY, &self.settings);
     }
-}
-
-/// Errors and what was done, until they are dismissed.
-fn messages(ui: &mut egui::Ui, messages: &[String]) -> Option<Command> {
-    let mut dismissed = false;
-    ui.horizontal_top(|ui| {
-        dismissed = ui.button("Dismiss").clicked();
-        egui::ScrollArea::vertical().max_height(110.0).show(ui, |ui| {
-            ui.vertical(|ui| {
-                for message in messages {
-                    let colour =
-                        if message.starts_with("Saved") { ui.visuals().text_color() } else { theme::PROBLEM };
-                    ui.label(egui::RichText::new(message).color(colour));
-                }
-            });
-        });
-    });
-    dismissed.then_some(Command::DismissMessage)
 }

@@ -71,7 +71,7 @@ impl App {
             Command::PutHighlight(at) => state::put_highlight(scene, at),
             Command::ScaleHeight(end, factor) => state::scale_height(scene, end, factor),
             Command::ScaleDistance(end, factor) => state::scale_distance(scene, end, factor),
-            Command::Orbit { end, azimuth, elevation } => state::orbit(scene, end, azimuth, elevation),
+            Command::Orbit { end, sideways, upwards } => state::orbit(scene, end, sideways, upwards),
             Command::CopyScene => ctx.copy_text(scene_text(*scene)),
             Command::PasteScene(text) => match pasted_scene(&text) {
                 Ok(pasted) => *scene = pasted,
@@ -90,18 +90,16 @@ impl App {
             Command::CycleShown(by) => state.shown = cycled(&Shown::ALL, state.shown, by),
             Command::SetLayout(layout) => state.layout = layout,
             Command::CycleLayout => state.layout = cycled(&Layout::ALL, state.layout, 1),
-            Command::SetProjection(projection) => {
-                state.projection = projection;
-                (state.zoom, state.pan) = (1.0, [0.0; 2]);
-            }
+            Command::ToggleProjection => state.projection = state::other_projection(state.projection),
             Command::SetExposure(ev) => state.exposure_ev = ev.clamp(-STOPS, STOPS),
+            Command::StepExposure(by) => state.exposure_ev = (state.exposure_ev + by).clamp(-STOPS, STOPS),
             Command::Normalize => {
                 if let Some(slot) = self.slots.ground_truth() {
                     let ev = normalizing_exposure(&slot.loaded.material, state);
                     state.exposure_ev = ev.clamp(-STOPS, STOPS);
                 }
             }
-            Command::SetClipping(on) => state.show_clipping = on,
+            Command::ToggleClipping => state.show_clipping = !state.show_clipping,
             Command::SetWipe(at) => state.wipe = at.clamp(0.0, 1.0),
             Command::SetConvention(name) => state.convention = name.to_owned(),
             Command::ChoosePrediction(index) => {
@@ -133,13 +131,13 @@ impl App {
     fn apply_to_window(&mut self, ctx: &egui::Context, command: Command) {
         let settings: &mut Settings = &mut self.settings;
         match command {
-            Command::SetHighlightFollows(on) => settings.highlight_follows = on,
+            Command::ToggleHighlightFollows => settings.highlight_follows = !settings.highlight_follows,
             Command::SetAutoLoss(on) => settings.auto_loss = on,
             Command::SetScenes { near, distant, seed } => {
                 (settings.near, settings.distant, settings.seed) = (near, distant, seed);
             }
             Command::SetDark(on) => settings.dark = on,
-            Command::SetSidePanel(on) => settings.side_panel = on,
+            Command::ToggleSidePanel => settings.side_panel = !settings.side_panel,
             Command::SwapSides => self.swapped = !self.swapped,
             Command::SetHelp(on) => self.help = on,
             Command::ShowOpen(on) => {

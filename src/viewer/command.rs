@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::state::{End, Layout, Projection};
+use super::state::{End, Layout};
 use crate::material::read::ReadOptions;
 use crate::scene::Scene;
 use crate::view::Shown;
@@ -39,10 +39,12 @@ pub enum Command {
     ScaleDistance(End, f64),
     Orbit {
         end: End,
-        azimuth: f64,
-        elevation: f64,
+        /// Radians about the upright axis y.
+        sideways: f64,
+        /// Radians towards it.
+        upwards: f64,
     },
-    SetHighlightFollows(bool),
+    ToggleHighlightFollows,
     CopyScene,
     PasteScene(String),
 
@@ -50,10 +52,11 @@ pub enum Command {
     CycleShown(isize),
     SetLayout(Layout),
     CycleLayout,
-    SetProjection(Projection),
+    ToggleProjection,
     SetExposure(f32),
+    StepExposure(f32),
     Normalize,
-    SetClipping(bool),
+    ToggleClipping,
     SetWipe(f32),
     SetConvention(&'static str),
     ChoosePrediction(usize),
@@ -84,7 +87,7 @@ pub enum Command {
     /// Write the view to this file, as `svbrdf render` does.
     SaveView(PathBuf),
     SetDark(bool),
-    SetSidePanel(bool),
+    ToggleSidePanel,
     SetHelp(bool),
     DismissMessage,
 }

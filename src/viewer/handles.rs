@@ -69,7 +69,7 @@ pub fn paint_wipe(painter: &Painter, rect: Rect, wipe: f32) {
     let line = [pos2(x, rect.top()), pos2(x, rect.bottom())];
     painter.line_segment(line, Stroke::new(3.0, Color32::from_black_alpha(140)));
     painter.line_segment(line, Stroke::new(1.0, theme::EYE));
-    let grip = Rect::from_center_size(pos2(x, rect.center().y), Vec2::new(8.0, 28.0));
+    let grip = Rect::from_center_size(pos2(x, rect.top() + 0.85 * rect.height()), Vec2::new(8.0, 28.0));
     painter.rect_filled(grip, 4.0, theme::EYE);
     painter.rect_stroke(
         grip,

@@ -3,7 +3,6 @@
 use eframe::egui::{self, Key, Modifiers};
 
 use super::command::Command;
-use super::state::ViewState;
 
 /// Every gesture and key, for the help window and the README: (what to do, what it does).
 pub const HELP: &[(&str, &str)] = &[
@@ -40,9 +39,6 @@ pub const HELP: &[(&str, &str)] = &[
 /// What the command of a key depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
-    pub state: &'a ViewState,
-    pub highlight_follows: bool,
-    pub side_panel: bool,
     /// Whether no button has the focus, which Enter would press.
     pub enter_is_free: bool,
     /// What Escape does.
@@ -57,9 +53,8 @@ pub fn commands(ctx: &egui::Context, now: Context<'_>) -> Vec<Command> {
     let mut commands = ctx.input_mut(|input| {
         let mut found = Vec::new();
         for (modifiers, key, command) in table(now) {
-            if input.consume_key(modifiers, key) {
-                found.push(command);
-            }
+            let presses = input.count_and_consume_key(modifiers, key);
+            found.extend(std::iter::repeat_n(command, presses));
         }
         found
     });
@@ -77,11 +72,10 @@ fn event_command(event: &egui::Event) -> Option<Command> {
     }
 }
 
-/// Longer chords first: `consume_key` takes a shorter one for them.
+/// Longer chords first: `count_and_consume_key` takes a shorter one for them.
 fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
     use Command as C;
     let none = Modifiers::NONE;
-    let state = now.state;
     let mut table = vec![
         (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, C::Redo),
         (Modifiers::COMMAND, Key::Z, C::Undo),
@@ -89,15 +83,15 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (Modifiers::COMMAND, Key::S, C::ShowSave(true)),
         (Modifiers::COMMAND, Key::R, C::Reload),
         (Modifiers::SHIFT, Key::M, C::CycleShown(-1)),
-        (Modifiers::SHIFT, Key::E, C::SetExposure(state.exposure_ev - 0.5)),
+        (Modifiers::SHIFT, Key::E, C::StepExposure(-0.5)),
         (none, Key::M, C::CycleShown(1)),
-        (none, Key::E, C::SetExposure(state.exposure_ev + 0.5)),
+        (none, Key::E, C::StepExposure(0.5)),
         (none, Key::N, C::Normalize),
         (none, Key::C, C::CycleLayout),
-        (none, Key::P, C::SetProjection(super::state::other_projection(state.projection))),
-        (none, Key::L, C::SetClipping(!state.show_clipping)),
-        (none, Key::H, C::SetHighlightFollows(!now.highlight_follows)),
-        (none, Key::B, C::SetSidePanel(!now.side_panel)),
+        (none, Key::P, C::ToggleProjection),
+        (none, Key::L, C::ToggleClipping),
+        (none, Key::H, C::ToggleHighlightFollows),
+        (none, Key::B, C::ToggleSidePanel),
         (none, Key::X, C::SwapSides),
         (none, Key::F, C::Fit),
         (none, Key::Num0, C::OneToOne),

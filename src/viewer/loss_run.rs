@@ -17,6 +17,9 @@ pub struct Key {
     params: LossParams,
 }
 
+/// A loss that is being computed: the losses and the time they took.
+type LossJob = Job<(Vec<Loss>, Duration)>;
+
 /// A loss that was computed.
 #[derive(Clone, Debug)]
 pub struct Done {
@@ -29,7 +32,7 @@ pub struct Done {
 /// The loss that is being computed and the one that was.
 #[derive(Debug, Default)]
 pub struct LossRun {
-    running: Option<(Key, Job<(Vec<Loss>, Duration)>)>,
+    running: Option<(Key, LossJob)>,
     done: Option<Done>,
     /// The key that a person cancelled or that failed: not tried again by itself.
     given_up: Option<Key>,
@@ -42,7 +45,7 @@ impl LossRun {
     }
 
     /// The running job, for its progress.
-    pub fn job(&self) -> Option<&Job<(Vec<Loss>, Duration)>> {
+    pub fn job(&self) -> Option<&LossJob> {
         self.running.as_ref().map(|(_, job)| job)
     }
 

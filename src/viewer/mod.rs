@@ -4,11 +4,13 @@
 
 pub mod app;
 mod apply;
+mod cells;
 pub mod command;
 mod gestures;
 mod gpu_view;
 mod handles;
 pub mod keys;
+pub mod legend;
 mod loss_run;
 mod panels;
 mod save;
@@ -16,6 +18,7 @@ mod settings;
 mod slots;
 pub mod state;
 mod theme;
+mod title;
 mod viewport;
 mod watch;
 pub mod worker;
@@ -24,8 +27,8 @@ use std::panic::AssertUnwindSafe;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use eframe::egui;
 use eframe::egui_wgpu::{WgpuError, WgpuSetup, WgpuSetupCreateNew};
-use eframe::{egui, wgpu};
 
 use crate::error::Error;
 use crate::gpu::Gpu;
@@ -77,7 +80,7 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
 
 fn native_options() -> eframe::NativeOptions {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
-    setup.power_preference = wgpu::PowerPreference::HighPerformance;
+    setup.native_adapter_selector = Some(Arc::new(Gpu::select_adapter));
     setup.device_descriptor = Arc::new(Gpu::device_descriptor);
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()

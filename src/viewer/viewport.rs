@@ -1,23 +1,21 @@
 //! The panes: which there are, where they lie, what each shows.
 
-use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2, vec2};
+use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2};
 
+use super::cells::{TITLE, cells, pixel_aligned};
 use super::command::Command;
 use super::gestures::{self, Gesture, Target};
 use super::gpu_view::GpuView;
 use super::handles;
+use super::legend;
 use super::slots::Slot;
 use super::state::{self, End, Layout, Projection, ViewState};
 use super::theme;
+use super::title::title_bar;
 use crate::camera::Camera;
 use crate::gpu::{DisplayMode, DisplayParams, ShadeParams};
 use crate::material::Grid;
 use crate::view::Shown;
-
-/// Height of the line above a pane that names what it shows.
-const TITLE: f32 = 24.0;
-/// Room between two panes.
-const GAP: f32 = 6.0;
 
 /// What the panes need to know, for one frame.
 #[derive(Debug)]
@@ -46,15 +44,15 @@ pub struct Viewport {
 
 /// One pane: the slot it shows, the slot it is compared with, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Content {
-    shown: usize,
-    reference: usize,
-    mode: DisplayMode,
+pub struct Content {
+    pub shown: usize,
+    pub reference: usize,
+    pub mode: DisplayMode,
 }
 
 impl Scenery<'_> {
     /// The slot that the chosen prediction is in; the ground truth's where there is no prediction.
-    fn chosen(&self) -> usize {
+    pub fn chosen(&self) -> usize {
         (self.state.prediction + 1).min(self.slots.len().saturating_sub(1))
     }
 
@@ -94,7 +92,7 @@ impl Scenery<'_> {
     }
 
     /// The name of slot `index` as titles give it.
-    fn title(&self, index: usize) -> String {
+    pub fn title(&self, index: usize) -> String {
         let name = self.slots[index].name();
         if index == 0 { format!("GROUND TRUTH  {name}") } else { format!("{index}  {name}") }
     }
@@ -199,6 +197,9 @@ impl Viewport {
         if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.wipe);
         }
+        if content.mode == DisplayMode::Difference {
+            legend::paint(&painter, rect, state);
+        }
         if state.shown == Shown::Rendering {
             paint_handles(&painter, rect, &camera, state);
         }
@@ -238,74 +239,6 @@ fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &V
     {
         handles::paint_sun(painter, at, outside);
     }
-}
-
-/// The line above a pane. A click on a prediction's chooses it.
-fn title_bar(
-    ui: &egui::Ui,
-    scenery: &Scenery<'_>,
-    number: usize,
-    content: Content,
-    rect: Rect,
-) -> Option<Command> {
-    let prediction = content.shown.checked_sub(1);
-    let chosen = content.shown == scenery.chosen() && content.shown != 0;
-    let text = match content.mode {
-        DisplayMode::Shown => scenery.title(content.shown),
-        DisplayMode::Wipe(_) => {
-            format!("{}   |   {}", scenery.title(content.reference), scenery.title(content.shown))
-        }
-        DisplayMode::Difference => {
-            format!("|ln| difference of {} from the ground truth", scenery.title(content.shown))
-        }
-    };
-    let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
-    let painter = ui.painter_at(rect);
-    painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
-    let colour = if content.shown == 0 { theme::ACCENT } else { ui.visuals().text_color() };
-    let font = FontId::proportional(13.5);
-    let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
-        .into_galley(ui, Some(egui::TextWrapMode::Truncate), rect.width() - 16.0, font);
-    let elided = galley.elided;
-    let at = rect.left_center() + vec2(8.0, -galley.size().y * 0.5);
-    painter.galley(at, galley, colour);
-    if chosen && scenery.state.layout == Layout::SideBySide && scenery.slots.len() > 2 {
-        let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
-        painter.rect_filled(line, 0.0, theme::ACCENT);
-    }
-    let response = if elided { response.on_hover_text(text) } else { response };
-    prediction.filter(|_| response.clicked()).map(Command::ChoosePrediction)
-}
-
-/// Splits `area` into `count` cells, in as many columns as leave the material largest.
-fn cells(area: Rect, count: usize, grid: Grid) -> Vec<Rect> {
-    let [half_width, half_height] = grid.half_extent();
-    let size = |columns: usize| {
-        let rows = count.div_ceil(columns);
-        let cell = cell_size(area, columns, rows);
-        ((cell.x) / half_width).min((cell.y - TITLE) / half_height)
-    };
-    let columns = (1..=count.max(1)).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(1);
-    let cell = cell_size(area, columns, count.div_ceil(columns));
-    (0..count)
-        .map(|i| {
-            let place = vec2((i % columns) as f32, (i / columns) as f32);
-            Rect::from_min_size(area.min + place * (cell + Vec2::splat(GAP)), cell)
-        })
-        .collect()
-}
-
-fn cell_size(area: Rect, columns: usize, rows: usize) -> Vec2 {
-    let gaps = vec2(columns as f32 - 1.0, rows as f32 - 1.0) * GAP;
-    ((area.size() - gaps) / vec2(columns as f32, rows as f32)).max(Vec2::splat(TITLE + 8.0))
-}
-
-/// The rectangle moved onto whole physical pixels: the shader's pixels are then the screen's.
-fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
-    let scale = ui.pixels_per_point();
-    let round = |p: egui::Pos2| (p.to_vec2() * scale).round() / scale;
-    Rect::from_min_max(round(rect.min).to_pos2(), round(rect.max).to_pos2())
 }
 
 /// A sentence in the middle of an empty area.

@@ -2,10 +2,17 @@
 
 use std::process::Command;
 
+use svbrdf::brdf::Texel;
+use svbrdf::camera::Camera;
+use svbrdf::convention::PRINTED;
 use svbrdf::error::Error;
-use svbrdf::gpu::{Gpu, MaterialTextures, Shading};
+use svbrdf::gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shading};
+use svbrdf::material::Material;
+use svbrdf::scene::{Kind, Scene};
+use svbrdf::vec3::Vec3;
+use svbrdf::view::Shown;
 
-use crate::support::gpu::{bumpy, gpu};
+use crate::support::gpu::{bumpy, gpu, picture};
 
 #[test]
 fn the_report_is_one_line_that_says_what_is_used_and_why() {
@@ -61,6 +68,50 @@ fn a_material_beyond_the_limits_is_refused_with_both_sizes() {
     let shading = Shading::new(gpu).expect("compiled");
     refused(shading.target(&small, [9, 4]).map(drop));
     MaterialTextures::upload(&small, &bumpy(8, 4)).expect("just within the limit");
+}
+
+#[test]
+fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu() {
+    let Some(gpu) = gpu() else { return };
+    let mut half = gpu.clone();
+    half.report.shading_format = wgpu::TextureFormat::Rgba16Float;
+    let scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] };
+    let refused =
+        half.render(&bumpy(4, 4), &scene, &PRINTED).expect_err("16 bits are not enough").to_string();
+    assert!(refused.contains("32-bit floats") && refused.contains("use the CPU"), "{refused}");
+
+    let shading = Shading::new(&half).expect("compiled");
+    let textures = MaterialTextures::upload(&half, &mirror()).expect("uploaded");
+    let target = shading.target(&half, [2, 2]).expect("created");
+    let params = ShadeParams { scene, convention: PRINTED, shown: Shown::Rendering };
+    shading.draw(&half, &textures, &params, &target);
+    let camera = Camera {
+        origin: Vec3::new(0.0, 0.0, 1.0),
+        origin_right: Vec3::new(1.0, 0.0, 0.0),
+        origin_up: Vec3::new(0.0, 1.0, 0.0),
+        direction: Vec3::new(0.0, 0.0, -1.0),
+        direction_right: Vec3::zero(),
+        direction_up: Vec3::zero(),
+    };
+    let params = DisplayParams {
+        camera,
+        // Brings the largest 16-bit number, and nothing larger, just below 1.
+        exposure_ev: -16.0,
+        mode: DisplayMode::Shown,
+        encoding: Encoding::Radiance,
+        show_clipping: true,
+        epsilon: 0.01,
+        background: [0.0; 3],
+    };
+    let picture = picture(&half, [2, 2], &target, &target, &params);
+    assert!(picture.at(0, 0).iter().all(|&level| level >= 254), "{:?}", picture.at(0, 0));
+}
+
+/// Straight under the light, its highlight is brighter than any 16-bit number.
+fn mirror() -> Material<f32> {
+    let texel =
+        Texel { normal: Vec3::new(0.0, 0.0, 1.0), diffuse: [0.0; 3], specular: [1.0; 3], roughness: 0.0 };
+    Material::uniform("mirror", 2, 2, &texel).expect("valid")
 }
 
 #[test]

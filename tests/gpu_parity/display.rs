@@ -11,7 +11,7 @@ use svbrdf::scene::{Kind, Scene};
 use svbrdf::vec3::Vec3;
 use svbrdf::view::Shown;
 
-use crate::support::gpu::{Picture, bumpy, gpu, picture};
+use crate::support::gpu::{Picture, bumpy, gpu, gpu_f32, picture};
 use crate::support::tolerance::SCREEN_LEVELS;
 
 const BACKGROUND: [f32; 3] = [0.2, 0.4, 0.6];
@@ -105,7 +105,7 @@ fn known_values_are_encoded_as_the_standard_says() {
 
 #[test]
 fn radiance_is_exposed_before_it_is_encoded() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = gpu_f32() else { return };
     let material = gray(0.3);
     let on_gpu = gpu.render(&material, &ABOVE, &PRINTED).expect("rendered").pixels[0];
     let shaded = shaded(gpu, &material, Shown::Rendering);
@@ -262,7 +262,7 @@ fn the_difference_of_a_picture_to_itself_is_the_colour_map_s_zero() {
 
 #[test]
 fn a_difference_is_that_of_the_logarithms_for_renderings_and_plain_for_maps() {
-    let Some(gpu) = gpu() else { return };
+    let Some(gpu) = gpu_f32() else { return };
     let (light, dark) = (gray(0.9), gray(0.3));
     let radiance = |m| f64::from(gpu.render(m, &ABOVE, &PRINTED).expect("rendered").pixels[0][0]);
     let logarithmic = (radiance(&light) + 0.01).ln() - (radiance(&dark) + 0.01).ln();

@@ -21,6 +21,20 @@ pub fn gpu() -> Option<&'static Gpu> {
     }
 }
 
+/// As [`gpu`], where it renders to 32-bit floats; software GL does not.
+///
+/// # Panics
+/// In CI, where Vulkan is always there.
+pub fn gpu_f32() -> Option<&'static Gpu> {
+    let gpu = gpu()?;
+    if gpu.report.shading_format == wgpu::TextureFormat::Rgba32Float {
+        return Some(gpu);
+    }
+    assert!(std::env::var_os("CI").is_none(), "no 32-bit renderings in CI: {}", gpu.report);
+    println!("ignored: no 32-bit renderings: {}", gpu.report);
+    None
+}
+
 /// A bumpy material in which no two texels, rows, columns or channels are alike.
 pub fn bumpy(width: usize, height: usize) -> Material<f32> {
     let plane = |f: &dyn Fn(f32, f32) -> f32| -> Vec<f32> {

@@ -11,7 +11,7 @@ pub const U: f64 = 1.0 / (1 << 24) as f64;
 /// A texel, and the directions w_l and w_v of any length.
 pub type Point = (Texel<f32>, [f32; 3], [f32; 3]);
 
-/// `count` points: a third of the choices are random, the others at the edges of the domain.
+/// `count` points whose parts are now random, now at an edge of the domain, in every combination.
 pub fn points(seed: u64, count: usize) -> Vec<Point> {
     let mut generator = Generator(ChaCha8Rng::seed_from_u64(seed));
     (0..count).map(|_| generator.point()).collect()

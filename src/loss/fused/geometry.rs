@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::{Lanes, V};
+use super::lanes::{Lanes, V, neg_mul_add};
 use super::tile::{Places, Plane, vectors};
 use crate::convention::Convention;
 use crate::scene::{Kind, Scene};
@@ -15,17 +15,19 @@ const LEAST_SQUARE: f32 = 1e-18;
 
 /// The geometry of a vector of texels.
 ///
-/// The half vector is never normalized: q = l + v, and |q|^2 = 4 VoH^2.
+/// Directions have length 2, which saves a multiplication, and the half vector is never normalized: q = 2 (l + v),
+/// |q|^2 = 16 VoH^2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ray<F> {
+    /// 2 l.
     pub(super) light: [F; 3],
-    /// q = l + v.
+    /// 2 (l + v).
     pub(super) q: [F; 3],
-    /// |q|^2 / sqrt(pi).
+    /// |q|^2.
     pub(super) square: F,
     /// Schlick's power.
     pub(super) weight: F,
-    /// The convention's intensity / l.z.
+    /// The convention's intensity / (2 pi l.z).
     pub(super) boost: F,
 }
 
@@ -35,7 +37,7 @@ pub(super) struct Source {
     near: bool,
     light: [f32; 3],
     view: [f32; 3],
-    /// Intensity / L.z for the light at L.
+    /// Intensity / (4 pi L.z) for the near light at L, intensity / (2 pi l.z) for the distant one.
     boost: f32,
     /// Most that a boost may be: the convention's floor of l.z.
     boost_limit: f32,
@@ -51,14 +53,16 @@ impl Source {
             Vec3::from([p[0], p[1], p[2].max(LOWEST)])
         };
         let (light, view) = (lift(scene.light), lift(scene.view));
-        let boost = convention.intensity / light.z;
-        let limit = convention.intensity / convention.light_z_floor.max(1e-30);
-        let farthest = if scene.kind == Kind::Near { light.length() + reach } else { 1.0 };
+        let near = scene.kind == Kind::Near;
+        let intensity = convention.intensity / std::f64::consts::TAU;
+        let boost = intensity / light.z;
+        let limit = intensity / convention.light_z_floor.max(1e-30);
+        let farthest = if near { light.length() + reach } else { 1.0 };
         Self {
-            near: scene.kind == Kind::Near,
+            near,
             light: light.to_array().map(|c| c as f32),
             view: view.to_array().map(|c| c as f32),
-            boost: boost as f32,
+            boost: if near { boost / 2.0 } else { boost } as f32,
             boost_limit: limit as f32,
             most_boost: (boost * farthest).min(limit) as f32,
         }
@@ -70,25 +74,47 @@ impl Source {
         if self.near {
             return None;
         }
-        let splat = |p: [f32; 3]| p.map(|c| V::<S>::splat(simd, c));
+        let splat = |p: [f32; 3]| p.map(|c| V::<S>::splat(simd, 2.0 * c));
         let (light, view) = (splat(self.light), splat(self.view));
         let boost = V::<S>::splat(simd, self.boost.min(self.boost_limit));
-        Some(ray(simd, light, std::array::from_fn(|i| light[i] + view[i]), boost))
+        let q = std::array::from_fn(|i| light[i] + view[i]);
+        let (square, weight) = half_way(simd, q);
+        Some(Ray { light, q, square, weight, boost })
     }
 
-    /// The geometry of a near-field scene at a vector of texels.
+    /// The numbers of the scene as vectors.
     #[inline(always)]
-    fn near<S: Lanes>(&self, simd: S, x: V<S>, y: V<S>) -> Ray<V<S>> {
+    fn splat<S: Simd>(&self, simd: S) -> Near<V<S>> {
         let splat = |c| V::<S>::splat(simd, c);
-        let to = |p: [f32; 3]| [splat(p[0]) - x, splat(p[1]) - y, splat(p[2])];
-        let (to_light, to_view) = (to(self.light), to(self.view));
-        let (light_square, view_square) = (dot(to_light, to_light), dot(to_view, to_view));
-        let (per_light, per_view) = (simd.rsqrt(light_square), simd.rsqrt(view_square));
-        let light = to_light.map(|c| c * per_light);
-        let q = std::array::from_fn(|i| to_view[i].mul_add(per_view, light[i]));
-        let boost = (light_square * per_light * self.boost).min(splat(self.boost_limit));
-        ray(simd, light, q, boost)
+        Near {
+            light: self.light.map(splat),
+            view: self.view.map(splat),
+            boost: splat(self.boost),
+            boost_limit: splat(self.boost_limit),
+        }
     }
+}
+
+/// A near-field scene in registers, see [`Source`].
+struct Near<F> {
+    light: [F; 3],
+    view: [F; 3],
+    boost: F,
+    boost_limit: F,
+}
+
+/// (2 l, q, boost) of a near-field scene at a vector of texels.
+#[inline(always)]
+fn near<S: Lanes>(simd: S, scene: &Near<V<S>>, x: V<S>, y: V<S>) -> ([V<S>; 3], [V<S>; 3], V<S>) {
+    let from_texel = |p: [V<S>; 3]| [p[0] - x, p[1] - y, p[2]];
+    let (to_light, to_view) = (from_texel(scene.light), from_texel(scene.view));
+    let light_square = dot(to_light, to_light);
+    let per_light = twice_rsqrt(simd, light_square);
+    let per_view = twice_rsqrt(simd, dot(to_view, to_view));
+    let light = to_light.map(|c| c * per_light);
+    let q = std::array::from_fn(|i| to_view[i].mul_add(per_view, light[i]));
+    let boost = (light_square * per_light * scene.boost).min(scene.boost_limit);
+    (light, q, boost)
 }
 
 /// a . b.
@@ -97,15 +123,33 @@ pub(super) fn dot<S: Simd, F: SimdFloat<S>>(a: [F; 3], b: [F; 3]) -> F {
     a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
 }
 
+/// (|q|^2, Schlick's power).
 #[inline(always)]
-fn ray<S: Lanes>(simd: S, light: [V<S>; 3], q: [V<S>; 3], boost: V<S>) -> Ray<V<S>> {
-    let square = q[2].mul_add(q[2], V::<S>::splat(simd, LEAST_SQUARE));
-    let square = q[0].mul_add(q[0], q[1].mul_add(q[1], square));
-    let length = square * simd.rsqrt(square);
-    // (-5.55473 VoH - 6.98316) VoH, with VoH = |q| / 2.
-    let power = square.mul_add(-5.55473 / 4.0, length * (-6.98316 / 2.0));
-    let square = square * (std::f32::consts::FRAC_2_SQRT_PI / 2.0);
-    Ray { light, q, square, weight: exp2(simd, power), boost }
+fn half_way<S: Lanes>(simd: S, q: [V<S>; 3]) -> (V<S>, V<S>) {
+    let least = V::<S>::splat(simd, LEAST_SQUARE);
+    let square = q.iter().fold(least, |sum, &c| c.mul_add(c, sum));
+    (square, exp2(simd, fresnel_power(simd, square)))
+}
+
+/// 2 / sqrt(x): a Newton step leaves 1.5 times the square of the estimate's relative error.
+#[inline(always)]
+fn twice_rsqrt<S: Lanes>(simd: S, x: V<S>) -> V<S> {
+    let estimate = simd.rsqrt_estimate(x);
+    estimate * neg_mul_add::<S>(x * estimate, estimate, V::<S>::splat(simd, 3.0))
+}
+
+/// (-5.55473 VoH - 6.98316) VoH from 16 VoH^2.
+///
+/// The Newton step of the square root, root + root / 2 (1 - root estimate), is multiplied out to shorten the chain.
+#[inline(always)]
+fn fresnel_power<S: Lanes>(simd: S, square: V<S>) -> V<S> {
+    const LINEAR: f32 = -6.98316 / 4.0;
+    const QUADRATIC: f32 = -5.55473 / 16.0;
+    let estimate = simd.rsqrt_estimate(square);
+    let root = square * estimate;
+    let error = neg_mul_add::<S>(root, estimate, V::<S>::splat(simd, 1.0));
+    let power = root.mul_add(LINEAR, square * QUADRATIC);
+    (root * (LINEAR / 2.0)).mul_add(error, power)
 }
 
 /// 2^x for x in [-126, 1], within a relative 1.5e-7.
@@ -117,10 +161,11 @@ fn exp2<S: Simd>(simd: S, x: V<S>) -> V<S> {
     const ROUND: f32 = 12_582_912.0;
     let rounded = x + ROUND;
     let rest = x - (rounded - ROUND);
-    let mut value = V::<S>::splat(simd, 0.001_327_647_2);
-    for coefficient in [0.009_675_541, 0.055_507_133, 0.240_221_2, 0.693_146_97, 1.000_000_1] {
-        value = value.mul_add(rest, V::<S>::splat(simd, coefficient));
-    }
+    let pair = |low: f32, high: f32| rest.mul_add(high, V::<S>::splat(simd, low));
+    let square = rest * rest;
+    let value = pair(0.240_221_2, 0.055_507_133);
+    let value = square.mul_add(pair(0.009_675_541, 0.001_327_647_2), value);
+    let value = square.mul_add(value, pair(1.000_000_1, 0.693_146_97));
     V::<S>::from_bits(value.to_bits() + (rounded.to_bits() << 23))
 }
 
@@ -143,17 +188,23 @@ impl Rays {
         boost: Plane::ZERO,
     };
 
+    /// In two loops: one chain of operations from the place to the power would be so long that the processor runs
+    /// out of room to work on enough vectors at a time.
     #[inline(always)]
     pub(super) fn fill<S: Lanes>(&mut self, simd: S, source: &Source, places: &Places) {
+        let scene = source.splat(simd);
         for i in 0..vectors::<S>() {
-            let ray = source.near(simd, places.x.load(simd, i), places.y.load(simd, i));
+            let (light, q, boost) = near(simd, &scene, places.x.load(simd, i), places.y.load(simd, i));
             for c in 0..3 {
-                self.light[c].store::<S>(i, ray.light[c]);
-                self.q[c].store::<S>(i, ray.q[c]);
+                self.light[c].store::<S>(i, light[c]);
+                self.q[c].store::<S>(i, q[c]);
             }
-            self.square.store::<S>(i, ray.square);
-            self.weight.store::<S>(i, ray.weight);
-            self.boost.store::<S>(i, ray.boost);
+            self.boost.store::<S>(i, boost);
+        }
+        for i in 0..vectors::<S>() {
+            let (square, weight) = half_way(simd, self.q.each_ref().map(|p| p.load(simd, i)));
+            self.square.store::<S>(i, square);
+            self.weight.store::<S>(i, weight);
         }
     }
 

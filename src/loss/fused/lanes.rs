@@ -2,51 +2,43 @@
 
 use fearless_simd::{Fallback, Simd, prelude::*};
 
+use super::tile::TEXELS;
+
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::x86::{Avx2, Avx512, Sse2, Sse4_2};
+
+/// Floats in a cache line.
+#[cfg(target_arch = "x86_64")]
+const FLOATS_PER_LINE: usize = 16;
 
 /// A vector of the native width of the instruction set `S`.
 pub(super) type V<S> = <S as Simd>::f32s;
 
-/// Reciprocals to about the last bit: exact by default, an estimate and a Newton step where that is faster.
+/// Reciprocals: exact by default, an estimate where that is faster. The kernel follows each with a Newton step.
 ///
 /// The estimates are the vendor's: the last bits of a loss may differ between makes of processors.
 pub(super) trait Lanes: Simd {
-    /// 1 / x.
+    /// 1 / x, within a relative 1.5 x 2^-12.
     #[inline(always)]
-    fn recip(self, x: V<Self>) -> V<Self> {
+    fn recip_estimate(self, x: V<Self>) -> V<Self> {
         V::<Self>::splat(self, 1.0) / x
     }
 
-    /// 1 / sqrt(x), for normal x > 0.
+    /// 1 / sqrt(x) for normal x > 0, within a relative 1.5 x 2^-12.
     #[inline(always)]
-    fn rsqrt(self, x: V<Self>) -> V<Self> {
+    fn rsqrt_estimate(self, x: V<Self>) -> V<Self> {
         V::<Self>::splat(self, 1.0) / x.sqrt()
     }
 
-    /// Asks for the cache line of the first of `values` before it is needed.
+    /// Asks for the cache lines of `values` before they are needed.
     #[inline(always)]
-    fn prefetch(self, _values: &[f32]) {}
+    fn prefetch(self, _values: &[f32; TEXELS]) {}
 }
 
 /// c - a b.
 #[inline(always)]
 pub(super) fn neg_mul_add<S: Simd>(a: V<S>, b: V<S>, c: V<S>) -> V<S> {
     (-a).mul_add(b, c)
-}
-
-/// One Newton step from an estimate of 1 / x: its relative error is squared. NaN where the estimate is infinite.
-#[inline(always)]
-fn refine_recip<S: Simd>(x: V<S>, estimate: V<S>) -> V<S> {
-    let error = (-x).mul_add(estimate, V::<S>::splat(x.token(), 1.0));
-    estimate.mul_add(error, estimate)
-}
-
-/// One Newton step from an estimate of 1 / sqrt(x): 1.5 times its relative error squared.
-#[inline(always)]
-fn refine_rsqrt<S: Simd>(x: V<S>, estimate: V<S>) -> V<S> {
-    let error = (-(x * estimate)).mul_add(estimate, V::<S>::splat(x.token(), 1.0));
-    (estimate * 0.5).mul_add(error, estimate)
 }
 
 #[cfg(target_arch = "aarch64")]
@@ -57,34 +49,36 @@ impl Lanes for fearless_simd::wasm32::WasmSimd128 {}
 
 impl Lanes for Fallback {}
 
-/// Implements [`Lanes`] with the estimates of an x86 instruction set (at most 1.5 x 2^-12 off).
+/// Implements [`Lanes`] with the estimates of an x86 instruction set.
 #[cfg(target_arch = "x86_64")]
 macro_rules! estimate {
     ($token:ident, $register:ident, $rsqrt:ident) => {
         impl Lanes for $token {
             #[inline(always)]
-            fn recip(self, x: V<Self>) -> V<Self> {
-                refine_recip::<Self>(x, x.approximate_recip())
+            fn recip_estimate(self, x: V<Self>) -> V<Self> {
+                x.approximate_recip()
             }
 
             #[inline(always)]
-            fn rsqrt(self, x: V<Self>) -> V<Self> {
+            fn rsqrt_estimate(self, x: V<Self>) -> V<Self> {
                 fearless_simd::kernel!(
                     #[inline(always)]
                     fn estimate(_token: $token, x: $register) -> $register {
                         std::arch::x86_64::$rsqrt(x)
                     }
                 );
-                refine_rsqrt::<Self>(x, estimate(self, x.into()).simd_into(self))
+                estimate(self, x.into()).simd_into(self)
             }
 
             #[inline(always)]
-            fn prefetch(self, values: &[f32]) {
+            fn prefetch(self, values: &[f32; TEXELS]) {
                 fearless_simd::kernel!(
                     #[inline(always)]
-                    fn prefetch(_token: $token, values: &[f32]) {
+                    fn prefetch(_token: $token, values: &[f32; TEXELS]) {
                         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-                        _mm_prefetch::<_MM_HINT_T0>(values.as_ptr().cast());
+                        for line in values.as_chunks::<FLOATS_PER_LINE>().0 {
+                            _mm_prefetch::<_MM_HINT_T0>(line.as_ptr().cast());
+                        }
                     }
                 );
                 prefetch(self, values);

@@ -35,8 +35,6 @@ use tile::{Axes, Places, TEXELS, Terms};
 const TEXELS_PER_BLOCK: usize = 16 * TEXELS;
 /// Scenes that pass over a tile while it is in cache. More would push it out.
 const SCENES_PER_GROUP: usize = 64;
-/// Floats in a cache line.
-const FLOATS_PER_LINE: usize = 16;
 /// Most sums that are held at a time.
 const MAX_SUMS: usize = 1 << 20;
 
@@ -70,6 +68,9 @@ pub fn losses_at(
     progress: &Progress,
 ) -> Result<Vec<Loss>, Error> {
     check(ground_truth, predictions, scenes)?;
+    if predictions.is_empty() {
+        return Ok(Vec::new());
+    }
     let job = Job::new(ground_truth, predictions, convention);
     let groups: usize = scenes.len().div_ceil(SCENES_PER_GROUP);
     progress.begin((groups * job.blocks) as u64);
@@ -161,26 +162,25 @@ impl<'a> Job<'a> {
     #[inline(always)]
     fn block<S: Lanes>(&self, simd: S, tile: &mut Tile, sources: &[Source], block: usize) -> Vec<f64> {
         let mut sums = vec![LogSum::<S>::new(simd); sources.len() * self.predictions.len()];
+        let distant: Vec<_> = sources.iter().map(|source| source.distant(simd)).collect();
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
             tile.fill(self, start..end.min(start + TEXELS));
-            let next = start + TEXELS..self.texels.min(start + 2 * TEXELS);
-            for (i, (source, sums)) in sources.iter().zip(sums.chunks_mut(self.predictions.len())).enumerate()
-            {
-                self.prefetch(simd, next.clone(), i, sources.len());
-                tile.add(simd, &self.model, source, sums);
+            for (i, sums) in sums.chunks_mut(self.predictions.len()).enumerate() {
+                self.prefetch(simd, start + TEXELS, i, sources.len());
+                tile.add(simd, &self.model, &sources[i], distant[i], sums);
             }
         }
         sums.iter().map(LogSum::total).collect()
     }
 
-    /// Asks for the texels `at`, spread over `parts` calls, so that memory works while the kernel computes.
+    /// Asks for the tile at `start`, spread over `parts` calls, so that memory works while the kernel computes.
     #[inline(always)]
-    fn prefetch<S: Lanes>(&self, simd: S, at: std::ops::Range<usize>, part: usize, parts: usize) {
+    fn prefetch<S: Lanes>(&self, simd: S, start: usize, part: usize, parts: usize) {
         let first = |part| part * self.planes.len() / parts;
         for plane in &self.planes[first(part)..first(part + 1)] {
-            for line in plane.get(at.clone()).unwrap_or_default().chunks(FLOATS_PER_LINE) {
-                simd.prefetch(line);
+            if let Some(tile) = plane.get(start..).and_then(|rest| rest.first_chunk()) {
+                simd.prefetch(tile);
             }
         }
     }
@@ -218,14 +218,36 @@ impl Tile {
         }
     }
 
-    /// Adds the differences in one scene to the sums of the predictions.
+    /// Adds the differences in one scene, whose geometry is `distant` if that is the same everywhere, to the sums of
+    /// the predictions.
     #[inline(always)]
-    fn add<S: Lanes>(&mut self, simd: S, model: &Model, source: &Source, sums: &mut [LogSum<S>]) {
-        match source.distant(simd) {
-            Some(ray) => self.add_rays(simd, model, source, sums, |_, _| ray),
+    fn add<S: Lanes>(
+        &mut self,
+        simd: S,
+        model: &Model,
+        source: &Source,
+        distant: Option<Ray<V<S>>>,
+        sums: &mut [LogSum<S>],
+    ) {
+        match distant {
+            Some(ray) => self.add_rays(
+                simd,
+                model,
+                source,
+                sums,
+                #[inline(always)]
+                |_, _| ray,
+            ),
             None => {
                 self.rays.fill(simd, source, &self.places);
-                self.add_rays(simd, model, source, sums, |rays, i| rays.load(simd, i));
+                self.add_rays(
+                    simd,
+                    model,
+                    source,
+                    sums,
+                    #[inline(always)]
+                    |rays, i| rays.load(simd, i),
+                );
             }
         }
     }
@@ -240,16 +262,30 @@ impl Tile {
         ray: impl Fn(&Rays, usize) -> Ray<V<S>>,
     ) {
         let rays = &self.rays;
-        let shade = |radiance: &mut Radiance, terms| {
-            let ray = |i| ray(rays, i);
-            shade(simd, model, source, radiance, terms, ray)
-        };
-        let expected_tame = shade(&mut self.expected, &self.ground_truth);
+        let (expected, got) = (&mut self.expected, &mut self.got);
+        let expected_tame = shade(
+            simd,
+            model,
+            source,
+            expected,
+            &self.ground_truth,
+            #[inline(always)]
+            |i| ray(rays, i),
+        );
         for (terms, sum) in self.predictions.iter().zip(sums) {
-            if shade(&mut self.got, terms) && expected_tame {
-                sum.add::<false>(simd, &self.expected, &self.got);
+            let got_tame = shade(
+                simd,
+                model,
+                source,
+                got,
+                terms,
+                #[inline(always)]
+                |i| ray(rays, i),
+            );
+            if got_tame && expected_tame {
+                sum.add::<false>(simd, expected, got);
             } else {
-                sum.add::<true>(simd, &self.expected, &self.got);
+                sum.add::<true>(simd, expected, got);
             }
         }
     }

@@ -37,7 +37,7 @@ impl From<&Convention> for Model {
         let clamps = Clamps {
             any: c.clamp_n_dot_h || c.d_floor > 0.0 || c.g_floor > 0.0,
             behind: if c.clamp_n_dot_h { 0.0 } else { f32::NEG_INFINITY },
-            d_floor: (c.d_floor * std::f64::consts::PI.sqrt()) as f32,
+            d_floor: c.d_floor as f32,
             g_floor: (2.0 * c.g_floor) as f32,
         };
         Self { clamps, epsilon: c.epsilon as f32, roughness_floor: c.roughness_floor as f32 }
@@ -69,12 +69,12 @@ impl Radiance {
             let (lobe, e) = lobe::<S, CLAMPED, CAREFUL>(simd, &model.clamps, terms, &ray, i);
             // Sums of positive numbers: at least the largest, and NaN or infinite if any one is.
             highlights += lobe;
-            // s (1 - w) lobe + w lobe + lambert E + epsilon
-            let rising = (V::<S>::splat(simd, 1.0) - ray.weight) * lobe;
-            let base = ray.weight.mul_add(lobe, V::<S>::splat(simd, model.epsilon));
+            // The chain from the lobe, which comes last, is kept short: (s (1 - w) + w) lobe + (lambert E + epsilon).
+            let rest = V::<S>::splat(simd, 1.0) - ray.weight;
             for c in 0..3 {
-                let diffuse = terms.lambert[c].load(simd, i).mul_add(e, base);
-                let value = terms.specular[c].load(simd, i).mul_add(rising, diffuse);
+                let fresnel = terms.specular[c].load(simd, i).mul_add(rest, ray.weight);
+                let diffuse = terms.lambert[c].load(simd, i).mul_add(e, V::<S>::splat(simd, model.epsilon));
+                let value = fresnel.mul_add(lobe, diffuse);
                 let value = if CAREFUL { value.min(V::<S>::splat(simd, LARGEST)) } else { value };
                 self.0[c].store::<S>(i, value);
             }
@@ -83,9 +83,9 @@ impl Radiance {
     }
 }
 
-/// (G D / 4 E, E) with the irradiance E = NoL / l.z times the convention's intensity.
+/// (pi G D / 4 E, E) with the irradiance E = NoL / (pi l.z) times the convention's intensity.
 ///
-/// D = (a / (|n x h|^2 + a^2 NoH^2))^2 / pi, all of it times |q|^2. |n x q| is the length of what is left of q without
+/// pi D = (a |q|^2 / (|n x q|^2 + a^2 (n . q)^2))^2. |n x q| is the length of what is left of q without
 /// its part along n, exact to a rounding of q; where n is off unit length by a rounding, that adds along n, across
 /// what is left, and counts only squared.
 #[inline(always)]
@@ -107,26 +107,25 @@ fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
 
     let across: [V<S>; 3] = std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], ray.q[c]));
     let along = a * n_dot_q;
-    let mut d = along.mul_add(along, dot(across, across));
-    let mut factor_l = n_dot_l.mul_add(terms.two_minus_a.load(simd, i), a);
-    let mut factor_v = n_dot_v.mul_add(terms.two_minus_a.load(simd, i), a);
+    // In this order only three additions wait for `across`.
+    let mut d = across.iter().fold(along * along, |sum, &c| c.mul_add(c, sum));
+    let mut factor_l = n_dot_l.mul_add(terms.one_minus_k.load(simd, i), a);
+    let mut factor_v = n_dot_v.mul_add(terms.one_minus_k.load(simd, i), a);
     let peak = a * ray.square;
     if CLAMPED {
-        let whole = ray.square * ROOT_PI;
-        d = n_dot_q.simd_lt(splat(clamps.behind)).select(whole, d).max(ray.square * clamps.d_floor);
+        d = n_dot_q.simd_lt(splat(clamps.behind)).select(ray.square, d).max(ray.square * clamps.d_floor);
         factor_l = factor_l.max(splat(clamps.g_floor));
         factor_v = factor_v.max(splat(clamps.g_floor));
     }
     if CAREFUL {
         // Never below its least, a^2 |q|^2, and ratios first: none overflows, none is 0 / 0.
-        let ratio = peak / d.max(a * peak * ROOT_PI);
+        let ratio = peak / d.max(a * peak);
         return ((ratio / factor_l * (ratio / factor_v) * e).min(splat(LARGEST)), e);
     }
-    // One reciprocal: (peak / d)^2 / g = peak / (d g) * g * peak / (d g).
+    // One reciprocal and its Newton step: (peak / d)^2 / g = (peak / (d g))^2 g.
     let g = factor_l * factor_v;
-    let ratio = peak * simd.recip(d * g);
-    ((ratio * g) * (ratio * e), e)
+    let both = d * g;
+    let estimate = simd.recip_estimate(both);
+    let ratio = peak * estimate * neg_mul_add::<S>(both, estimate, splat(2.0));
+    (ratio * ratio * (g * e), e)
 }
-
-/// sqrt(pi): [`Ray::square`] lacks it.
-const ROOT_PI: f32 = 1.772_453_9;

@@ -33,6 +33,10 @@ impl Plane {
     /// The first texels are `values`, the others `pad`.
     #[inline(always)]
     fn fill(&mut self, values: &[f32], pad: f32) {
+        if let Ok(values) = values.try_into() {
+            self.0 = values;
+            return;
+        }
         let (used, unused) = self.0.split_at_mut(values.len());
         used.copy_from_slice(values);
         unused.fill(pad);
@@ -51,10 +55,10 @@ pub(super) struct Terms {
     pub(super) normal: [Plane; 3],
     /// The GGX width a = rough^2; k = a / 2.
     pub(super) a: Plane,
-    /// 2 (1 - k).
-    pub(super) two_minus_a: Plane,
+    /// 1 - k.
+    pub(super) one_minus_k: Plane,
     pub(super) specular: [Plane; 3],
-    /// d (1 - s) / pi.
+    /// d (1 - s).
     pub(super) lambert: [Plane; 3],
 }
 
@@ -62,7 +66,7 @@ impl Terms {
     pub(super) const ZERO: Self = Self {
         normal: [Plane::ZERO; 3],
         a: Plane::ZERO,
-        two_minus_a: Plane::ZERO,
+        one_minus_k: Plane::ZERO,
         specular: [Plane::ZERO; 3],
         lambert: [Plane::ZERO; 3],
     };
@@ -75,17 +79,17 @@ impl Terms {
             tile.fill(&plane[at.clone()], 0.0);
         }
         self.a.fill(&planes.roughness[at.clone()], 1.0);
-        for (a, other) in self.a.0.iter_mut().zip(&mut self.two_minus_a.0) {
+        for (a, other) in self.a.0.iter_mut().zip(&mut self.one_minus_k.0) {
             let rough = a.max(roughness_floor);
             *a = rough * rough;
-            *other = 2.0 - *a;
+            *other = 1.0 - 0.5 * *a;
         }
         for channel in 0..3 {
             let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
             specular.fill(&planes.specular[channel][at.clone()], 0.0);
             lambert.fill(&planes.diffuse[channel][at.clone()], 0.0);
             for (l, s) in lambert.0.iter_mut().zip(&specular.0) {
-                *l = *l * (1.0 - s) * std::f32::consts::FRAC_1_PI;
+                *l *= 1.0 - s;
             }
         }
     }

@@ -3,6 +3,7 @@
 pub mod help;
 pub mod loss;
 pub mod materials;
+pub mod messages;
 pub mod open;
 pub mod save;
 pub mod scene;

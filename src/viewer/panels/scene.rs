@@ -40,7 +40,7 @@ impl ScenePanel<'_> {
             ui.checkbox(&mut follows, "Highlight follows")
                 .on_hover_text("A left-drag puts the mirror highlight, not the light, under the pointer (H)");
             if follows != self.highlight_follows {
-                commands.push(Command::SetHighlightFollows(follows));
+                commands.push(Command::ToggleHighlightFollows);
             }
             let copy = ui.button("Copy scene").on_hover_text("As JSON, in the form of a scene file (Ctrl+C)");
             if copy.clicked() {

@@ -4,7 +4,7 @@ use eframe::egui;
 
 use crate::view::Shown;
 use crate::viewer::command::Command;
-use crate::viewer::state::{Layout, Projection, ViewState, other_projection};
+use crate::viewer::state::{Layout, Projection, ViewState};
 
 /// What the bar shows.
 #[derive(Debug)]
@@ -52,8 +52,7 @@ impl TopBar<'_> {
             Projection::Flat => "Flat",
             Projection::Perspective => "Perspective",
         };
-        let other = other_projection(self.state.projection);
-        button(ui, text, "Flat texture or perspective (P)", commands, Command::SetProjection(other));
+        button(ui, text, "Flat texture or perspective (P)", commands, Command::ToggleProjection);
         let swap = ui.selectable_label(self.swapped, "Swap").on_hover_text(
             "Prediction and ground truth change places (X); hold G to peek at the ground truth",
         );
@@ -81,7 +80,7 @@ impl TopBar<'_> {
             .selectable_label(self.state.show_clipping, "Clip")
             .on_hover_text("Mark pixels that are too bright or black (L)");
         if clipping.clicked() {
-            commands.push(Command::SetClipping(!self.state.show_clipping));
+            commands.push(Command::ToggleClipping);
         }
     }
 
@@ -98,7 +97,7 @@ impl TopBar<'_> {
         button(ui, theme, "Darker or lighter window", commands, Command::SetDark(!self.dark));
         let panel = ui.selectable_label(self.side_panel, "Panel").on_hover_text("Side panel (B)");
         if panel.clicked() {
-            commands.push(Command::SetSidePanel(!self.side_panel));
+            commands.push(Command::ToggleSidePanel);
         }
         button(ui, "?", "Keys and mouse (?)", commands, Command::SetHelp(true));
     }

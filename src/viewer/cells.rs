@@ -1,0 +1,72 @@
+//! Where the panes lie.
+
+use eframe::egui::{self, Rect, Vec2, vec2};
+
+use crate::material::Grid;
+
+/// Height of the line above a pane that names what it shows.
+pub const TITLE: f32 = 24.0;
+/// Room between two panes.
+const GAP: f32 = 6.0;
+
+/// Splits `area` into `count` cells, in as many columns as leave the material largest.
+pub fn cells(area: Rect, count: usize, grid: Grid) -> Vec<Rect> {
+    let [half_width, half_height] = grid.half_extent();
+    let size = |columns: usize| {
+        let rows = count.div_ceil(columns);
+        let cell = cell_size(area, columns, rows);
+        ((cell.x) / half_width).min((cell.y - TITLE) / half_height)
+    };
+    let columns = (1..=count.max(1)).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(1);
+    let cell = cell_size(area, columns, count.div_ceil(columns));
+    (0..count)
+        .map(|i| {
+            let place = vec2((i % columns) as f32, (i / columns) as f32);
+            Rect::from_min_size(area.min + place * (cell + Vec2::splat(GAP)), cell)
+        })
+        .collect()
+}
+
+fn cell_size(area: Rect, columns: usize, rows: usize) -> Vec2 {
+    let gaps = vec2(columns as f32 - 1.0, rows as f32 - 1.0) * GAP;
+    ((area.size() - gaps) / vec2(columns as f32, rows as f32)).max(Vec2::splat(TITLE + 8.0))
+}
+
+/// The rectangle moved onto whole physical pixels: the shader's pixels are then the screen's.
+pub fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
+    let scale = ui.pixels_per_point();
+    let round = |p: egui::Pos2| (p.to_vec2() * scale).round() / scale;
+    Rect::from_min_max(round(rect.min).to_pos2(), round(rect.max).to_pos2())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: Grid = Grid { width: 256, height: 256 };
+
+    fn area(width: f32, height: f32) -> Rect {
+        Rect::from_min_size(egui::pos2(10.0, 20.0), vec2(width, height))
+    }
+
+    #[test]
+    fn cells_lie_inside_the_area_and_apart() {
+        for (count, size) in
+            [(1, (800.0, 600.0)), (3, (1000.0, 300.0)), (5, (700.0, 900.0)), (9, (640.0, 480.0))]
+        {
+            let area = area(size.0, size.1);
+            let cells = cells(area, count, SQUARE);
+            assert_eq!(cells.len(), count);
+            for (i, cell) in cells.iter().enumerate() {
+                assert!(area.expand(0.1).contains_rect(*cell), "{count} cells: {cell:?} in {area:?}");
+                assert!(cells[..i].iter().all(|other| !other.shrink(0.1).intersects(cell.shrink(0.1))));
+            }
+        }
+    }
+
+    #[test]
+    fn a_wide_area_has_its_panes_in_a_row_and_a_high_one_in_a_column() {
+        assert!(cells(area(1200.0, 400.0), 3, SQUARE).iter().all(|c| c.top() == 20.0));
+        assert!(cells(area(300.0, 1200.0), 3, SQUARE).iter().all(|c| c.left() == 10.0));
+    }
+}

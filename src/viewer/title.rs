@@ -1,0 +1,47 @@
+//! The line above a pane that names what it shows.
+
+use eframe::egui::{self, FontId, Rect, Sense, vec2};
+
+use super::command::Command;
+use super::state::Layout;
+use super::theme;
+use super::viewport::{Content, Scenery};
+use crate::gpu::DisplayMode;
+
+/// The line above a pane. A click on a prediction's chooses it.
+pub fn title_bar(
+    ui: &egui::Ui,
+    scenery: &Scenery<'_>,
+    number: usize,
+    content: Content,
+    rect: Rect,
+) -> Option<Command> {
+    let prediction = content.shown.checked_sub(1);
+    let chosen = content.shown == scenery.chosen() && content.shown != 0;
+    let text = match content.mode {
+        DisplayMode::Shown => scenery.title(content.shown),
+        DisplayMode::Wipe(_) => {
+            format!("{}   |   {}", scenery.title(content.reference), scenery.title(content.shown))
+        }
+        DisplayMode::Difference => {
+            format!("|ln| difference of {} from the ground truth", scenery.title(content.shown))
+        }
+    };
+    let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
+    let colour = if content.shown == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
+    let font = FontId::proportional(13.5);
+    let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
+        .into_galley(ui, Some(egui::TextWrapMode::Truncate), rect.width() - 16.0, font);
+    let elided = galley.elided;
+    let at = rect.left_center() + vec2(8.0, -galley.size().y * 0.5);
+    painter.galley(at, galley, colour);
+    if chosen && scenery.state.layout == Layout::SideBySide && scenery.slots.len() > 2 {
+        let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
+        painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
+    }
+    let response = if elided { response.on_hover_text(text) } else { response };
+    prediction.filter(|_| response.clicked()).map(Command::ChoosePrediction)
+}

@@ -1,0 +1,56 @@
+//! What the mouse does in a pane.
+
+use super::*;
+
+#[test]
+fn dragging_the_light_changes_the_rendering_where_it_goes() {
+    let Some(mut window) = built_in() else { return };
+    let rect = pane(&window, GROUND_TRUTH);
+    let (from, to) = (vec2(0.7, 0.3), vec2(0.3, 0.7));
+    let before = pixels(&mut window, rect);
+    drag(&mut window, egui::PointerButton::Primary, rect, from, to);
+    let after = pixels(&mut window, rect);
+    let [x, y, z] = window.state().state.scene.light;
+    assert!(x < -0.2 && y < -0.2 && z == 1.2, "the light is at {x}, {y}, {z}");
+    assert!(brightness(&after, to) > 1.2 * brightness(&before, to), "it is brighter where the light went");
+    assert!(brightness(&after, from) < brightness(&before, from), "it is darker where the light was");
+}
+
+#[test]
+fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
+    let Some(mut window) = built_in() else { return };
+    let rect = pane(&window, GROUND_TRUTH);
+    let before = window.state().state.clone();
+    drag(&mut window, egui::PointerButton::Secondary, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
+    let moved = window.state().state.clone();
+    assert!(moved.scene.view[0] > 0.1 && moved.scene.view[1] > 0.1, "{:?}", moved.scene);
+    assert_eq!(moved.scene.light, before.scene.light);
+    drag(&mut window, egui::PointerButton::Middle, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
+    let panned = window.state().state.clone();
+    assert_eq!(panned.scene, moved.scene);
+    assert!((panned.pan[0] - 0.2).abs() < 0.02 && (panned.pan[1] - 0.2).abs() < 0.02, "{:?}", panned.pan);
+}
+
+#[test]
+fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
+    let Some(mut window) = built_in() else { return };
+    let at = pane(&window, GROUND_TRUTH).center();
+    let turn = |window: &mut Window<'_>, modifiers| {
+        window.event(egui::Event::PointerMoved(at));
+        window.event(egui::Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Line,
+            delta: vec2(0.0, 1.0),
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
+            modifiers,
+        });
+        window.run_steps(4);
+    };
+    turn(&mut window, egui::Modifiers::NONE);
+    assert!(window.state().state.zoom > 1.1);
+    assert_eq!(window.state().state.scene.light[2], 1.2);
+    turn(&mut window, egui::Modifiers::SHIFT);
+    assert!(window.state().state.scene.light[2] > 1.3, "{:?}", window.state().state.scene);
+    turn(&mut window, egui::Modifiers::ALT);
+    assert!(window.state().state.scene.view[2] > 2.7, "{:?}", window.state().state.scene);
+}

@@ -1,0 +1,78 @@
+//! What the keys do.
+
+use svbrdf::view::Shown;
+use svbrdf::viewer::keys;
+use svbrdf::viewer::state::{Layout, Projection};
+
+use super::*;
+
+#[test]
+fn every_letter_does_what_the_help_says() {
+    let Some(mut window) = built_in() else { return };
+    let expect = |window: &mut Window<'_>, key, what: &str, holds: &dyn Fn(&App) -> bool| {
+        press(window, key);
+        assert!(holds(window.state()), "{key:?}: {what}");
+    };
+    expect(&mut window, egui::Key::C, "wipe", &|a| a.state.layout == Layout::Wipe);
+    expect(&mut window, egui::Key::C, "single", &|a| a.state.layout == Layout::Single);
+    expect(&mut window, egui::Key::C, "difference", &|a| a.state.layout == Layout::Difference);
+    expect(&mut window, egui::Key::C, "side by side", &|a| a.state.layout == Layout::SideBySide);
+    expect(&mut window, egui::Key::M, "normal", &|a| a.state.shown == Shown::Normal);
+    expect(&mut window, egui::Key::P, "perspective", &|a| a.state.projection == Projection::Perspective);
+    expect(&mut window, egui::Key::E, "brighter", &|a| a.state.exposure_ev == 0.5);
+    expect(&mut window, egui::Key::Num2, "second prediction", &|a| a.state.prediction == 1);
+    expect(&mut window, egui::Key::L, "clipping", &|a| a.state.show_clipping);
+    expect(&mut window, egui::Key::H, "highlight", &|a| a.settings.highlight_follows);
+    expect(&mut window, egui::Key::R, "reset", &|a| a.state.exposure_ev == 0.0 && !a.state.show_clipping);
+    expect(&mut window, egui::Key::B, "no panel", &|a| !a.settings.side_panel);
+}
+
+#[test]
+fn holding_g_shows_the_ground_truth_everywhere_and_x_swaps_the_sides() {
+    let Some(mut window) = built_in() else { return };
+    let prediction = "Pane 1  blurred normals";
+    window.get_by_label(prediction);
+    window.key_down(egui::Key::G);
+    window.run_steps(3);
+    assert!(window.query_by_label(prediction).is_none());
+    assert_eq!(window.query_all_by_label("Pane GROUND TRUTH  worn tiles").count(), 3);
+    window.key_up(egui::Key::G);
+    window.run_steps(3);
+    let before = window.get_by_label(prediction).rect();
+    press(&mut window, egui::Key::X);
+    assert_eq!(pane(&window, GROUND_TRUTH), before, "the ground truth is where the prediction was");
+}
+
+#[test]
+fn the_readme_lists_every_key() {
+    let readme = include_str!("../../README.md");
+    let missing: Vec<_> =
+        keys::HELP.iter().filter(|(key, what)| !readme.contains(&format!("| {key} | {what} |"))).collect();
+    assert!(missing.is_empty(), "the README does not list {missing:?}");
+}
+
+#[test]
+fn undo_and_redo_go_through_the_changes() {
+    let Some(mut window) = built_in() else { return };
+    window.run_steps(30);
+    press(&mut window, egui::Key::E);
+    window.run_steps(30);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    window.run_steps(3);
+    assert_eq!(window.state().state.exposure_ev, 0.0);
+    window.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    window.run_steps(3);
+    assert_eq!(window.state().state.exposure_ev, 0.5);
+}
+
+#[test]
+fn letters_typed_into_a_field_are_no_commands() {
+    let Some(mut window) = built_in() else { return };
+    window.get_by_label("Open").click();
+    window.run_steps(4);
+    let before = window.state().state.clone();
+    let field = "Files, folders or name prefixes, one a line:";
+    window.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field).type_text("mcexp");
+    press(&mut window, egui::Key::M);
+    assert_eq!(window.state().state, before);
+}
