@@ -117,7 +117,9 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
     let table = succeed(folder.path(), "loss --near 3 --distant 2");
     let csv = succeed(folder.path(), "loss --near 3 --distant 2 --format csv");
     let json = losses_as_json(folder.path(), "--near 3 --distant 2");
-    for said in ["convention printed", "epsilon 0.01", "3 near-field and 2 distant", "seed 0", "f32"] {
+    for said in
+        ["convention printed", "epsilon 0.01", "3 near-field and 2 distant", "seed 0", "f32 on the cpu"]
+    {
         assert!(table.contains(said), "{said} is missing in\n{table}");
     }
     let results = json["results"].as_array().unwrap();
@@ -134,7 +136,7 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
 fn json_is_one_object_with_exactly_these_keys() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 5 --convention multi-image-2019");
-    let top = ["convention", "epsilon", "size", "near", "distant", "seed", "results"];
+    let top = ["convention", "epsilon", "backend", "size", "near", "distant", "seed", "results"];
     let mut sorted = top;
     sorted.sort_unstable();
     assert_eq!(keys(&json), sorted);
