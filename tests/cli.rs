@@ -1,5 +1,6 @@
 //! The program as its users run it: exit codes, stdout, stderr and files.
 
+mod backend;
 mod pictures;
 
 use std::path::Path;
@@ -201,6 +202,8 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
     let cases = [
         ("loss gt.png a.png --convention other", 64, "guided-2020"),
         ("loss gt.png a.png --precision f16", 64, "f32, f64"),
+        ("loss gt.png a.png --backend tpu", 64, "auto"),
+        ("loss gt.png a.png --backend gpu --precision f64", 64, "leave out --backend gpu"),
         ("loss gt.png a.png --near -1", 64, "--near"),
         ("loss gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
         ("loss gt.png a.png --scenes one.json --seed 1", 64, "cannot be used with"),

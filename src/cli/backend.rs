@@ -69,7 +69,8 @@ impl Job<'_, f32> {
 
 /// The adapter, if it is the faster for this job, and why or why not.
 fn faster(job: &Job<'_, f32>, scenes: &[Scene]) -> Result<(Option<Adapter>, String), Error> {
-    let on_cpu = predict(scenes, LONG, |scenes| job.on_cpu(scenes, &Progress::default()))?;
+    let unseen = Progress::default();
+    let on_cpu = predict(scenes.len(), LONG, timed(|n| job.on_cpu(&scenes[..n], &unseen)))?;
     if on_cpu < SHORT {
         return Ok((None, format!("about {on_cpu:.1?}, less than starting an adapter takes")));
     }
@@ -78,36 +79,41 @@ fn faster(job: &Job<'_, f32>, scenes: &[Scene]) -> Result<(Option<Adapter>, Stri
         Err(problem) => return Ok((None, problem.to_string())),
     };
     // What takes longer than the whole job on the CPU is not measured further.
-    match predict(scenes, LONG.min(on_cpu), |scenes| gpu.losses(job, scenes, &Progress::default())) {
+    let long = LONG.min(on_cpu);
+    match predict(scenes.len(), long, timed(|n| gpu.losses(job, &scenes[..n], &unseen))) {
         Ok(on_gpu) => {
-            let why = format!("about {on_cpu:.1?} on the CPU, {on_gpu:.1?} on {}, as measured", gpu.name());
+            let why = format!("measured, about {on_cpu:.1?} on the CPU and {on_gpu:.1?} on {}", gpu.name());
             Ok(((on_gpu < on_cpu).then_some(gpu), why))
         }
         Err(problem) => Ok((None, problem.to_string())),
     }
 }
 
-/// How long `work` takes for all of `scenes`, from measuring it on some: a part that does not depend on their number,
-/// such as sending maps, and a part that is proportional to it.
-fn predict<R>(
-    scenes: &[Scene],
-    long: Duration,
-    work: impl Fn(&[Scene]) -> Result<R, Error>,
-) -> Result<Duration, Error> {
-    let timed = |count: usize| {
+/// How long `work` takes for a number of scenes.
+fn timed<R>(work: impl Fn(usize) -> Result<R, Error>) -> impl FnMut(usize) -> Result<Duration, Error> {
+    move |scenes| {
         let start = Instant::now();
-        work(&scenes[..count]).map(|_| start.elapsed())
-    };
-    // The first run also wakes threads and compiles shaders.
-    timed(1)?;
-    let one = timed(1)?;
-    let (mut count, mut last) = (1, one);
-    while count < scenes.len() && last < long && last < 4 * one {
-        count = scenes.len().min(2 * count);
-        last = timed(count)?;
+        work(scenes).map(|_| start.elapsed())
     }
-    let each = if count == 1 { one } else { last.saturating_sub(one) / (count - 1) as u32 };
-    Ok(last + each.mul_f64((scenes.len() - count) as f64))
+}
+
+/// How long all `scenes` take, from `measured` times of the first ones: a part that does not depend on their number,
+/// such as sending maps, and a part that is proportional to it. Measurements end where one is `long`.
+fn predict(
+    scenes: usize,
+    long: Duration,
+    mut measured: impl FnMut(usize) -> Result<Duration, Error>,
+) -> Result<Duration, Error> {
+    // The first run also wakes threads and compiles shaders.
+    measured(1)?;
+    let one = measured(1)?;
+    let (mut count, mut last) = (1, one);
+    while count < scenes && last < long && last < 4 * one {
+        count = scenes.min(2 * count);
+        last = measured(count)?;
+    }
+    let each = if count == 1 { one } else { last.saturating_sub(one).div_f64((count - 1) as f64) };
+    Ok(last + each.mul_f64((scenes - count) as f64))
 }
 
 /// A graphics adapter that is ready to compute losses.
@@ -142,8 +148,8 @@ enum Adapter {}
 impl Adapter {
     fn start() -> Result<Self, Error> {
         Err(Error::NoAdapter {
-            problem: "this program was built without its GPU layer".to_owned(),
-            remedy: "build it with `--features gpu`, or use `--backend cpu`",
+            problem: "this svbrdf was built without the feature `gpu`".to_owned(),
+            remedy: "leave out --backend, or build it with the feature",
         })
     }
 
@@ -153,5 +159,41 @@ impl Adapter {
 
     fn losses(&self, _: &Job<'_, f32>, _: &[Scene], _: &Progress) -> Result<Vec<Loss>, Error> {
         match *self {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MS: Duration = Duration::from_millis(1);
+
+    /// What is predicted, and the largest number of scenes that was measured.
+    fn predicted(scenes: usize, fixed: Duration, each: Duration) -> (Duration, usize) {
+        let mut most = 0;
+        let time = predict(scenes, 500 * MS, |n| {
+            most = most.max(n);
+            Ok(fixed + each * n as u32)
+        });
+        (time.unwrap(), most)
+    }
+
+    #[test]
+    fn what_is_done_once_is_counted_once() {
+        let (time, most) = predicted(100_000, 20 * MS, MS / 100);
+        assert_eq!(time, 1020 * MS);
+        assert!((4096..=8192).contains(&most), "{most}");
+    }
+
+    #[test]
+    fn proportional_work_is_measured_on_a_few_scenes() {
+        assert_eq!(predicted(9, Duration::ZERO, 30 * MS), (270 * MS, 4));
+    }
+
+    #[test]
+    fn no_more_is_measured_than_there_is_to_do_or_than_is_long() {
+        assert_eq!(predicted(1, 5 * MS, MS), (6 * MS, 1));
+        assert_eq!(predicted(3, 5 * MS, MS), (8 * MS, 3));
+        assert_eq!(predicted(9, Duration::ZERO, 600 * MS), (5400 * MS, 1));
     }
 }

@@ -64,18 +64,20 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
     check_predictions(&args.materials)?;
     let report = match (args.precision, args.backend) {
         (Precision::F32, backend) => report(args, |job, scenes| backend::losses(backend, job, scenes))?,
-        (Precision::F64, Choice::Cpu) => report(args, |job, scenes| {
-            let Job { ground_truth, predictions, convention } = *job;
-            watched("rendering", |p| losses::<f64>(ground_truth, predictions, scenes, convention, p))
-                .map(|losses| (losses, "cpu"))
-        })?,
-        (Precision::F64, _) => {
-            return Err(Error::Usage(
-                "f64 is computed on the CPU only; leave out --backend, or --precision".to_owned(),
-            ));
+        (Precision::F64, Choice::Gpu) => {
+            let problem = "graphics adapters compute in f32; leave out --backend gpu, or --precision f64";
+            return Err(Error::Usage(problem.to_owned()));
         }
+        (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, in_f64)?,
     };
     exit::put(&report.to_text(args.format).map_err(exit::unwritable)?)
+}
+
+/// The plain loss, which the CPU alone can compute.
+fn in_f64(job: &Job<'_, f64>, scenes: &[Scene]) -> Result<(Vec<Loss>, &'static str), Error> {
+    let Job { ground_truth, predictions, convention } = *job;
+    let losses = watched("rendering", |p| losses(ground_truth, predictions, scenes, convention, p))?;
+    Ok((losses, "cpu"))
 }
 
 /// Opens what is compared and computes it with `losses`, which also says on what.
