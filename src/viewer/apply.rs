@@ -71,7 +71,7 @@ impl App {
             Command::PutHighlight(at) => state::put_highlight(scene, at),
             Command::ScaleHeight(end, factor) => state::scale_height(scene, end, factor),
             Command::ScaleDistance(end, factor) => state::scale_distance(scene, end, factor),
-            Command::Orbit { end, azimuth, elevation } => state::orbit(scene, end, azimuth, elevation),
+            Command::Orbit { end, sideways, upwards } => state::orbit(scene, end, sideways, upwards),
             Command::CopyScene => ctx.copy_text(scene_text(*scene)),
             Command::PasteScene(text) => match pasted_scene(&text) {
                 Ok(pasted) => *scene = pasted,

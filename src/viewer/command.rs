@@ -39,8 +39,10 @@ pub enum Command {
     ScaleDistance(End, f64),
     Orbit {
         end: End,
-        azimuth: f64,
-        elevation: f64,
+        /// Radians about the upright axis y.
+        sideways: f64,
+        /// Radians towards it.
+        upwards: f64,
     },
     ToggleHighlightFollows,
     CopyScene,

@@ -91,19 +91,18 @@ impl Target<'_> {
     fn carry_on(&self, gesture: Gesture, pos: Pos2, delta: Vec2) -> Option<Command> {
         let [x, y] = handles::ndc_from_pos(self.rect, pos);
         let plane = || self.camera.plane_from_ndc(x, y).map(|p| p.map(f64::from));
-        let (across, upwards) = (f64::from(delta.x) * ORBIT_SPEED, -f64::from(delta.y) * ORBIT_SPEED);
+        let (sideways, upwards) = (f64::from(delta.x) * ORBIT_SPEED, -f64::from(delta.y) * ORBIT_SPEED);
         match gesture {
             Gesture::Light if self.highlight_follows && self.state.scene.kind == Kind::Near => {
                 plane().map(Command::PutHighlight)
             }
             Gesture::Light => plane().map(|p| Command::SetFoot(End::Light, p)),
             Gesture::View => plane().map(|p| Command::SetFoot(End::View, p)),
+            // The material follows the pointer, so the view goes the other way.
             Gesture::OrbitView => {
-                Some(Command::Orbit { end: End::View, azimuth: -across, elevation: -upwards })
+                Some(Command::Orbit { end: End::View, sideways: -sideways, upwards: -upwards })
             }
-            Gesture::OrbitLight => {
-                Some(Command::Orbit { end: End::Light, azimuth: across, elevation: upwards })
-            }
+            Gesture::OrbitLight => Some(Command::Orbit { end: End::Light, sideways, upwards }),
             Gesture::LightDistance => {
                 Some(Command::ScaleDistance(End::Light, SCALE_STEP.powf(-f64::from(delta.y) / 25.0)))
             }

@@ -178,18 +178,18 @@ pub fn scale_distance(scene: &mut Scene, which: End, factor: f64) {
     set_end(scene, which, p.map(|c| c * factor));
 }
 
-/// Turns an end about the middle of the material: by `azimuth` about Z, and by `elevation` away from the plane, both in
-/// radians; the distance stays.
-pub fn orbit(scene: &mut Scene, which: End, azimuth: f64, elevation: f64) {
+/// Turns an end about the middle of the material, which hangs like a picture on a wall: by `sideways` about the
+/// upright axis y, and by `upwards` towards it, both in radians. The distance stays, and so does what is up on the screen.
+pub fn orbit(scene: &mut Scene, which: End, sideways: f64, upwards: f64) {
+    const STEEPEST: f64 = std::f64::consts::FRAC_PI_2 - 1e-3;
     let p = Vec3::from(end(scene, which));
-    let (length, across) = (p.length(), p.x.hypot(p.y));
-    let angle = p.y.atan2(p.x) + azimuth;
-    let lowest = (LOWEST / length).min(1.0).asin();
-    // Straight up has no azimuth to turn back to: stop a little before it.
-    let highest = std::f64::consts::FRAC_PI_2 - 1e-3;
-    let up = (p.z.atan2(across) + elevation).clamp(lowest.min(highest), highest);
-    let (across, z) = (length * up.cos(), length * up.sin());
-    set_end(scene, which, [across * angle.cos(), across * angle.sin(), z]);
+    let length = p.length();
+    let longitude = (p.x.atan2(p.z) + sideways).clamp(-STEEPEST, STEEPEST);
+    let latitude = ((p.y / length).asin() + upwards).clamp(-STEEPEST, STEEPEST);
+    let (x, y) = (latitude.cos() * longitude.sin(), latitude.sin());
+    let z = (latitude.cos() * longitude.cos()).max(LOWEST / length).min(1.0);
+    let shrink = ((1.0 - z * z) / (x * x + y * y).max(f64::MIN_POSITIVE)).sqrt();
+    set_end(scene, which, [x * shrink, y * shrink, z].map(|c| c * length));
 }
 
 /// Puts the light where the flat surface mirrors it into the view at the point (x, y) of the plane, at the height that
@@ -229,7 +229,7 @@ mod tests {
         let before = Vec3::from(scene.light).length();
         for _ in 0..100 {
             orbit(&mut scene, End::Light, 0.3, -0.2);
-            assert!(scene.light[2] >= LOWEST);
+            assert!(scene.light[2] >= LOWEST && scene.light[0] > 0.0);
             assert!((Vec3::from(scene.light).length() - before).abs() < 1e-9);
         }
     }

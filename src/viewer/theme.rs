@@ -3,13 +3,25 @@
 use eframe::egui::{self, Color32, Stroke, Theme, Visuals};
 
 /// The one accent colour: what is chosen, what belongs to the ground truth.
-pub const ACCENT: Color32 = Color32::from_rgb(0xe0, 0x93, 0x2f);
+const ACCENT: Color32 = Color32::from_rgb(0xe0, 0x93, 0x2f);
+/// The accent colour as text on light gray.
+const DARK_ACCENT: Color32 = Color32::from_rgb(0x9a, 0x52, 0x00);
 /// The sun handle.
 pub const SUN: Color32 = Color32::from_rgb(0xff, 0xd2, 0x4a);
 /// The eye handle and the wipe line.
 pub const EYE: Color32 = Color32::from_rgb(0xf5, 0xf5, 0xf5);
-/// What is wrong.
-pub const PROBLEM: Color32 = Color32::from_rgb(0xe5, 0x6b, 0x5d);
+const PROBLEM: Color32 = Color32::from_rgb(0xef, 0x7f, 0x71);
+const DARK_PROBLEM: Color32 = Color32::from_rgb(0xa3, 0x1d, 0x10);
+
+/// The accent colour, readable on the theme's grays.
+pub fn accent(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { ACCENT } else { DARK_ACCENT }
+}
+
+/// What is wrong, readable on the theme's grays.
+pub fn problem(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { PROBLEM } else { DARK_PROBLEM }
+}
 
 /// What surrounds the images: mid-gray, without tint.
 pub fn surround(dark: bool) -> Color32 {

@@ -31,7 +31,7 @@ pub fn title_bar(
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
-    let colour = if content.shown == 0 { theme::ACCENT } else { ui.visuals().text_color() };
+    let colour = if content.shown == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
     let font = FontId::proportional(13.5);
     let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
         .into_galley(ui, Some(egui::TextWrapMode::Truncate), rect.width() - 16.0, font);
@@ -40,7 +40,7 @@ pub fn title_bar(
     painter.galley(at, galley, colour);
     if chosen && scenery.state.layout == Layout::SideBySide && scenery.slots.len() > 2 {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
-        painter.rect_filled(line, 0.0, theme::ACCENT);
+        painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
     }
     let response = if elided { response.on_hover_text(text) } else { response };
     prediction.filter(|_| response.clicked()).map(Command::ChoosePrediction)

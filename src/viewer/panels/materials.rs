@@ -30,10 +30,8 @@ impl MaterialsPanel<'_> {
             }
         });
         for opening in &self.slots.openings {
-            ui.horizontal(|ui| {
-                ui.spinner();
-                ui.add(egui::Label::new(format!("reading {}", opening.what)).truncate());
-            });
+            let text = format!("reading {}", opening.what);
+            ui.add(egui::ProgressBar::new(opening.job.fraction()).text(text));
             if ui.small_button("Cancel reading").clicked() {
                 opening.job.cancel();
             }
@@ -49,7 +47,7 @@ impl MaterialsPanel<'_> {
 fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
     let loaded = &slot.loaded;
     let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
-    let colour = if index == 0 { theme::ACCENT } else { ui.visuals().text_color() };
+    let colour = if index == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
     ui.horizontal(|ui| {
         ui.label(RichText::new(role).color(colour).small());
         if index > 0 {

@@ -13,8 +13,11 @@ pub fn ui(ui: &mut egui::Ui, messages: &[String]) -> Option<Command> {
         egui::ScrollArea::vertical().max_height(110.0).show(ui, |ui| {
             ui.vertical(|ui| {
                 for message in messages {
-                    let colour =
-                        if message.starts_with("Saved") { ui.visuals().text_color() } else { theme::PROBLEM };
+                    let colour = if message.starts_with("Saved") {
+                        ui.visuals().text_color()
+                    } else {
+                        theme::problem(ui.visuals())
+                    };
                     ui.label(egui::RichText::new(message).color(colour));
                 }
             });
