@@ -53,7 +53,7 @@ fn opposite_directions_and_tiny_heights_stay_finite() {
     let opposite = |x: f64, z: f64| Scene { kind: Kind::Distant, view: [x, 0.0, z], light: [-x, 0.0, z] };
     let touching = |z: f64| Scene { kind: Kind::Near, view: [0.0, 0.0, z], light: [0.0, 0.0, z] };
     let mut scenes: Vec<_> = [1e-3, 1e-5, 1e-7, 2e-9].map(|z| opposite(1.0, z)).to_vec();
-    scenes.extend([1e-3, 1e-7, 1e-9, 1e9].map(touching));
+    scenes.extend([1e-3, 1e-7, 1e-9, 1e-18, 1e9].map(touching));
     let (gt, mirror) = (random(8, [9, 9], 0.9, 0.0), uniform([0.0, 0.0, 1.0], 0.0, 1.0, 1.0, [9, 9]));
     for c in &convention::ALL {
         for (name, level) in levels() {
