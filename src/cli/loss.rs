@@ -1,13 +1,14 @@
 //! `svbrdf loss`: Algorithm 1.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use svbrdf::convention::Convention;
 use svbrdf::error::Error;
-use svbrdf::loss::{self, Loss, LossParams, Precision};
-use svbrdf::material::Material;
-use svbrdf::progress::Progress;
+use svbrdf::loss::adaptive::{self, Goal, Reached};
+use svbrdf::loss::{self, LossParams, Losses, Precision, Weights};
 use svbrdf::real::Real;
+use svbrdf::sampler::Sampler;
 use svbrdf::scene::{self, Scene};
 
 use super::bar::watched;
@@ -33,12 +34,26 @@ pub struct LossArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
 
+    /// How scenes are drawn: random, or sobol for less error from as many scenes
+    #[arg(long, value_name = "random|sobol", default_value = "random")]
+    sampler: Sampler,
+
+    /// Draws as many scenes as the loss needs to be known this well with 95% confidence, such as 1%
+    #[arg(long, value_name = "PERCENT", value_parser = percent,
+        conflicts_with_all = ["near", "distant", "sampler", "scenes", "time_budget"])]
+    target_error: Option<f64>,
+
+    /// Draws as many scenes as fit into this time, such as 500ms or 2s
+    #[arg(long, value_name = "TIME", value_parser = duration,
+        conflicts_with_all = ["near", "distant", "sampler", "scenes"])]
+    time_budget: Option<Duration>,
+
     /// printed, single-image-2018, multi-image-2019 or guided-2020
     #[arg(long, value_name = "NAME", default_value = "printed")]
     convention: Convention,
 
     /// Uses the scenes of this JSON file instead of drawn ones
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
     scenes: Option<PathBuf>,
 
     /// What is computed in
@@ -65,17 +80,23 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
     exit::put(&report.to_text(args.format).map_err(exit::unwritable)?)
 }
 
-/// Algorithm 1 in one precision: [`loss::losses`] or a faster twin of it.
-type Losses<T> =
-    fn(&Material<T>, &[&Material<T>], &[Scene], &Convention, &Progress) -> Result<Vec<Loss>, Error>;
-
 fn report<T: Real>(args: &LossArgs, losses: Losses<T>) -> Result<Report, Error> {
     check_predictions(&args.materials)?;
-    let scenes = scenes(args)?;
+    let fixed = goal(args).is_none().then(|| scenes(args)).transpose()?;
     let opened = materials::open::<T>(&args.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let losses = watched("rendering", |progress| {
-        losses(&opened.ground_truth, &predictions, &scenes, &args.convention, progress)
+    let (gt, convention) = (&opened.ground_truth, &args.convention);
+    let reached = watched("rendering", |progress| match (goal(args), fixed) {
+        (None, Some(scenes)) => {
+            let sampler = args.sampler;
+            let losses = losses(gt, &predictions, &scenes, convention, progress)?;
+            let losses = losses.into_iter().map(|loss| loss.sampled_by(sampler, &scenes)).collect();
+            Ok(Reached { sampler, weights: Weights::OfCounts, scenes, losses })
+        }
+        (goal, _) => {
+            let goal = goal.unwrap_or_default();
+            adaptive::losses(losses, gt, &predictions, args.seed, convention, goal, progress, |_| ())
+        }
     })?;
     Ok(Report {
         convention: args.convention,
@@ -83,8 +104,10 @@ fn report<T: Real>(args: &LossArgs, losses: Losses<T>) -> Result<Report, Error> 
         size: opened.ground_truth.size(),
         seed: args.scenes.is_none().then_some(args.seed),
         precision: T::NAME,
-        scenes,
-        losses,
+        sampler: args.scenes.is_none().then_some(reached.sampler),
+        weights: reached.weights,
+        scenes: reached.scenes,
+        losses: reached.losses,
     })
 }
 
@@ -107,7 +130,35 @@ fn scenes(args: &LossArgs) -> Result<Vec<Scene>, Error> {
             seed: args.seed,
             convention: args.convention,
             precision: args.precision,
+            sampler: args.sampler,
         }
         .scenes(),
     }
+}
+
+/// What is asked for instead of a number of scenes.
+fn goal(args: &LossArgs) -> Option<Goal> {
+    let time = args.time_budget.map(Goal::Time);
+    args.target_error.map(Goal::RelativeError).or(time)
+}
+
+/// A share such as `1%` or `0.01`.
+fn percent(text: &str) -> Result<f64, String> {
+    let (number, scale) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
+    let share = number.trim().parse::<f64>().map(|number| number * scale);
+    share
+        .ok()
+        .filter(|s| *s > 0.0 && *s < 1.0)
+        .ok_or("expected more than 0% and less than 100%, as in 1%".to_owned())
+}
+
+/// A time such as `500ms`, `2s` or `0.5` (seconds).
+fn duration(text: &str) -> Result<Duration, String> {
+    let (number, scale) = match text.strip_suffix("ms") {
+        Some(number) => (number, 1e-3),
+        None => (text.strip_suffix('s').unwrap_or(text), 1.0),
+    };
+    let seconds = number.trim().parse::<f64>().map(|number| number * scale);
+    let time = seconds.ok().filter(|s| *s > 0.0 && *s <= 86_400.0).map(Duration::from_secs_f64);
+    time.ok_or("expected a time of at most a day, as in 500ms or 2s".to_owned())
 }
