@@ -6,11 +6,12 @@ use std::time::Duration;
 use svbrdf::convention::Convention;
 use svbrdf::error::Error;
 use svbrdf::loss::adaptive::{self, Goal, Reached};
-use svbrdf::loss::{self, LossParams, Losses, Precision, Weights};
+use svbrdf::loss::{Loss, LossParams, Losses, Precision, Weights, losses, losses_f32};
 use svbrdf::real::Real;
 use svbrdf::sampler::Sampler;
 use svbrdf::scene::{self, Scene};
 
+use super::backend::{self, Choice, Job};
 use super::bar::watched;
 use super::report::{Format, Report};
 use super::{exit, materials};
@@ -40,12 +41,12 @@ pub struct LossArgs {
 
     /// Draws as many scenes as the loss needs to be known this well with 95% confidence, such as 1%
     #[arg(long, value_name = "PERCENT", value_parser = percent,
-        conflicts_with_all = ["near", "distant", "sampler", "scenes", "time_budget"])]
+        conflicts_with_all = ["near", "distant", "sampler", "scenes", "backend", "time_budget"])]
     target_error: Option<f64>,
 
     /// Draws as many scenes as fit into this time, such as 500ms or 2s
     #[arg(long, value_name = "TIME", value_parser = duration,
-        conflicts_with_all = ["near", "distant", "sampler", "scenes"])]
+        conflicts_with_all = ["near", "distant", "sampler", "scenes", "backend"])]
     time_budget: Option<Duration>,
 
     /// printed, single-image-2018, multi-image-2019 or guided-2020
@@ -60,6 +61,10 @@ pub struct LossArgs {
     #[arg(long, value_name = "f32|f64", default_value = "f32")]
     precision: Precision,
 
+    /// What computes it
+    #[arg(long, value_enum, default_value_t)]
+    backend: Choice,
+
     /// What is printed: text for people, json or csv for programs
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -73,37 +78,60 @@ pub struct LossArgs {
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
-    let report = match args.precision {
-        Precision::F32 => report(args, loss::losses_f32)?,
-        Precision::F64 => report(args, loss::losses::<f64>)?,
+    check_predictions(&args.materials)?;
+    let report = match (args.precision, args.backend) {
+        (Precision::F32, backend) => {
+            report(args, losses_f32, |job, scenes| backend::losses(backend, job, scenes))?
+        }
+        (Precision::F64, Choice::Gpu) => {
+            let problem = "graphics adapters compute in f32; leave out --backend gpu, or --precision f64";
+            return Err(Error::Usage(problem.to_owned()));
+        }
+        (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, losses, in_f64)?,
     };
     exit::put(&report.to_text(args.format).map_err(exit::unwritable)?)
 }
 
-fn report<T: Real>(args: &LossArgs, losses: Losses<T>) -> Result<Report, Error> {
-    check_predictions(&args.materials)?;
-    let fixed = goal(args).is_none().then(|| scenes(args)).transpose()?;
+/// The plain loss, which the CPU alone can compute.
+fn in_f64(job: &Job<'_, f64>, scenes: &[Scene]) -> Result<(Vec<Loss>, &'static str), Error> {
+    let Job { ground_truth, predictions, convention } = *job;
+    let losses = watched("rendering", |p| losses(ground_truth, predictions, scenes, convention, p))?;
+    Ok((losses, "cpu"))
+}
+
+/// Opens what is compared and computes it: over given scenes with `over`, which also says on what, or over as many as
+/// are needed with `kernel` on the CPU.
+fn report<T: Real>(
+    args: &LossArgs,
+    kernel: Losses<T>,
+    over: impl FnOnce(&Job<'_, T>, &[Scene]) -> Result<(Vec<Loss>, &'static str), Error>,
+) -> Result<Report, Error> {
+    let scenes = if goal(args).is_some() { Vec::new() } else { scenes(args)? };
     let opened = materials::open::<T>(&args.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let (gt, convention) = (&opened.ground_truth, &args.convention);
-    let reached = watched("rendering", |progress| match (goal(args), fixed) {
-        (None, Some(scenes)) => {
+    let (ground_truth, convention) = (&opened.ground_truth, &args.convention);
+    let (reached, backend) = match goal(args) {
+        None => {
+            let job = Job { ground_truth, predictions: &predictions, convention };
+            let (losses, backend) = over(&job, &scenes)?;
             let sampler = args.sampler;
-            let losses = losses(gt, &predictions, &scenes, convention, progress)?;
             let losses = losses.into_iter().map(|loss| loss.sampled_by(sampler, &scenes)).collect();
-            Ok(Reached { sampler, weights: Weights::OfCounts, scenes, losses })
+            (Reached { sampler, weights: Weights::OfCounts, scenes, losses }, backend)
         }
-        (goal, _) => {
-            let goal = goal.unwrap_or_default();
-            adaptive::losses(losses, gt, &predictions, args.seed, convention, goal, progress, |_| ())
+        Some(goal) => {
+            let run = |p: &_| {
+                adaptive::losses(kernel, ground_truth, &predictions, args.seed, convention, goal, p, |_| ())
+            };
+            (watched("rendering", run)?, "cpu")
         }
-    })?;
+    };
     Ok(Report {
         convention: args.convention,
         ground_truth: opened.ground_truth.name().to_owned(),
         size: opened.ground_truth.size(),
         seed: args.scenes.is_none().then_some(args.seed),
         precision: T::NAME,
+        backend,
         sampler: args.scenes.is_none().then_some(reached.sampler),
         weights: reached.weights,
         scenes: reached.scenes,

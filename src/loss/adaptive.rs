@@ -26,7 +26,7 @@ const PILOT: usize = 16;
 /// Most near-field points of each scrambling.
 const MOST: usize = 1 << 16;
 /// The variance of a run falls at least as this power of its size (measured: -1.6 to -2).
-const RATE: f64 = 1.5;
+const RATE: f64 = 1.6;
 /// A run is planned for this share of the error that is asked for: its own error is only estimated.
 const MARGIN: f64 = 0.7;
 

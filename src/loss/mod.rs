@@ -115,6 +115,12 @@ pub struct Loss {
 }
 
 impl Loss {
+    /// The loss of the prediction called `name` from that in each of `scenes`.
+    pub(crate) fn new(name: &str, scenes: &[Scene], per_scene: Vec<f64>) -> Self {
+        let estimate = Estimate::of_scenes(scenes, &per_scene);
+        Self { prediction: name.to_owned(), estimate, per_scene }
+    }
+
     /// The same loss, with the error of scenes that `sampler` drew: quasi-random ones are no independent ones.
     #[must_use]
     pub fn sampled_by(self, sampler: Sampler, scenes: &[Scene]) -> Self {
@@ -167,11 +173,7 @@ pub fn losses<T: Real>(
         .map(|(p, prediction)| {
             let scene_mean = |sums: &[Vec<f64>]| sums.iter().map(|block| block[p]).sum::<f64>() / count;
             let per_scene: Vec<f64> = sums.chunks(blocks).map(scene_mean).collect();
-            Loss {
-                prediction: prediction.name().to_owned(),
-                estimate: Estimate::of_scenes(scenes, &per_scene),
-                per_scene,
-            }
+            Loss::new(prediction.name(), scenes, per_scene)
         })
         .collect())
 }
@@ -198,7 +200,8 @@ fn block_sums<T: Real>(
     sums
 }
 
-fn check<T: Real>(
+/// Whether a loss can be computed: there are scenes, all can be rendered, and sizes agree.
+pub(crate) fn check<T: Real>(
     ground_truth: &Material<T>,
     predictions: &[&Material<T>],
     scenes: &[Scene],

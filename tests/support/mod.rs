@@ -1,10 +1,8 @@
 //! What the tests share.
 
-#[cfg(feature = "gpu")]
 pub mod compare;
 pub mod fixtures;
 #[cfg(feature = "gpu")]
 pub mod gpu;
-#[cfg(feature = "gpu")]
 pub mod points;
 pub mod tolerance;

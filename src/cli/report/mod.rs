@@ -34,6 +34,8 @@ pub struct Report {
     pub sampler: Option<Sampler>,
     pub weights: Weights,
     pub precision: &'static str,
+    /// What computed it: cpu or gpu.
+    pub backend: &'static str,
     pub scenes: Vec<Scene>,
     pub losses: Vec<Loss>,
 }
