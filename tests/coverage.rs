@@ -26,6 +26,7 @@ struct Pair {
 
 /// What many seeds have shown, in percent: of the seeds, and of the reference.
 #[derive(Debug)]
+#[expect(dead_code, reason = "printed as a whole")]
 struct Seen {
     coverage: f64,
     half_width: f64,

@@ -25,7 +25,7 @@ const NEAR_PER_DISTANT: usize = 4;
 const PILOT: usize = 16;
 /// Most near-field points of each scrambling.
 const MOST: usize = 1 << 16;
-/// The variance of a run falls at least as this power of its size (measured: -1.6 to -2).
+/// The variance of a run is assumed to fall as this power of its size. Where it falls more slowly, another run follows.
 const RATE: f64 = 1.6;
 /// A run is planned for this share of the error that is asked for: its own error is only estimated.
 const MARGIN: f64 = 0.7;
