@@ -22,7 +22,7 @@ pub struct Samples<T> {
 /// # Errors
 /// None, unless the samples that were built in are damaged.
 pub fn load<T: Real>() -> Result<Samples<T>, Error> {
-    let read = |name, bytes| read_bytes(name, bytes, &ReadOptions::default());
+    let read = |name, bytes| read_bytes(name, bytes, &OPTIONS);
     Ok(Samples {
         ground_truth: read("worn tiles", include_bytes!("../../assets/worn_tiles.png"))?,
         predictions: vec![
