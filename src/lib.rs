@@ -60,6 +60,7 @@ pub mod material;
 pub mod progress;
 pub mod real;
 pub mod render;
+pub mod sampler;
 pub mod samples;
 pub mod scene;
 pub mod vec3;

@@ -1,5 +1,6 @@
 //! The program as its users run it: exit codes, stdout, stderr and files.
 
+mod backend;
 mod pictures;
 
 use std::path::Path;
@@ -117,7 +118,9 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
     let table = succeed(folder.path(), "loss --near 3 --distant 2");
     let csv = succeed(folder.path(), "loss --near 3 --distant 2 --format csv");
     let json = losses_as_json(folder.path(), "--near 3 --distant 2");
-    for said in ["convention printed", "epsilon 0.01", "3 near-field and 2 distant", "seed 0", "f32"] {
+    for said in
+        ["convention printed", "epsilon 0.01", "3 near-field and 2 distant", "seed 0", "f32 on the cpu"]
+    {
         assert!(table.contains(said), "{said} is missing in\n{table}");
     }
     let results = json["results"].as_array().unwrap();
@@ -134,7 +137,7 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
 fn json_is_one_object_with_exactly_these_keys() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 5 --convention multi-image-2019");
-    let top = ["convention", "epsilon", "size", "near", "distant", "seed", "results"];
+    let top = ["convention", "epsilon", "backend", "size", "near", "distant", "seed", "results"];
     let mut sorted = top;
     sorted.sort_unstable();
     assert_eq!(keys(&json), sorted);
@@ -199,6 +202,8 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
     let cases = [
         ("loss gt.png a.png --convention other", 64, "guided-2020"),
         ("loss gt.png a.png --precision f16", 64, "f32, f64"),
+        ("loss gt.png a.png --backend tpu", 64, "auto"),
+        ("loss gt.png a.png --backend gpu --precision f64", 64, "leave out --backend gpu"),
         ("loss gt.png a.png --near -1", 64, "--near"),
         ("loss gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
         ("loss gt.png a.png --scenes one.json --seed 1", 64, "cannot be used with"),

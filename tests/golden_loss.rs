@@ -49,15 +49,20 @@ fn golden() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden")
 }
 
+/// Every golden case: two materials, scenes, and what was computed from them.
+pub fn cases() -> Vec<Value> {
+    let files = fs::read_dir(golden().join("loss")).unwrap();
+    let read = |file: fs::DirEntry| fs::read_to_string(file.path()).unwrap();
+    let cases: Vec<Value> = files.map(|file| serde_json::from_str(&read(file.unwrap())).unwrap()).collect();
+    assert!(cases.len() >= 7, "only {} golden cases were found", cases.len());
+    cases
+}
+
 fn check_all<T: Real>() -> Worst {
     let mut worst = Worst { loss: 0.0, probe: 0.0 };
-    let mut cases = 0;
-    for entry in fs::read_dir(golden().join("loss")).unwrap() {
-        let text = fs::read_to_string(entry.unwrap().path()).unwrap();
-        check_case::<T>(&serde_json::from_str(&text).unwrap(), &mut worst);
-        cases += 1;
+    for case in cases() {
+        check_case::<T>(&case, &mut worst);
     }
-    assert!(cases >= 7, "only {cases} golden cases were found");
     println!("{}: worst loss {:e}, worst texel {:e}", T::NAME, worst.loss, worst.probe);
     worst
 }
@@ -93,7 +98,8 @@ fn check_case<T: Real>(case: &Value, worst: &mut Worst) {
     }
 }
 
-fn material<T: Real>(described: &Value) -> Material<T> {
+/// The material that a golden case describes.
+pub fn material<T: Real>(described: &Value) -> Material<T> {
     let path = golden().join(described["file"].as_str().unwrap());
     let albedo = described["albedo"].as_str().unwrap().parse().unwrap();
     let options = ReadOptions { albedo, ..ReadOptions::default() };

@@ -3,6 +3,7 @@
 
 mod adapter;
 mod display;
+mod loss;
 
 use serde::Deserialize;
 use svbrdf::brdf::{self, Model, Texel};

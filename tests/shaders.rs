@@ -7,7 +7,7 @@ use std::path::Path;
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use svbrdf::gpu::shaders::ALL;
-use svbrdf::gpu::uniforms::{Camera, Display, Model, Point, Rays, Shading};
+use svbrdf::gpu::uniforms::{Band, Camera, Display, LogSum, Model, Point, Rays, Shading};
 
 /// A struct as Rust lays it out: its name in WGSL, its size, its members with their offsets.
 #[derive(Debug)]
@@ -34,6 +34,8 @@ fn layouts() -> Vec<Layout> {
         layout!(Shading { rays, model, shown, largest }),
         layout!(Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
         layout!(Display { camera, background, encoding, exposure, epsilon, wipe, mode, show_clipping }),
+        layout!(Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
+        layout!(LogSum { larger, smaller, exponent }),
         layout!(Point { normal, roughness, diffuse, specular, w_l, w_v }),
     ]
 }

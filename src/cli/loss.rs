@@ -4,12 +4,11 @@ use std::path::PathBuf;
 
 use svbrdf::convention::Convention;
 use svbrdf::error::Error;
-use svbrdf::loss::{self, Loss, LossParams, Precision};
-use svbrdf::material::Material;
-use svbrdf::progress::Progress;
+use svbrdf::loss::{Loss, LossParams, Precision, losses};
 use svbrdf::real::Real;
 use svbrdf::scene::{self, Scene};
 
+use super::backend::{self, Choice, Job};
 use super::bar::watched;
 use super::report::{Format, Report};
 use super::{exit, materials};
@@ -45,6 +44,10 @@ pub struct LossArgs {
     #[arg(long, value_name = "f32|f64", default_value = "f32")]
     precision: Precision,
 
+    /// What computes it
+    #[arg(long, value_enum, default_value_t)]
+    backend: Choice,
+
     /// What is printed: text for people, json or csv for programs
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -58,31 +61,43 @@ pub struct LossArgs {
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
-    let report = match args.precision {
-        Precision::F32 => report(args, loss::losses_f32)?,
-        Precision::F64 => report(args, loss::losses::<f64>)?,
+    check_predictions(&args.materials)?;
+    let report = match (args.precision, args.backend) {
+        (Precision::F32, backend) => report(args, |job, scenes| backend::losses(backend, job, scenes))?,
+        (Precision::F64, Choice::Gpu) => {
+            let problem = "graphics adapters compute in f32; leave out --backend gpu, or --precision f64";
+            return Err(Error::Usage(problem.to_owned()));
+        }
+        (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, in_f64)?,
     };
     exit::put(&report.to_text(args.format).map_err(exit::unwritable)?)
 }
 
-/// Algorithm 1 in one precision: [`loss::losses`] or a faster twin of it.
-type Losses<T> =
-    fn(&Material<T>, &[&Material<T>], &[Scene], &Convention, &Progress) -> Result<Vec<Loss>, Error>;
+/// The plain loss, which the CPU alone can compute.
+fn in_f64(job: &Job<'_, f64>, scenes: &[Scene]) -> Result<(Vec<Loss>, &'static str), Error> {
+    let Job { ground_truth, predictions, convention } = *job;
+    let losses = watched("rendering", |p| losses(ground_truth, predictions, scenes, convention, p))?;
+    Ok((losses, "cpu"))
+}
 
-fn report<T: Real>(args: &LossArgs, losses: Losses<T>) -> Result<Report, Error> {
-    check_predictions(&args.materials)?;
+/// Opens what is compared and computes it with `losses`, which also says on what.
+fn report<T: Real>(
+    args: &LossArgs,
+    losses: impl FnOnce(&Job<'_, T>, &[Scene]) -> Result<(Vec<Loss>, &'static str), Error>,
+) -> Result<Report, Error> {
     let scenes = scenes(args)?;
     let opened = materials::open::<T>(&args.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let losses = watched("rendering", |progress| {
-        losses(&opened.ground_truth, &predictions, &scenes, &args.convention, progress)
-    })?;
+    let job =
+        Job { ground_truth: &opened.ground_truth, predictions: &predictions, convention: &args.convention };
+    let (losses, backend) = losses(&job, &scenes)?;
     Ok(Report {
         convention: args.convention,
         ground_truth: opened.ground_truth.name().to_owned(),
         size: opened.ground_truth.size(),
         seed: args.scenes.is_none().then_some(args.seed),
         precision: T::NAME,
+        backend,
         scenes,
         losses,
     })

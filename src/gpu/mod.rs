@@ -5,6 +5,8 @@
 //! texels that are seen, averaged where they are smaller than a pixel, exposed and encoded. So shading is never
 //! computed on filtered maps, and moving the camera costs no shading.
 //!
+//! [`Losses`] is Algorithm 1 in compute shaders, for large jobs on a fast adapter.
+//!
 //! `shaders/` holds one idea a file; [`shaders`] says which files make a shader. Bad input and bad hardware never
 //! panic: they are an [`Error::Gpu`](crate::error::Error::Gpu) or wait in [`Gpu::take_fault`].
 
@@ -13,6 +15,7 @@ mod colour_map;
 mod context;
 mod display;
 mod fault;
+mod loss;
 mod pipeline;
 mod probe;
 mod read_back;
@@ -25,5 +28,6 @@ pub use adapter::AdapterReport;
 pub use colour_map::heat;
 pub use context::Gpu;
 pub use display::{Display, DisplayMode, DisplayParams, Encoding, Pane};
+pub use loss::Losses;
 pub use shading::{ShadeParams, Shaded, Shading};
 pub use textures::MaterialTextures;

@@ -1,10 +1,11 @@
-//! The parts of a pipeline that both passes and the probe share.
+//! The parts of a pipeline that the passes and the probe share.
 
 use wgpu::util::DeviceExt as _;
 use wgpu::{
     BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
-    BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, Device, PipelineLayoutDescriptor,
-    RenderPipeline, ShaderModule, ShaderModuleDescriptor, ShaderSource, ShaderStages, TextureFormat,
+    BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, ComputePipeline, Device,
+    PipelineLayout, PipelineLayoutDescriptor, RenderPipeline, ShaderModule, ShaderModuleDescriptor,
+    ShaderSource, ShaderStages, TextureFormat,
 };
 
 use super::shaders::Shader;
@@ -65,6 +66,32 @@ pub(super) fn uniform_buffer(device: &Device, contents: &[u8]) -> Buffer {
     })
 }
 
+/// A pipeline that runs the compute function `entry` of `module`.
+pub(super) fn compute(
+    device: &Device,
+    module: &ShaderModule,
+    entry: &str,
+    layout: &BindGroupLayout,
+) -> ComputePipeline {
+    let layout = pipeline_layout(device, entry, layout);
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry),
+        layout: Some(&layout),
+        module,
+        entry_point: Some(entry),
+        compilation_options: Default::default(),
+        cache: None,
+    })
+}
+
+fn pipeline_layout(device: &Device, label: &str, layout: &BindGroupLayout) -> PipelineLayout {
+    device.create_pipeline_layout(&PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &[Some(layout)],
+        immediate_size: 0,
+    })
+}
+
 /// A pipeline that covers its target with one triangle and runs the fragment function called like `shader`.
 pub(super) fn fullscreen(
     device: &Device,
@@ -73,11 +100,7 @@ pub(super) fn fullscreen(
     target: TextureFormat,
 ) -> RenderPipeline {
     let module = module(device, shader);
-    let layout = device.create_pipeline_layout(&PipelineLayoutDescriptor {
-        label: Some(shader.name),
-        bind_group_layouts: &[Some(layout)],
-        immediate_size: 0,
-    });
+    let layout = pipeline_layout(device, shader.name, layout);
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(shader.name),
         layout: Some(&layout),

@@ -1,11 +1,11 @@
 //! The shader's BRDF at single points: what holds it against its Rust twin.
 
-use wgpu::{BufferBindingType, BufferUsages, ComputePipelineDescriptor, ShaderStages};
+use wgpu::{BufferBindingType, BufferUsages, ShaderStages};
 
 use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 
 use super::fault::scoped;
-use super::pipeline::{bind, buffer_type, layout, module, uniform_buffer};
+use super::pipeline::{bind, buffer_type, compute, layout, module, uniform_buffer};
 use super::read_back::{read, read_buffer};
 use super::uniforms::{Model, Point};
 use super::{Gpu, shaders};
@@ -58,19 +58,7 @@ fn dispatch(gpu: &Gpu, model: &Model, points: &[Point]) -> wgpu::Buffer {
     let storage = |read_only| buffer_type(BufferBindingType::Storage { read_only });
     let types = [buffer_type(BufferBindingType::Uniform), storage(true), storage(false)];
     let layout = layout(device, ShaderStages::COMPUTE, &types);
-    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some("probe"),
-        bind_group_layouts: &[Some(&layout)],
-        immediate_size: 0,
-    });
-    let pipeline = device.create_compute_pipeline(&ComputePipelineDescriptor {
-        label: Some("probe"),
-        layout: Some(&pipeline_layout),
-        module: &module(device, &shaders::PROBE),
-        entry_point: Some("probe"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
+    let pipeline = compute(device, &module(device, &shaders::PROBE), "probe", &layout);
     let model = uniform_buffer(device, bytemuck::bytes_of(model));
     let input = device.create_buffer_init(&BufferInitDescriptor {
         label: Some("points"),

@@ -53,5 +53,17 @@ pub const DISPLAY: Shader = Shader {
 /// The BRDF at single points, for tests.
 pub const PROBE: Shader = Shader { name: "probe", pieces: &[piece!("brdf.wgsl"), piece!("probe.wgsl")] };
 
+/// Algorithm 1: sums over blocks of texels.
+pub const LOSS: Shader = Shader {
+    name: "loss",
+    pieces: &[
+        piece!("brdf.wgsl"),
+        piece!("scene.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("log_sum.wgsl"),
+        piece!("loss.wgsl"),
+    ],
+};
+
 /// Every shader of this crate.
-pub const ALL: [Shader; 3] = [SHADE, DISPLAY, PROBE];
+pub const ALL: [Shader; 4] = [SHADE, DISPLAY, PROBE, LOSS];

@@ -88,6 +88,37 @@ impl Shading {
     }
 }
 
+/// `Band` of loss.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Band {
+    pub model: Model,
+    pub size: [u32; 2],
+    pub first: u32,
+    pub texels: u32,
+    pub stride: u32,
+    pub blocks: u32,
+    pub predictions: u32,
+    pub epsilon: f32,
+}
+
+/// `LogSum` of log_sum.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct LogSum {
+    pub larger: f32,
+    pub smaller: f32,
+    pub exponent: i32,
+}
+
+impl LogSum {
+    /// The sum as a number; 0 exactly where nothing differed.
+    pub(super) fn total(&self) -> f64 {
+        let ratio = f64::from(self.larger) / f64::from(self.smaller);
+        f64::from(self.exponent) * std::f64::consts::LN_2 + ratio.ln()
+    }
+}
+
 /// `Point` of probe.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

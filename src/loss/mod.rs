@@ -104,6 +104,14 @@ pub struct Loss {
     pub per_scene: Vec<f64>,
 }
 
+impl Loss {
+    /// The loss of the prediction called `name` from that in each of `scenes`.
+    pub(crate) fn new(name: &str, scenes: &[Scene], per_scene: Vec<f64>) -> Self {
+        let estimate = Estimate::of_scenes(scenes, &per_scene);
+        Self { prediction: name.to_owned(), estimate, per_scene }
+    }
+}
+
 /// The losses of `predictions` against `ground_truth` over `scenes`, in the order of the predictions.
 ///
 /// All predictions see the same scenes. The result does not depend on the number of threads.
@@ -145,11 +153,7 @@ pub fn losses<T: Real>(
         .map(|(p, prediction)| {
             let scene_mean = |sums: &[Vec<f64>]| sums.iter().map(|block| block[p]).sum::<f64>() / count;
             let per_scene: Vec<f64> = sums.chunks(blocks).map(scene_mean).collect();
-            Loss {
-                prediction: prediction.name().to_owned(),
-                estimate: Estimate::of_scenes(scenes, &per_scene),
-                per_scene,
-            }
+            Loss::new(prediction.name(), scenes, per_scene)
         })
         .collect())
 }
@@ -176,7 +180,8 @@ fn block_sums<T: Real>(
     sums
 }
 
-fn check<T: Real>(
+/// Whether a loss can be computed: there are scenes, all can be rendered, and sizes agree.
+pub(crate) fn check<T: Real>(
     ground_truth: &Material<T>,
     predictions: &[&Material<T>],
     scenes: &[Scene],

@@ -67,6 +67,15 @@ pub const RENDERING_ULPS: f64 = 16.0;
 /// Measured: 1.
 #[cfg(feature = "gpu")]
 pub const SCREEN_LEVELS: u8 = 1;
+/// GPU loss against the f64 one, relative: golden cases and built-in materials, any convention; required 1e-5.
+/// Worst measured on lavapipe 4.0e-8; Vulkan allows hardware coarser divisions, square roots and powers.
+#[cfg(feature = "gpu")]
+pub const GPU_LOSS: f64 = 1e-6;
+
+/// The same, single scenes, and materials of a few texels. Worst measured on lavapipe 8.0e-8.
+#[cfg(feature = "gpu")]
+pub const GPU_LOSS_SCENE: f64 = 3e-6;
+
 /// Fused f32 loss against the plain f64 one, relative, any convention and instruction set: random materials with
 /// r >= 1/255 and the golden cases. Worst measured 3.4e-8 (metal_a against pyramids_a); required 1e-6.
 pub const FUSED_LOSS: f64 = 3e-7;

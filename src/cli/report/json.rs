@@ -12,6 +12,7 @@ use super::Report;
 struct Object<'a> {
     convention: &'a str,
     epsilon: f64,
+    backend: &'a str,
     size: [usize; 2],
     near: usize,
     distant: usize,
@@ -40,6 +41,7 @@ pub(super) fn write(report: &Report) -> io::Result<String> {
     let object = Object {
         convention: report.convention.name,
         epsilon: report.convention.epsilon,
+        backend: report.backend,
         size: report.size,
         near: report.count(Kind::Near),
         distant: report.count(Kind::Distant),

@@ -30,6 +30,8 @@ pub struct Report {
     /// `None` where the scenes come from a file.
     pub seed: Option<u64>,
     pub precision: &'static str,
+    /// What computed it: cpu or gpu.
+    pub backend: &'static str,
     pub scenes: Vec<Scene>,
     pub losses: Vec<Loss>,
 }

@@ -17,11 +17,11 @@ pub(super) fn write(report: &Report) -> String {
 }
 
 fn header(report: &Report) -> String {
-    let Report { convention, ground_truth, size: [width, height], precision, .. } = report;
+    let Report { convention, ground_truth, size: [width, height], precision, backend, .. } = report;
     let (near, distant) = (report.count(Kind::Near), report.count(Kind::Distant));
     let origin = report.seed.map_or("from a file".to_owned(), |seed| format!("of seed {seed}"));
     format!(
-        "rendering loss against {ground_truth}, {width} x {height} texels, {precision}\n\
+        "rendering loss against {ground_truth}, {width} x {height} texels, {precision} on the {backend}\n\
          convention {}, epsilon {}\n\
          {near} near-field and {distant} distant scenes {origin}\n",
         convention.name, convention.epsilon

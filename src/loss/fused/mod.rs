@@ -18,7 +18,7 @@ mod tile;
 use fearless_simd::{Fallback, Simd};
 use rayon::prelude::*;
 
-use super::{Estimate, Loss, check};
+use super::{Loss, check};
 use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
@@ -79,12 +79,8 @@ pub fn losses_at(
     for batch in scenes.chunks(per_batch) {
         job.run(level, batch, progress, &mut per_scene)?;
     }
-    let loss = |(prediction, per_scene): (&&Material<f32>, Vec<f64>)| Loss {
-        prediction: prediction.name().to_owned(),
-        estimate: Estimate::of_scenes(scenes, &per_scene),
-        per_scene,
-    };
-    Ok(predictions.iter().zip(per_scene).map(loss).collect())
+    let losses = predictions.iter().zip(per_scene);
+    Ok(losses.map(|(prediction, per_scene)| Loss::new(prediction.name(), scenes, per_scene)).collect())
 }
 
 /// Everything that does not depend on the scenes.

@@ -30,10 +30,8 @@ impl MaterialsPanel<'_> {
             }
         });
         for opening in &self.slots.openings {
-            ui.horizontal(|ui| {
-                ui.spinner();
-                ui.add(egui::Label::new(format!("reading {}", opening.what)).truncate());
-            });
+            let text = format!("reading {}", opening.what);
+            ui.add(egui::ProgressBar::new(opening.job.fraction()).text(text));
             if ui.small_button("Cancel reading").clicked() {
                 opening.job.cancel();
             }

@@ -1,0 +1,293 @@
+//! Algorithm 1 on the device against f64 on the CPU.
+
+use std::sync::OnceLock;
+
+use serde_json::Value;
+use svbrdf::convention::{self, Convention, GUIDED_2020, PRINTED};
+use svbrdf::error::Error;
+use svbrdf::gpu::{Gpu, Losses};
+use svbrdf::loss::{self, Loss};
+use svbrdf::material::{Material, Planes};
+use svbrdf::progress::Progress;
+use svbrdf::samples;
+use svbrdf::scene::{self, Kind, Scene};
+
+use crate::golden_loss;
+use crate::support::gpu::{bumpy, gpu};
+use crate::support::tolerance::{GPU_LOSS, GPU_LOSS_SCENE};
+
+/// Computes losses on the adapter of the tests.
+struct Computer {
+    gpu: &'static Gpu,
+    losses: &'static Losses,
+}
+
+impl Computer {
+    /// `None`, said aloud, where there is no adapter.
+    fn get() -> Option<Self> {
+        static LOSSES: OnceLock<Losses> = OnceLock::new();
+        let gpu = gpu()?;
+        Some(Self { gpu, losses: LOSSES.get_or_init(|| Losses::new(gpu).expect("the loss compiles")) })
+    }
+
+    fn try_losses(
+        &self,
+        ground_truth: &Material<f32>,
+        predictions: &[&Material<f32>],
+        scenes: &[Scene],
+        convention: &Convention,
+    ) -> Result<Vec<Loss>, Error> {
+        self.losses.compute(self.gpu, ground_truth, predictions, scenes, convention, &Progress::default())
+    }
+
+    fn losses(
+        &self,
+        ground_truth: &Material<f32>,
+        predictions: &[&Material<f32>],
+        scenes: &[Scene],
+        convention: &Convention,
+    ) -> Vec<Loss> {
+        self.try_losses(ground_truth, predictions, scenes, convention).expect("the loss is computed")
+    }
+}
+
+fn scenes(near: usize, distant: usize, convention: &Convention) -> Vec<Scene> {
+    scene::sample(7, near, distant, convention)
+}
+
+fn in_f64(
+    ground_truth: &Material<f32>,
+    predictions: &[&Material<f32>],
+    scenes: &[Scene],
+    convention: &Convention,
+) -> Vec<Loss> {
+    let predictions: Vec<Material<f64>> = predictions.iter().map(|p| p.cast()).collect();
+    let predictions: Vec<_> = predictions.iter().collect();
+    loss::losses(&ground_truth.cast(), &predictions, scenes, convention, &Progress::default())
+        .expect("computed in f64")
+}
+
+/// The largest relative errors of a mean and of a scene; an error where one is above its bound.
+fn compare(got: &[Loss], mean: f64, per_scene: &[f64]) -> Result<[f64; 2], String> {
+    let [got] = got else { return Err(format!("one loss, not {}", got.len())) };
+    // 0 must be 0; what is not a number is infinitely wrong.
+    let off = |got: f64, want: f64| {
+        let off = if got == want { 0.0 } else { (got - want).abs() / want };
+        if off.is_nan() { f64::INFINITY } else { off }
+    };
+    if got.per_scene.len() != per_scene.len() {
+        return Err(format!("{} scenes, not {}", got.per_scene.len(), per_scene.len()));
+    }
+    let scenes = got.per_scene.iter().zip(per_scene).map(|(g, w)| off(*g, *w));
+    let worst = [off(got.estimate.mean, mean), scenes.fold(0.0, f64::max)];
+    if worst[0] <= GPU_LOSS && worst[1] <= GPU_LOSS_SCENE {
+        return Ok(worst);
+    }
+    Err(format!("relative error {:e} of the loss, {:e} of a scene", worst[0], worst[1]))
+}
+
+fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].max(b[0]), a[1].max(b[1])]
+}
+
+#[test]
+fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
+    let Some(computer) = Computer::get() else { return };
+    let samples = samples::load::<f32>().expect("built in");
+    let ground_truth = &samples.ground_truth.material;
+    let mut worst = [0.0; 2];
+    for convention in convention::ALL {
+        let scenes = scenes(3, 2, &convention);
+        for prediction in &samples.predictions {
+            let prediction = &prediction.material;
+            let want = in_f64(ground_truth, &[prediction], &scenes, &convention).remove(0);
+            let got = computer.losses(ground_truth, &[prediction], &scenes, &convention);
+            assert_eq!(got[0].prediction, prediction.name());
+            let off = compare(&got, want.estimate.mean, &want.per_scene)
+                .unwrap_or_else(|e| panic!("{}, {}: {e}", prediction.name(), convention.name));
+            worst = larger(worst, off);
+        }
+    }
+    println!("worst relative errors: loss {:e}, scene {:e}", worst[0], worst[1]);
+}
+
+#[test]
+#[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
+fn losses_are_the_golden_ones() {
+    let Some(computer) = Computer::get() else { return };
+    let mut worst = [0.0; 2];
+    for case in golden_loss::cases() {
+        let [ground_truth, prediction] =
+            ["ground_truth", "prediction"].map(|key| golden_loss::material::<f32>(&case[key]));
+        let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).expect("scenes");
+        for convention in convention::ALL {
+            let expected = &case["expected"][convention.name];
+            let number = |value: &Value| value.as_f64().expect("a number");
+            let per_scene: Vec<f64> =
+                expected["per_scene"].as_array().expect("a list").iter().map(number).collect();
+            let got = computer.losses(&ground_truth, &[&prediction], &scenes, &convention);
+            let off = compare(&got, number(&expected["loss"]), &per_scene)
+                .unwrap_or_else(|e| panic!("{}, {}: {e}", prediction.name(), convention.name));
+            worst = larger(worst, off);
+        }
+    }
+    println!("worst relative errors: loss {:e}, scene {:e}", worst[0], worst[1]);
+}
+
+/// `bumpy` with another roughness and other colours.
+fn changed(width: usize, height: usize) -> Material<f32> {
+    let bumpy = bumpy(width, height);
+    let Planes { normal, diffuse: [r, g, b], specular, roughness } = bumpy.planes().clone();
+    let roughness = roughness.iter().map(|r| 0.1 + 0.8 * r).collect();
+    let planes = Planes { normal, diffuse: [b, r, g], specular, roughness };
+    Material::new("changed", width, height, planes).expect("valid")
+}
+
+#[test]
+fn odd_sizes_are_summed_to_the_last_texel() {
+    let Some(computer) = Computer::get() else { return };
+    // The last two are one texel more than a block, and more than a band.
+    for [width, height] in [[1, 1], [7, 3], [3, 7], [129, 1], [1, 129], [17, 241], [1049, 1001]] {
+        let (ground_truth, prediction) = (bumpy(width, height), changed(width, height));
+        let scenes = scenes(1, 1, &PRINTED);
+        let want = in_f64(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
+        let got = computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED);
+        compare(&got, want.estimate.mean, &want.per_scene)
+            .unwrap_or_else(|e| panic!("{width} x {height}: {e}"));
+    }
+}
+
+#[test]
+fn equal_materials_have_no_loss_at_all() {
+    let Some(computer) = Computer::get() else { return };
+    for convention in convention::ALL {
+        let material = bumpy(65, 67);
+        let scenes = scenes(4, 3, &convention);
+        let loss = computer.losses(&material, &[&material], &scenes, &convention).remove(0);
+        assert_eq!((loss.estimate.mean, loss.estimate.standard_error), (0.0, Some(0.0)));
+        assert!(loss.per_scene.iter().all(|&scene| scene == 0.0));
+    }
+}
+
+#[test]
+fn mirrors_and_grazing_lights_have_finite_losses() {
+    let Some(computer) = Computer::get() else { return };
+    let uniform = |roughness, specular| {
+        let texel = svbrdf::brdf::Texel {
+            normal: svbrdf::vec3::Vec3::new(0.0, 0.0, 1.0),
+            diffuse: [0.0; 3],
+            specular: [specular; 3],
+            roughness,
+        };
+        Material::uniform("uniform", 9, 9, &texel).expect("valid")
+    };
+    let of = |kind, light| Scene { kind, view: [0.0, 0.0, 1.0], light };
+    let scenes = [
+        of(Kind::Near, [0.0, 0.0, 1.0]),
+        of(Kind::Near, [0.9, 0.9, 1e-6]),
+        of(Kind::Distant, [1.0, 0.0, 1e-6]),
+    ];
+    for [a, b] in [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0]] {
+        let (ground_truth, prediction) = (uniform(a, 1.0), uniform(b, 0.5));
+        let loss = computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
+        assert!(loss.per_scene.iter().all(|x| x.is_finite() && *x >= 0.0), "{loss:?}");
+    }
+}
+
+#[test]
+fn the_same_bits_come_out_every_time() {
+    let Some(computer) = Computer::get() else { return };
+    let (ground_truth, prediction) = (bumpy(200, 100), changed(200, 100));
+    let scenes = scenes(6, 3, &PRINTED);
+    let once = || computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED);
+    let first = once();
+    assert!((0..5).all(|_| once() == first));
+}
+
+#[test]
+fn several_predictions_have_the_losses_that_each_has_alone() {
+    let Some(computer) = Computer::get() else { return };
+    let (ground_truth, other, scenes) = (bumpy(90, 70), changed(90, 70), scenes(3, 2, &PRINTED));
+    // More than one pass takes.
+    let predictions = [&other, &ground_truth, &other, &other, &ground_truth, &other];
+    let together = computer.losses(&ground_truth, &predictions, &scenes, &PRINTED);
+    assert_eq!(together.len(), predictions.len());
+    for (prediction, loss) in predictions.into_iter().zip(&together) {
+        let alone = computer.losses(&ground_truth, &[prediction], &scenes, &PRINTED);
+        assert_eq!(&alone[0], loss);
+    }
+    assert!(computer.losses(&ground_truth, &[], &scenes, &PRINTED).is_empty());
+}
+
+#[test]
+fn many_scenes_have_the_losses_that_each_has_alone() {
+    let Some(computer) = Computer::get() else { return };
+    let (ground_truth, prediction) = (bumpy(5, 4), changed(5, 4));
+    // More than one step takes.
+    let scenes = scenes(2000, 100, &PRINTED);
+    let loss = computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
+    for i in [0, 1, 1999, 2000, 2047, 2048, 2099] {
+        let alone = computer.losses(&ground_truth, &[&prediction], &scenes[i..=i], &PRINTED);
+        assert_eq!(alone[0].per_scene, [loss.per_scene[i]], "scene {i}");
+    }
+}
+
+#[test]
+fn a_cancelled_loss_ends_at_its_next_step() {
+    let Some(computer) = Computer::get() else { return };
+    let (ground_truth, prediction) = (bumpy(8, 8), changed(8, 8));
+    let scenes = scenes(6000, 0, &PRINTED);
+    let progress = Progress::default();
+    let run =
+        || computer.losses.compute(computer.gpu, &ground_truth, &[&prediction], &scenes, &PRINTED, &progress);
+    run().expect("not cancelled yet");
+    let (done, total) = progress.counts();
+    assert!(done == total && total > 2, "{done} of {total}");
+    progress.cancel();
+    assert!(matches!(run(), Err(Error::Cancelled)));
+    assert_eq!(progress.counts().0, 1);
+}
+
+#[test]
+fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
+    let Some(computer) = Computer::get() else { return };
+    let (material, other) = (bumpy(8, 8), bumpy(8, 9));
+    let refused = |prediction, scenes: &[Scene]| {
+        computer.try_losses(&material, &[prediction], scenes, &PRINTED).expect_err("refused")
+    };
+    let fine = scenes(1, 0, &PRINTED);
+    let below = Scene { light: [0.0, 0.0, -1.0], ..fine[0] };
+    assert!(matches!(refused(&other, &fine), Error::SizesDiffer { .. }));
+    assert!(matches!(refused(&material, &[below]), Error::UnusableScene { .. }));
+    assert!(matches!(refused(&material, &[]), Error::Usage(_)));
+}
+
+#[test]
+fn the_comparison_of_losses_goes_red_on_planted_faults() {
+    let Some(computer) = Computer::get() else { return };
+    let (ground_truth, prediction) = (bumpy(64, 48), changed(64, 48));
+    let scenes = scenes(3, 2, &PRINTED);
+    let want = in_f64(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
+    let against = |gt: &Material<f32>, prediction: &Material<f32>, scenes: &[Scene], convention| {
+        let got = computer.losses(gt, &[prediction], scenes, convention);
+        compare(&got, want.estimate.mean, &want.per_scene)
+    };
+    let faulty = |change: fn(&mut Planes<f32>)| {
+        let mut planes = prediction.planes().clone();
+        change(&mut planes);
+        let faulty = Material::new("faulty", 64, 48, planes).expect("valid");
+        against(&ground_truth, &faulty, &scenes, &PRINTED)
+    };
+    faulty(|_| ()).expect("no fault");
+    faulty(|p| p.roughness.swap(100, 2000)).expect_err("two texels swapped");
+    faulty(|p| p.roughness.iter_mut().for_each(|r| *r *= 1.001)).expect_err("a roughness slightly off");
+    faulty(|p| p.normal[1].iter_mut().for_each(|y| *y = -*y)).expect_err("normals +Y down");
+    faulty(|p| p.diffuse.swap(0, 1)).expect_err("channels swapped");
+    faulty(|p| p.diffuse[2][64 * 48 - 1] = 0.0).expect_err("the last texel off");
+    against(&prediction, &prediction, &scenes, &PRINTED).expect_err("the wrong ground truth");
+    against(&ground_truth, &prediction, &scenes[1..], &PRINTED).expect_err("a scene missing");
+    against(&ground_truth, &prediction, &scenes, &GUIDED_2020).expect_err("another convention");
+    let mut swapped = scenes.clone();
+    swapped.swap(0, 1);
+    against(&ground_truth, &prediction, &swapped, &PRINTED).expect_err("scenes swapped");
+}
