@@ -6,7 +6,7 @@ use super::assumption::{Assumption, Certainty, What};
 use super::decode::Layer;
 use super::found::{Found, Pictures, Source};
 use super::names::Label;
-use super::options::{Albedo, Roughness};
+use super::options::{Albedo, NormalY, Roughness};
 use crate::error::Error;
 
 /// Whether the name of a layer says which map it is.
@@ -18,7 +18,7 @@ pub fn is_named(layer: &Layer) -> bool {
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where maps are missing, or one is there twice.
-pub fn assemble(path: &Path, layers: Vec<Layer>) -> Result<Found, Error> {
+pub fn assemble(path: &Path, layers: Vec<Layer>, native: bool) -> Result<Found, Error> {
     let names: Vec<String> = layers.iter().map(|layer| format!("`{}`", layer.name)).collect();
     let listed = format!("the layers {}", super::folder::listing(&names));
     let mut pictures = Pictures::default();
@@ -48,10 +48,12 @@ pub fn assemble(path: &Path, layers: Vec<Layer>) -> Result<Found, Error> {
     found.assumptions.insert(0, layout);
     found.notes = notes;
     if floats {
-        let why = "floats are linear".to_owned();
-        found.hints.albedo = Some((Albedo::Linear, why.clone(), Certainty::Likely));
+        let (why, certainty) =
+            if native { ("svbrdf wrote the file", Certainty::Sure) } else { ("floats are linear", Certainty::Likely) };
+        found.hints.albedo = Some((Albedo::Linear, why.to_owned(), certainty));
         found.hints.specular = found.hints.albedo.clone();
-        found.hints.roughness = Some((Roughness::R, why, Certainty::Likely));
+        found.hints.roughness = Some((Roughness::R, why.to_owned(), certainty));
+        found.hints.normal_y = native.then(|| (NormalY::Up, why.to_owned(), certainty));
     }
     Ok(found)
 }

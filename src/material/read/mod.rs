@@ -41,7 +41,7 @@ pub struct Read<T> {
     pub material: Material<T>,
     /// What was taken for granted, each with its reason.
     pub assumptions: Vec<Assumption>,
-    /// What was assumed or found, one sentence each, for the user.
+    /// What else was found, one sentence each, for the user.
     pub notes: Vec<String>,
     /// The files that were read, each once, for watching. None for a material from memory.
     pub files: Vec<PathBuf>,
@@ -50,6 +50,11 @@ pub struct Read<T> {
 }
 
 impl<T> Read<T> {
+    /// Notes and assumptions, a line each.
+    pub fn said(&self) -> impl Iterator<Item = String> {
+        self.notes.iter().cloned().chain(self.assumptions.iter().map(ToString::to_string))
+    }
+
     /// The assumptions that could as well be otherwise.
     pub fn unsure(&self) -> impl Iterator<Item = &Assumption> {
         self.assumptions.iter().filter(|a| a.certainty == Certainty::Unsure)
@@ -105,10 +110,10 @@ fn find(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found
 
 /// The material within one file: a packed picture, or one of named layers.
 fn within(path: &Path, decoded: Decoded, options: &ReadOptions) -> Result<Found, Error> {
-    let Decoded { mut layers, mut notes } = decoded;
+    let Decoded { mut layers, mut notes, native } = decoded;
     let mut found = match layers.pop() {
         Some(only) if layers.is_empty() && !layers::is_named(&only) => packed::unpack(path, &only.raster, options)?,
-        last => layers::assemble(path, layers.into_iter().chain(last).collect())?,
+        last => layers::assemble(path, layers.into_iter().chain(last).collect(), native)?,
     };
     notes.append(&mut found.notes);
     Ok(Found { notes, ..found })
@@ -124,7 +129,5 @@ fn finish<T: Real>(mut found: Found, options: &ReadOptions) -> Result<Read<T>, E
     found.notes.extend(noted);
     let (planes, [width, height]) = encoding::planes(&mut found, options)?;
     let material = Material::new(found.name, width, height, planes)?;
-    let said = found.assumptions.iter().map(ToString::to_string);
-    let notes = found.notes.iter().cloned().chain(said).collect();
-    Ok(Read { material, assumptions: found.assumptions, notes, files: found.files, maps })
+    Ok(Read { material, assumptions: found.assumptions, notes: found.notes, files: found.files, maps })
 }

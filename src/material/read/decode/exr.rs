@@ -61,6 +61,8 @@ fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {
     for part in image.layer_data {
         let size = [part.size.0, part.size.1];
         let data = IntegerBounds::new(part.attributes.layer_position, part.size);
+        let comments = part.attributes.comments.map(|text| text.to_string()).unwrap_or_default();
+        decoded.native |= comments.starts_with(crate::material::write::NATIVE);
         let own = part.attributes.layer_name.map(|name| name.to_string()).unwrap_or_default();
         let mut named: BTreeMap<String, Channels> = BTreeMap::new();
         let mut depth = "half";

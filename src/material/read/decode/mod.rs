@@ -36,6 +36,8 @@ pub struct Layer {
 #[derive(Debug, Default)]
 pub struct Decoded {
     pub layers: Vec<Layer>,
+    /// Whether this program wrote the file: then it means what this program means.
+    pub native: bool,
     /// What the user may want to know, one sentence each.
     pub notes: Vec<String>,
 }
@@ -115,7 +117,7 @@ pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: &str) -> Resul
 /// # Errors
 /// As [`decode_file`]; [`Error::BadImage`] where there are several.
 pub fn decode_one(path: &Path, what: &str) -> Result<(Raster, Vec<String>), Error> {
-    let Decoded { mut layers, notes } = decode_file(path, what)?;
+    let Decoded { mut layers, notes, .. } = decode_file(path, what)?;
     match layers.pop() {
         Some(only) if layers.is_empty() => Ok((only.raster, notes)),
         _ => Err(Place { path, what }.bad("expected one picture, found several layers", "open the file itself")),
@@ -123,7 +125,7 @@ pub fn decode_one(path: &Path, what: &str) -> Result<(Raster, Vec<String>), Erro
 }
 
 fn alone(layer: impl Into<Layer>) -> Decoded {
-    Decoded { layers: vec![layer.into()], notes: Vec::new() }
+    Decoded { layers: vec![layer.into()], ..Decoded::default() }
 }
 
 impl From<Raster> for Layer {
