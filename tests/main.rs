@@ -8,6 +8,7 @@ mod bad_input;
 mod cli;
 #[cfg(feature = "viewer")]
 mod end_to_end;
+mod formats;
 mod fused;
 mod golden_loss;
 mod golden_points;
@@ -18,5 +19,6 @@ mod reading;
 mod sampling;
 #[cfg(feature = "gpu")]
 mod shaders;
+mod shared_materials;
 #[cfg(feature = "viewer")]
 mod ui;

@@ -86,10 +86,17 @@ fn text(info: &Info<'_>) -> String {
 
 fn line(map: &MapReport) -> String {
     let part = if map.part.is_empty() { String::new() } else { format!(", {}", map.part) };
-    let channels = if map.channels == 1 { "1 channel".to_owned() } else { format!("{} channels", map.channels) };
+    let channels =
+        if map.channels == 1 { "1 channel".to_owned() } else { format!("{} channels", map.channels) };
     let mut line = format!(
         "  {:<12} {}{part}: {} x {}, {}, {channels}, {:.4} to {:.4}",
-        map.map, map.file.display(), map.size[0], map.size[1], map.depth, map.range[0], map.range[1]
+        map.map,
+        map.file.display(),
+        map.size[0],
+        map.size[1],
+        map.depth,
+        map.range[0],
+        map.range[1]
     );
     if map.constant {
         line += ", constant";

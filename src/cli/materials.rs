@@ -196,7 +196,12 @@ fn resized<T: Real>(opened: Opened<T>, to: ResizeTo) -> Result<Opened<T>, Error>
     let bring = |material: Material<T>| {
         if material.size() != size {
             let [w, h] = material.size();
-            tell(&format!("note: {} is resized from {w} x {h} to {} x {}", material.name(), size[0], size[1]));
+            tell(&format!(
+                "note: {} is resized from {w} x {h} to {} x {}",
+                material.name(),
+                size[0],
+                size[1]
+            ));
         }
         material.resized(size)
     };

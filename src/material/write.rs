@@ -106,7 +106,11 @@ fn exr(file: impl Write + Seek, material: &Material<f32>, half: bool) -> io::Res
         true => FlatSamples::F16(plane.iter().map(|&x| f16::from_f32(x)).collect()),
         false => FlatSamples::F32(plane.to_vec()),
     };
-    let layers = [("diffuse", ["R", "G", "B"], diffuse), ("specular", ["R", "G", "B"], specular), ("normal", ["X", "Y", "Z"], &normal)];
+    let layers = [
+        ("diffuse", ["R", "G", "B"], diffuse),
+        ("specular", ["R", "G", "B"], specular),
+        ("normal", ["X", "Y", "Z"], &normal),
+    ];
     let colours = layers.into_iter().flat_map(|(layer, names, planes)| {
         names.into_iter().zip(planes).map(move |(name, plane)| (format!("{layer}.{name}"), plane.as_slice()))
     });
@@ -117,7 +121,12 @@ fn exr(file: impl Write + Seek, material: &Material<f32>, half: bool) -> io::Res
         comments: Text::new_or_none(format!("{NATIVE}{MEANING}")),
         ..LayerAttributes::default()
     };
-    let layer = Layer::new((material.width(), material.height()), attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
+    let layer = Layer::new(
+        (material.width(), material.height()),
+        attributes,
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(channels),
+    );
     Image::from_layer(layer).write().to_buffered(file).map_err(io::Error::other)
 }
 
@@ -130,9 +139,7 @@ fn text(name: &str) -> Text {
 fn half_normals([xs, ys, zs]: &[Vec<f32>; 3]) -> [Vec<f32>; 3] {
     const MOST_ROUNDS: usize = 16;
     let round = |n: [f32; 3]| n.map(|x| f16::from_f32(x).to_f32());
-    let again = |n: [f32; 3]| {
-        round(Vec3::from(n.map(f64::from)).normalize().to_array().map(|x| x as f32))
-    };
+    let again = |n: [f32; 3]| round(Vec3::from(n.map(f64::from)).normalize().to_array().map(|x| x as f32));
     let mut planes = [0; 3].map(|_| Vec::with_capacity(xs.len()));
     for ((&x, &y), &z) in xs.iter().zip(ys).zip(zs) {
         let mut n = round([x, y, z]);

@@ -72,12 +72,7 @@ pub struct Assumption {
 }
 
 impl Assumption {
-    pub fn new(
-        what: What,
-        chosen: impl fmt::Display,
-        why: impl Into<String>,
-        certainty: Certainty,
-    ) -> Self {
+    pub fn new(what: What, chosen: impl fmt::Display, why: impl Into<String>, certainty: Certainty) -> Self {
         Self { what, chosen: chosen.to_string(), why: why.into(), certainty }
     }
 

@@ -157,7 +157,8 @@ fn say_replaced(found: &mut Found, options: &ReadOptions) {
         let mut counts = Vec::new();
         let _ = check_finite(source, name, NonFinite::Replace, &mut counts);
         if counts.iter().any(|&n| n > 0) {
-            let why = format!("{} samples of the {name} map are NaN or infinite", counts.iter().sum::<usize>());
+            let why =
+                format!("{} samples of the {name} map are NaN or infinite", counts.iter().sum::<usize>());
             said.push(Assumption::new(What::Values, options.non_finite, why, Certainty::Given));
         }
     }
@@ -217,11 +218,17 @@ fn specular_space(found: &mut Found, options: &ReadOptions, albedo: Albedo) -> A
     let hint = found.hints.specular.take();
     let chosen = options.specular.or(options.albedo).or(hint.as_ref().map(|h| h.0)).unwrap_or(albedo);
     let (says, why, certainty) = by_median(median);
-    let contradicts = (says == Albedo::Linear) != (chosen == Albedo::Linear) && certainty == Certainty::Likely;
+    let contradicts =
+        (says == Albedo::Linear) != (chosen == Albedo::Linear) && certainty == Certainty::Likely;
     let assumption = if options.specular.or(options.albedo).is_some() {
         Assumption::given(What::Specular, chosen)
     } else if contradicts && !source.raster.is_float() {
-        Assumption::new(What::Specular, chosen, format!("by convention, but {why}: look at it"), Certainty::Unsure)
+        Assumption::new(
+            What::Specular,
+            chosen,
+            format!("by convention, but {why}: look at it"),
+            Certainty::Unsure,
+        )
     } else if let Some((_, why, certainty)) = hint {
         Assumption::new(What::Specular, chosen, why, certainty)
     } else {
@@ -331,7 +338,12 @@ impl Clamped {
     fn say(self, found: &mut Found) {
         for (map, count, low, high) in self.maps {
             let why = format!("{count} samples of the {map} map lie outside, between {low} and {high}");
-            found.assumptions.push(Assumption::new(What::Values, "clamped to [0, 1]", why, Certainty::Unsure));
+            found.assumptions.push(Assumption::new(
+                What::Values,
+                "clamped to [0, 1]",
+                why,
+                Certainty::Unsure,
+            ));
         }
     }
 }

@@ -30,7 +30,8 @@ struct Named {
 impl Named {
     /// The higher, the better a source for its map.
     fn rank(&self) -> (u8, Option<usize>) {
-        let extension = Path::new(&self.file).extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let extension =
+            Path::new(&self.file).extension().unwrap_or_default().to_string_lossy().to_lowercase();
         (self.label.rank(), EXTENSIONS.iter().position(|e| *e == extension))
     }
 }
@@ -103,12 +104,15 @@ fn choose(path: &Path, names: &[String], wanted: Option<&[String]>) -> Result<Se
     for name in names.iter().filter(|name| is_picture(name)) {
         let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
         match Label::of(&stem) {
-            Some(label) => groups.entry(label.stem.clone()).or_default().push(Named { file: name.clone(), label }),
+            Some(label) => {
+                groups.entry(label.stem.clone()).or_default().push(Named { file: name.clone(), label })
+            }
             None => notes.push(format!("{name} is not used: its name says no map.")),
         }
     }
     groups.retain(|_, files| files.len() > 1 || !files[0].label.is_short());
-    let complete: Vec<_> = groups.iter().filter(|(_, files)| is_complete(files)).map(|(stem, _)| stem).collect();
+    let complete: Vec<_> =
+        groups.iter().filter(|(_, files)| is_complete(files)).map(|(stem, _)| stem).collect();
     let files = match (wanted, complete.as_slice()) {
         (Some(stem), _) => groups.remove(stem).unwrap_or_default(),
         (None, [only]) => {
@@ -155,7 +159,8 @@ fn best(path: &Path, mut files: Vec<Named>, notes: &mut Vec<String>) -> Result<V
                     path: path.to_owned(),
                     expected: format!("one picture for the {} map", file.label.role.name()),
                     found: format!("{} and {}", first.file, second.file),
-                    remedy: "give the prefix that only the files of this material share, or move one away".to_owned(),
+                    remedy: "give the prefix that only the files of this material share, or move one away"
+                        .to_owned(),
                 });
             }
         }
@@ -191,18 +196,34 @@ fn assemble(
     }
     let mut found = pictures.into_found(path, name, &listing(names))?;
     found.hints = hints(folder, &set.files, floats);
+    if is_diffmat(&set.files, &found) {
+        let why = "DiffMat writes these names and depths, and y down unless told otherwise";
+        found.hints.albedo = Some((Albedo::Gamma22, why.to_owned(), Certainty::Likely));
+        found.hints.normal_y = Some((NormalY::Down, why.to_owned(), Certainty::Unsure));
+    }
     notes.extend(set.notes);
     found.notes = notes;
     Ok(found)
+}
+
+/// Whether the files look as DiffMat writes them: whole names, colour in 8 bits, gray in 16.
+fn is_diffmat(files: &[Named], found: &Found) -> bool {
+    let plain = ["basecolor", "normal", "roughness", "metallic"];
+    let deep = |source: &Source| source.raster.depth == "16-bit" && source.raster.channels.len() == 1;
+    files.iter().all(|f| f.label.stem.is_empty() && plain.contains(&f.label.word.as_str()))
+        && found.colour.raster.depth == "8-bit"
+        && deep(&found.roughness)
+        && found.metallic.as_ref().is_some_and(deep)
 }
 
 /// What the names say about the values.
 fn hints(folder: &Path, files: &[Named], floats: bool) -> Hints {
     let word = |role: Role| files.iter().find(|f| f.label.role == role).map(|f| f.label.word.as_str());
     let mut hints = Hints::default();
-    hints.roughness = files.iter().find_map(|f| f.label.roughness().map(|r| (f, r))).map(|(f, r)| {
-        (r, format!("{} is called so", f.file), Certainty::Sure)
-    });
+    hints.roughness = files
+        .iter()
+        .find_map(|f| f.label.roughness().map(|r| (f, r)))
+        .map(|(f, r)| (r, format!("{} is called so", f.file), Certainty::Sure));
     hints.normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y))).map(|(f, y)| {
         let seen = if y == NormalY::Up { "OpenGL" } else { "DirectX" };
         (y, format!("{} is called {seen}", f.file), Certainty::Sure)
@@ -220,7 +241,11 @@ fn hints(folder: &Path, files: &[Named], floats: bool) -> Hints {
     } else if colour.contains("gammad") {
         Some((Albedo::Gamma22, "the names say gammad", Certainty::Sure))
     } else if colour.starts_with("outputs") || colour.starts_with("targets") {
-        Some((Albedo::Linear, "the networks of Deschaintre et al. write these names, linear", Certainty::Likely))
+        Some((
+            Albedo::Linear,
+            "the networks of Deschaintre et al. write these names, linear",
+            Certainty::Likely,
+        ))
     } else if word(Role::Specular) == Some("specular") && folder.join("render").is_dir() {
         Some((Albedo::Linear, "SurfaceNet's data sets look so, and are linear", Certainty::Likely))
     } else {

@@ -70,7 +70,10 @@ impl Pictures {
     /// Takes the channel at `channel` of a packed picture as a picture of its own.
     fn channel(&self, role: Role, channel: usize, name: &str) -> Option<Source> {
         let (_, source) = self.all.iter().find(|(r, s)| *r == role && s.raster.channels.len() == 3)?;
-        let part = format!("{}{name}", if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) });
+        let part = format!(
+            "{}{name}",
+            if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) }
+        );
         Some(Source { raster: source.raster.channel(channel), file: source.file.clone(), part })
     }
 
@@ -93,7 +96,11 @@ impl Pictures {
     pub fn into_found(mut self, path: &Path, name: String, listed: &str) -> Result<Found, Error> {
         let missing = |role: Role| Error::NotAMaterial {
             path: path.to_owned(),
-            expected: format!("one picture for the {} map (named {})", role.name(), role.words()[..3].join(", ")),
+            expected: format!(
+                "one picture for the {} map (named {})",
+                role.name(),
+                role.words()[..3].join(", ")
+            ),
             found: listed.to_owned(),
             remedy: "add or rename the file".to_owned(),
         };

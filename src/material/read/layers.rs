@@ -36,20 +36,27 @@ pub fn assemble(path: &Path, layers: Vec<Layer>, native: bool) -> Result<Found, 
             }
             Some(label) => {
                 floats &= raster.is_float();
-                pictures.add(label.role, Source { raster, file: path.to_owned(), part: format!("layer {name}") });
+                pictures
+                    .add(label.role, Source { raster, file: path.to_owned(), part: format!("layer {name}") });
             }
-            None if name.is_empty() => notes.push("The unnamed layer is taken as a preview and ignored.".to_owned()),
+            None if name.is_empty() => {
+                notes.push("The unnamed layer is taken as a preview and ignored.".to_owned())
+            }
             None => notes.push(format!("Layer {name} is not used.")),
         }
     }
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let mut found = pictures.into_found(path, name, &listed)?;
-    let layout = Assumption::new(What::Layout, "layers", "the names of the layers say the maps", Certainty::Sure);
+    let layout =
+        Assumption::new(What::Layout, "layers", "the names of the layers say the maps", Certainty::Sure);
     found.assumptions.insert(0, layout);
     found.notes = notes;
     if floats {
-        let (why, certainty) =
-            if native { ("svbrdf wrote the file", Certainty::Sure) } else { ("floats are linear", Certainty::Likely) };
+        let (why, certainty) = if native {
+            ("svbrdf wrote the file", Certainty::Sure)
+        } else {
+            ("floats are linear", Certainty::Likely)
+        };
         found.hints.albedo = Some((Albedo::Linear, why.to_owned(), certainty));
         found.hints.specular = found.hints.albedo.clone();
         found.hints.roughness = Some((Roughness::R, why.to_owned(), certainty));

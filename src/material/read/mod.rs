@@ -112,7 +112,9 @@ fn find(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found
 fn within(path: &Path, decoded: Decoded, options: &ReadOptions) -> Result<Found, Error> {
     let Decoded { mut layers, mut notes, native } = decoded;
     let mut found = match layers.pop() {
-        Some(only) if layers.is_empty() && !layers::is_named(&only) => packed::unpack(path, &only.raster, options)?,
+        Some(only) if layers.is_empty() && !layers::is_named(&only) => {
+            packed::unpack(path, &only.raster, options)?
+        }
         last => layers::assemble(path, layers.into_iter().chain(last).collect(), native)?,
     };
     notes.append(&mut found.notes);

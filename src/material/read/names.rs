@@ -29,7 +29,9 @@ impl Role {
             Self::Specular => "specular",
             Self::Roughness => "roughness",
             Self::Metallic => "metallic",
-            Self::OcclusionRoughnessMetallic | Self::RoughnessMetallicOcclusion => "packed roughness and metallic",
+            Self::OcclusionRoughnessMetallic | Self::RoughnessMetallicOcclusion => {
+                "packed roughness and metallic"
+            }
             Self::Ignored => "unused",
         }
     }
@@ -46,22 +48,60 @@ impl Role {
             }
             Self::Metallic => &["metallic", "metalness", "metal", "met", "mtl", "m"],
             Self::OcclusionRoughnessMetallic => &[
-                "occlusionroughnessmetallic", "occlusionroughmetal", "metallicroughness", "roughnessmetallic", "orm",
-                "arm", "ks",
+                "occlusionroughnessmetallic",
+                "occlusionroughmetal",
+                "metallicroughness",
+                "roughnessmetallic",
+                "orm",
+                "arm",
+                "ks",
             ],
             Self::RoughnessMetallicOcclusion => &["rmo", "rma"],
             Self::Ignored => &[
-                "ao", "ambientocclusion", "occlusion", "occ", "displacement", "displace", "disp", "dsp", "height",
-                "heightmap", "h", "bump", "bmp", "opacity", "alpha", "mask", "emission", "emissive", "emit",
-                "tangent", "pos", "render", "rendering", "rendered", "input", "inputs", "preview", "thumb", "flow",
+                "ao",
+                "ambientocclusion",
+                "occlusion",
+                "occ",
+                "displacement",
+                "displace",
+                "disp",
+                "dsp",
+                "height",
+                "heightmap",
+                "h",
+                "bump",
+                "bmp",
+                "opacity",
+                "alpha",
+                "mask",
+                "emission",
+                "emissive",
+                "emit",
+                "tangent",
+                "pos",
+                "render",
+                "rendering",
+                "rendered",
+                "input",
+                "inputs",
+                "preview",
+                "thumb",
+                "flow",
                 "depth",
             ],
         }
     }
 
     const ALL: [Self; 9] = [
-        Self::Normal, Self::Base, Self::Diffuse, Self::Specular, Self::Roughness, Self::Metallic,
-        Self::OcclusionRoughnessMetallic, Self::RoughnessMetallicOcclusion, Self::Ignored,
+        Self::Normal,
+        Self::Base,
+        Self::Diffuse,
+        Self::Specular,
+        Self::Roughness,
+        Self::Metallic,
+        Self::OcclusionRoughnessMetallic,
+        Self::RoughnessMetallicOcclusion,
+        Self::Ignored,
     ];
 
     fn of_word(word: &str) -> Option<Self> {
@@ -123,9 +163,9 @@ impl Label {
 }
 
 fn meaning(word: &str) -> Option<(Role, Option<NormalY>)> {
-    for (ending, y) in [
-        ("opengl", NormalY::Up), ("gl", NormalY::Up), ("directx", NormalY::Down), ("dx", NormalY::Down),
-    ] {
+    for (ending, y) in
+        [("opengl", NormalY::Up), ("gl", NormalY::Up), ("directx", NormalY::Down), ("dx", NormalY::Down)]
+    {
         let normal = word.strip_suffix(ending).and_then(Role::of_word);
         if normal == Some(Role::Normal) {
             return Some((Role::Normal, Some(y)));

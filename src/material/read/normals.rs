@@ -17,6 +17,9 @@ const DOWN: f64 = -0.3;
 /// Above this correlation it is taken to be y up for sure enough.
 const UP: f64 = 0.1;
 
+/// Squared sine of the slope above which z is visibly below 1.
+const STEEP: f64 = 0.05;
+
 /// How the components are stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Code {
@@ -106,10 +109,18 @@ fn code_of(raster: &Raster) -> (Code, String) {
         }
         let signed = evidence::signed_normal_score(raster);
         if signed > score {
-            return (Code::Signed, format!("{:.0} % of the texels have length 1 as they are", 100.0 * signed));
+            return (
+                Code::Signed,
+                format!("{:.0} % of the texels have length 1 as they are", 100.0 * signed),
+            );
         }
     }
-    if score < 0.9 && (z.1 < 0.02 || z.0 > 0.98) {
+    // Blue 1 everywhere is also what a flat map has: only slopes that it cannot have tell.
+    let steep = |i: usize| {
+        let [x, y, _] = raster.rgb(i).map(|c| 2.0 * c - 1.0);
+        x * x + y * y > STEEP
+    };
+    if z.1 < 0.02 || (z.0 > 0.98 && raster.sampled().any(steep)) {
         return (Code::Two, format!("blue is {:.0} everywhere", z.0.round()));
     }
     (Code::Unsigned, format!("{:.0} % of the texels have length 1 then", 100.0 * score))
@@ -144,7 +155,9 @@ fn normal_y(raster: &Raster, code: Code, found: &mut Found, options: &ReadOption
         return *y;
     }
     decide(&mut found.assumptions, What::NormalY, options.normal_y, hint, || match curl {
-        Some(c) if c <= DOWN => (NormalY::Down, format!("{measured}: no surface with y up has it"), Certainty::Unsure),
+        Some(c) if c <= DOWN => {
+            (NormalY::Down, format!("{measured}: no surface with y up has it"), Certainty::Unsure)
+        }
         Some(c) if c >= UP => (NormalY::Up, measured, Certainty::Likely),
         None => (NormalY::Up, measured, Certainty::Likely),
         Some(_) => (NormalY::Up, format!("most maps are so; {measured}"), Certainty::Unsure),

@@ -6,7 +6,7 @@ use super::assumption::{Assumption, Certainty, What};
 use super::evidence::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
 use super::found::{Found, Pictures, Source};
 use super::names::Role;
-use super::options::{Albedo, Order, ReadOptions, Roughness};
+use super::options::{Albedo, NormalY, Order, ReadOptions, Roughness};
 use super::raster::Raster;
 use crate::error::Error;
 
@@ -51,7 +51,9 @@ pub fn unpack(path: &Path, image: &Raster, options: &ReadOptions) -> Result<Foun
     found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
     let photos = if rows == 1 || columns == 1 { first } else { 0 };
     if photos > 0 {
-        found.notes.push(format!("The first {photos} of {} tiles are taken as photos and ignored.", columns * rows));
+        found
+            .notes
+            .push(format!("The first {photos} of {} tiles are taken as photos and ignored.", columns * rows));
     }
     if columns >= 4 && rows > 1 {
         found.notes.push(format!(
@@ -85,6 +87,8 @@ fn hint(found: &mut Found, order: Order, image: &Raster) {
     found.hints.albedo = Some((albedo, why.to_owned(), Certainty::Likely));
     found.hints.specular = found.hints.albedo.clone();
     found.hints.roughness = Some((roughness, why.to_owned(), Certainty::Likely));
+    let why = "so do all who are known to pack maps";
+    found.hints.normal_y = Some((NormalY::Up, why.to_owned(), Certainty::Likely));
 }
 
 /// Every way to divide the image, in the order in which they are tried.
@@ -96,7 +100,8 @@ fn grids(image: &Raster) -> Vec<Grid> {
     };
     let strip = (w % h == 0).then(|| w / h).filter(|k| (3..=64).contains(k)).and_then(|k| grid(k, 1));
     let upright = (h % w == 0).then(|| h / w).filter(|k| (3..=64).contains(k)).and_then(|k| grid(1, k));
-    let stack = (w % 4 == 0 && w >= 4).then(|| grid(4, (h / (w / 4)).max(1))).flatten().filter(|g| g.rows > 1);
+    let stack =
+        (w % 4 == 0 && w >= 4).then(|| grid(4, (h / (w / 4)).max(1))).flatten().filter(|g| g.rows > 1);
     [strip, stack, upright, grid(2, 2)].into_iter().flatten().collect()
 }
 
@@ -141,7 +146,8 @@ fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choic
     };
     let scores: Vec<f64> = (start..start + count).map(score).collect();
     let (place, best) = scores.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let second = scores.iter().copied().enumerate().filter(|&(i, _)| i != place).map(|(_, s)| s).fold(0.0, f64::max);
+    let second =
+        scores.iter().copied().enumerate().filter(|&(i, _)| i != place).map(|(_, s)| s).fold(0.0, f64::max);
     if best < NORMAL_AT_LEAST || second >= NORMAL_AT_LEAST {
         return None;
     }
@@ -169,9 +175,10 @@ fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choic
 fn refusal(path: &Path, image: &Raster) -> Error {
     Error::NotAMaterial {
         path: path.to_owned(),
-        expected: "a packed strip of square tiles, any photos and then normal | diffuse | roughness | specular, \
+        expected:
+            "a packed strip of square tiles, any photos and then normal | diffuse | roughness | specular, \
             4 or more times as wide as high, or another grid in which one tile looks like normals"
-            .to_owned(),
+                .to_owned(),
         found: format!("{} x {} pixels without one", image.width, image.height),
         remedy: "correct the strip, say its --order, or give a folder or prefix of one file a map".to_owned(),
     }

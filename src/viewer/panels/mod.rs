@@ -12,9 +12,7 @@ pub mod top;
 
 use eframe::egui::{self, DragValue, Response, RichText};
 
-use crate::material::read::{
-    Albedo, Assumption, Certainty, NormalY, Order, ReadOptions, Roughness, What,
-};
+use crate::material::read::{Albedo, Assumption, Certainty, NormalY, Order, ReadOptions, Roughness, What};
 
 /// A number that can be dragged and typed; a double-click puts back its `default`.
 ///

@@ -55,8 +55,11 @@ fn check(meta: &MetaData, place: Place<'_>) -> Result<(), Error> {
 fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {
     let mut decoded = Decoded::default();
     let display = image.attributes.display_window;
-    if image.attributes.chromaticities.is_some_and(|c| (c.red.0 - 0.64).abs() + (c.red.1 - 0.33).abs() > 0.01) {
-        decoded.notes.push("The EXR names other primaries than those of Rec. 709; its RGB is taken as it is.".into());
+    if image.attributes.chromaticities.is_some_and(|c| (c.red.0 - 0.64).abs() + (c.red.1 - 0.33).abs() > 0.01)
+    {
+        decoded
+            .notes
+            .push("The EXR names other primaries than those of Rec. 709; its RGB is taken as it is.".into());
     }
     for part in image.layer_data {
         let size = [part.size.0, part.size.1];
@@ -79,7 +82,9 @@ fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {
         }
     }
     if decoded.layers.is_empty() {
-        return Err(place.bad("expected channels such as R, G, B or Y, found none of them", "rename its channels"));
+        return Err(
+            place.bad("expected channels such as R, G, B or Y, found none of them", "rename its channels")
+        );
     }
     Ok(decoded)
 }
@@ -108,8 +113,10 @@ fn raster([width, height]: [usize; 2], depth: &'static str, mut channels: Channe
         Some(channels.swap_remove(place).1)
     };
     let alpha = take(&["A", "ALPHA"]);
-    let ordered: Vec<Samples> =
-        [["R", "RED", "X", "U"], ["G", "GREEN", "Y", "V"], ["B", "BLUE", "Z", "W"]].iter().filter_map(|n| take(n)).collect();
+    let ordered: Vec<Samples> = [["R", "RED", "X", "U"], ["G", "GREEN", "Y", "V"], ["B", "BLUE", "Z", "W"]]
+        .iter()
+        .filter_map(|n| take(n))
+        .collect();
     let channels = if ordered.is_empty() {
         channels.into_iter().next().map(|(_, samples)| samples).or(alpha.clone()).into_iter().collect()
     } else {
@@ -134,7 +141,8 @@ fn windowed(
     let whose = if name.is_empty() { "The picture".to_owned() } else { format!("Layer {name}") };
     let inside = display.size.0 <= super::MAX_SIDE && display.size.1 <= super::MAX_SIDE;
     if data.size == display.size || !inside {
-        notes.push(format!("{whose} has a data window beside its display window; the data is used as it is."));
+        notes
+            .push(format!("{whose} has a data window beside its display window; the data is used as it is."));
         return raster;
     }
     notes.push(format!(
@@ -146,7 +154,8 @@ fn windowed(
         let value = |index: usize| {
             let column = (index % width) as i64 + i64::from(display.position.0) - i64::from(data.position.0);
             let row = (index / width) as i64 + i64::from(display.position.1) - i64::from(data.position.1);
-            let within = (0..raster.width as i64).contains(&column) && (0..raster.height as i64).contains(&row);
+            let within =
+                (0..raster.width as i64).contains(&column) && (0..raster.height as i64).contains(&row);
             if within { plane.at(row as usize * raster.width + column as usize) as f32 } else { 0.0 }
         };
         Samples::Floats((0..width * height).map(value).collect())

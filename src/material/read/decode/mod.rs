@@ -71,7 +71,9 @@ impl Place<'_> {
     /// Refuses sizes before anything is allocated: `bytes` is what all samples take.
     fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<(), Error> {
         if width == 0 || height == 0 {
-            return Err(self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again"));
+            return Err(
+                self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again")
+            );
         }
         let (long, short) = (width.max(height), width.min(height));
         if long > MAX_WIDTH as u64 || short > MAX_SIDE as u64 || bytes > MAX_BYTES {
@@ -120,7 +122,10 @@ pub fn decode_one(path: &Path, what: &str) -> Result<(Raster, Vec<String>), Erro
     let Decoded { mut layers, notes, .. } = decode_file(path, what)?;
     match layers.pop() {
         Some(only) if layers.is_empty() => Ok((only.raster, notes)),
-        _ => Err(Place { path, what }.bad("expected one picture, found several layers", "open the file itself")),
+        _ => {
+            Err(Place { path, what }
+                .bad("expected one picture, found several layers", "open the file itself"))
+        }
     }
 }
 

@@ -56,10 +56,15 @@ pub(super) fn decode_array(reader: impl Read, name: String, place: Place<'_>) ->
     let bytes = width.checked_mul(height).and_then(|n| n.checked_mul(8 * count));
     place.check_size(width, height, bytes.unwrap_or(u64::MAX).min(MAX_BYTES + 1))?;
     if file.order() == Order::Fortran {
-        return Err(place.bad(format!("{whose}expected rows first, found Fortran order"), "save a C-ordered copy"));
+        return Err(
+            place.bad(format!("{whose}expected rows first, found Fortran order"), "save a C-ordered copy")
+        );
     }
     let (values, depth) = values(file, invalid, || {
-        place.bad(format!("{whose}expected float16, float32, float64, uint8 or uint16"), "convert it with astype")
+        place.bad(
+            format!("{whose}expected float16, float32, float64, uint8 or uint16"),
+            "convert it with astype",
+        )
     })?;
     let (width, height, count) = (width as usize, height as usize, count as usize);
     let layout = |channel: usize| {
@@ -96,7 +101,9 @@ fn values<R: Read>(
         Err(file) => match file.try_data::<f16>() {
             Ok(data) => (Samples::Floats(take(data.map(|x| x.map(f32::from))).map_err(&invalid)?), "half"),
             Err(file) => match file.try_data::<f64>() {
-                Ok(data) => (Samples::Floats(take(data.map(|x| x.map(|x| x as f32))).map_err(&invalid)?), "double"),
+                Ok(data) => {
+                    (Samples::Floats(take(data.map(|x| x.map(|x| x as f32))).map_err(&invalid)?), "double")
+                }
                 Err(file) => match file.try_data::<u8>() {
                     Ok(data) => {
                         let codes = take(data.map(|x| x.map(u16::from))).map_err(&invalid)?;

@@ -20,7 +20,9 @@ pub(super) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Ra
             return Err(place.bad(format!("expected {FORMATS}, found {other:?}"), "convert it to PNG"));
         }
         None => {
-            return Err(place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file"));
+            return Err(
+                place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file")
+            );
         }
     };
     reader.limits(limits());

@@ -23,7 +23,8 @@ pub(super) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Ra
     let colour = decoder.colortype().map_err(invalid)?;
     let count = channels_of(colour)
         .ok_or_else(|| place.bad(format!("expected gray or RGB, found {colour:?}"), "convert it to RGB"))?;
-    let bytes = u64::from(width) * u64::from(height) * count as u64 * u64::from(colour.bit_depth()).div_ceil(8);
+    let bytes =
+        u64::from(width) * u64::from(height) * count as u64 * u64::from(colour.bit_depth()).div_ceil(8);
     place.check_size(width.into(), height.into(), bytes)?;
     let planar = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(invalid)? == Some(2);
     let mut result = DecodingResult::U8(Vec::new());
@@ -42,7 +43,9 @@ fn channels_of(colour: ColorType) -> Option<usize> {
         ColorType::GrayA(_) => Some(2),
         ColorType::RGB(_) | ColorType::YCbCr(8) => Some(3),
         ColorType::RGBA(_) => Some(4),
-        ColorType::Multiband { num_samples, .. } => Some(usize::from(num_samples)).filter(|n| (1..=4).contains(n)),
+        ColorType::Multiband { num_samples, .. } => {
+            Some(usize::from(num_samples)).filter(|n| (1..=4).contains(n))
+        }
         _ => None,
     }
 }
