@@ -219,15 +219,13 @@ fn is_diffmat(files: &[Named], found: &Found) -> bool {
 /// What the names say about the values.
 fn hints(folder: &Path, files: &[Named], floats: bool) -> Hints {
     let word = |role: Role| files.iter().find(|f| f.label.role == role).map(|f| f.label.word.as_str());
-    let mut hints = Hints::default();
-    hints.roughness = files
-        .iter()
-        .find_map(|f| f.label.roughness().map(|r| (f, r)))
-        .map(|(f, r)| (r, format!("{} is called so", f.file), Certainty::Sure));
-    hints.normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y))).map(|(f, y)| {
+    let said = |f: &Named| f.label.roughness().map(|r| (r, format!("{} is called so", f.file), Certainty::Sure));
+    let roughness = files.iter().find_map(said);
+    let normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y))).map(|(f, y)| {
         let seen = if y == NormalY::Up { "OpenGL" } else { "DirectX" };
         (y, format!("{} is called {seen}", f.file), Certainty::Sure)
     });
+    let mut hints = Hints { roughness, normal_y, ..Hints::default() };
     if floats {
         hints.albedo = Some((Albedo::Linear, "floats are linear".to_owned(), Certainty::Likely));
         hints.specular = hints.albedo.clone();

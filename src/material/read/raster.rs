@@ -115,7 +115,7 @@ impl Raster {
 impl Raster {
     /// Of 1 to 4 channels; the last of 2 or 4 is alpha, and forgotten where it is opaque everywhere.
     pub fn with_alpha(width: usize, height: usize, depth: &'static str, mut channels: Vec<Samples>) -> Self {
-        let alpha = if channels.len() % 2 == 0 { channels.pop() } else { None };
+        let alpha = if channels.len().is_multiple_of(2) { channels.pop() } else { None };
         let opaque = |alpha: &Samples| (0..alpha.len()).all(|i| alpha.at(i) == 1.0);
         Self { width, height, depth, channels, alpha: alpha.filter(|alpha| !opaque(alpha)) }
     }

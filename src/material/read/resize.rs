@@ -16,10 +16,8 @@ pub fn plane<T: Real>(plane: Vec<T>, from: [usize; 2], to: [usize; 2], filter: F
     if from == to {
         return plane;
     }
-    let (into, back): (fn(f64) -> f64, fn(f64) -> f64) = match filter {
-        Filter::Value => (|x| x, |x| x),
-        Filter::Roughness => (|x| x.powi(4), |x| x.max(0.0).powf(0.25)),
-    };
+    let into = |x: f64| if filter == Filter::Roughness { x.powi(4) } else { x };
+    let back = |x: f64| if filter == Filter::Roughness { x.max(0.0).powf(0.25) } else { x };
     let columns: Vec<_> = (0..to[0]).map(|i| weights(i, from[0], to[0])).collect();
     let rows: Vec<_> = (0..to[1]).map(|i| weights(i, from[1], to[1])).collect();
     let mut narrow = Vec::with_capacity(to[0] * from[1]);
