@@ -13,6 +13,8 @@ use svbrdf::loss::fused::{Level, losses_at};
 use svbrdf::loss::{LossParams, losses, losses_f32};
 use svbrdf::material::{Material, Planes};
 use svbrdf::progress::Progress;
+use svbrdf::render::{Image, render, render_f32};
+use svbrdf::samples;
 use svbrdf::scene::Scene;
 
 /// Floating-point operations of a well arranged pp (48 FMA, 35 multiplications, 3 divisions, 3 square roots, ...).
@@ -45,7 +47,84 @@ fn main() {
         }
     }
     println!();
+    on(1, rendering_rows);
+    on(threads, rendering_rows);
+    loading_row();
+    sizes(threads);
+    println!();
     divan::main();
+}
+
+/// Rendering of whole images, which may take no longer than the default loss per texel.
+#[expect(clippy::expect_used, reason = "a benchmark may panic")]
+fn rendering_rows() {
+    let job = Job::new(1024, 6, 3);
+    let texels = (job.size * job.size) as f64;
+    let loss = fastest(|| job.assert(job.fused(Level::best())));
+    for (what, scene) in [("near-field", job.scenes[0]), ("distant", job.scenes[6])] {
+        let image = |plain: bool| {
+            let render = if plain { render::<f32> } else { render_f32 };
+            render(&job.materials[0], &scene, &PRINTED, &Progress::default()).expect("a picture")
+        };
+        let sum = |image: Image<f32>| image.pixels.iter().flatten().map(|x| f64::from(*x)).sum::<f64>();
+        let (got, want) = (sum(image(false)), sum(image(true)));
+        assert!((got - want).abs() <= TOLERANCE * want, "{got}, not {want}");
+        println!(
+            "rendering {}^2, {what}, {} threads: {:.2} ns/texel (plain {:.1}; the loss of 9 scenes {:.2})",
+            job.size,
+            rayon::current_num_threads(),
+            1e9 * fastest(|| drop(image(false))) / texels,
+            1e9 * fastest(|| drop(image(true))) / texels,
+            1e9 * loss / texels,
+        );
+    }
+}
+
+/// Decoding of the three built-in materials, 256 x 256 each.
+#[expect(clippy::expect_used, reason = "a benchmark may panic")]
+fn loading_row() {
+    let load = || samples::load::<f32>().expect("built in");
+    assert_eq!(load().predictions.len(), 2);
+    println!("loading the built-in materials (3 of 256^2): {:.1} ms", 1e3 * fastest(|| drop(load())));
+}
+
+/// Whether time is linear in texels, and memory what the planes need: the most the process had after each size.
+fn sizes(threads: usize) {
+    println!("\n| texels | ns/pp, {threads} threads | planes, MiB | most memory, MiB |\n|---|---|---|---|");
+    for size in [256, 512, 1024, 2048, 4096, 8192] {
+        let materials = [1, 2].map(|seed| material(seed, size));
+        let scenes = LossParams::default().scenes().unwrap_or_default();
+        let [gt, prediction] = &materials;
+        let loss = || mean(losses_f32(gt, &[prediction], &scenes, &PRINTED, &Progress::default()));
+        let first = loss();
+        let best = on(threads, || fastest(|| assert_eq!(loss(), first)));
+        let per_pp = 1e9 * best / (size * size * scenes.len()) as f64;
+        let planes = (2 * 10 * 4 * size * size) >> 20;
+        println!(
+            "| {size}^2 | {per_pp:.2} | {planes} | {} |",
+            most_memory().map_or("?".to_owned(), |m| m.to_string())
+        );
+    }
+}
+
+/// MiB that this process has had at most, where the system says so.
+fn most_memory() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.split_whitespace().next()?.parse::<usize>().ok().map(|kib| kib >> 10)
+}
+
+/// Seconds of the fastest of many runs.
+fn fastest(work: impl Fn()) -> f64 {
+    let start = Instant::now();
+    let mut best = f64::INFINITY;
+    for run in 0.. {
+        if run >= 5 && start.elapsed().as_secs_f64() > PATIENCE {
+            break;
+        }
+        best = best.min(seconds(&work));
+    }
+    best
 }
 
 /// Runs `work` on `threads` threads.
@@ -144,6 +223,8 @@ fn material(seed: u32, size: usize) -> Material<f32> {
         (state >> 8) as f32 / (1u32 << 24) as f32
     };
     let mut planes = Planes::default();
+    let all = planes.normal.iter_mut().chain(&mut planes.diffuse).chain(&mut planes.specular);
+    all.chain([&mut planes.roughness]).for_each(|plane| plane.reserve_exact(size * size));
     for _ in 0..size * size {
         planes.normal[0].push(0.6 * next() - 0.3);
         planes.normal[1].push(0.6 * next() - 0.3);

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::brdf::{self, Model};
 use crate::convention::Convention;
 use crate::error::Error;
+use crate::loss::fused;
 use crate::material::Material;
 use crate::progress::Progress;
 use crate::real::Real;
@@ -41,6 +42,22 @@ pub fn render<T: Real>(
         progress.step()
     })?;
     Ok(Image { width, height, pixels })
+}
+
+/// What [`render`] computes, in f32 and many times faster, with the widest instruction set of the machine.
+///
+/// Within the rounding of a handful of f32 operations, and the same bits for any number of threads. Where R does not
+/// fit f32, it is 2^126.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_f32(
+    material: &Material<f32>,
+    scene: &Scene,
+    convention: &Convention,
+    progress: &Progress,
+) -> Result<Image<f32>, Error> {
+    fused::render_at(fused::Level::best(), material, scene, convention, progress)
 }
 
 /// Renders the texel in column `column` of row `row`.

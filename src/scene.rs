@@ -23,7 +23,7 @@ const VIEW_DISTANCE_SIGMA: f64 = 0.75;
 /// Lower end of the uniform u1 (Algorithm 2).
 const U1_MIN: f64 = 0.001;
 /// Least height above the plane: closer to a texel, f32 squares of distances vanish.
-const LOWEST: f64 = 1e-9;
+const LOWEST: f64 = 1e-18;
 /// Largest coordinate of a position; beyond it, f32 squares overflow.
 const FARTHEST: f64 = 1e9;
 
@@ -102,7 +102,7 @@ impl Scene {
         }
     }
 
-    /// Whether the scene can be rendered: finite, positions within 1e9 of the origin, light and view at least 1e-9 above
+    /// Whether the scene can be rendered: finite, positions within 1e9 of the origin, light and view at least 1e-18 above
     /// the plane (directions: once they have length 1).
     ///
     /// # Errors

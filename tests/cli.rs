@@ -137,7 +137,18 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
 fn json_is_one_object_with_exactly_these_keys() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 5 --convention multi-image-2019");
-    let top = ["convention", "epsilon", "backend", "size", "near", "distant", "seed", "results"];
+    let top = [
+        "convention",
+        "epsilon",
+        "backend",
+        "size",
+        "near",
+        "distant",
+        "seed",
+        "sampler",
+        "differences",
+        "results",
+    ];
     let mut sorted = top;
     sorted.sort_unstable();
     assert_eq!(keys(&json), sorted);
@@ -151,6 +162,32 @@ fn json_is_one_object_with_exactly_these_keys() {
     assert_eq!(keys(&result["scenes"][0]), ["kind", "light", "loss", "view"]);
     let [low, high] = [0, 1].map(|i| result["interval95"][i].as_f64().unwrap());
     assert!((low..high).contains(&result["loss"].as_f64().unwrap()));
+}
+
+#[test]
+fn a_target_error_is_reached_and_a_difference_has_its_own_interval() {
+    let folder = folder();
+    let json = losses_as_json(folder.path(), "gt.png a.png b.png --target-error 1%");
+    for result in json["results"].as_array().unwrap() {
+        let [low, high] = [0, 1].map(|i| result["interval95"][i].as_f64().unwrap());
+        assert!((high - low) / 2.0 <= 0.01 * result["loss"].as_f64().unwrap(), "{result}");
+    }
+    let (a, b) = (&json["results"][0]["loss"], &json["results"][1]["loss"]);
+    let difference = json["differences"][0]["interval95"].clone();
+    let [low, high] = [0, 1].map(|i| difference[i].as_f64().unwrap());
+    assert!((low..high).contains(&(b.as_f64().unwrap() - a.as_f64().unwrap())), "{difference}");
+    assert_eq!(json["sampler"], "sobol");
+}
+
+#[test]
+fn a_time_budget_gives_a_loss_and_nonsense_is_refused() {
+    let folder = folder();
+    let json = losses_as_json(folder.path(), "gt.png a.png --time-budget 20ms");
+    assert!(json["near"].as_u64().unwrap() >= 32, "{json}");
+    for bad in ["--target-error 0%", "--target-error much", "--time-budget -1s", "--sampler halton"] {
+        fail(folder.path(), &format!("loss gt.png a.png {bad}"), 64);
+    }
+    fail(folder.path(), "loss gt.png a.png --target-error 1% --near 6", 64);
 }
 
 #[test]

@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test may panic: that is how it fails")]
 
-use std::path::{Path, PathBuf};
+mod extremes;
+mod golden;
+mod pictures;
 
 use svbrdf::brdf::Texel;
 use svbrdf::convention::{self, Convention};
@@ -159,68 +161,6 @@ fn sizes_that_no_vector_divides() {
 }
 
 #[test]
-fn peaks_do_not_cancel() {
-    let at = |view: [f64; 3], light| Scene { kind: Kind::Distant, view, light };
-    let scenes = [at([0.0, 0.0, 1.0], [0.0, 0.0, 1.0]), at([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8])];
-    for c in &convention::ALL {
-        // Normals within four widths a = r^2 of the half vector.
-        let (gt, prediction) = (random(6, [256, 64], 6e-5, 0.0), random(7, [256, 64], 6e-5, 0.0));
-        let smooth = |m: Material<f32>| {
-            let planes = Planes { roughness: vec![1.0 / 255.0; 256 * 64], ..m.planes().clone() };
-            Material::new("smooth", 256, 64, planes).unwrap()
-        };
-        let bounds = [tolerance::FUSED_PEAK; 2];
-        check_all("peak", &smooth(gt), &smooth(prediction), &scenes, c, bounds);
-    }
-}
-
-#[test]
-fn extremes() {
-    let distant = |view, light| Scene { kind: Kind::Distant, view, light };
-    let near = |view, light| Scene { kind: Kind::Near, view, light };
-    let up = [0.0, 0.0, 1.0];
-    let scenes = [
-        distant(up, up),
-        distant([0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]),
-        distant([1.0, 0.0, 1e-3], [0.0, 1.0, 1e-6]),
-        distant([1.0, 0.0, 1e-3], [0.0, 1.0, 1e-12]),
-        near(up, [0.3, 0.2, 1e-6]),
-        near([0.0, 0.0, 1e8], [1e8, 0.0, 1e3]),
-        near([-0.3, 0.1, 0.01], [0.3, 0.2, 0.01]),
-    ];
-    let rough = uniform([0.0, 0.0, 1.0], 0.5, 0.5, 0.5, [9, 9]);
-    let size = [9, 9];
-    let others = [
-        ("mirror", uniform([0.0, 0.0, 1.0], 0.0, 0.0, 1.0, size)),
-        ("black", uniform([0.0, 0.0, 1.0], 0.0, 0.0, 0.0, size)),
-        ("white", uniform([0.0, 0.0, 1.0], 1.0, 1.0, 0.0, size)),
-        ("grazing", uniform([1.0, 0.0, 1e-3], 0.0, 1.0, 1.0, size)),
-        ("from behind", uniform([0.0, 0.0, -1.0], 0.3, 1.0, 1.0, size)),
-    ];
-    for c in &convention::ALL {
-        for (what, other) in &others {
-            check_all(what, &rough, other, &scenes, c, [tolerance::FUSED_EXTREME; 2]);
-        }
-    }
-}
-
-#[test]
-fn opposite_directions_and_tiny_heights_stay_finite() {
-    let opposite = |x: f64, z: f64| Scene { kind: Kind::Distant, view: [x, 0.0, z], light: [-x, 0.0, z] };
-    let touching = |z: f64| Scene { kind: Kind::Near, view: [0.0, 0.0, z], light: [0.0, 0.0, z] };
-    let mut scenes: Vec<_> = [1e-3, 1e-7, 1e-12, 1e-30, 1e-300].map(|z| opposite(1.0, z)).to_vec();
-    scenes.extend([1e-3, 1e-12, 1e-30, 1e-300, 1e9].map(touching));
-    let (gt, mirror) = (random(8, [9, 9], 0.9, 0.0), uniform([0.0, 0.0, 1.0], 0.0, 1.0, 1.0, [9, 9]));
-    for c in &convention::ALL {
-        for (name, level) in levels() {
-            let (mean, per_scene) = fused(level, &gt, &mirror, &scenes, c);
-            let sane = per_scene.iter().all(|x| x.is_finite() && *x >= 0.0);
-            assert!(mean.is_finite() && sane, "{name}, {}: {per_scene:?}", c.name);
-        }
-    }
-}
-
-#[test]
 fn equal_materials_have_no_loss() {
     let c = &convention::PRINTED;
     let gt = random(9, [130, 7], 0.9, 0.0);
@@ -306,54 +246,4 @@ fn what_cannot_be_computed_is_an_error() {
     assert_eq!(losses_f32(&gt, &[], &scenes(1, 1, c), c, &progress).unwrap(), []);
     progress.cancel();
     assert!(matches!(losses_f32(&gt, &[&gt], &scenes(1, 1, c), c, &progress), Err(Error::Cancelled)));
-}
-
-/// The folder of golden cases, beside the repository where it is developed.
-fn golden() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden");
-    folder.exists().then_some(folder)
-}
-
-/// A packed 4x1 strip: normal | diffuse | roughness | specular, 8 bits.
-fn strip(folder: &Path, case: &serde_json::Value) -> Material<f32> {
-    let file = folder.join(case["file"].as_str().unwrap());
-    let image = image::open(file).unwrap().to_rgb8();
-    let (width, height) = (image.width() / 4, image.height());
-    let gamma = if case["albedo"] == "linear" { 1.0 } else { 2.2 };
-    let plane = |part: u32, channel: usize, decode: &dyn Fn(f64) -> f64| {
-        let texel = |row, column| f64::from(image.get_pixel(part * width + column, row)[channel]) / 255.0;
-        let rows = (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
-        rows.map(|(row, column)| decode(texel(row, column)) as f32).collect::<Vec<_>>()
-    };
-    let planes = Planes {
-        normal: [0, 1, 2].map(|c| plane(0, c, &|x| 2.0 * x - 1.0)),
-        diffuse: [0, 1, 2].map(|c| plane(1, c, &|x| x.powf(gamma))),
-        roughness: plane(2, 0, &|x| x),
-        specular: [0, 1, 2].map(|c| plane(3, c, &|x| x.powf(gamma))),
-    };
-    Material::new("golden", width as usize, height as usize, planes).unwrap()
-}
-
-#[test]
-fn golden_cases() {
-    let Some(folder) = golden() else {
-        eprintln!("NOT TESTED: no golden cases beside the repository");
-        return;
-    };
-    for file in std::fs::read_dir(folder.join("loss")).unwrap() {
-        let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
-        let case: serde_json::Value = serde_json::from_str(&text).unwrap();
-        let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).unwrap();
-        let (gt, prediction) = (strip(&folder, &case["ground_truth"]), strip(&folder, &case["prediction"]));
-        for c in &convention::ALL {
-            let Some(expected) = case["expected"].get(c.name) else { continue };
-            let numbers = expected["per_scene"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap());
-            let want = (expected["loss"].as_f64().unwrap(), numbers.collect());
-            for (name, level) in levels() {
-                let got = fused(level, &gt, &prediction, &scenes, c);
-                let [mean, scene] = compare(&got, &want, BOUNDS).unwrap();
-                println!("{}, {}, {name}: loss {mean:.1e}, scene {scene:.1e}", case["id"], c.name);
-            }
-        }
-    }
 }

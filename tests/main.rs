@@ -6,6 +6,7 @@ mod support;
 
 mod bad_input;
 mod cli;
+mod coverage;
 #[cfg(feature = "viewer")]
 mod end_to_end;
 mod formats;

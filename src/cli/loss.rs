@@ -1,11 +1,14 @@
 //! `svbrdf loss`: Algorithm 1.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use svbrdf::convention::Convention;
 use svbrdf::error::Error;
-use svbrdf::loss::{Loss, LossParams, Precision, losses};
+use svbrdf::loss::adaptive::{self, Goal, Reached};
+use svbrdf::loss::{Loss, LossParams, Losses, Precision, Weights, losses, losses_f32};
 use svbrdf::real::Real;
+use svbrdf::sampler::Sampler;
 use svbrdf::scene::{self, Scene};
 
 use super::backend::{self, Choice, Job};
@@ -32,12 +35,26 @@ pub struct LossArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
 
+    /// How scenes are drawn: random, or sobol for less error from as many scenes
+    #[arg(long, value_name = "random|sobol", default_value = "random")]
+    sampler: Sampler,
+
+    /// Draws as many scenes as the loss needs to be known this well with 95% confidence, such as 1%
+    #[arg(long, value_name = "PERCENT", value_parser = percent,
+        conflicts_with_all = ["near", "distant", "sampler", "scenes", "backend", "time_budget"])]
+    target_error: Option<f64>,
+
+    /// Draws as many scenes as fit into this time, such as 500ms or 2s
+    #[arg(long, value_name = "TIME", value_parser = duration,
+        conflicts_with_all = ["near", "distant", "sampler", "scenes", "backend"])]
+    time_budget: Option<Duration>,
+
     /// printed, single-image-2018, multi-image-2019 or guided-2020
     #[arg(long, value_name = "NAME", default_value = "printed")]
     convention: Convention,
 
     /// Uses the scenes of this JSON file instead of drawn ones
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
     scenes: Option<PathBuf>,
 
     /// What is computed in
@@ -63,12 +80,14 @@ pub struct LossArgs {
 pub fn run(args: &LossArgs) -> Result<(), Error> {
     check_predictions(&args.materials)?;
     let report = match (args.precision, args.backend) {
-        (Precision::F32, backend) => report(args, |job, scenes| backend::losses(backend, job, scenes))?,
+        (Precision::F32, backend) => {
+            report(args, losses_f32, |job, scenes| backend::losses(backend, job, scenes))?
+        }
         (Precision::F64, Choice::Gpu) => {
             let problem = "graphics adapters compute in f32; leave out --backend gpu, or --precision f64";
             return Err(Error::Usage(problem.to_owned()));
         }
-        (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, in_f64)?,
+        (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, losses, in_f64)?,
     };
     exit::put(&report.to_text(args.format).map_err(exit::unwritable)?)
 }
@@ -80,17 +99,32 @@ fn in_f64(job: &Job<'_, f64>, scenes: &[Scene]) -> Result<(Vec<Loss>, &'static s
     Ok((losses, "cpu"))
 }
 
-/// Opens what is compared and computes it with `losses`, which also says on what.
+/// Opens what is compared and computes it: over given scenes with `over`, which also says on what, or over as many as
+/// are needed with `kernel` on the CPU.
 fn report<T: Real>(
     args: &LossArgs,
-    losses: impl FnOnce(&Job<'_, T>, &[Scene]) -> Result<(Vec<Loss>, &'static str), Error>,
+    kernel: Losses<T>,
+    over: impl FnOnce(&Job<'_, T>, &[Scene]) -> Result<(Vec<Loss>, &'static str), Error>,
 ) -> Result<Report, Error> {
-    let scenes = scenes(args)?;
+    let scenes = if goal(args).is_some() { Vec::new() } else { scenes(args)? };
     let opened = materials::open::<T>(&args.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let job =
-        Job { ground_truth: &opened.ground_truth, predictions: &predictions, convention: &args.convention };
-    let (losses, backend) = losses(&job, &scenes)?;
+    let (ground_truth, convention) = (&opened.ground_truth, &args.convention);
+    let (reached, backend) = match goal(args) {
+        None => {
+            let job = Job { ground_truth, predictions: &predictions, convention };
+            let (losses, backend) = over(&job, &scenes)?;
+            let sampler = args.sampler;
+            let losses = losses.into_iter().map(|loss| loss.sampled_by(sampler, &scenes)).collect();
+            (Reached { sampler, weights: Weights::OfCounts, scenes, losses }, backend)
+        }
+        Some(goal) => {
+            let run = |p: &_| {
+                adaptive::losses(kernel, ground_truth, &predictions, args.seed, convention, goal, p, |_| ())
+            };
+            (watched("rendering", run)?, "cpu")
+        }
+    };
     Ok(Report {
         convention: args.convention,
         ground_truth: opened.ground_truth.name().to_owned(),
@@ -98,8 +132,10 @@ fn report<T: Real>(
         seed: args.scenes.is_none().then_some(args.seed),
         precision: T::NAME,
         backend,
-        scenes,
-        losses,
+        sampler: args.scenes.is_none().then_some(reached.sampler),
+        weights: reached.weights,
+        scenes: reached.scenes,
+        losses: reached.losses,
     })
 }
 
@@ -122,7 +158,35 @@ fn scenes(args: &LossArgs) -> Result<Vec<Scene>, Error> {
             seed: args.seed,
             convention: args.convention,
             precision: args.precision,
+            sampler: args.sampler,
         }
         .scenes(),
     }
+}
+
+/// What is asked for instead of a number of scenes.
+fn goal(args: &LossArgs) -> Option<Goal> {
+    let time = args.time_budget.map(Goal::Time);
+    args.target_error.map(Goal::RelativeError).or(time)
+}
+
+/// A share such as `1%` or `0.01`.
+fn percent(text: &str) -> Result<f64, String> {
+    let (number, scale) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
+    let share = number.trim().parse::<f64>().map(|number| number * scale);
+    share
+        .ok()
+        .filter(|s| *s > 0.0 && *s < 1.0)
+        .ok_or("expected more than 0% and less than 100%, as in 1%".to_owned())
+}
+
+/// A time such as `500ms`, `2s` or `0.5` (seconds).
+fn duration(text: &str) -> Result<Duration, String> {
+    let (number, scale) = match text.strip_suffix("ms") {
+        Some(number) => (number, 1e-3),
+        None => (text.strip_suffix('s').unwrap_or(text), 1.0),
+    };
+    let seconds = number.trim().parse::<f64>().map(|number| number * scale);
+    let time = seconds.ok().filter(|s| *s > 0.0 && *s <= 86_400.0).map(Duration::from_secs_f64);
+    time.ok_or("expected a time of at most a day, as in 500ms or 2s".to_owned())
 }

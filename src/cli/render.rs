@@ -104,7 +104,7 @@ fn panes(
         return panes_of_gpu(args, materials, scene);
     }
     let one = |material| {
-        watched("rendering", |progress| render::render(material, scene, &args.convention, progress))
+        watched("rendering", |progress| render::render_f32(material, scene, &args.convention, progress))
     };
     let panes = materials.iter().map(one).collect::<Result<_, _>>()?;
     Ok((panes, "CPU, f32".to_owned()))

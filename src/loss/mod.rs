@@ -1,5 +1,6 @@
 //! Algorithm 1: the rendering loss of predictions against a ground truth over given scenes.
 
+pub mod adaptive;
 pub mod fused;
 mod statistics;
 
@@ -9,7 +10,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 pub use fused::losses_f32;
-pub use statistics::Estimate;
+pub use statistics::{Estimate, Weights};
 
 use crate::brdf::Model;
 use crate::convention::Convention;
@@ -18,7 +19,8 @@ use crate::material::Material;
 use crate::progress::Progress;
 use crate::real::Real;
 use crate::render::render_texel;
-use crate::scene::{self, Scene};
+use crate::sampler::Sampler;
+use crate::scene::Scene;
 
 /// Rows are summed within blocks of this many texels, and blocks in order: threads never change a sum.
 const TEXELS_PER_BLOCK: usize = 4096;
@@ -34,11 +36,19 @@ pub struct LossParams {
     pub seed: u64,
     pub convention: Convention,
     pub precision: Precision,
+    pub sampler: Sampler,
 }
 
 impl Default for LossParams {
     fn default() -> Self {
-        Self { near: 6, distant: 3, seed: 0, convention: Convention::default(), precision: Precision::F32 }
+        Self {
+            near: 6,
+            distant: 3,
+            seed: 0,
+            convention: Convention::default(),
+            precision: Precision::F32,
+            sampler: Sampler::Random,
+        }
     }
 }
 
@@ -63,7 +73,7 @@ impl LossParams {
                 Self::MAX_SCENES
             )));
         }
-        Ok(scene::sample(self.seed, self.near, self.distant, &self.convention))
+        Ok(self.sampler.scenes(self.seed, self.near, self.distant, &self.convention))
     }
 }
 
@@ -110,7 +120,17 @@ impl Loss {
         let estimate = Estimate::of_scenes(scenes, &per_scene);
         Self { prediction: name.to_owned(), estimate, per_scene }
     }
+
+    /// The same loss, with the error of scenes that `sampler` drew: quasi-random ones are no independent ones.
+    #[must_use]
+    pub fn sampled_by(self, sampler: Sampler, scenes: &[Scene]) -> Self {
+        Self { estimate: Estimate::of_sampled(sampler, scenes, &self.per_scene), ..self }
+    }
 }
+
+/// Algorithm 1 in one precision: [`losses`] or a faster twin of it.
+pub type Losses<T> =
+    fn(&Material<T>, &[&Material<T>], &[Scene], &Convention, &Progress) -> Result<Vec<Loss>, Error>;
 
 /// The losses of `predictions` against `ground_truth` over `scenes`, in the order of the predictions.
 ///

@@ -108,6 +108,7 @@ impl App {
             seed: self.settings.seed,
             convention: self.state.convention(),
             precision: Precision::F32,
+            ..LossParams::default()
         }
     }
 

@@ -24,7 +24,7 @@ pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBu
     Job::start(ctx, move |progress| {
         let destination = Destination::new(&path)?;
         let render = |loaded: &Arc<Loaded>| {
-            render::render(&loaded.material, &provenance.scene, &provenance.convention, progress)
+            render::render_f32(&loaded.material, &provenance.scene, &provenance.convention, progress)
         };
         let panes = materials.iter().map(render).collect::<Result<Vec<_>, _>>()?;
         destination.write(&panes, &provenance)?;

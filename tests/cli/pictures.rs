@@ -6,7 +6,7 @@ use svbrdf::convention::PRINTED;
 use svbrdf::display::to_display;
 use svbrdf::export::GAP;
 use svbrdf::progress::Progress;
-use svbrdf::render::{Image, render};
+use svbrdf::render::{Image, render_f32};
 use svbrdf::samples;
 use svbrdf::scene::{Kind, Scene};
 
@@ -16,7 +16,7 @@ use super::{folder, succeed};
 fn panes(scene: &Scene) -> Vec<Image<f32>> {
     let built_in = samples::load::<f32>().unwrap();
     let all = std::iter::once(built_in.ground_truth).chain(built_in.predictions);
-    all.map(|read| render(&read.material, scene, &PRINTED, &Progress::default()).unwrap()).collect()
+    all.map(|read| render_f32(&read.material, scene, &PRINTED, &Progress::default()).unwrap()).collect()
 }
 
 /// What stands at (x, y) of panes side by side; `None` in a gap.

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use svbrdf::gpu::{Display, DisplayParams, Gpu, Shaded};
+use svbrdf::gpu::{Display, DisplayParams, Gpu, Pane, Shaded};
 use svbrdf::material::{Material, Planes};
 
 /// The adapter, the same for every test; `None`, said aloud, where there is none.
@@ -70,58 +70,88 @@ impl Picture {
 /// What a window would show of a pane of `width` x `height` pixels.
 pub fn picture(
     gpu: &Gpu,
-    [width, height]: [u32; 2],
+    size: [u32; 2],
     shown: &Shaded,
     reference: &Shaded,
     params: &DisplayParams,
 ) -> Picture {
-    let format = wgpu::TextureFormat::Rgba8Unorm;
-    let display = Display::new(gpu, format).expect("the display pass compiles");
-    let pane = display.pane(gpu, shown, reference);
-    pane.write(&gpu.queue, params);
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("window"),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
-    let view = texture.create_view(&Default::default());
-    let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &view,
-            resolve_target: None,
-            depth_slice: None,
-            ops: wgpu::Operations::default(),
-        })],
-        ..Default::default()
-    });
-    display.draw(&mut pass, &pane);
-    drop(pass);
-    let pixels = read(gpu, encoder, &texture);
+    let screen = Screen::new(gpu, size, shown, reference, params);
+    screen.draw(gpu);
+    let picture = screen.read(gpu);
     assert!(gpu.take_fault().is_none());
-    Picture { width: width as usize, pixels }
+    picture
 }
 
-fn read(gpu: &Gpu, mut encoder: wgpu::CommandEncoder, texture: &wgpu::Texture) -> Vec<[u8; 4]> {
-    let stride = (4 * texture.width()).next_multiple_of(256);
-    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("pixels"),
-        size: u64::from(stride * texture.height()),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
-    let target = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
-    encoder.copy_texture_to_buffer(texture.as_image_copy(), target, texture.size());
-    gpu.queue.submit([encoder.finish()]);
-    buffer.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("mapped"));
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("polled");
-    let bytes = buffer.get_mapped_range(..).expect("mapped").to_vec();
-    let row = |row: &[u8]| row[..4 * texture.width() as usize].to_vec();
-    bytes.chunks(stride as usize).flat_map(row).collect::<Vec<u8>>().as_chunks::<4>().0.to_vec()
+/// What stands for a window: a pane and the texture it is drawn into.
+pub struct Screen {
+    display: Display,
+    pane: Pane,
+    texture: wgpu::Texture,
+}
+
+impl Screen {
+    pub fn new(
+        gpu: &Gpu,
+        [width, height]: [u32; 2],
+        shown: &Shaded,
+        reference: &Shaded,
+        params: &DisplayParams,
+    ) -> Self {
+        let format = wgpu::TextureFormat::Rgba8Unorm;
+        let display = Display::new(gpu, format).expect("the display pass compiles");
+        let pane = display.pane(gpu, shown, reference);
+        pane.write(&gpu.queue, params);
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("window"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        Self { display, pane, texture }
+    }
+
+    pub fn draw(&self, gpu: &Gpu) {
+        let view = self.texture.create_view(&Default::default());
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &view,
+                resolve_target: None,
+                depth_slice: None,
+                ops: wgpu::Operations::default(),
+            })],
+            ..Default::default()
+        });
+        self.display.draw(&mut pass, &self.pane);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// What was drawn last.
+    pub fn read(&self, gpu: &Gpu) -> Picture {
+        let texture = &self.texture;
+        let stride = (4 * texture.width()).next_multiple_of(256);
+        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("pixels"),
+            size: u64::from(stride * texture.height()),
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
+        let target = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        encoder.copy_texture_to_buffer(texture.as_image_copy(), target, texture.size());
+        gpu.queue.submit([encoder.finish()]);
+        buffer.map_async(wgpu::MapMode::Read, .., |mapped| mapped.expect("mapped"));
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("polled");
+        let bytes = buffer.get_mapped_range(..).expect("mapped").to_vec();
+        let row = |row: &[u8]| row[..4 * texture.width() as usize].to_vec();
+        let pixels: Vec<u8> = bytes.chunks(stride as usize).flat_map(row).collect();
+        Picture { width: texture.width() as usize, pixels: pixels.as_chunks::<4>().0.to_vec() }
+    }
 }

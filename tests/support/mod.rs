@@ -1,6 +1,5 @@
 //! What the tests share.
 
-#[cfg(feature = "gpu")]
 pub mod compare;
 pub mod fixtures;
 #[cfg(feature = "gpu")]

@@ -98,6 +98,7 @@ impl Generator {
 }
 
 /// A point in f64, exactly.
+#[cfg(feature = "gpu")]
 pub fn exact((texel, w_l, w_v): &Point) -> (Texel<f64>, Vec3<f64>, Vec3<f64>) {
     let texel = Texel {
         normal: texel.normal.cast(),

@@ -3,7 +3,8 @@
 use std::io;
 
 use serde::Serialize;
-use svbrdf::loss::Loss;
+use svbrdf::loss::{Estimate, Loss};
+use svbrdf::sampler::Sampler;
 use svbrdf::scene::{Kind, Scene};
 
 use super::Report;
@@ -17,7 +18,19 @@ struct Object<'a> {
     near: usize,
     distant: usize,
     seed: Option<u64>,
+    sampler: Option<Sampler>,
+    differences: Vec<DifferenceEntry<'a>>,
     results: Vec<Entry<'a>>,
+}
+
+/// How much larger the loss of a prediction is than that of the first, on the same scenes.
+#[derive(Serialize)]
+struct DifferenceEntry<'a> {
+    prediction: &'a str,
+    to: &'a str,
+    difference: f64,
+    standard_error: Option<f64>,
+    interval95: Option<[f64; 2]>,
 }
 
 #[derive(Serialize)]
@@ -46,9 +59,21 @@ pub(super) fn write(report: &Report) -> io::Result<String> {
         near: report.count(Kind::Near),
         distant: report.count(Kind::Distant),
         seed: report.seed,
+        sampler: report.sampler,
+        differences: report.differences().into_iter().map(|d| difference(report, d)).collect(),
         results: report.losses.iter().map(|loss| entry(&report.scenes, loss)).collect(),
     };
     Ok(serde_json::to_string_pretty(&object)? + "\n")
+}
+
+fn difference<'a>(report: &'a Report, (loss, e): (&'a Loss, Estimate)) -> DifferenceEntry<'a> {
+    DifferenceEntry {
+        prediction: &loss.prediction,
+        to: &report.losses[0].prediction,
+        difference: e.mean,
+        standard_error: e.standard_error,
+        interval95: e.interval95,
+    }
 }
 
 fn entry<'a>(scenes: &'a [Scene], loss: &'a Loss) -> Entry<'a> {

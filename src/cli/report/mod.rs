@@ -7,7 +7,8 @@ mod text;
 use std::io;
 
 use svbrdf::convention::Convention;
-use svbrdf::loss::Loss;
+use svbrdf::loss::{Estimate, Loss, Weights};
+use svbrdf::sampler::Sampler;
 use svbrdf::scene::{Kind, Scene};
 
 /// What a report is written in.
@@ -29,6 +30,9 @@ pub struct Report {
     pub size: [usize; 2],
     /// `None` where the scenes come from a file.
     pub seed: Option<u64>,
+    /// `None` where the scenes come from a file.
+    pub sampler: Option<Sampler>,
+    pub weights: Weights,
     pub precision: &'static str,
     /// What computed it: cpu or gpu.
     pub backend: &'static str,
@@ -44,6 +48,16 @@ impl Report {
             Format::Json => json::write(self),
             Format::Csv => Ok(csv::write(self)),
         }
+    }
+
+    /// How much larger each further loss is than the first, on the same scenes.
+    fn differences(&self) -> Vec<(&Loss, Estimate)> {
+        let Some((first, others)) = self.losses.split_first() else { return Vec::new() };
+        let sampler = self.sampler.unwrap_or_default();
+        let difference = |loss: &Loss| {
+            Estimate::of_difference(self.weights, sampler, &self.scenes, &loss.per_scene, &first.per_scene)
+        };
+        others.iter().map(|loss| (loss, difference(loss))).collect()
     }
 
     fn count(&self, kind: Kind) -> usize {

@@ -1,6 +1,7 @@
 //! A table for people.
 
 use svbrdf::loss::Loss;
+use svbrdf::sampler::Sampler;
 use svbrdf::scene::Kind;
 
 use super::Report;
@@ -13,13 +14,28 @@ pub(super) fn write(report: &Report) -> String {
     let widths: [usize; 4] =
         std::array::from_fn(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0));
     let lines: String = rows.iter().map(|row| line(row, widths)).collect();
-    format!("{}\n{lines}", header(report))
+    format!("{}\n{lines}{}", header(report), differences(report))
+}
+
+/// What the scenes have in common cancels in a difference: its error is its own.
+fn differences(report: &Report) -> String {
+    let lines = report.differences().into_iter().map(|(loss, difference)| {
+        let [mean, error, interval] = difference.texts();
+        let first = &report.losses[0].prediction;
+        format!("\n{} less {first}, on the same scenes: {mean} +- {error}, 95% {interval}", loss.prediction)
+    });
+    let text: String = lines.collect();
+    if text.is_empty() { text } else { text + "\n" }
 }
 
 fn header(report: &Report) -> String {
     let Report { convention, ground_truth, size: [width, height], precision, backend, .. } = report;
     let (near, distant) = (report.count(Kind::Near), report.count(Kind::Distant));
     let origin = report.seed.map_or("from a file".to_owned(), |seed| format!("of seed {seed}"));
+    let origin = match report.sampler {
+        Some(Sampler::Sobol) => format!("{origin}, scrambled Sobol"),
+        _ => origin,
+    };
     format!(
         "rendering loss against {ground_truth}, {width} x {height} texels, {precision} on the {backend}\n\
          convention {}, epsilon {}\n\

@@ -15,8 +15,9 @@ pub(super) const PLANES: usize = 10;
 
 /// Blocks of the largest band: 2^20 texels, 40 MiB of each material.
 const MOST_BLOCKS: usize = 256;
-/// Most blocks that a step renders, over all scenes and materials: 2^24 texels, 0.2 s for two cores and less for a GPU.
-const BLOCKS_PER_STEP: usize = 4096;
+/// Blocks that a step renders, over all scenes and materials: 2^22 texels, 0.3 s for a software driver on two cores. One
+/// scene of a large band with many predictions is a little more.
+const BLOCKS_PER_STEP: usize = 1024;
 
 /// What is sent and computed at once.
 #[derive(Clone, Copy, Debug, PartialEq)]

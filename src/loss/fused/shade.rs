@@ -2,13 +2,13 @@
 
 use fearless_simd::prelude::*;
 
-use super::geometry::{Ray, dot};
+use super::geometry::{Ray, Source, dot};
 use super::lanes::{Lanes, V, neg_mul_add};
 use super::tile::{Plane, Terms, vectors};
 use crate::convention::Convention;
 
 /// Where a highlight or a boost is above it, radiances are computed and multiplied in the careful way.
-pub(super) const TAME: f32 = 1_048_576.0;
+const TAME: f32 = 1_048_576.0;
 
 /// Largest radiance and largest factor of one, 2^126: two of its mantissas fit a float.
 const LARGEST: f32 = 8.507_059e37;
@@ -17,7 +17,7 @@ const LARGEST: f32 = 8.507_059e37;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clamps {
     /// Whether there are any.
-    pub(super) any: bool,
+    any: bool,
     /// Where n . q is below, NoH counts as 0.
     behind: f32,
     d_floor: f32,
@@ -27,9 +27,16 @@ pub(super) struct Clamps {
 /// What of a convention the kernel needs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Model {
-    pub(super) clamps: Clamps,
-    pub(super) epsilon: f32,
+    clamps: Clamps,
+    epsilon: f32,
     pub(super) roughness_floor: f32,
+}
+
+impl Model {
+    /// Of a convention whose epsilon is 0: radiances stay as they are.
+    pub(super) fn without_epsilon(convention: &Convention) -> Self {
+        Self { epsilon: 0.0, ..Self::from(convention) }
+    }
 }
 
 impl From<&Convention> for Model {
@@ -44,19 +51,46 @@ impl From<&Convention> for Model {
     }
 }
 
-/// R + epsilon of every texel of a tile.
+/// R + epsilon of every texel of a tile; R itself where the epsilon of the model is 0.
 #[derive(Clone, Debug)]
 pub(super) struct Radiance(pub(super) [Plane; 3]);
 
 impl Radiance {
     pub(super) const ZERO: Self = Self([Plane::ZERO; 3]);
 
-    /// Renders a tile; `ray(i)` is the geometry of vector i.
+    /// Renders a tile, again and carefully where that is needed; says whether it was not. `ray(i)` is the geometry of
+    /// vector i.
+    #[inline(always)]
+    pub(super) fn render<S: Lanes>(
+        &mut self,
+        simd: S,
+        model: &Model,
+        source: &Source,
+        terms: &Terms,
+        ray: impl Fn(usize) -> Ray<V<S>>,
+    ) -> bool {
+        let tame = if model.clamps.any {
+            self.fill::<S, true, false>(simd, model, terms, &ray)
+        } else {
+            self.fill::<S, false, false>(simd, model, terms, &ray)
+        };
+        if tame && source.most_boost <= TAME {
+            return true;
+        }
+        if model.clamps.any {
+            self.fill::<S, true, true>(simd, model, terms, &ray);
+        } else {
+            self.fill::<S, false, true>(simd, model, terms, &ray);
+        }
+        false
+    }
+
+    /// Renders a tile.
     ///
     /// Says whether every value is tame: finite and below 2 [`TAME`]. Where one is not, render it again with
     /// `CAREFUL`.
     #[inline(always)]
-    pub(super) fn fill<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
+    fn fill<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
         &mut self,
         simd: S,
         model: &Model,
@@ -120,7 +154,9 @@ fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
     if CAREFUL {
         // Never below its least, a^2 |q|^2, and ratios first: none overflows, none is 0 / 0.
         let ratio = peak / d.max(a * peak);
-        return ((ratio / factor_l * (ratio / factor_v) * e).min(splat(LARGEST)), e);
+        let lobe = (ratio / factor_l * (ratio / factor_v) * e).min(splat(LARGEST));
+        // Infinity times no light is not a number.
+        return (e.simd_gt(splat(0.0)).select(lobe, splat(0.0)), e);
     }
     // One reciprocal and its Newton step: (peak / d)^2 / g = (peak / (d g))^2 g.
     let g = factor_l * factor_v;

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::V;
+use super::lanes::{Lanes, V};
 use crate::material::{Grid, Planes};
 
 /// Texels of a tile. Its planes (22 KiB for two materials) stay in the nearest cache; a multiple of two vectors of
@@ -16,6 +16,10 @@ pub(super) struct Plane([f32; TEXELS]);
 
 impl Plane {
     pub(super) const ZERO: Self = Self([0.0; TEXELS]);
+
+    pub(super) fn values(&self) -> &[f32; TEXELS] {
+        &self.0
+    }
 
     /// Texels per vector times `index`, and on.
     #[inline(always)]
@@ -99,6 +103,16 @@ impl Terms {
 pub(super) fn planes(planes: &Planes<f32>) -> impl Iterator<Item = &[f32]> {
     let vectors = planes.normal.iter().chain(&planes.specular).chain(&planes.diffuse);
     vectors.chain([&planes.roughness]).map(Vec::as_slice)
+}
+
+/// Asks for the tile at `start` of some planes, so that memory works while the kernel computes.
+#[inline(always)]
+pub(super) fn prefetch<S: Lanes>(simd: S, planes: &[&[f32]], start: usize) {
+    for plane in planes {
+        if let Some(tile) = plane.get(start..).and_then(|rest| rest.first_chunk()) {
+            simd.prefetch(tile);
+        }
+    }
 }
 
 /// The coordinates of all columns and rows of a grid.

@@ -1,0 +1,162 @@
+//! The graphics adapter: sending a material, shading it, showing it, and the loss. Every answer is asserted.
+//!
+//! A shaded or shown picture is waited for, not read back; a loss is read back, and sends its materials each time.
+
+#![allow(clippy::expect_used, clippy::panic, reason = "a benchmark may panic")]
+
+#[allow(dead_code, reason = "benchmarks use a part of what the tests share")]
+#[path = "../tests/support/gpu.rs"]
+mod support;
+
+use divan::counter::ItemsCount;
+use svbrdf::camera::Camera;
+use svbrdf::convention::PRINTED;
+use svbrdf::gpu::{
+    DisplayMode, DisplayParams, Encoding, Gpu, Losses, MaterialTextures, ShadeParams, Shaded, Shading,
+};
+use svbrdf::loss::{LossParams, losses_f32};
+use svbrdf::material::Material;
+use svbrdf::progress::Progress;
+use svbrdf::render::render;
+use svbrdf::scene::{Kind, Scene};
+use svbrdf::vec3::Vec3;
+use svbrdf::view::Shown;
+
+const SIDES: [usize; 3] = [256, 1024, 2048];
+/// Most that a mean over a picture or a loss may be off the CPU's in f32, relative.
+const TOLERANCE: f64 = 1e-5;
+/// Lit from a corner, seen from above.
+const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.6, 0.5, 1.0] };
+
+fn main() {
+    match support::gpu() {
+        Some(gpu) => {
+            println!("{}\n", gpu.report);
+            divan::main();
+        }
+        None => println!("nothing is measured"),
+    }
+}
+
+/// A material on the adapter and what it is shaded into.
+struct Picture {
+    gpu: &'static Gpu,
+    material: Material<f32>,
+    shading: Shading,
+    target: Shaded,
+}
+
+impl Picture {
+    fn new(side: usize) -> Self {
+        let gpu = support::gpu().expect("there is an adapter");
+        let shading = Shading::new(gpu).expect("compiled");
+        let target = shading.target(gpu, [side; 2]).expect("created");
+        Self { gpu, material: support::bumpy(side, side), shading, target }
+    }
+
+    fn upload(&self) -> MaterialTextures {
+        let textures = MaterialTextures::upload(self.gpu, &self.material).expect("sent");
+        self.wait();
+        textures
+    }
+
+    fn shade(&self, textures: &MaterialTextures) {
+        let params = ShadeParams { scene: SCENE, convention: PRINTED, shown: Shown::Rendering };
+        self.shading.draw(self.gpu, textures, &params, &self.target);
+        self.wait();
+    }
+
+    fn wait(&self) {
+        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("done");
+    }
+
+    /// Holds what was shaded last against the CPU.
+    fn assert_shaded(&self) {
+        let got = self.target.read_back(self.gpu).expect("read back");
+        let want = render(&self.material, &SCENE, &PRINTED, &Progress::default()).expect("rendered");
+        let sum = |pixels: &[[f32; 3]]| pixels.iter().flatten().map(|&x| f64::from(x)).sum::<f64>();
+        assert_close(sum(&got.pixels), sum(&want.pixels));
+    }
+}
+
+fn assert_close(got: f64, want: f64) {
+    assert!((got - want).abs() <= TOLERANCE * want, "{got}, not {want}");
+}
+
+#[divan::bench(args = SIDES, sample_count = 10)]
+fn upload(bencher: divan::Bencher<'_, '_>, side: usize) {
+    let picture = Picture::new(side);
+    bencher.counter(ItemsCount::new(side * side)).bench_local(|| picture.upload());
+    picture.shade(&picture.upload());
+    picture.assert_shaded();
+}
+
+#[divan::bench(args = SIDES, sample_count = 20)]
+fn shade(bencher: divan::Bencher<'_, '_>, side: usize) {
+    let picture = Picture::new(side);
+    let textures = picture.upload();
+    bencher.counter(ItemsCount::new(side * side)).bench_local(|| picture.shade(&textures));
+    picture.assert_shaded();
+}
+
+/// The whole material, a texel a pixel, seen from above.
+fn display_params() -> DisplayParams {
+    let camera = Camera {
+        origin: Vec3::new(0.0, 0.0, 1.0),
+        origin_right: Vec3::new(1.0, 0.0, 0.0),
+        origin_up: Vec3::new(0.0, 1.0, 0.0),
+        direction: Vec3::new(0.0, 0.0, -1.0),
+        direction_right: Vec3::zero(),
+        direction_up: Vec3::zero(),
+    };
+    DisplayParams {
+        camera,
+        exposure_ev: 0.0,
+        mode: DisplayMode::Shown,
+        encoding: Encoding::Radiance,
+        show_clipping: false,
+        epsilon: 0.01,
+        background: [0.0; 3],
+    }
+}
+
+#[divan::bench(args = SIDES, sample_count = 20)]
+fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
+    let picture = Picture::new(side);
+    picture.shade(&picture.upload());
+    let (gpu, shaded) = (picture.gpu, &picture.target);
+    let screen = support::Screen::new(gpu, [side as u32; 2], shaded, shaded, &display_params());
+    bencher.counter(ItemsCount::new(side * side)).bench_local(|| {
+        screen.draw(gpu);
+        picture.wait();
+    });
+    let shown = screen.read(gpu);
+    let radiances = shaded.read_back(gpu).expect("read back").pixels;
+    for [column, row] in [[0, 0], [side / 2, side / 3], [side - 1, side - 1]] {
+        let want = radiances[row * side + column].map(|x| 255.0 * svbrdf::display::srgb_encode(x));
+        let got = shown.at(column, row).map(f32::from);
+        assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() <= 1.0), "{got:?}, not {want:?}");
+    }
+}
+
+#[divan::bench(args = SIDES, sample_count = 10)]
+fn loss(bencher: divan::Bencher<'_, '_>, side: usize) {
+    let gpu = support::gpu().expect("there is an adapter");
+    let losses = Losses::new(gpu).expect("compiled");
+    let scenes = LossParams::default().scenes().expect("there are scenes");
+    let (ground_truth, prediction) = (support::bumpy(side, side), flipped(side));
+    let progress = Progress::default();
+    let on_cpu = losses_f32(&ground_truth, &[&prediction], &scenes, &PRINTED, &progress).expect("computed");
+    bencher.counter(ItemsCount::new(side * side * scenes.len())).bench_local(|| {
+        let on_gpu = losses.compute(gpu, &ground_truth, &[&prediction], &scenes, &PRINTED, &progress);
+        assert_close(on_gpu.expect("computed")[0].estimate.mean, on_cpu[0].estimate.mean);
+    });
+}
+
+/// The material with its texels in reverse order.
+fn flipped(side: usize) -> Material<f32> {
+    let mut planes = support::bumpy(side, side).planes().clone();
+    let colours = [&mut planes.normal, &mut planes.diffuse, &mut planes.specular];
+    colours.into_iter().flatten().chain([&mut planes.roughness]).for_each(|plane| plane.reverse());
+    Material::new("flipped", side, side, planes).expect("valid")
+}

@@ -1,0 +1,179 @@
+//! Whether the 95% interval holds the loss over all scenes in 95% of the seeds.
+//!
+//! The whole table, over the built-in pairs and those of `../shared`:
+//! `cargo test --release --no-default-features -- --ignored coverage --nocapture`
+
+use std::path::Path;
+
+use svbrdf::convention::PRINTED;
+use svbrdf::loss::adaptive::{self, Goal};
+use svbrdf::loss::{Estimate, losses_f32};
+use svbrdf::material::read::{ReadOptions, read};
+use svbrdf::material::{Material, Planes};
+use svbrdf::progress::Progress;
+use svbrdf::sampler::Sampler;
+use svbrdf::samples;
+
+/// Coverage in percent that 2,000 seeds may show.
+const ALLOWED: std::ops::RangeInclusive<f64> = 93.5..=96.5;
+
+struct Pair {
+    ground_truth: Material<f32>,
+    prediction: Material<f32>,
+    /// The loss over all scenes, in the weights 2 : 1.
+    reference: f64,
+}
+
+/// What many seeds have shown, in percent: of the seeds, and of the reference.
+#[derive(Debug)]
+struct Seen {
+    coverage: f64,
+    half_width: f64,
+    rms: f64,
+    bias: f64,
+    /// Standard error of `bias`.
+    bias_error: f64,
+    scenes: f64,
+}
+
+/// Every `step`-th texel of every `step`-th row.
+fn thinned(material: &Material<f32>, step: usize) -> Material<f32> {
+    let [width, height] = material.size().map(|n| n / step);
+    let from = |i: usize| (i / width * step + step / 2) * material.width() + i % width * step + step / 2;
+    let plane = |p: &Vec<f32>| (0..width * height).map(|i| p[from(i)]).collect();
+    let planes = material.planes();
+    let planes = Planes {
+        normal: planes.normal.each_ref().map(plane),
+        diffuse: planes.diffuse.each_ref().map(plane),
+        specular: planes.specular.each_ref().map(plane),
+        roughness: plane(&planes.roughness),
+    };
+    Material::new(material.name(), width, height, planes).unwrap()
+}
+
+impl Pair {
+    fn new(ground_truth: &Material<f32>, prediction: &Material<f32>, step: usize, log_points: u32) -> Self {
+        let [ground_truth, prediction] = [ground_truth, prediction].map(|m| thinned(m, step));
+        let mut pair = Self { ground_truth, prediction, reference: 0.0 };
+        let count = 8 << log_points;
+        let values = pair.per_scene(Sampler::Sobol, 1 << 40, count, count);
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / count as f64;
+        pair.reference = (2.0 * mean(&values[..count]) + mean(&values[count..])) / 3.0;
+        pair
+    }
+
+    fn per_scene(&self, sampler: Sampler, seed: u64, near: usize, distant: usize) -> Vec<f64> {
+        let scenes = sampler.scenes(seed, near, distant, &PRINTED);
+        let (gt, progress) = (&self.ground_truth, Progress::default());
+        losses_f32(gt, &[&self.prediction], &scenes, &PRINTED, &progress).unwrap().remove(0).per_scene
+    }
+
+    fn fixed(&self, sampler: Sampler, count: usize) -> impl Fn(u64) -> (Estimate, usize) {
+        move |seed| {
+            let (near, distant) = (count / 3 * 2, count / 3);
+            let scenes = sampler.scenes(seed, near, distant, &PRINTED);
+            let values = self.per_scene(sampler, seed, near, distant);
+            (Estimate::of_sampled(sampler, &scenes, &values), count)
+        }
+    }
+
+    fn adaptive(&self, goal: Goal) -> impl Fn(u64) -> (Estimate, usize) {
+        move |seed| {
+            let (gt, progress, mut scenes) = (&self.ground_truth, Progress::default(), 0);
+            let count = |reached: &adaptive::Reached| scenes += reached.scenes.len();
+            let predictions = [&self.prediction];
+            let reached =
+                adaptive::losses(losses_f32, gt, &predictions, seed, &PRINTED, goal, &progress, count);
+            (reached.unwrap().losses[0].estimate, scenes)
+        }
+    }
+
+    fn seen(&self, seeds: u64, estimate: impl Fn(u64) -> (Estimate, usize)) -> Seen {
+        let estimates: Vec<_> = (0..seeds).map(estimate).collect();
+        let mean = |of: &dyn Fn(&Estimate) -> f64| {
+            100.0 * estimates.iter().map(|(e, _)| of(e)).sum::<f64>() / seeds as f64
+        };
+        let error = |e: &Estimate| e.mean / self.reference - 1.0;
+        let covers = |e: &Estimate| {
+            let [low, high] = e.interval95.unwrap();
+            f64::from((low..=high).contains(&self.reference))
+        };
+        let rms = 10.0 * mean(&|e| error(e).powi(2)).sqrt();
+        Seen {
+            coverage: mean(&covers),
+            half_width: mean(&Estimate::relative_error95),
+            rms,
+            bias: mean(&error),
+            bias_error: rms / (seeds as f64).sqrt(),
+            scenes: estimates.iter().map(|(_, count)| *count as f64).sum::<f64>() / seeds as f64,
+        }
+    }
+}
+
+fn built_in(step: usize, log_points: u32) -> Vec<Pair> {
+    let samples = samples::load::<f32>().unwrap();
+    let gt = samples.ground_truth.material;
+    samples.predictions.iter().map(|p| Pair::new(&gt, &p.material, step, log_points)).collect()
+}
+
+fn golden(step: usize, log_points: u32) -> Vec<Pair> {
+    let maps = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden/maps");
+    let open = |name| read(&maps.join(name), &ReadOptions::default(), &Progress::default());
+    let Ok(gt) = open("gt.png") else { return Vec::new() };
+    let predictions = ["l1.png", "rend.png"].map(|name| open(name).unwrap().material);
+    predictions.iter().map(|p| Pair::new(&gt.material, p, step, log_points)).collect()
+}
+
+#[test]
+fn intervals_of_few_scenes_cover_the_loss_and_means_have_no_bias() {
+    let pair = &built_in(32, 10)[0];
+    for (sampler, count) in [(Sampler::Random, 9), (Sampler::Random, 27), (Sampler::Sobol, 27)] {
+        let seen = pair.seen(600, pair.fixed(sampler, count));
+        println!("{sampler}, {count}: {seen:?}");
+        // Three standard errors of 600 seeds.
+        assert!((95.0 - seen.coverage).abs() <= 1.5 + 2.7, "{sampler}, {count}: {seen:?}");
+        assert!(seen.bias.abs() < 4.0 * seen.bias_error, "{sampler}, {count}: {seen:?}");
+    }
+}
+
+#[test]
+fn sobol_scenes_have_less_error_than_random_ones() {
+    let pair = &built_in(32, 10)[0];
+    let [random, sobol] = [Sampler::Random, Sampler::Sobol].map(|s| pair.seen(60, pair.fixed(s, 384)).rms);
+    println!("rms {random:.2}% random, {sobol:.2}% Sobol");
+    assert!(sobol < 0.7 * random, "{sobol}% against {random}%");
+}
+
+#[test]
+fn an_adaptive_loss_keeps_its_promise() {
+    let pair = &built_in(32, 10)[0];
+    let seen = pair.seen(100, pair.adaptive(Goal::RelativeError(0.03)));
+    println!("{seen:?}");
+    assert!(seen.coverage >= 88.0 && seen.half_width <= 3.0, "{seen:?}");
+    assert!(seen.bias.abs() < 4.0 * seen.bias_error, "{seen:?}");
+}
+
+#[test]
+#[ignore = "minutes: the whole table of coverages, see above"]
+fn coverage_of_all_pairs_and_numbers_of_scenes() {
+    let mut bad = Vec::new();
+    for pair in built_in(16, 16).into_iter().chain(golden(16, 16)) {
+        println!("{} against {}", pair.prediction.name(), pair.ground_truth.name());
+        let mut note = |what: String, seen: Seen| {
+            println!("{what}: {seen:.3?}");
+            if !ALLOWED.contains(&seen.coverage) || seen.bias.abs() > 4.0 * seen.bias_error {
+                bad.push(format!("{}, {what}: {seen:.3?}", pair.prediction.name()));
+            }
+        };
+        for sampler in [Sampler::Random, Sampler::Sobol] {
+            for count in [9, 27, 90, 900] {
+                note(format!("{sampler} {count}"), pair.seen(2_000, pair.fixed(sampler, count)));
+            }
+        }
+        for target in [0.03, 0.01] {
+            let goal = Goal::RelativeError(target);
+            note(format!("{goal:?}"), pair.seen(2_000, pair.adaptive(goal)));
+        }
+    }
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
+}
