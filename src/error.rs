@@ -19,6 +19,10 @@ pub enum Error {
     #[error("{} is not a material: expected {expected}, found {found}; {remedy}", path.display())]
     NotAMaterial { path: PathBuf, expected: String, found: String, remedy: String },
 
+    /// Something had to be guessed where the user wants no guesses.
+    #[error("{} is ambiguous: {guesses}; say how it is meant, or leave out --strict", path.display())]
+    Guessed { path: PathBuf, guesses: String },
+
     /// Two things that must have the same size do not.
     #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; {remedy}",
         first_size[0], first_size[1], second_size[0], second_size[1])]

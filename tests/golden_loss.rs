@@ -102,7 +102,7 @@ fn check_case<T: Real>(case: &Value, worst: &mut Worst) {
 pub fn material<T: Real>(described: &Value) -> Material<T> {
     let path = golden().join(described["file"].as_str().unwrap());
     let albedo = described["albedo"].as_str().unwrap().parse().unwrap();
-    let options = ReadOptions { albedo, ..ReadOptions::default() };
+    let options = ReadOptions { albedo: Some(albedo), ..ReadOptions::default() };
     read(&path, &options, &Progress::default()).unwrap().material
 }
 

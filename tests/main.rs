@@ -9,6 +9,7 @@ mod cli;
 mod coverage;
 #[cfg(feature = "viewer")]
 mod end_to_end;
+mod formats;
 mod fused;
 mod golden_loss;
 mod golden_points;
@@ -19,5 +20,6 @@ mod reading;
 mod sampling;
 #[cfg(feature = "gpu")]
 mod shaders;
+mod shared_materials;
 #[cfg(feature = "viewer")]
 mod ui;

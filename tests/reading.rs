@@ -12,10 +12,10 @@ use svbrdf::samples::generate;
 use svbrdf::vec3::Vec3;
 use tempfile::{TempDir, tempdir};
 
-use crate::support::fixtures::{MAPS, SIDE, bytes_at, flat, map, png_bytes, save, save_maps, strip};
+use crate::support::fixtures::{LINEAR, MAPS, SIDE, bytes_at, flat, map, png_bytes, save, save_maps, strip};
 
 fn open(path: &Path) -> Read<f64> {
-    read(path, &ReadOptions::default(), &Progress::default()).unwrap()
+    read(path, &LINEAR, &Progress::default()).unwrap()
 }
 
 /// The texels of the fixtures, exactly: value = byte / 255, in f64.
@@ -59,7 +59,7 @@ fn a_packed_strip_opens_behind_any_number_of_photos() {
 
 #[test]
 fn a_strip_in_memory_is_read_like_one_in_a_file() {
-    let found = read_bytes::<f64>("some name", &png_bytes(&strip(1)), &ReadOptions::default()).unwrap();
+    let found = read_bytes::<f64>("some name", &png_bytes(&strip(1)), &LINEAR).unwrap();
     assert_is_the_fixture(&found.material);
     assert_eq!(found.material.name(), "some name");
     assert!(found.files.is_empty());
@@ -121,17 +121,17 @@ fn every_kind_of_png_pixel_opens() {
 #[test]
 fn sixteen_bits_keep_their_precision() {
     type Rgb16 = image::ImageBuffer<Rgb<u16>, Vec<u16>>;
-    let image = Rgb16::from_pixel(SIDE, SIDE, Rgb([12_345, 12_346, 65_535]));
+    let image = Rgb16::from_pixel(SIDE, SIDE, Rgb([12_345, 12_346, 50_000]));
     let folder = with_map(1, image.clone());
     assert_eq!(
         open(folder.path()).material.texel(3).diffuse,
-        [12_345.0 / 65_535.0, 12_346.0 / 65_535.0, 1.0]
+        [12_345.0 / 65_535.0, 12_346.0 / 65_535.0, 50_000.0 / 65_535.0]
     );
-    let single = read::<f32>(folder.path(), &ReadOptions::default(), &Progress::default()).unwrap();
+    let single = read::<f32>(folder.path(), &LINEAR, &Progress::default()).unwrap();
     assert_eq!(single.material.texel(3).diffuse[0], (12_345.0 / 65_535.0) as f32);
 
     let normal = open(with_map(0, image).path()).material.texel(0).normal;
-    let expected = Vec3::from([12_345.0, 12_346.0, 65_535.0].map(|code| 2.0 * (code / 65_535.0) - 1.0));
+    let expected = Vec3::from([12_345.0, 12_346.0, 50_000.0].map(|code| 2.0 * (code / 65_535.0) - 1.0));
     assert_eq!(normal, expected.normalize());
 }
 
@@ -141,7 +141,7 @@ fn albedo_decodes_diffuse_and_specular_and_nothing_else() {
     let path = save(folder.path(), "strip.png", &strip(0));
     let linear = open(&path).material;
     for albedo in Albedo::ALL {
-        let options = ReadOptions { albedo, ..ReadOptions::default() };
+        let options = ReadOptions { albedo: Some(albedo), ..LINEAR };
         let material = read::<f64>(&path, &options, &Progress::default()).unwrap().material;
         let (texel, stored) = (material.texel(6), linear.texel(6));
         let decode = |value: f64| match albedo {
@@ -160,7 +160,7 @@ fn albedo_decodes_diffuse_and_specular_and_nothing_else() {
 fn normals_stored_with_y_down_are_turned_up() {
     let folder = tempdir().unwrap();
     let path = save(folder.path(), "strip.png", &strip(0));
-    let options = ReadOptions { normal_y: NormalY::Down, ..ReadOptions::default() };
+    let options = ReadOptions { normal_y: Some(NormalY::Down), ..LINEAR };
     let down = read::<f64>(&path, &options, &Progress::default()).unwrap().material;
     for (down, up) in down.planes().normal[1].iter().zip(&open(&path).material.planes().normal[1]) {
         assert_eq!(*down, -up);
@@ -194,10 +194,10 @@ fn reading_reports_progress_and_stops_when_asked() {
     let folder = tempdir().unwrap();
     save_maps(folder.path(), "");
     let progress = Progress::default();
-    read::<f32>(folder.path(), &ReadOptions::default(), &progress).unwrap();
+    read::<f32>(folder.path(), &LINEAR, &progress).unwrap();
     assert_eq!(progress.counts(), (4, 4));
     progress.cancel();
-    let result = read::<f32>(folder.path(), &ReadOptions::default(), &progress);
+    let result = read::<f32>(folder.path(), &LINEAR, &progress);
     assert!(matches!(result, Err(Error::Cancelled)));
 }
 

@@ -1,10 +1,11 @@
 //! The materials that a subcommand opens, and how their files are read.
 
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 use svbrdf::error::Error;
 use svbrdf::material::Material;
-use svbrdf::material::read::{self, Albedo, NormalY, Read, ReadOptions};
+use svbrdf::material::read::{self, Albedo, NonFinite, NormalY, Order, Read, ReadOptions, Roughness};
 use svbrdf::real::Real;
 use svbrdf::samples;
 
@@ -13,7 +14,7 @@ use super::exit::tell;
 
 #[derive(Debug, clap::Args)]
 pub struct MaterialArgs {
-    /// Ground truth: a packed strip, a folder or a name prefix; without one, the built-in materials
+    /// Ground truth: a packed or layered image, a folder, a name prefix; without one, the built-in materials
     #[arg(value_name = "GT")]
     pub ground_truth: Option<PathBuf>,
 
@@ -28,23 +29,84 @@ pub struct MaterialArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Reading materials")]
 pub struct Reading {
-    /// How diffuse and specular are stored
-    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth",
-        default_value_t = ReadOptions::default().albedo)]
-    albedo: Albedo,
+    #[command(flatten)]
+    both: ReadingArgs,
 
-    /// The same for the ground truth only
+    /// The same as --albedo for the ground truth only
     #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth")]
     gt_albedo: Option<Albedo>,
 
-    /// The same for the predictions only
+    /// The same as --albedo for the predictions only
     #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth")]
     pred_albedo: Option<Albedo>,
 
-    /// Where the green of normal maps points
-    #[arg(long, value_name = "up|down", requires = "ground_truth",
-        default_value_t = ReadOptions::default().normal_y)]
-    normal_y: NormalY,
+    /// Resizes materials of differing sizes: to that of the ground truth, of the first prediction, or N wide
+    #[arg(long, value_name = "gt|pred|N", requires = "ground_truth")]
+    resize_to: Option<ResizeTo>,
+}
+
+/// How one material is read. What is left out is found out from the files, and said.
+#[derive(Clone, Copy, Debug, clap::Args)]
+#[command(next_help_heading = "Reading materials")]
+pub struct ReadingArgs {
+    /// How diffuse, base colour and specular are stored [default: found out]
+    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth")]
+    albedo: Option<Albedo>,
+
+    /// How specular is stored where that differs
+    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth")]
+    specular_albedo: Option<Albedo>,
+
+    /// Where the green of normal maps points [default: found out]
+    #[arg(long, value_name = "up|down", requires = "ground_truth")]
+    normal_y: Option<NormalY>,
+
+    /// What roughness values mean [default: found out]
+    #[arg(long, value_name = "r|gloss|alpha|gamma2.2", requires = "ground_truth")]
+    roughness: Option<Roughness>,
+
+    /// Order of the tiles of a packed image [default: found out]
+    #[arg(long, value_name = "ndrs|dnrs|dnr|dsrn|ndsr", requires = "ground_truth")]
+    order: Option<Order>,
+
+    /// Which row of a packed image of several materials, from 0
+    #[arg(long, value_name = "K", requires = "ground_truth", default_value_t = 0)]
+    exemplar: usize,
+
+    /// What becomes of NaN and infinity
+    #[arg(long, value_name = "refuse|replace", requires = "ground_truth", default_value_t)]
+    non_finite: NonFinite,
+
+    /// Fails where something could only be guessed
+    #[arg(long, requires = "ground_truth")]
+    strict: bool,
+}
+
+impl ReadingArgs {
+    pub fn options(&self) -> ReadOptions {
+        ReadOptions {
+            albedo: self.albedo,
+            specular: self.specular_albedo,
+            normal_y: self.normal_y,
+            roughness: self.roughness,
+            order: self.order,
+            exemplar: self.exemplar,
+            non_finite: self.non_finite,
+        }
+    }
+
+    /// Refuses guesses where the user wants none.
+    ///
+    /// # Errors
+    /// [`Error::Guessed`].
+    pub fn check<T>(&self, path: &Path, read: &Read<T>) -> Result<(), Error> {
+        match read.unsure().map(ToString::to_string).collect::<Vec<_>>() {
+            guesses if self.strict && !guesses.is_empty() => {
+                Err(Error::Guessed { path: path.to_owned(), guesses: guesses.join("; ") })
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 impl Reading {
@@ -57,7 +119,30 @@ impl Reading {
     }
 
     fn with_albedo(&self, albedo: Option<Albedo>) -> ReadOptions {
-        ReadOptions { albedo: albedo.unwrap_or(self.albedo), normal_y: self.normal_y }
+        let options = self.both.options();
+        ReadOptions { albedo: albedo.or(options.albedo), ..options }
+    }
+}
+
+/// The size that materials are brought to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ResizeTo {
+    GroundTruth,
+    Prediction,
+    /// This many texels wide, as high as its shape wants.
+    Width(usize),
+}
+
+impl FromStr for ResizeTo {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match (text, text.parse()) {
+            ("gt", _) => Ok(Self::GroundTruth),
+            ("pred", _) => Ok(Self::Prediction),
+            (_, Ok(width @ 1..=16_384)) => Ok(Self::Width(width)),
+            _ => Err("expected gt, pred or a width from 1 to 16384".to_owned()),
+        }
     }
 }
 
@@ -87,21 +172,61 @@ pub fn open<T: Real>(args: &MaterialArgs) -> Result<Opened<T>, Error> {
             predictions: built_in.predictions.into_iter().map(|read| read.material).collect(),
         });
     };
-    let ground_truth = open_one(ground_truth, &args.reading.of_ground_truth())?;
+    let one = |path: &Path, options: &ReadOptions| open_one(path, options, &args.reading.both);
+    let ground_truth = one(ground_truth, &args.reading.of_ground_truth())?;
     let options = args.reading.of_predictions();
-    let predictions = args.predictions.iter().map(|path| open_one(path, &options));
-    Ok(Opened { ground_truth, predictions: predictions.collect::<Result<_, _>>()? })
+    let predictions = args.predictions.iter().map(|path| one(path, &options));
+    let opened = Opened { ground_truth, predictions: predictions.collect::<Result<_, _>>()? };
+    match args.reading.resize_to {
+        Some(to) => resized(opened, to),
+        None => Ok(opened),
+    }
 }
 
-fn open_one<T: Real>(path: &Path, options: &ReadOptions) -> Result<Material<T>, Error> {
-    let what = format!("reading {}", path.display());
-    watched(&what, |progress| read::read(path, options, progress)).map(noted)
+/// Every material in one size.
+fn resized<T: Real>(opened: Opened<T>, to: ResizeTo) -> Result<Opened<T>, Error> {
+    let [w, h] = match (to, opened.predictions.first()) {
+        (ResizeTo::Prediction, Some(prediction)) => prediction.size(),
+        _ => opened.ground_truth.size(),
+    };
+    let size = match to {
+        ResizeTo::Width(width) => [width, (h * width + w / 2).checked_div(w).unwrap_or(1).max(1)],
+        _ => [w, h],
+    };
+    let bring = |material: Material<T>| {
+        if material.size() != size {
+            let [w, h] = material.size();
+            tell(&format!(
+                "note: {} is resized from {w} x {h} to {} x {}",
+                material.name(),
+                size[0],
+                size[1]
+            ));
+        }
+        material.resized(size)
+    };
+    let predictions = opened.predictions.into_iter().map(bring).collect::<Result<_, _>>()?;
+    Ok(Opened { ground_truth: bring(opened.ground_truth)?, predictions })
+}
+
+fn open_one<T: Real>(path: &Path, options: &ReadOptions, args: &ReadingArgs) -> Result<Material<T>, Error> {
+    let read = read_one(path, options)?;
+    args.check(path, &read)?;
+    Ok(noted(read))
+}
+
+/// Reads one material under a progress bar.
+///
+/// # Errors
+/// Those of the reader.
+pub fn read_one<T: Real>(path: &Path, options: &ReadOptions) -> Result<Read<T>, Error> {
+    watched(&format!("reading {}", path.display()), |progress| read::read(path, options, progress))
 }
 
 /// The material, after what there is to say about its files.
-fn noted<T: Real>(read: Read<T>) -> Material<T> {
-    for note in &read.notes {
-        tell(&format!("note: {}: {note}", read.material.name()));
+pub fn noted<T>(read: Read<T>) -> Material<T> {
+    for note in read.said() {
+        tell(&format!("note: {note}"));
     }
     read.material
 }

@@ -2,7 +2,9 @@
 
 mod backend;
 mod bar;
+mod convert;
 mod exit;
+mod info;
 mod loss;
 mod materials;
 mod render;
@@ -21,6 +23,8 @@ Examples:
   svbrdf loss gt.png a.png b.png          the losses of two predictions
   svbrdf loss gt.png a.png --format json  the same for a program to read
   svbrdf render gt.png -o gt.exr          a rendering, as floats
+  svbrdf info gt.png                      what its files hold, and what was assumed
+  svbrdf convert gt.png gt.exr            the material as one layered EXR
 
 Exit codes:
    0  fine
@@ -30,8 +34,8 @@ Exit codes:
 
 /// Shows SVBRDF materials under a light that you drag, and computes the rendering loss between them.
 ///
-/// A material is a packed PNG strip (photos, then normal | diffuse | roughness | specular), or a folder or name
-/// prefix with one file a map. Without a subcommand: `view`.
+/// A material is a packed image (photos, then normal | diffuse | roughness | specular, or another order), a layered
+/// EXR or npz, or a folder or name prefix with one file a map. Without a subcommand: `view`.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 pub struct Cli {
@@ -47,6 +51,8 @@ enum Command {
     View(view::ViewArgs),
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
+    Info(info::InfoArgs),
+    Convert(convert::ConvertArgs),
 }
 
 impl Cli {
@@ -59,6 +65,8 @@ impl Cli {
             Command::View(args) => view::run(args),
             Command::Loss(args) => loss::run(&args),
             Command::Render(args) => render::run(&args),
+            Command::Info(args) => info::run(&args),
+            Command::Convert(args) => convert::run(&args),
         }
     }
 }

@@ -72,21 +72,30 @@ impl Destination {
         }
     }
 
-    /// Writes a temporary file beside the destination and renames it.
     fn replace(&self, write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>) -> Result<(), Error> {
-        let written = || -> io::Result<()> {
-            let mut temporary = temporary_in(folder_of(&self.path))?;
-            let mut buffer = BufWriter::new(temporary.as_file_mut());
-            write(&mut buffer)?;
-            buffer.flush()?;
-            drop(buffer);
-            temporary.persist(&self.path)?;
-            Ok(())
-        };
-        written().map_err(|source| {
-            unwritable(&self.path, source, "check that its folder is writable and the disk not full")
-        })
+        replace(&self.path, write)
     }
+}
+
+/// Writes a temporary file beside `path` and renames it: at any moment the old file or the new one is there, whole.
+///
+/// # Errors
+/// [`Error::Unwritable`].
+pub(crate) fn replace(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+) -> Result<(), Error> {
+    let written = || -> io::Result<()> {
+        let mut temporary = temporary_in(folder_of(path))?;
+        let mut buffer = BufWriter::new(temporary.as_file_mut());
+        write(&mut buffer)?;
+        buffer.flush()?;
+        drop(buffer);
+        temporary.persist(path)?;
+        Ok(())
+    };
+    written()
+        .map_err(|source| unwritable(path, source, "check that its folder is writable and the disk not full"))
 }
 
 fn format_of(path: &Path) -> Result<Format, Error> {
@@ -102,7 +111,7 @@ fn format_of(path: &Path) -> Result<Format, Error> {
     }
 }
 
-fn folder_of(path: &Path) -> &Path {
+pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),

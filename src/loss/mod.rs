@@ -231,6 +231,6 @@ pub fn check_same_size<T: Real>(ground_truth: &Material<T>, prediction: &Materia
         first_size: ground_truth.size(),
         second: format!("prediction {}", prediction.name()),
         second_size: prediction.size(),
-        remedy: "resize one of them so that their texels correspond",
+        remedy: "bring them to one size with --resize-to gt, pred or a width",
     })
 }

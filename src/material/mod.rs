@@ -1,11 +1,13 @@
 //! The four maps of a material, with their invariants checked once.
 
 pub mod read;
+pub mod write;
 
 use crate::brdf::Texel;
 use crate::error::Error;
 use crate::real::Real;
 use crate::vec3::Vec3;
+use read::resize::{self, Filter};
 
 /// The maps of a material as planes of `width * height` values, row 0 on top.
 ///
@@ -121,6 +123,27 @@ impl<T: Real> Material<T> {
             specular: at(&self.planes.specular),
             roughness: self.planes.roughness[index],
         }
+    }
+
+    /// The same material in another size (width, height): the mean over areas on the way down, bilinear on the way up;
+    /// normals are normalized again, roughness is averaged as alpha^2 = r^4.
+    ///
+    /// # Errors
+    /// As [`Material::new`], as where normals cancel out.
+    pub fn resized(self, size: [usize; 2]) -> Result<Self, Error> {
+        let from = self.size();
+        if from == size {
+            return Ok(self);
+        }
+        let value = |plane| resize::plane(plane, from, size, Filter::Value);
+        let Planes { normal, diffuse, specular, roughness } = self.planes;
+        let planes = Planes {
+            normal: normal.map(value),
+            diffuse: diffuse.map(value),
+            specular: specular.map(value),
+            roughness: resize::plane(roughness, from, size, Filter::Roughness),
+        };
+        Self::new(self.name, size[0], size[1], planes)
     }
 
     /// The same material in another precision.
@@ -248,7 +271,10 @@ fn normalize_normals<T: Real>(
                 found: format!("({}, {}, {})", n.x, n.y, n.z),
             });
         }
-        [*x, *y, *z] = n.normalize().to_array().map(T::of);
+        // A unit vector as exact as its type can hold it stays what it is: what was written is read back.
+        if (n.length_squared() - 1.0).abs() > 4.0 * T::epsilon().f64() {
+            [*x, *y, *z] = n.normalize().to_array().map(T::of);
+        }
     }
     Ok(())
 }

@@ -7,8 +7,19 @@ mod noise;
 mod tiles;
 
 use crate::error::Error;
-use crate::material::read::{Read, ReadOptions, read_bytes};
+use crate::material::read::{Albedo, NonFinite, NormalY, Order, Read, ReadOptions, Roughness, read_bytes};
 use crate::real::Real;
+
+/// How the samples are stored: nothing of it is left to be found out.
+const STORED: ReadOptions = ReadOptions {
+    albedo: Some(Albedo::Linear),
+    specular: Some(Albedo::Linear),
+    normal_y: Some(NormalY::Up),
+    roughness: Some(Roughness::R),
+    order: Some(Order::Ndrs),
+    exemplar: 0,
+    non_finite: NonFinite::Refuse,
+};
 
 /// A ground truth and predictions of it, of the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +33,7 @@ pub struct Samples<T> {
 /// # Errors
 /// None, unless the samples that were built in are damaged.
 pub fn load<T: Real>() -> Result<Samples<T>, Error> {
-    let read = |name, bytes| read_bytes(name, bytes, &ReadOptions::default());
+    let read = |name, bytes| read_bytes(name, bytes, &STORED);
     Ok(Samples {
         ground_truth: read("worn tiles", include_bytes!("../../assets/worn_tiles.png"))?,
         predictions: vec![

@@ -4,6 +4,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, RgbImage};
+use svbrdf::material::read::{Albedo, NonFinite, NormalY, ReadOptions, Roughness};
 
 /// Width and height of the maps of the fixtures.
 pub const SIDE: u32 = 4;
@@ -16,7 +17,7 @@ pub fn bytes_at(map: usize, x: u32, y: u32) -> [u8; 3] {
     let (x, y) = (x as u8, y as u8);
     match map {
         0 => [120 + 7 * x, 110 + 9 * y, 240 + x],
-        1 => [10 + x, 90 + 3 * y, 200 + x + y],
+        1 => [10 + x, 90 + 3 * y, 100 + x + y],
         2 => [40 + x + 4 * y; 3],
         _ => [5 + y, 60 + x, 3 * x + 17 * y],
     }
@@ -35,6 +36,17 @@ pub fn strip(photos: u32) -> DynamicImage {
     };
     RgbImage::from_fn((photos + 4) * SIDE, SIDE, pixel).into()
 }
+
+/// The maps as they are stored: nothing is left to be found out.
+pub const LINEAR: ReadOptions = ReadOptions {
+    albedo: Some(Albedo::Linear),
+    specular: None,
+    normal_y: Some(NormalY::Up),
+    roughness: Some(Roughness::R),
+    order: None,
+    exemplar: 0,
+    non_finite: NonFinite::Refuse,
+};
 
 /// An image of one colour.
 pub fn flat(width: u32, height: u32, rgb: [u8; 3]) -> DynamicImage {

@@ -4,5 +4,7 @@ pub mod compare;
 pub mod fixtures;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod pictures;
+#[cfg(feature = "gpu")]
 pub mod points;
 pub mod tolerance;

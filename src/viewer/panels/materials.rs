@@ -2,6 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
+use crate::material::read::Certainty;
 use crate::viewer::command::Command;
 use crate::viewer::slots::{Origin, Slot, Slots};
 use crate::viewer::theme;
@@ -70,10 +71,15 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
     );
     if matches!(loaded.origin, Origin::Path(_)) {
         let mut read = loaded.read;
-        super::read_options(ui, "assumed", &mut read);
+        super::read_options(ui, "assumed", &mut read, &loaded.assumptions);
         if read != loaded.read {
             commands.push(Command::ReadAs { slot: index, read });
         }
+    }
+    for assumption in &loaded.assumptions {
+        let text = RichText::new(assumption.to_string()).small();
+        let unsure = assumption.certainty == Certainty::Unsure;
+        ui.label(if unsure { text.color(ui.visuals().warn_fg_color) } else { text });
     }
     for note in &loaded.notes {
         ui.label(RichText::new(note).small());

@@ -1,0 +1,114 @@
+//! `svbrdf info`: the doctor.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use serde::Serialize;
+use svbrdf::error::Error;
+use svbrdf::material::read::{Assumption, MapReport, Read};
+
+use super::exit;
+use super::materials::{ReadingArgs, read_one};
+
+/// Prints what the files of a material hold, what was assumed in reading them, and why
+#[derive(Debug, clap::Args)]
+pub struct InfoArgs {
+    /// A packed or layered image, a folder, a name prefix, or one of the files
+    #[arg(id = "ground_truth", value_name = "MATERIAL", required = true)]
+    material: PathBuf,
+
+    /// What is printed: text for people, json for programs
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+
+    #[command(flatten)]
+    reading: ReadingArgs,
+}
+
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Format {
+    #[default]
+    Text,
+    Json,
+}
+
+/// All that is printed.
+#[derive(Debug, Serialize)]
+struct Info<'a> {
+    name: &'a str,
+    size: [usize; 2],
+    maps: &'a [MapReport],
+    assumptions: &'a [Assumption],
+    notes: &'a [String],
+}
+
+/// Reads the material and prints.
+///
+/// # Errors
+/// Those of the reader; [`Error::Guessed`] with `--strict`.
+pub fn run(args: &InfoArgs) -> Result<(), Error> {
+    let read: Read<f32> = read_one(&args.material, &args.reading.options())?;
+    args.reading.check(&args.material, &read)?;
+    let info = Info {
+        name: read.material.name(),
+        size: read.material.size(),
+        maps: &read.maps,
+        assumptions: &read.assumptions,
+        notes: &read.notes,
+    };
+    match args.format {
+        Format::Text => exit::put(&text(&info)),
+        Format::Json => {
+            let json = serde_json::to_string_pretty(&info).map_err(|e| exit::unwritable(e.into()))?;
+            exit::put(&(json + "\n"))
+        }
+    }
+}
+
+fn text(info: &Info<'_>) -> String {
+    let mut text = format!("{}, {} x {} texels\n\nAs stored:\n", info.name, info.size[0], info.size[1]);
+    for map in info.maps {
+        let _ = writeln!(text, "{}", line(map));
+    }
+    text += "\nAssumed:\n";
+    for assumption in info.assumptions {
+        let _ = writeln!(text, "  {assumption}");
+    }
+    if !info.notes.is_empty() {
+        text += "\nNoticed:\n";
+    }
+    for note in info.notes {
+        let _ = writeln!(text, "  {note}");
+    }
+    text
+}
+
+fn line(map: &MapReport) -> String {
+    let part = if map.part.is_empty() { String::new() } else { format!(", {}", map.part) };
+    let channels =
+        if map.channels == 1 { "1 channel".to_owned() } else { format!("{} channels", map.channels) };
+    let mut line = format!(
+        "  {:<12} {}{part}: {} x {}, {}, {channels}, {:.4} to {:.4}",
+        map.map,
+        map.file.display(),
+        map.size[0],
+        map.size[1],
+        map.depth,
+        map.range[0],
+        map.range[1]
+    );
+    if map.constant {
+        line += ", constant";
+    }
+    if map.clipped > 0.0 {
+        let _ = write!(line, ", {:.1} % at 1", 100.0 * map.clipped);
+    }
+    if let Some(share) = map.non_unit {
+        let _ = write!(line, ", {:.1} % no unit vectors", 100.0 * share);
+    }
+    if let Some(median) = map.specular_median {
+        let _ = write!(line, ", median {median:.3}");
+    }
+    line
+}

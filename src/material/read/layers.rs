@@ -1,0 +1,66 @@
+//! Files of named layers: EXR with layers or parts, npz with named arrays.
+
+use std::path::Path;
+
+use super::assumption::{Assumption, Certainty, What};
+use super::decode::Layer;
+use super::found::{Found, Pictures, Source};
+use super::names::Label;
+use super::options::{Albedo, NormalY, Roughness};
+use crate::error::Error;
+
+/// Whether the name of a layer says which map it is.
+pub fn is_named(layer: &Layer) -> bool {
+    Label::of(&layer.name).is_some()
+}
+
+/// The maps among `layers`, by their names; others are left aside and named.
+///
+/// # Errors
+/// [`Error::NotAMaterial`] where maps are missing, or one is there twice.
+pub fn assemble(path: &Path, layers: Vec<Layer>, native: bool) -> Result<Found, Error> {
+    let names: Vec<String> = layers.iter().map(|layer| format!("`{}`", layer.name)).collect();
+    let listed = format!("the layers {}", super::folder::listing(&names));
+    let mut pictures = Pictures::default();
+    let mut notes = Vec::new();
+    let mut floats = true;
+    for Layer { name, raster } in layers {
+        match Label::of(&name) {
+            Some(label) if pictures.has(label.role) => {
+                return Err(Error::NotAMaterial {
+                    path: path.to_owned(),
+                    expected: format!("one layer for the {} map", label.role.name()),
+                    found: listed,
+                    remedy: "rename the layers that are none".to_owned(),
+                });
+            }
+            Some(label) => {
+                floats &= raster.is_float();
+                pictures
+                    .add(label.role, Source { raster, file: path.to_owned(), part: format!("layer {name}") });
+            }
+            None if name.is_empty() => {
+                notes.push("The unnamed layer is taken as a preview and ignored.".to_owned())
+            }
+            None => notes.push(format!("Layer {name} is not used.")),
+        }
+    }
+    let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let mut found = pictures.into_found(path, name, &listed)?;
+    let layout =
+        Assumption::new(What::Layout, "layers", "the names of the layers say the maps", Certainty::Sure);
+    found.assumptions.insert(0, layout);
+    found.notes = notes;
+    if floats {
+        let (why, certainty) = if native {
+            ("svbrdf wrote the file", Certainty::Sure)
+        } else {
+            ("floats are linear", Certainty::Likely)
+        };
+        found.hints.albedo = Some((Albedo::Linear, why.to_owned(), certainty));
+        found.hints.specular = found.hints.albedo.clone();
+        found.hints.roughness = Some((Roughness::R, why.to_owned(), certainty));
+        found.hints.normal_y = native.then(|| (NormalY::Up, why.to_owned(), certainty));
+    }
+    Ok(found)
+}

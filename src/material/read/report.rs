@@ -1,0 +1,68 @@
+//! What maps look like as stored: for the doctor.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use super::encoding::sources;
+use super::evidence;
+use super::found::{Found, Source};
+
+/// One map as stored.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MapReport {
+    pub map: &'static str,
+    pub file: PathBuf,
+    /// Layer, channel or tile within the file; may be empty.
+    pub part: String,
+    /// (width, height) in texels.
+    pub size: [usize; 2],
+    /// How a sample is stored: "8-bit", "half".
+    pub depth: &'static str,
+    pub channels: usize,
+    /// Least and largest finite sample; codes as fractions of the largest code.
+    pub range: [f64; 2],
+    /// Share of the samples, in [0, 1], that are 1 or more.
+    pub clipped: f64,
+    /// Whether every texel is the same.
+    pub constant: bool,
+    /// Share of the texels that are no unit vectors; only of normal maps.
+    pub non_unit: Option<f64>,
+    /// Median of the least channel; only of specular maps.
+    pub specular_median: Option<f64>,
+}
+
+pub(super) fn maps(found: &Found) -> Vec<MapReport> {
+    sources(found).into_iter().map(|(map, source)| report(map, source)).collect()
+}
+
+fn report(map: &'static str, source: &Source) -> MapReport {
+    let raster = &source.raster;
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut clipped, mut count, mut constant) = (0, 0, true);
+    for channel in &raster.channels {
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in raster.sampled().map(|i| channel.at(i)).filter(|v| v.is_finite()) {
+            least = least.min(value);
+            most = most.max(value);
+            clipped += usize::from(value >= 1.0);
+            count += 1;
+        }
+        constant &= least >= most;
+        (low, high) = (low.min(least), high.max(most));
+    }
+    let unit = evidence::normal_score(raster).max(evidence::signed_normal_score(raster));
+    MapReport {
+        map,
+        file: source.file.clone(),
+        part: source.part.clone(),
+        size: raster.size(),
+        depth: raster.depth,
+        channels: raster.channels.len(),
+        range: [low, high].map(|x| if x.is_finite() { x } else { 0.0 }),
+        clipped: f64::from(clipped as u32) / f64::from(count.max(1) as u32),
+        constant,
+        non_unit: (map == "normal").then_some(1.0 - unit),
+        specular_median: (map == "specular").then(|| evidence::specular_median(raster)),
+    }
+}

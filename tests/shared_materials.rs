@@ -1,0 +1,135 @@
+//! Real files of many origins, where they are at hand (`../shared/data`): what is detected, against what is known.
+
+use std::path::{Path, PathBuf};
+
+use svbrdf::material::Material;
+use svbrdf::material::read::{Albedo, Read, ReadOptions, What, read};
+use svbrdf::progress::Progress;
+
+fn data() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data")
+}
+
+fn open(name: &str, options: &ReadOptions) -> Read<f32> {
+    read(&data().join(name), options, &Progress::default()).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+fn chosen(read: &Read<f32>, what: What) -> &str {
+    read.assumptions.iter().find(|a| a.what == what).map_or("-", |a| &a.chosen)
+}
+
+/// The largest and the mean difference of any value of two materials.
+fn difference(a: &Material<f32>, b: &Material<f32>) -> [f64; 2] {
+    assert_eq!(a.size(), b.size());
+    let (mut worst, mut sum, mut count) = (0.0_f64, 0.0, 0.0);
+    let planes = |m: &Material<f32>| {
+        let p = m.planes().clone();
+        [p.normal.concat(), p.diffuse.concat(), p.specular.concat(), p.roughness].concat()
+    };
+    for (x, y) in planes(a).into_iter().zip(planes(b)) {
+        let difference = f64::from((x - y).abs());
+        (worst, sum, count) = (worst.max(difference), sum + difference, count + 1.0);
+    }
+    [worst, sum / count]
+}
+
+#[test]
+#[cfg_attr(not(has_shared), ignore = "../shared is not there")]
+fn every_layout_of_one_material_is_the_same_material() {
+    let reference = open("derived_packed_cc0/metal049a_4x1_NDRS_linear.png", &ReadOptions::default());
+    let gao = ReadOptions {
+        albedo: Some(Albedo::Gamma22),
+        specular: Some(Albedo::Linear),
+        ..ReadOptions::default()
+    };
+    let none = ReadOptions::default();
+    for (name, options) in [
+        ("derived_packed_cc0/metal049a_1x4_vertical_NDRS_linear.png", none),
+        ("derived_packed_cc0/metal049a_2x2_DSRN_DSgamma22_matfusion_grid.png", none),
+        ("derived_packed_cc0/metal049a_2x2_NDSR_tflsguoyu_tex.png", none),
+        ("derived_packed_cc0/metal049a_4x1_DNRS_DRSgamma22_materialgan.png", none),
+        ("derived_packed_cc0/metal049a_4x1_DSRN_DSgamma22_matfusion.png", none),
+        ("derived_packed_cc0/metal049a_4x1_NDRS_diffuse-gamma22.png", gao),
+        ("derived_packed_cc0/metal049a_5x1_INDRS_linear.png", none),
+        ("derived_packed_cc0/metal049a_6x1_2inputs_NDRS_linear.png", none),
+        ("derived_packed_cc0/two_exemplars_4x2_NDRS_linear_example.png", none),
+        ("deschaintre_outputs_naming_derived", none),
+        ("materialgan_style_folder_derived", none),
+        ("materialgan_style_folder_derived/tex.png", none),
+        ("surfacenet_style_folder_derived/metal049a", none),
+        ("diffmat_style_png16_dxnormal_derived", none),
+        ("exr_half_layered_derived/metal049a_svbrdf_multipart.exr", none),
+        ("exr_half_layered_derived/metal049a_svbrdf_singlepart_signed_normals.exr", none),
+        ("pitfalls_png_derived/svbrdf.npz", none),
+    ] {
+        let [worst, mean] = difference(&reference.material, &open(name, &options).material);
+        println!("{name}: at most {worst:.5}, on average {mean:.6}");
+        // Half a code of the reference and half a code of the other, the other's as steep as gamma 2.2 is at 1.
+        assert!(worst <= (0.5 + 0.5 * 2.2 + 0.01) / 255.0 + 0.004, "{name}: {worst}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_shared), ignore = "../shared is not there")]
+fn what_is_detected_in_all_of_the_data() {
+    // What, then order, colour, roughness, y of normals; as SOURCE.txt and the names of the files say.
+    let table = [
+        ("ambientcg_Metal049A_1K-JPG", "-", "srgb", "r", "up"),
+        ("derived_packed_cc0/metal049a_1x4_vertical_NDRS_linear.png", "ndrs", "linear", "r", "up"),
+        ("derived_packed_cc0/metal049a_2x2_DSRN_DSgamma22_matfusion_grid.png", "dsrn", "gamma2.2", "r", "up"),
+        ("derived_packed_cc0/metal049a_2x2_NDSR_tflsguoyu_tex.png", "ndsr", "gamma2.2", "gamma2.2", "up"),
+        (
+            "derived_packed_cc0/metal049a_4x1_DNRS_DRSgamma22_materialgan.png",
+            "dnrs",
+            "gamma2.2",
+            "gamma2.2",
+            "up",
+        ),
+        ("derived_packed_cc0/metal049a_4x1_DSRN_DSgamma22_matfusion.png", "dsrn", "gamma2.2", "r", "up"),
+        ("derived_packed_cc0/metal049a_4x1_NDRS_diffuse-gamma22.png", "ndrs", "gamma2.2", "r", "up"),
+        ("derived_packed_cc0/metal049a_4x1_NDRS_linear.png", "ndrs", "linear", "r", "up"),
+        ("derived_packed_cc0/metal049a_5x1_INDRS_linear.png", "ndrs", "linear", "r", "up"),
+        ("derived_packed_cc0/metal049a_6x1_2inputs_NDRS_linear.png", "ndrs", "linear", "r", "up"),
+        ("derived_packed_cc0/two_exemplars_4x2_NDRS_linear_example.png", "ndrs", "linear", "r", "up"),
+        ("deschaintre2020_crane1_example/crane1_example.png", "ndrs", "linear", "r", "up"),
+        ("deschaintre_outputs_naming_derived", "-", "gamma2.2", "r", "up"),
+        ("diffmat_style_png16_dxnormal_derived", "-", "gamma2.2", "r", "down"),
+        ("directx_Metal049A_NormalDX_only", "-", "srgb", "r", "down"),
+        ("exr_float_svbrdf_uncertainty_plane", "-", "linear", "r", "-"),
+        ("exr_half_layered_derived/metal049a_svbrdf_multipart.exr", "layers", "linear", "r", "up"),
+        (
+            "exr_half_layered_derived/metal049a_svbrdf_singlepart_signed_normals.exr",
+            "layers",
+            "linear",
+            "r",
+            "up",
+        ),
+        ("gltf_orm_FlightHelmet_LeatherParts", "-", "srgb", "r", "up"),
+        ("materialgan_style_folder_derived", "-", "gamma2.2", "gamma2.2", "up"),
+        ("materialgan_style_folder_derived/tex.png", "ndsr", "gamma2.2", "gamma2.2", "up"),
+        ("polyhaven_arm_wooden_table_02/textures", "-", "srgb", "r", "up"),
+        ("surfacenet_style_folder_derived/metal049a", "-", "linear", "r", "up"),
+        ("pitfalls_png_derived/svbrdf.npz", "layers", "linear", "r", "up"),
+    ];
+    let (mut right, mut asked, mut wrong) = (0, 0, Vec::new());
+    for (name, order, albedo, roughness, y) in table {
+        let read = open(name, &ReadOptions::default());
+        let found = [
+            chosen(&read, What::Layout).split(' ').next().unwrap_or("-"),
+            chosen(&read, What::Albedo),
+            chosen(&read, What::Roughness),
+            chosen(&read, What::NormalY),
+        ];
+        let unsure: Vec<_> = read.unsure().map(|a| a.what.name()).collect();
+        println!("{name}: {}; unsure of: {}", found.join(", "), unsure.join(", "));
+        if found != [order, albedo, roughness, y] {
+            wrong.push(name);
+        } else {
+            right += 1;
+        }
+        asked += usize::from(!unsure.is_empty());
+    }
+    println!("{right} right, {} wrong, {asked} asked about, of {}", wrong.len(), table.len());
+    // Nothing in this picture tells that its diffuse is encoded: the user has to say so.
+    assert_eq!(wrong, ["derived_packed_cc0/metal049a_4x1_NDRS_diffuse-gamma22.png"]);
+}
