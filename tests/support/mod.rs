@@ -5,6 +5,5 @@ pub mod fixtures;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod pictures;
-#[cfg(feature = "gpu")]
 pub mod points;
 pub mod tolerance;

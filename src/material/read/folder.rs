@@ -219,7 +219,8 @@ fn is_diffmat(files: &[Named], found: &Found) -> bool {
 /// What the names say about the values.
 fn hints(folder: &Path, files: &[Named], floats: bool) -> Hints {
     let word = |role: Role| files.iter().find(|f| f.label.role == role).map(|f| f.label.word.as_str());
-    let said = |f: &Named| f.label.roughness().map(|r| (r, format!("{} is called so", f.file), Certainty::Sure));
+    let said =
+        |f: &Named| f.label.roughness().map(|r| (r, format!("{} is called so", f.file), Certainty::Sure));
     let roughness = files.iter().find_map(said);
     let normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y))).map(|(f, y)| {
         let seen = if y == NormalY::Up { "OpenGL" } else { "DirectX" };
