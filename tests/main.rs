@@ -18,6 +18,7 @@ mod gpu_parity;
 mod physics;
 mod reading;
 mod sampling;
+mod scene_files;
 #[cfg(feature = "gpu")]
 mod shaders;
 mod shared_materials;
