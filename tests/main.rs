@@ -15,6 +15,7 @@ mod golden_loss;
 mod golden_points;
 #[cfg(feature = "gpu")]
 mod gpu_parity;
+mod mutations;
 mod physics;
 mod reading;
 mod sampling;
