@@ -15,9 +15,11 @@ mod golden_loss;
 mod golden_points;
 #[cfg(feature = "gpu")]
 mod gpu_parity;
+mod mutations;
 mod physics;
 mod reading;
 mod sampling;
+mod scene_files;
 #[cfg(feature = "gpu")]
 mod shaders;
 mod shared_materials;

@@ -99,6 +99,10 @@ fn common_size(found: &mut Found) -> Result<[usize; 2], Error> {
     let [width, height] = *largest;
     let mut smaller = Vec::new();
     for (whose, name, size) in &all {
+        // A single value has every shape.
+        if *size == [1, 1] {
+            continue;
+        }
         if size[0] * height != size[1] * width {
             return Err(Error::SizesDiffer {
                 first: largest_whose.clone(),

@@ -12,7 +12,9 @@ mod encoding;
 mod evidence;
 mod folder;
 mod found;
+mod gltf;
 mod layers;
+mod mtlx;
 mod names;
 mod normals;
 mod options;
@@ -95,6 +97,12 @@ fn find(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found
     {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         return folder::open(path, folder, &prefix.to_string_lossy(), progress);
+    }
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    match extension.as_str() {
+        "gltf" | "glb" => return gltf::open(path, options, progress),
+        "mtlx" => return mtlx::open(path, options, progress),
+        _ => (),
     }
     progress.begin(1);
     let decoded = decode::decode_file(path, "material")?;
