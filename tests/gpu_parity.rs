@@ -9,8 +9,10 @@ use serde::Deserialize;
 use svbrdf::brdf::{self, Model, Texel};
 use svbrdf::convention::{self, Convention, PRINTED};
 use svbrdf::gpu::Gpu;
+use svbrdf::material::Material;
 use svbrdf::progress::Progress;
 use svbrdf::render;
+use svbrdf::samples;
 use svbrdf::scene::{self, Kind, Scene};
 use svbrdf::vec3::Vec3;
 
@@ -162,8 +164,8 @@ fn the_shader_agrees_with_the_golden_points() {
 }
 
 /// The texels and directions of a rendering, as the f32 CPU path has them.
-fn points_of(width: usize, height: usize, scene: &Scene) -> Vec<Point> {
-    let material = bumpy(width, height);
+fn points_of(material: &Material<f32>, scene: &Scene) -> Vec<Point> {
+    let (width, height) = (material.width(), material.height());
     let rays = scene.rays::<f32>();
     let point = |index: usize| {
         let c = material.grid().position(index % width, index / width);
@@ -191,7 +193,7 @@ fn renderings_agree_with_the_cpu_texel_by_texel() {
             for scene in scenes(&convention) {
                 let image = gpu.render(&material, &scene, &convention).expect("rendered");
                 assert_eq!([image.width, image.height], [width, height]);
-                let points = points_of(width, height, &scene);
+                let points = points_of(&material, &scene);
                 let held = against_f64(&convention, &points, &image.pixels, RENDERING_ULPS)
                     .unwrap_or_else(|e| panic!("{width} x {height}, {scene:?}: {e}"));
                 worst = worst.max(held.share);
@@ -199,6 +201,20 @@ fn renderings_agree_with_the_cpu_texel_by_texel() {
         }
     }
     println!("worst share of the bound {worst:.3}");
+}
+
+#[test]
+fn renderings_of_the_built_in_materials_agree_with_the_cpu_texel_by_texel() {
+    let Some(gpu) = gpu_f32() else { return };
+    let built_in = samples::load::<f32>().expect("built in");
+    for read in std::iter::once(&built_in.ground_truth).chain(&built_in.predictions) {
+        for scene in scene::sample(SEED, 1, 1, &PRINTED) {
+            let image = gpu.render(&read.material, &scene, &PRINTED).expect("rendered");
+            let points = points_of(&read.material, &scene);
+            against_f64(&PRINTED, &points, &image.pixels, RENDERING_ULPS)
+                .unwrap_or_else(|e| panic!("{}, {scene:?}: {e}", read.material.name()));
+        }
+    }
 }
 
 #[test]
@@ -218,8 +234,9 @@ fn a_rendering_larger_than_one_band_of_reading_back_is_whole() {
     let Some(gpu) = gpu_f32() else { return };
     let (width, height) = (1030, 1100);
     let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.5, 0.2, 0.8] };
-    let image = gpu.render(&bumpy(width, height), &scene, &PRINTED).expect("rendered");
-    let points = points_of(width, height, &scene);
+    let material = bumpy(width, height);
+    let image = gpu.render(&material, &scene, &PRINTED).expect("rendered");
+    let points = points_of(&material, &scene);
     against_f64(&PRINTED, &points, &image.pixels, RENDERING_ULPS).unwrap_or_else(|e| panic!("{e}"));
 }
 
@@ -229,7 +246,7 @@ fn the_comparison_of_renderings_goes_red_on_a_flipped_or_transposed_grid() {
     let side = 24;
     let scene = Scene { kind: Kind::Near, view: [-0.5, 0.25, 1.5], light: [0.9, 0.8, 0.3] };
     let image = gpu.render(&bumpy(side, side), &scene, &PRINTED).expect("rendered");
-    let points = points_of(side, side, &scene);
+    let points = points_of(&bumpy(side, side), &scene);
     let planted = |from: fn(usize, usize, usize) -> usize| {
         let pixels: Vec<[f32; 3]> =
             (0..side * side).map(|i| image.pixels[from(i % side, i / side, side)]).collect();
