@@ -30,6 +30,7 @@
 //! | [`convention`] | what differs between the printed algorithms and the released codes, as data |
 //! | [`brdf`] | Algorithm 3 at one point, a function a term, over [`real`] and [`vec3`] |
 //! | [`scene`] | Algorithm 2 and the scenes of Algorithm 1, functions of a point of the unit cube |
+//! | [`sampler`] | where the points of the unit cube come from: random, or scrambled Sobol sequences |
 //! | [`render`] | Algorithm 3 over a whole material |
 //! | [`loss`] | Algorithm 1: plain and generic, and fused for f32; standard errors |
 //! | [`display`], [`export`] | what a screen shows; renderings as PNG and EXR files |

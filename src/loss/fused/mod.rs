@@ -1,10 +1,10 @@
 //! The rendering loss in f32 at the speed of the machine: all scenes pass over a few texels while these are in cache.
 //!
 //! One source, compiled for every instruction set and chosen at run time. [`super::losses`] is the plain twin that it
-//! is tested against. For a tile of [`tile::TEXELS`] texels and each scene three passes follow each other: the
-//! geometry that all materials share ([`geometry`]), the radiance of each material ([`shade`]), and the comparison of
-//! the ground truth with each prediction ([`compare`]). Buffers between them stay in the nearest cache. Whole images
-//! ([`picture`]) come from the first two passes.
+//! is tested against. For a tile of `tile::TEXELS` texels and each scene three passes follow each other: the
+//! geometry that all materials share (`geometry`), the radiance of each material (`shade`), and the comparison of
+//! the ground truth with each prediction (`compare`). Buffers between them stay in the nearest cache. Whole images
+//! (`picture`) come from the first two passes.
 //!
 //! Sums have an order: a block of tiles gives one f64 for each scene and prediction, which nothing else that is
 //! computed influences, and blocks are added in their order. So neither the number of threads nor the other scenes
