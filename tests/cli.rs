@@ -313,3 +313,54 @@ fn a_full_disk_is_an_error() {
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stderr).contains("cannot write standard output"));
 }
+
+#[test]
+fn info_says_what_was_assumed_and_strict_refuses_guesses() {
+    let folder = folder();
+    let text = succeed(folder.path(), "info gt.png");
+    for said in ["gt, 8 x 8 texels", "As stored:", "tile 1", "Assumed:", "layout: ndrs", "albedo: linear"] {
+        assert!(text.contains(said), "{said} is missing in\n{text}");
+    }
+    let json: Value = serde_json::from_str(&succeed(folder.path(), "info gt.png --format json")).unwrap();
+    assert_eq!(json["maps"].as_array().unwrap().len(), 4);
+    assert_eq!(json["assumptions"][0]["what"], "layout");
+    let given = succeed(folder.path(), "info gt.png --albedo srgb --order ndrs --normal-y down");
+    assert!(
+        given.contains("albedo: srgb: as you said") && given.contains("normal y: down: as you said"),
+        "{given}"
+    );
+
+    RgbImage::from_pixel(32, 8, Rgb([200, 200, 200])).save(folder.path().join("flat.png")).unwrap();
+    assert!(
+        succeed(folder.path(), "info flat.png").contains("layout: ndrs in 4 x 1 tiles of 8 x 8 (unsure)")
+    );
+    assert!(fail(folder.path(), "info flat.png --strict", 1).contains("flat.png is ambiguous: layout"));
+}
+
+#[test]
+fn convert_writes_what_loss_finds_to_be_the_same() {
+    let folder = folder();
+    for out in ["gt.exr", "gt16.png", "gt_folder"] {
+        let depth = if out == "gt.exr" { "float" } else { "16" };
+        assert_eq!(succeed(folder.path(), &format!("convert gt.png {out} --depth {depth}")), "");
+        let json = losses_as_json(folder.path(), &format!("gt.png {out}"));
+        let loss = json["results"][0]["loss"].as_f64().unwrap();
+        assert!(loss < 1e-3, "{out}: {loss}");
+    }
+    assert!(
+        fail(folder.path(), "convert gt.png x.png --depth half", 64)
+            .contains("PNG and folders have 8 and 16")
+    );
+    assert!(fail(folder.path(), "convert gt.png gt_folder", 1).contains("not there yet"));
+}
+
+#[test]
+fn predictions_of_another_size_are_compared_once_it_is_said_how() {
+    let folder = folder();
+    assert!(fail(folder.path(), "loss gt.png big.png", 1).contains("--resize-to gt, pred or a width"));
+    for (to, side) in [("gt", 8), ("pred", 16), ("12", 12)] {
+        let json = losses_as_json(folder.path(), &format!("gt.png big.png --resize-to {to}"));
+        assert_eq!(json["size"], json!([side, side]), "{to}");
+    }
+    fail(folder.path(), "loss gt.png big.png --resize-to half", 64);
+}

@@ -13,7 +13,8 @@ use svbrdf::progress::Progress;
 use tempfile::tempdir;
 
 use crate::support::pictures::{
-    SIDE, gamma, layered, map_exr, multi_part, npy, npz, packed, picture, srgb, stored, texel, write as save,
+    SIDE, gamma, layered, map_exr, multi_part, npy, npz, packed, picture, srgb, stored, texel, windowed,
+    write as save,
 };
 
 /// Of 8-bit codes, decoded: half a code of a normal, and of the steepest encoding.
@@ -326,6 +327,26 @@ fn values_beyond_one_are_clamped_and_counted() {
     let read = open(folder.path());
     assert_eq!(read.material.texel(4).specular, [1.0; 3]);
     assert!(read.unsure().any(|a| a.why.contains("3 samples of the specular map") && a.why.contains("2.5")));
+}
+
+#[test]
+fn data_beside_the_display_window_is_put_in_its_place_and_said() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("m.exr");
+    windowed(&path, (0, 0), SIDE);
+    assert_same(&open(&path), HALF);
+    windowed(&path, (-7, 3), SIDE);
+    let shifted = open(&path);
+    assert_same(&shifted, HALF);
+    assert!(shifted.notes.iter().any(|note| note.contains("data window beside")), "{:?}", shifted.notes);
+    windowed(&path, (2, 1), SIDE + 4);
+    let read = open(&path);
+    assert_eq!(read.material.size(), [SIDE + 4; 2]);
+    let (inside, outside) = (read.material.texel(3 * (SIDE + 4) + 5), read.material.texel(0));
+    let expected = texel(1, 3, 2);
+    assert!(inside.diffuse.iter().zip(expected).all(|(a, b)| (a - b).abs() < HALF), "{inside:?}");
+    assert_eq!((outside.diffuse, outside.normal.to_array()), ([0.0; 3], [0.0, 0.0, 1.0]));
+    assert!(read.notes.iter().any(|note| note.contains("16 x 16 of the 20 x 20")), "{:?}", read.notes);
 }
 
 #[test]

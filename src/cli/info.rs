@@ -107,6 +107,9 @@ fn line(map: &MapReport) -> String {
     if let Some(share) = map.non_unit {
         let _ = write!(line, ", {:.1} % no unit vectors", 100.0 * share);
     }
+    if let Some(curl) = map.curl {
+        let _ = write!(line, ", curl correlation {curl:+.2}");
+    }
     if let Some(median) = map.specular_median {
         let _ = write!(line, ", median {median:.3}");
     }

@@ -165,3 +165,14 @@ pub fn npz(path: &Path) {
     }
     zip.finish().unwrap();
 }
+
+/// A material in one part whose data begin `at` (column, row) of the display window, which is `display` wide and high.
+pub fn windowed(path: &Path, at: (i32, i32), display: usize) {
+    let channels = (0..4).flat_map(|map| channels(map, &format!("{}.", NAMES[map])));
+    let attributes = LayerAttributes { layer_position: at.into(), ..LayerAttributes::default() };
+    let channels = AnyChannels::sort(channels.collect());
+    let layer = Layer::new((SIDE, SIDE), attributes, Encoding::FAST_LOSSLESS, channels);
+    let layers: SmallVec<[Layer<AnyChannels<FlatSamples>>; 2]> = [layer].into_iter().collect();
+    let attributes = ImageAttributes::new(IntegerBounds::from_dimensions((display, display)));
+    Image::from_layers(attributes, layers).write().to_file(path).unwrap();
+}

@@ -28,6 +28,9 @@ pub struct MapReport {
     pub constant: bool,
     /// Share of the texels that are no unit vectors; only of normal maps.
     pub non_unit: Option<f64>,
+    /// The curl correlation, near 1 where green points up and near -1 where it points down; only of normal maps that
+    /// have slopes.
+    pub curl: Option<f64>,
     /// Median of the least channel; only of specular maps.
     pub specular_median: Option<f64>,
 }
@@ -51,7 +54,10 @@ fn report(map: &'static str, source: &Source) -> MapReport {
         constant &= least >= most;
         (low, high) = (low.min(least), high.max(most));
     }
-    let unit = evidence::normal_score(raster).max(evidence::signed_normal_score(raster));
+    let scores = [evidence::normal_score(raster), evidence::signed_normal_score(raster)];
+    let unit = scores[0].max(scores[1]);
+    let vector = |index| raster.rgb(index).map(|c| if scores[1] > scores[0] { c } else { 2.0 * c - 1.0 });
+    let curl = || evidence::curl(raster.width, raster.height, vector);
     MapReport {
         map,
         file: source.file.clone(),
@@ -63,6 +69,7 @@ fn report(map: &'static str, source: &Source) -> MapReport {
         clipped: f64::from(clipped as u32) / f64::from(count.max(1) as u32),
         constant,
         non_unit: (map == "normal").then_some(1.0 - unit),
+        curl: (map == "normal").then(curl).flatten(),
         specular_median: (map == "specular").then(|| evidence::specular_median(raster)),
     }
 }
