@@ -33,6 +33,7 @@
 //! | [`sampler`] | where the points of the unit cube come from: random, or scrambled Sobol sequences |
 //! | [`render`] | Algorithm 3 over a whole material |
 //! | [`loss`] | Algorithm 1: plain and generic, and fused for f32; standard errors |
+//! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`display`], [`export`] | what a screen shows; renderings as PNG and EXR files |
 //! | [`camera`], [`view`] | where in a pane the material is seen, and what of it |
 //! | [`progress`], [`error`] | long work watched and cancelled; one error variant a cause |
@@ -64,6 +65,7 @@ pub mod render;
 pub mod sampler;
 pub mod samples;
 pub mod scene;
+pub mod study;
 pub mod vec3;
 pub mod view;
 #[cfg(feature = "viewer")]

@@ -1,5 +1,6 @@
 //! Progress of long work, seen from another thread, and the wish to stop it.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::error::Error;
@@ -9,7 +10,7 @@ use crate::error::Error;
 pub struct Progress {
     done: AtomicU64,
     total: AtomicU64,
-    cancelled: AtomicBool,
+    cancelled: Arc<AtomicBool>,
 }
 
 impl Progress {
@@ -24,11 +25,25 @@ impl Progress {
     /// # Errors
     /// [`Error::Cancelled`] once [`Progress::cancel`] was called: the work passes it on.
     pub fn step(&self) -> Result<(), Error> {
-        self.done.fetch_add(1, Ordering::Relaxed);
+        self.advance(1)
+    }
+
+    /// The work has done `steps` more steps.
+    ///
+    /// # Errors
+    /// As [`Progress::step`].
+    pub fn advance(&self, steps: u64) -> Result<(), Error> {
+        self.done.fetch_add(steps, Ordering::Relaxed);
         if self.cancelled.load(Ordering::Relaxed) {
             return Err(Error::Cancelled);
         }
         Ok(())
+    }
+
+    /// The progress of a part of the work, which counts by itself: cancelling either cancels both.
+    #[must_use]
+    pub fn part(&self) -> Self {
+        Self { cancelled: self.cancelled.clone(), ..Self::default() }
     }
 
     /// Asks the work to stop at its next step.

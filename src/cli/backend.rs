@@ -118,23 +118,28 @@ fn predict(
 
 /// A graphics adapter that is ready to compute losses.
 #[cfg(feature = "gpu")]
-struct Adapter {
+pub struct Adapter {
     gpu: svbrdf::gpu::Gpu,
     losses: svbrdf::gpu::Losses,
 }
 
 #[cfg(feature = "gpu")]
 impl Adapter {
-    fn start() -> Result<Self, Error> {
+    pub fn start() -> Result<Self, Error> {
         let gpu = svbrdf::gpu::Gpu::headless()?;
         Ok(Self { losses: svbrdf::gpu::Losses::new(&gpu)?, gpu })
     }
 
-    fn name(&self) -> &str {
+    pub fn name(&self) -> &str {
         &self.gpu.report.name
     }
 
-    fn losses(&self, job: &Job<'_, f32>, scenes: &[Scene], progress: &Progress) -> Result<Vec<Loss>, Error> {
+    pub fn losses(
+        &self,
+        job: &Job<'_, f32>,
+        scenes: &[Scene],
+        progress: &Progress,
+    ) -> Result<Vec<Loss>, Error> {
         let Job { ground_truth, predictions, convention } = job;
         self.losses.compute(&self.gpu, ground_truth, predictions, scenes, convention, progress)
     }
@@ -142,22 +147,22 @@ impl Adapter {
 
 /// There is none: this program was built without the GPU layer.
 #[cfg(not(feature = "gpu"))]
-enum Adapter {}
+pub enum Adapter {}
 
 #[cfg(not(feature = "gpu"))]
 impl Adapter {
-    fn start() -> Result<Self, Error> {
+    pub fn start() -> Result<Self, Error> {
         Err(Error::NoAdapter {
             problem: "this svbrdf was built without the feature `gpu`".to_owned(),
             remedy: "leave out --backend, or build it with the feature",
         })
     }
 
-    fn name(&self) -> &str {
+    pub fn name(&self) -> &str {
         match *self {}
     }
 
-    fn losses(&self, _: &Job<'_, f32>, _: &[Scene], _: &Progress) -> Result<Vec<Loss>, Error> {
+    pub fn losses(&self, _: &Job<'_, f32>, _: &[Scene], _: &Progress) -> Result<Vec<Loss>, Error> {
         match *self {}
     }
 }

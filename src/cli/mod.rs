@@ -9,6 +9,7 @@ mod loss;
 mod materials;
 mod render;
 mod report;
+mod study;
 mod view;
 
 use clap::{Parser, Subcommand};
@@ -23,6 +24,7 @@ Examples:
   svbrdf loss gt.png a.png b.png          the losses of two predictions
   svbrdf loss gt.png a.png --format json  the same for a program to read
   svbrdf render gt.png -o gt.exr          a rendering, as floats
+  svbrdf study gt.png a.png --plot s.svg  what accuracy costs on this machine
   svbrdf info gt.png                      what its files hold, and what was assumed
   svbrdf convert gt.png gt.exr            the material as one layered EXR
 
@@ -51,6 +53,7 @@ enum Command {
     View(view::ViewArgs),
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
+    Study(study::StudyArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
 }
@@ -65,6 +68,7 @@ impl Cli {
             Command::View(args) => view::run(args),
             Command::Loss(args) => loss::run(&args),
             Command::Render(args) => render::run(&args),
+            Command::Study(args) => study::run(&args),
             Command::Info(args) => info::run(&args),
             Command::Convert(args) => convert::run(&args),
         }

@@ -43,14 +43,7 @@ impl Destination {
     /// missing or it is itself a folder.
     pub fn new(path: &Path) -> Result<Self, Error> {
         let format = format_of(path)?;
-        if !folder_of(path).is_dir() {
-            let source = io::Error::new(io::ErrorKind::NotFound, "its folder does not exist");
-            return Err(unwritable(path, source, "create the folder first, or name another"));
-        }
-        if path.is_dir() {
-            let source = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
-            return Err(unwritable(path, source, "name a file"));
-        }
+        check_place(path)?;
         Ok(Self { path: path.to_owned(), format })
     }
 
@@ -75,6 +68,22 @@ impl Destination {
     fn replace(&self, write: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>) -> Result<(), Error> {
         replace(&self.path, write)
     }
+}
+
+/// Whether a file can be at `path`: found out before there is anything to write.
+///
+/// # Errors
+/// [`Error::Unwritable`] where its folder is missing or it is itself a folder.
+pub fn check_place(path: &Path) -> Result<(), Error> {
+    if !folder_of(path).is_dir() {
+        let source = io::Error::new(io::ErrorKind::NotFound, "its folder does not exist");
+        return Err(unwritable(path, source, "create the folder first, or name another"));
+    }
+    if path.is_dir() {
+        let source = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
+        return Err(unwritable(path, source, "name a file"));
+    }
+    Ok(())
 }
 
 /// Writes a temporary file beside `path` and renames it: at any moment the old file or the new one is there, whole.

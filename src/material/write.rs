@@ -28,6 +28,18 @@ pub enum Depth {
     Float,
 }
 
+impl Depth {
+    /// How the command line calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Eight => "8",
+            Self::Sixteen => "16",
+            Self::Half => "half",
+            Self::Float => "float",
+        }
+    }
+}
+
 impl FromStr for Depth {
     type Err = Error;
 
@@ -97,6 +109,39 @@ pub fn write(material: &Material<f32>, path: &Path, kind: Kind) -> Result<(), Er
             remedy: "name a folder that is not there yet, in one that is writable",
         }),
     }
+}
+
+/// `material` as it is read back from a file of this depth that this module wrote: EXR for half and float, a packed PNG
+/// for 8 and 16 bits.
+///
+/// # Errors
+/// As [`Material::new`], as where a normal becomes too short to have a direction.
+pub fn held(material: &Material<f32>, depth: Depth) -> Result<Material<f32>, Error> {
+    let Planes { normal, diffuse, specular, roughness } = material.planes();
+    // Normals are stored as (n + 1) / 2.
+    let vector = |levels| {
+        let component = |x: &f32| 2.0 * rounded((0.5 * x + 0.5).clamp(0.0, 1.0), levels) - 1.0;
+        normal.each_ref().map(|plane| plane.iter().map(component).collect())
+    };
+    let (normal, value): (_, &dyn Fn(f32) -> f32) = match depth {
+        Depth::Float => return Ok(material.clone()),
+        Depth::Half => (half_normals(normal), &|x| f16::from_f32(x).to_f32()),
+        Depth::Eight => (vector(255.0), &|x| rounded(x, 255.0)),
+        Depth::Sixteen => (vector(65_535.0), &|x| rounded(x, 65_535.0)),
+    };
+    let plane = |plane: &Vec<f32>| plane.iter().map(|&x| value(x)).collect();
+    let planes = Planes {
+        normal,
+        diffuse: diffuse.each_ref().map(plane),
+        specular: specular.each_ref().map(plane),
+        roughness: plane(roughness),
+    };
+    Material::new(material.name(), material.width(), material.height(), planes)
+}
+
+/// `value` of [0, 1] to the nearest of `levels` + 1 steps.
+fn rounded(value: f32, levels: f64) -> f32 {
+    ((f64::from(value) * levels).round() / levels) as f32
 }
 
 fn exr(file: impl Write + Seek, material: &Material<f32>, half: bool) -> io::Result<()> {

@@ -1,0 +1,90 @@
+//! `svbrdf study`: speed against accuracy.
+
+use std::path::PathBuf;
+
+use svbrdf::convention::Convention;
+use svbrdf::error::Error;
+use svbrdf::export;
+use svbrdf::study::{self, Pair, Study, plot};
+
+use super::backend::{Adapter, Job};
+use super::bar::watched;
+use super::{exit, materials};
+
+/// Measures what accuracy of the loss costs, for this pair on this machine
+///
+/// Runs the loss with 9 to 9000 scenes, random and Sobol, in f32, f64 and on the graphics adapter, with the maps as they
+/// are, as halves and as 8 bits. The error of each is taken against a reference of far more scenes, its time is
+/// measured. Prints the cheapest setting for a few errors. Without GT and PRED: the built-in pair.
+#[derive(Debug, clap::Args)]
+pub struct StudyArgs {
+    /// File for all points as a table (CSV)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// File for a plot of time against error, .svg or .png
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+
+    /// printed, single-image-2018, multi-image-2019 or guided-2020
+    #[arg(long, value_name = "NAME", default_value = "printed")]
+    convention: Convention,
+
+    #[command(flatten)]
+    materials: materials::MaterialArgs,
+}
+
+/// Measures, prints the summary to stdout and writes the files.
+///
+/// # Errors
+/// Where a material cannot be read, the two are of different sizes or look the same, or a file cannot be written.
+pub fn run(args: &StudyArgs) -> Result<(), Error> {
+    check_predictions(&args.materials)?;
+    let plot = args.plot.as_deref().map(plot::Destination::new).transpose()?;
+    args.output.as_deref().map_or(Ok(()), export::check_place)?;
+    let study = measured(args)?;
+    if let Some(path) = &args.output {
+        study.write_csv(path)?;
+    }
+    if let Some(plot) = plot {
+        plot.write(&study)?;
+    }
+    exit::put(&study.summary())
+}
+
+fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
+    match (&materials.ground_truth, materials.predictions.len()) {
+        (None, _) | (Some(_), 1) => Ok(()),
+        (Some(path), count) => Err(Error::Usage(format!(
+            "a study takes one prediction of {}, not {count}; give one after it",
+            path.display()
+        ))),
+    }
+}
+
+fn measured(args: &StudyArgs) -> Result<Study, Error> {
+    let opened = materials::open::<f32>(&args.materials)?;
+    let adapter = match Adapter::start() {
+        Ok(adapter) => Some(adapter),
+        Err(problem) => {
+            exit::tell(&format!("note: without the GPU: {problem}"));
+            None
+        }
+    };
+    if let Some(adapter) = &adapter {
+        exit::tell(&format!("note: the GPU is {}", adapter.name()));
+    }
+    let on_gpu: &study::OnGpu<'_> = &|ground_truth, prediction, scenes, convention, progress| match &adapter {
+        Some(adapter) => {
+            adapter.losses(&Job { ground_truth, predictions: &[prediction], convention }, scenes, progress)
+        }
+        None => Ok(Vec::new()),
+    };
+    let pair = Pair {
+        ground_truth: &opened.ground_truth,
+        prediction: &opened.predictions[0],
+        convention: args.convention,
+        gpu: adapter.is_some().then_some(on_gpu),
+    };
+    watched("measuring", |progress| study::run(&pair, progress, |_| ()))
+}

@@ -1,0 +1,126 @@
+//! What a loss can be asked for, and which of it is tried.
+
+use crate::loss::Precision;
+use crate::material::write::Depth;
+use crate::sampler::Sampler;
+
+/// Numbers of random scenes that are tried.
+const RANDOM: &[usize] = &[9, 90, 900, 9000];
+/// Numbers of Sobol scenes that are tried: a power of two of either kind for each scrambling.
+const SOBOL: &[usize] = &[24, 48, 96, 192, 384, 768, 1536, 3072, 6144];
+
+/// What a loss is computed on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Backend {
+    Cpu,
+    Gpu,
+}
+
+/// One setting of everything that trades time for accuracy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// Near-field and distant scenes, 2 : 1: a multiple of 3.
+    pub scenes: usize,
+    pub sampler: Sampler,
+    pub precision: Precision,
+    pub backend: Backend,
+    /// What the files hold that the maps are read from.
+    pub maps: Depth,
+}
+
+/// Choices that differ in their numbers of scenes only: one colour of a plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    Random,
+    Sobol,
+    F64,
+    Gpu,
+    HalfMaps,
+    EightBitMaps,
+}
+
+impl Choice {
+    pub fn near(&self) -> usize {
+        self.scenes / 3 * 2
+    }
+
+    pub fn distant(&self) -> usize {
+        self.scenes / 3
+    }
+
+    /// The options of `svbrdf loss` that choose this, but for the maps.
+    pub fn options(&self) -> String {
+        let sampler = match self.sampler {
+            Sampler::Random => String::new(),
+            Sampler::Sobol => "--sampler sobol ".to_owned(),
+        };
+        let precision = if self.precision == Precision::F64 { " --precision f64" } else { "" };
+        let backend = if self.backend == Backend::Gpu { " --backend gpu" } else { "" };
+        format!("{sampler}--near {} --distant {}{precision}{backend}", self.near(), self.distant())
+    }
+
+    pub fn family(&self) -> Family {
+        match *self {
+            Self { maps: Depth::Half, .. } => Family::HalfMaps,
+            Self { maps: Depth::Eight | Depth::Sixteen, .. } => Family::EightBitMaps,
+            Self { backend: Backend::Gpu, .. } => Family::Gpu,
+            Self { precision: Precision::F64, .. } => Family::F64,
+            Self { sampler: Sampler::Sobol, .. } => Family::Sobol,
+            Self { sampler: Sampler::Random, .. } => Family::Random,
+        }
+    }
+
+    /// The choice of the same scenes that is measured over many seeds.
+    pub(super) fn base(self) -> Self {
+        Self { precision: Precision::F32, backend: Backend::Cpu, maps: Depth::Float, ..self }
+    }
+}
+
+impl Family {
+    /// In the order in which they are measured: those that are over many seeds first.
+    pub const ALL: [Self; 6] =
+        [Self::Sobol, Self::Random, Self::Gpu, Self::F64, Self::HalfMaps, Self::EightBitMaps];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random scenes",
+            Self::Sobol => "Sobol scenes",
+            Self::F64 => "Sobol, f64",
+            Self::Gpu => "Sobol, GPU",
+            Self::HalfMaps => "Sobol, half maps",
+            Self::EightBitMaps => "Sobol, 8-bit maps",
+        }
+    }
+
+    /// Red, green and blue that people of any colour vision tell apart (Okabe and Ito 2008).
+    pub fn colour(self) -> [u8; 3] {
+        match self {
+            Self::Random => [213, 94, 0],
+            Self::Sobol => [0, 114, 178],
+            Self::F64 => [110, 110, 110],
+            Self::Gpu => [0, 158, 115],
+            Self::HalfMaps => [204, 121, 167],
+            Self::EightBitMaps => [230, 159, 0],
+        }
+    }
+
+    /// The choices that are tried, with growing numbers of scenes.
+    pub(super) fn choices(self) -> impl Iterator<Item = Choice> {
+        let base = Choice {
+            scenes: 0,
+            sampler: Sampler::Sobol,
+            precision: Precision::F32,
+            backend: Backend::Cpu,
+            maps: Depth::Float,
+        };
+        let (first, counts) = match self {
+            Self::Random => (Choice { sampler: Sampler::Random, ..base }, RANDOM),
+            Self::Sobol => (base, SOBOL),
+            Self::F64 => (Choice { precision: Precision::F64, ..base }, SOBOL),
+            Self::Gpu => (Choice { backend: Backend::Gpu, ..base }, SOBOL),
+            Self::HalfMaps => (Choice { maps: Depth::Half, ..base }, SOBOL),
+            Self::EightBitMaps => (Choice { maps: Depth::Eight, ..base }, SOBOL),
+        };
+        counts.iter().map(move |&scenes| Choice { scenes, ..first })
+    }
+}

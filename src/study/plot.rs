@@ -1,0 +1,225 @@
+//! A study as a picture: time against error, both logarithmic.
+
+use std::io::{self, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use epaint_default_fonts::UBUNTU_LIGHT;
+use plotters::coord::Shift;
+use plotters::element::ComposedElement;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{FontStyle, register_font};
+
+use super::text::{percent, time};
+use super::{Family, Point, Study};
+use crate::error::Error;
+use crate::export;
+
+/// Width and height of the picture in pixels.
+const SIZE: (u32, u32) = (1200, 780);
+/// The family name that the font is registered under; readers of an SVG take theirs.
+const FONT: &str = "sans-serif";
+const INK: RGBColor = RGBColor(40, 40, 40);
+const GRID: RGBColor = RGBColor(225, 225, 225);
+
+/// A place in pixels, relative to a point of the plot.
+type Pixel = (i32, i32);
+
+/// The kinds of files that plots are written into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Svg,
+    Png,
+}
+
+/// A plot to be written, into a folder that is there.
+#[derive(Clone, Debug)]
+pub struct Destination {
+    path: PathBuf,
+    format: Format,
+}
+
+impl Destination {
+    /// Checks what can be checked of `path` before there is anything to write.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] for an extension other than svg and png, [`Error::Unwritable`] where its folder is
+    /// missing or it is itself a folder.
+    pub fn new(path: &Path) -> Result<Self, Error> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let format = match extension.as_str() {
+            "svg" => Format::Svg,
+            "png" => Format::Png,
+            _ => {
+                return Err(Error::UnknownName {
+                    what: "extension of a plot",
+                    found: path.display().to_string(),
+                    known: ".svg, .png".to_owned(),
+                });
+            }
+        };
+        export::check_place(path)?;
+        Ok(Self { path: path.to_owned(), format })
+    }
+
+    /// Writes the plot; the file appears when it is complete, or not at all.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`].
+    pub fn write(&self, study: &Study) -> Result<(), Error> {
+        export::replace(&self.path, |file| match self.format {
+            Format::Svg => file.write_all(svg(study)?.as_bytes()),
+            Format::Png => png(file, &rgb(study)?),
+        })
+    }
+}
+
+fn svg(study: &Study) -> io::Result<String> {
+    let mut text = String::new();
+    draw(SVGBackend::with_string(&mut text, SIZE), study)?;
+    Ok(text)
+}
+
+/// Rows of 8-bit RGB.
+fn rgb(study: &Study) -> io::Result<Vec<u8>> {
+    let mut bytes = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];
+    draw(BitMapBackend::with_buffer(&mut bytes, SIZE), study)?;
+    Ok(bytes)
+}
+
+fn png(file: impl Write, bytes: &[u8]) -> io::Result<()> {
+    let mut encoder = png::Encoder::new(file, SIZE.0, SIZE.1);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(bytes)?;
+    Ok(writer.finish()?)
+}
+
+/// Draws with a font of our own: where there is no window, there may be no font.
+fn draw<B: DrawingBackend>(backend: B, study: &Study) -> io::Result<()> {
+    register_font(FONT, FontStyle::Normal, UBUNTU_LIGHT)
+        .map_err(|_| io::Error::other("the font is damaged"))?;
+    let area = backend.into_drawing_area();
+    chart(&area, study).and_then(|()| area.present()).map_err(|problem| io::Error::other(problem.to_string()))
+}
+
+fn chart<B: DrawingBackend>(
+    area: &DrawingArea<B, Shift>,
+    study: &Study,
+) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+    area.fill(&WHITE)?;
+    let [ground_truth, prediction] = &study.names;
+    let title = format!("What accuracy costs: {prediction} against {ground_truth}");
+    let (x, y) = (span(study, |p| p.seconds), span(study, |p| p.error));
+    let mut chart = ChartBuilder::on(area)
+        .caption(title, (FONT, 24).into_font().color(&INK))
+        .margin(16)
+        .margin_right(28)
+        .x_label_area_size(52)
+        .y_label_area_size(76)
+        .build_cartesian_2d(
+            x.clone().log_scale().with_key_points(ticks(&x)),
+            y.clone().log_scale().with_key_points(ticks(&y)),
+        )?;
+    let [width, height] = study.size;
+    chart
+        .configure_mesh()
+        .x_desc(format!("time of one loss, {width} x {height} texels, {} threads", study.threads))
+        .y_desc("error of the loss (root mean square over seeds)")
+        .x_label_formatter(&|seconds| time(*seconds))
+        .y_label_formatter(&|error| percent(*error))
+        .axis_desc_style((FONT, 18).into_font().color(&INK))
+        .label_style((FONT, 17).into_font().color(&INK))
+        .bold_line_style(GRID)
+        .light_line_style(TRANSPARENT)
+        .axis_style(INK)
+        .draw()?;
+
+    let front = study.front();
+    chart.draw_series(LineSeries::new(front.iter().map(|p| place(p)), INK.stroke_width(2)))?;
+    for family in Family::ALL {
+        let points = || study.points.iter().filter(|p| p.choice.family() == family);
+        if points().next().is_none() {
+            continue;
+        }
+        chart
+            .draw_series(points().map(|p| marker(family, place(p))))?
+            .label(family.name())
+            .legend(move |(x, y)| marker(family, (x + 10, y)));
+    }
+    let text = (FONT, 16).into_font().color(&INK).pos(Pos::new(HPos::Right, VPos::Top));
+    chart.draw_series(
+        front.iter().map(|p| EmptyElement::at(place(p)) + Text::new(label(p), (-7, 4), text.clone())),
+    )?;
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .background_style(WHITE)
+        .border_style(GRID)
+        .label_font((FONT, 17).into_font().color(&INK))
+        .draw()
+}
+
+/// A shape for each family, so that colour is not all that tells them apart. Maps get rings around what they change.
+fn marker<B: DrawingBackend, C>(
+    family: Family,
+    at: C,
+) -> ComposedElement<C, B, Polygon<Pixel>, PathElement<Pixel>> {
+    let [r, g, b] = family.colour();
+    let colour = RGBColor(r, g, b);
+    let (corners, turn, radius, opacity) = match family {
+        Family::Sobol => (20, 0.0, 5.0, 1.0),
+        Family::Random => (3, -0.25, 6.0, 1.0),
+        Family::Gpu => (4, 0.125, 6.0, 1.0),
+        Family::F64 => (3, 0.25, 6.0, 1.0),
+        Family::HalfMaps => (4, 0.0, 10.0, 0.0),
+        Family::EightBitMaps => (4, 0.125, 11.0, 0.0),
+    };
+    let angle = |i| std::f64::consts::TAU * (f64::from(i) / f64::from(corners) + turn);
+    let corner = |i| [angle(i).cos(), angle(i).sin()].map(|c| (f64::from(radius) * c).round() as i32).into();
+    let outline: Vec<Pixel> = (0..=corners).map(corner).collect();
+    EmptyElement::at(at)
+        + Polygon::new(outline.clone(), colour.mix(opacity).filled())
+        + PathElement::new(outline, colour.stroke_width(2))
+}
+
+/// What a point of the front is called beside it.
+fn label(point: &Point) -> String {
+    match point.choice.family() {
+        Family::Sobol => point.choice.scenes.to_string(),
+        family => format!("{} {}", point.choice.scenes, family.name()),
+    }
+}
+
+fn place(point: &Point) -> (f64, f64) {
+    (point.seconds, point.error)
+}
+
+/// The values of all points and some room around them.
+fn span(study: &Study, value: impl Fn(&Point) -> f64) -> Range<f64> {
+    const ROOM: f64 = 1.5;
+    let values = || study.points.iter().map(&value).filter(|v| *v > 0.0);
+    let low = values().fold(f64::INFINITY, f64::min);
+    let high = values().fold(0.0, f64::max);
+    if low <= high { low / ROOM..high * ROOM } else { 1e-4..1.0 }
+}
+
+/// 1 and 3 times each power of ten in `range`.
+fn ticks(range: &Range<f64>) -> Vec<f64> {
+    let powers = range.start.log10().floor() as i32..=range.end.log10().ceil() as i32;
+    let all = powers.flat_map(|power| [1.0, 3.0].map(|digit| digit * 10f64.powi(power)));
+    all.filter(|tick| range.contains(tick)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_1_and_3_times_powers_of_ten() {
+        let ticks: Vec<_> = ticks(&(0.002..1.5)).into_iter().map(percent).collect();
+        assert_eq!(ticks, ["0.3%", "1%", "3%", "10%", "30%", "100%"]);
+    }
+}

@@ -1,0 +1,144 @@
+//! A study in words and as a table.
+
+use std::path::Path;
+
+use super::{Backend, Family, Point, Study};
+use crate::error::Error;
+use crate::export;
+use crate::loss::Precision;
+
+/// Errors that a person may want, as shares of the loss.
+const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
+
+const CSV_HEADING: &str =
+    "scenes,near,distant,sampler,precision,backend,maps,seconds,error,shift,seeds,runs,pareto,options\n";
+
+impl Study {
+    /// What a person wants to know first: the cheapest setting for each of a few errors, and how to ask for it.
+    pub fn summary(&self) -> String {
+        let rows = TARGETS.map(|target| match self.cheapest(target) {
+            Some(p) => [percent(target), time(p.seconds), percent(p.error), p.choice.options()],
+            None => [percent(target), "-".to_owned(), "-".to_owned(), "nothing that was tried".to_owned()],
+        });
+        let heading = ["error", "time", "measured", "svbrdf loss"].map(str::to_owned);
+        let table: String = std::iter::once(heading)
+            .chain(rows)
+            .map(|[error, time, measured, options]| {
+                format!("{error:>5}  {time:>7}  {measured:>8}  {options}\n")
+            })
+            .collect();
+        format!("{}\n{table}\n{}", self.header(), self.footer())
+    }
+
+    fn header(&self) -> String {
+        let Self { names: [ground_truth, prediction], size: [width, height], threads, reference, .. } = self;
+        format!(
+            "{prediction} against {ground_truth}, {width} x {height} texels, convention {}, {threads} threads\n\
+             loss {:.6} +- {} by {} scenes\n",
+            self.convention.name,
+            reference.loss,
+            percent(reference.error),
+            reference.scenes
+        )
+    }
+
+    fn footer(&self) -> String {
+        let mut lines = vec![
+            "The error is the root mean square over seeds; 95 of 100 losses are off by less than about twice as much."
+                .to_owned(),
+        ];
+        if self.points.iter().any(|p| p.error < self.least_error()) {
+            let least = percent(self.least_error());
+            lines.push(format!(
+                "Errors below {least} are not told from 0: the reference itself is not known better."
+            ));
+        }
+        lines.extend(self.variants());
+        lines.extend(self.left_out.iter().map(|what| format!("Left out: {what}")));
+        lines.join("\n") + "\n"
+    }
+
+    /// What other precisions, backends and maps cost and change, at the most scenes that they were run with.
+    fn variants(&self) -> Vec<String> {
+        let line = |family: Family| {
+            let of_family = |p: &&Point| p.choice.family() == family && p.choice != p.choice.base();
+            let point = self.points.iter().rfind(of_family)?;
+            let base = self.points.iter().find(|p| p.choice == point.choice.base())?;
+            let (name, factor, shift) =
+                (family.name(), point.seconds / base.seconds, percent(point.shift.abs()));
+            Some(format!("{name}: {factor:.2} times as long, moves the loss by {shift}"))
+        };
+        Family::ALL.into_iter().filter_map(line).collect()
+    }
+
+    /// Every point, a row each (RFC 4180).
+    pub fn csv(&self) -> String {
+        CSV_HEADING.to_owned() + &self.points.iter().map(csv_row).collect::<String>()
+    }
+
+    /// Writes [`Study::csv`]; the file appears when it is complete, or not at all.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`].
+    pub fn write_csv(&self, path: &Path) -> Result<(), Error> {
+        export::replace(path, |file| std::io::Write::write_all(file, self.csv().as_bytes()))
+    }
+}
+
+fn csv_row(p: &Point) -> String {
+    let c = &p.choice;
+    let precision = if c.precision == Precision::F64 { "f64" } else { "f32" };
+    let backend = if c.backend == Backend::Gpu { "gpu" } else { "cpu" };
+    format!(
+        "{},{},{},{},{precision},{backend},{},{:.4e},{:.4e},{:.4e},{},{},{},{}\n",
+        c.scenes,
+        c.near(),
+        c.distant(),
+        c.sampler,
+        c.maps.name(),
+        p.seconds,
+        p.error,
+        p.shift,
+        p.seeds,
+        p.runs,
+        p.pareto,
+        c.options()
+    )
+}
+
+/// A time in two digits or three, as people read it.
+pub fn time(seconds: f64) -> String {
+    match seconds {
+        s if s >= 0.9995 => digits(s, "s"),
+        s if s >= 0.9995e-3 => digits(s * 1e3, "ms"),
+        s => digits(s * 1e6, "us"),
+    }
+}
+
+/// A share in percent, in two digits.
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    let decimals = if percent > 0.0 { (1.0 - percent.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
+    let text = format!("{percent:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    format!("{text}%")
+}
+
+fn digits(value: f64, unit: &str) -> String {
+    let decimals = if value < 9.95 { 1 } else { 0 };
+    format!("{value:.decimals$} {unit}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_and_shares_have_a_few_digits() {
+        assert_eq!([2.345, 0.012_34, 0.000_999_9, 1.2e-5].map(time), ["2.3 s", "12 ms", "1.0 ms", "12 us"]);
+        assert_eq!(
+            [0.1, 0.003, 0.012_34, 0.000_056, 1.5, 0.0].map(percent),
+            ["10%", "0.3%", "1.2%", "0.0056%", "150%", "0%"]
+        );
+    }
+}
