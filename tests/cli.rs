@@ -2,6 +2,7 @@
 
 mod backend;
 mod pictures;
+mod study;
 
 use std::path::Path;
 use std::process::{Command, Output, Stdio};

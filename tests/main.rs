@@ -23,5 +23,6 @@ mod scene_files;
 #[cfg(feature = "gpu")]
 mod shaders;
 mod shared_materials;
+mod study;
 #[cfg(feature = "viewer")]
 mod ui;

@@ -5,6 +5,7 @@ mod gestures;
 mod key_presses;
 mod loss_panel;
 mod panels;
+mod study;
 
 use eframe::egui::{self, Pos2, Vec2, vec2};
 use egui_kittest::Harness;

@@ -97,7 +97,7 @@ impl Family {
         match self {
             Self::Random => [213, 94, 0],
             Self::Sobol => [0, 114, 178],
-            Self::F64 => [110, 110, 110],
+            Self::F64 => [130, 130, 130],
             Self::Gpu => [0, 158, 115],
             Self::HalfMaps => [204, 121, 167],
             Self::EightBitMaps => [230, 159, 0],

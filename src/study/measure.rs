@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::text::time;
 use super::{Choice, Family, Pair, Point, Reference, Study};
 use crate::error::Error;
 use crate::loss::{Estimate, Loss, Weights, losses, losses_f32};
@@ -144,18 +145,20 @@ impl<'a> Bench<'a> {
             Family::F64 => self.rate_f64,
             _ => self.rate_f32,
         };
+        let seconds = |choice: &Choice| rate * choice.scenes as f64;
+        let longest = |choice: &Choice| if *choice == choice.base() { LONGEST } else { LONGEST_VARIANT };
+        let too_long = |choice: &Choice| seconds(choice) > longest(choice);
+        if let Some(first) = family.choices().find(too_long) {
+            let (name, scenes, least) = (family.name(), first.scenes, time(seconds(&first)));
+            study.left_out.push(format!("{name} from {scenes} on, which take {least} or more"));
+        }
         for (choice, steps) in family.choices().zip(plan) {
-            let seconds = rate * choice.scenes as f64;
-            let longest = if choice == choice.base() { LONGEST } else { LONGEST_VARIANT };
-            if seconds <= longest
-                && let Some(point) = self.point(&kernel, choice, seconds, study.reference.loss)?
+            if !too_long(&choice)
+                && let Some(point) = self.point(&kernel, choice, seconds(&choice), study)?
             {
                 study.add(point);
-            } else {
-                let scenes = choice.scenes;
-                study.left_out.push(format!("{}: {scenes}, which take about {seconds:.1} s", family.name()));
+                update(study);
             }
-            update(study);
             self.progress.advance(steps)?;
         }
         Ok(())
@@ -189,7 +192,7 @@ impl<'a> Bench<'a> {
         kernel: &Kernel<'_>,
         choice: Choice,
         seconds: f64,
-        reference: f64,
+        study: &Study,
     ) -> Result<Option<Point>, Error> {
         let is_base = choice == choice.base();
         let runs = match is_base {
@@ -206,11 +209,13 @@ impl<'a> Bench<'a> {
         let shift = base.map_or(0.0, |base| mean_difference(&run, base));
         let losses = base.map_or(run, |base| base.iter().map(|loss| loss + shift).collect());
         times.sort_by(f64::total_cmp);
+        let floats = Choice { maps: Depth::Float, ..choice };
+        let of_floats = study.points.iter().find(|p| p.choice == floats).map(|p| p.seconds);
         let point = Point {
             choice,
-            seconds: times[times.len() / 2],
-            error: relative_rms(&losses, reference),
-            shift: shift / reference,
+            seconds: of_floats.unwrap_or(times[times.len() / 2]),
+            error: relative_rms(&losses, study.reference.loss),
+            shift: shift / study.reference.loss,
             seeds: losses.len(),
             runs,
             pareto: false,

@@ -81,7 +81,7 @@ pub struct Reference {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     pub choice: Choice,
-    /// Median time of one loss.
+    /// Median time of one loss. That of stored maps is the time of float ones, which is what they are once read.
     pub seconds: f64,
     /// Root mean square of (loss - reference) / reference over `seeds`.
     pub error: f64,

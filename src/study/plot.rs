@@ -112,7 +112,8 @@ fn chart<B: DrawingBackend>(
     area.fill(&WHITE)?;
     let [ground_truth, prediction] = &study.names;
     let title = format!("What accuracy costs: {prediction} against {ground_truth}");
-    let (x, y) = (span(study, |p| p.seconds), span(study, |p| p.error));
+    // The name of the fastest point stands left of it.
+    let (x, y) = (span(study, 4.0, |p| p.seconds), span(study, 1.5, |p| p.error));
     let mut chart = ChartBuilder::on(area)
         .caption(title, (FONT, 24).into_font().color(&INK))
         .margin(16)
@@ -138,7 +139,17 @@ fn chart<B: DrawingBackend>(
         .draw()?;
 
     let front = study.front();
-    chart.draw_series(LineSeries::new(front.iter().map(|p| place(p)), INK.stroke_width(2)))?;
+    chart
+        .draw_series(LineSeries::new(front.iter().map(|p| place(p)), INK.stroke_width(2)))?
+        .label("best for its time, with its number")
+        .legend(|(x, y)| PathElement::new([(x, y), (x + 20, y)], INK.stroke_width(2)));
+    if study.least_error() > y.start {
+        let line = [x.start, x.end].map(|seconds| (seconds, study.least_error()));
+        chart
+            .draw_series(DashedLineSeries::new(line, 6, 6, INK.stroke_width(1)))?
+            .label("below: not told from 0")
+            .legend(|(x, y)| PathElement::new([(x, y), (x + 20, y)], INK.stroke_width(1)));
+    }
     for family in Family::ALL {
         let points = || study.points.iter().filter(|p| p.choice.family() == family);
         if points().next().is_none() {
@@ -197,13 +208,13 @@ fn place(point: &Point) -> (f64, f64) {
     (point.seconds, point.error)
 }
 
-/// The values of all points and some room around them.
-fn span(study: &Study, value: impl Fn(&Point) -> f64) -> Range<f64> {
-    const ROOM: f64 = 1.5;
+/// The values of all points and some room around them: below, as a factor.
+fn span(study: &Study, room_below: f64, value: impl Fn(&Point) -> f64) -> Range<f64> {
+    const ROOM_ABOVE: f64 = 1.5;
     let values = || study.points.iter().map(&value).filter(|v| *v > 0.0);
     let low = values().fold(f64::INFINITY, f64::min);
     let high = values().fold(0.0, f64::max);
-    if low <= high { low / ROOM..high * ROOM } else { 1e-4..1.0 }
+    if low <= high { low / room_below..high * ROOM_ABOVE } else { 1e-4..1.0 }
 }
 
 /// 1 and 3 times each power of ten in `range`.

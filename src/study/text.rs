@@ -6,6 +6,7 @@ use super::{Backend, Family, Point, Study};
 use crate::error::Error;
 use crate::export;
 use crate::loss::Precision;
+use crate::material::write::Depth;
 
 /// Errors that a person may want, as shares of the loss.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
@@ -20,7 +21,7 @@ impl Study {
             Some(p) => [percent(target), time(p.seconds), percent(p.error), p.choice.options()],
             None => [percent(target), "-".to_owned(), "-".to_owned(), "nothing that was tried".to_owned()],
         });
-        let heading = ["error", "time", "measured", "svbrdf loss"].map(str::to_owned);
+        let heading = ["error", "time", "measured", "svbrdf loss ..."].map(str::to_owned);
         let table: String = std::iter::once(heading)
             .chain(rows)
             .map(|[error, time, measured, options]| {
@@ -59,14 +60,16 @@ impl Study {
     }
 
     /// What other precisions, backends and maps cost and change, at the most scenes that they were run with.
-    fn variants(&self) -> Vec<String> {
+    pub fn variants(&self) -> Vec<String> {
         let line = |family: Family| {
             let of_family = |p: &&Point| p.choice.family() == family && p.choice != p.choice.base();
             let point = self.points.iter().rfind(of_family)?;
             let base = self.points.iter().find(|p| p.choice == point.choice.base())?;
-            let (name, factor, shift) =
-                (family.name(), point.seconds / base.seconds, percent(point.shift.abs()));
-            Some(format!("{name}: {factor:.2} times as long, moves the loss by {shift}"))
+            let time = match point.choice.maps {
+                Depth::Float => format!("takes {:.2} times as long and ", point.seconds / base.seconds),
+                _ => String::new(),
+            };
+            Some(format!("{}: {time}moves the loss by {}", family.name(), percent(point.shift.abs())))
         };
         Family::ALL.into_iter().filter_map(line).collect()
     }
@@ -125,8 +128,8 @@ pub fn percent(share: f64) -> String {
 }
 
 fn digits(value: f64, unit: &str) -> String {
-    let decimals = if value < 9.95 { 1 } else { 0 };
-    format!("{value:.decimals$} {unit}")
+    let text = if value < 9.95 { format!("{value:.1}") } else { format!("{value:.0}") };
+    format!("{} {unit}", text.trim_end_matches(".0"))
 }
 
 #[cfg(test)]
@@ -135,7 +138,7 @@ mod tests {
 
     #[test]
     fn times_and_shares_have_a_few_digits() {
-        assert_eq!([2.345, 0.012_34, 0.000_999_9, 1.2e-5].map(time), ["2.3 s", "12 ms", "1.0 ms", "12 us"]);
+        assert_eq!([2.345, 0.012_34, 0.000_999_9, 1.2e-5].map(time), ["2.3 s", "12 ms", "1 ms", "12 us"]);
         assert_eq!(
             [0.1, 0.003, 0.012_34, 0.000_056, 1.5, 0.0].map(percent),
             ["10%", "0.3%", "1.2%", "0.0056%", "150%", "0%"]

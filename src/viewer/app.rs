@@ -15,15 +15,18 @@ use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
 use super::panels::scene::ScenePanel;
 use super::panels::status::StatusBar;
+use super::panels::study::{self, Setting, StudyWindow};
 use super::panels::top::TopBar;
 use super::settings::{self, Settings};
 use super::slots::{Slots, Target};
 use super::state::ViewState;
+use super::study::StudyRun;
 use super::viewport::{Scenery, Viewport};
 use super::watch::Watch;
 use super::worker::Job;
 use super::{ViewerOptions, keys, panels, theme};
 use crate::loss::{Loss, LossParams, Precision};
+use crate::study::Study;
 
 /// The viewer. What it shows is public for tests; what changes it are [`Command`]s.
 #[derive(Debug)]
@@ -35,6 +38,8 @@ pub struct App {
     pub(super) slots: Slots,
     pub(super) undoer: Undoer<ViewState>,
     pub(super) loss: LossRun,
+    pub(super) study: StudyRun,
+    pub(super) study_window: bool,
     pub(super) gpu: Option<GpuView>,
     pub(super) viewport: Viewport,
     pub(super) watch: Watch,
@@ -72,6 +77,8 @@ impl App {
             slots: Slots::default(),
             undoer: Undoer::with_settings(undo),
             loss: LossRun::default(),
+            study: StudyRun::default(),
+            study_window: false,
             gpu,
             viewport: Viewport::default(),
             watch: Watch::default(),
@@ -118,6 +125,13 @@ impl App {
         current.then_some(done.losses.as_slice())
     }
 
+    /// What has been measured of the chosen pair, and whether that is all.
+    pub fn study(&self) -> Option<(&Study, bool)> {
+        let (study, current) =
+            self.study.shown(&self.slots, self.state.prediction, &self.state.convention())?;
+        current.then_some((study, self.study.job().is_none()))
+    }
+
     /// The names of the materials, the ground truth first.
     pub fn names(&self) -> Vec<String> {
         self.slots.slots.iter().map(|s| s.name().to_owned()).collect()
@@ -132,6 +146,7 @@ impl App {
     fn poll(&mut self, ctx: &egui::Context) {
         self.messages.extend(self.slots.poll(ctx));
         self.messages.extend(self.loss.poll(ctx));
+        self.messages.extend(self.study.poll(ctx));
         self.messages.extend(self.gpu.as_ref().and_then(|g| g.gpu.take_fault()).map(|e| e.to_string()));
         if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
             self.saving = None;
@@ -161,6 +176,7 @@ impl App {
             (true, _, _) => Command::SetHelp(false),
             (_, Some(_), _) => Command::ShowOpen(false),
             (_, _, Some(_)) => Command::ShowSave(false),
+            _ if self.study_window => Command::ShowStudy(false),
             _ => Command::CancelLoss,
         };
         let now = keys::Context { enter_is_free: ctx.memory(|m| m.focused()).is_none(), escape: &escape };
@@ -227,7 +243,10 @@ impl App {
         let materials = MaterialsPanel { slots: &self.slots, watch: self.settings.watch };
         egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
             section(ui, "Scene", &mut |ui| commands.extend(scene.ui(ui)));
-            section(ui, "Rendering loss", &mut |ui| commands.extend(loss.ui(ui)));
+            section(ui, "Rendering loss", &mut |ui| {
+                commands.extend(loss.ui(ui));
+                commands.extend(study::button(ui, !self.slots.predictions().is_empty()));
+            });
             section(ui, "Materials", &mut |ui| commands.extend(materials.ui(ui)));
         });
         commands
@@ -252,6 +271,9 @@ impl App {
         if self.help {
             commands.extend(panels::help::ui(ctx));
         }
+        if self.study_window {
+            commands.extend(self.study_window(ctx));
+        }
         if let Some(window) = &mut self.open_window {
             commands.extend(window.ui(ctx, &self.settings.recent));
         }
@@ -259,6 +281,16 @@ impl App {
             commands.extend(window.ui(ctx));
         }
         commands
+    }
+
+    fn study_window(&self, ctx: &egui::Context) -> Vec<Command> {
+        let LossParams { near, distant, sampler, convention, .. } = self.loss_params();
+        let window = StudyWindow {
+            run: &self.study,
+            shown: self.study.shown(&self.slots, self.state.prediction, &convention),
+            current: Setting { near, distant, sampler },
+        };
+        window.ui(ctx)
     }
 
     /// Stores changed settings at once, not only at the end: programs are killed, too.

@@ -56,6 +56,23 @@ impl App {
                 self.loss.start(ctx, &self.slots, &params);
             }
             Command::CancelLoss => self.loss.cancel(),
+            Command::ShowStudy(on) => {
+                self.study_window = on;
+                if on {
+                    let (prediction, convention) = (self.state.prediction, self.state.convention());
+                    self.study.keep_up(ctx, &self.slots, prediction, &convention);
+                } else {
+                    self.study.cancel();
+                }
+            }
+            Command::StartStudy => {
+                let (prediction, convention) = (self.state.prediction, self.state.convention());
+                self.study.start(ctx, &self.slots, prediction, &convention);
+            }
+            Command::CancelStudy => self.study.cancel(),
+            Command::ChooseSetting(setting) => {
+                (self.settings.near, self.settings.distant) = (setting.near, setting.distant);
+            }
             Command::SaveView(path) => self.saving = Some(save::start(ctx, &self.slots, &self.state, path)),
             other => return Some(other),
         }

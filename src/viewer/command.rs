@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::panels::study::Setting;
 use super::state::{End, Layout};
 use crate::material::read::ReadOptions;
 use crate::scene::Scene;
@@ -82,6 +83,12 @@ pub enum Command {
         distant: usize,
         seed: u64,
     },
+
+    ShowStudy(bool),
+    StartStudy,
+    CancelStudy,
+    /// Set the loss to what was clicked in the study.
+    ChooseSetting(Setting),
 
     ShowSave(bool),
     /// Write the view to this file, as `svbrdf render` does.

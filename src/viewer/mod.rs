@@ -17,6 +17,7 @@ mod save;
 mod settings;
 mod slots;
 pub mod state;
+mod study;
 mod theme;
 mod title;
 mod viewport;

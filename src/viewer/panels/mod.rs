@@ -8,6 +8,7 @@ pub mod open;
 pub mod save;
 pub mod scene;
 pub mod status;
+pub mod study;
 pub mod top;
 
 use eframe::egui::{self, DragValue, Response, RichText};

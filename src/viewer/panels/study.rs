@@ -1,0 +1,243 @@
+//! Time against error: what each setting of the loss costs, the current one, and a click to take another.
+
+use eframe::egui::{self, Color32, Pos2, Rect, RichText, Sense, Vec2, vec2};
+use egui_plot::{GridInput, GridMark, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points};
+
+use crate::material::write::Depth;
+use crate::sampler::Sampler;
+use crate::study::text::{percent, time};
+use crate::study::{Choice, Family, Point, Study};
+use crate::viewer::command::Command;
+use crate::viewer::study::StudyRun;
+use crate::viewer::theme;
+
+/// How far from its middle a point is felt, in pixels.
+const REACH: f32 = 8.0;
+
+/// What the window shows.
+#[derive(Debug)]
+pub struct StudyWindow<'a> {
+    pub run: &'a StudyRun,
+    /// What has been measured, and whether it is about the materials of now.
+    pub shown: Option<(&'a Study, bool)>,
+    pub current: Setting,
+}
+
+/// The part of a choice that the window's loss can be set to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Setting {
+    pub near: usize,
+    pub distant: usize,
+    pub sampler: Sampler,
+}
+
+impl From<&Choice> for Setting {
+    fn from(choice: &Choice) -> Self {
+        Self { near: choice.near(), distant: choice.distant(), sampler: choice.sampler }
+    }
+}
+
+/// Opens the window.
+pub fn button(ui: &mut egui::Ui, enabled: bool) -> Option<Command> {
+    let button = ui.add_enabled(enabled, egui::Button::new("Study: time against error..."));
+    let hover = "Measures what accuracy costs for this pair on this machine, and lets you choose";
+    button.on_hover_text(hover).clicked().then_some(Command::ShowStudy(true))
+}
+
+impl StudyWindow<'_> {
+    pub fn ui(&self, ctx: &egui::Context) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let mut open = true;
+        egui::Window::new("Study")
+            .open(&mut open)
+            .collapsible(false)
+            .default_size([620.0, 560.0])
+            .min_size([380.0, 360.0])
+            .default_pos(ctx.content_rect().left_top() + vec2(40.0, 60.0))
+            .show(ctx, |ui| {
+                self.controls(ui, &mut commands);
+                match self.shown {
+                    Some((study, _)) if !study.points.is_empty() => self.results(ui, study, &mut commands),
+                    _ => {
+                        ui.label(
+                            "The reference comes first: the loss over far more scenes than any setting has.",
+                        );
+                        ui.allocate_space(ui.available_size());
+                    }
+                }
+            });
+        if !open {
+            commands.push(Command::ShowStudy(false));
+        }
+        commands
+    }
+
+    fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        ui.horizontal_wrapped(|ui| {
+            if let Some(job) = self.run.job() {
+                if ui.button("Cancel study").clicked() {
+                    commands.push(Command::CancelStudy);
+                }
+                let text = format!("{:.0} s", job.elapsed().as_secs_f32());
+                ui.add(egui::ProgressBar::new(job.fraction()).text(text).desired_width(110.0));
+            } else if ui.button("Measure again").clicked() {
+                commands.push(Command::StartStudy);
+            }
+            match self.shown {
+                Some((study, true)) => ui.label(about(study)),
+                Some((study, false)) => ui.weak(format!("Out of date: {}", about(study))),
+                None => ui.label(""),
+            };
+        });
+    }
+
+    fn results(&self, ui: &mut egui::Ui, study: &Study, commands: &mut Vec<Command>) {
+        ui.horizontal_wrapped(|ui| {
+            ui.label("Cheapest for an error of");
+            for target in [0.1, 0.03, 0.01, 0.003] {
+                self.cheapest(ui, study, target, commands);
+            }
+        });
+        let below = [
+            vec!["Click a point to set the loss to it. The ring is the current setting.".to_owned()],
+            study.variants(),
+        ];
+        let below = below.concat().join("\n");
+        let lines = 1 + below.lines().count();
+        let height = ui.available_height() - lines as f32 * ui.text_style_height(&egui::TextStyle::Small);
+        for (point, at) in self.plot(ui, study, height.max(200.0)) {
+            if is_clicked(ui, point, at) {
+                commands.push(Command::ChooseSetting(Setting::from(&point.choice)));
+            }
+        }
+        ui.label(RichText::new(below).weak().small());
+    }
+
+    /// A button for the fastest setting that is good enough.
+    fn cheapest(&self, ui: &mut egui::Ui, study: &Study, target: f64, commands: &mut Vec<Command>) {
+        let Some(point) = study.cheapest(target) else {
+            ui.add_enabled(false, egui::Button::new(format!("{}: -", percent(target))))
+                .on_disabled_hover_text("Nothing that has been tried is as good");
+            return;
+        };
+        let setting = Setting::from(&point.choice);
+        let text = format!("{}: {}", percent(target), time(point.seconds));
+        let button = ui.add(egui::Button::selectable(setting == self.current, text));
+        if button.on_hover_text(description(point)).clicked() {
+            commands.push(Command::ChooseSetting(setting));
+        }
+    }
+
+    /// Draws the plot; returns where on the screen each point is.
+    fn plot<'s>(&self, ui: &mut egui::Ui, study: &'s Study, height: f32) -> Vec<(&'s Point, Pos2)> {
+        let accent = theme::accent(ui.visuals());
+        let ink = ui.visuals().text_color();
+        let response = Plot::new("study")
+            .height(height)
+            .legend(egui_plot::Legend::default())
+            .allow_zoom(false)
+            .allow_drag(false)
+            .allow_scroll(false)
+            .allow_boxed_zoom(false)
+            .show_crosshair(false)
+            .label_formatter(|_| None)
+            .x_grid_spacer(decades)
+            .y_grid_spacer(decades)
+            .x_axis_label("time of one loss")
+            .y_axis_label("error (root mean square)")
+            .x_axis_formatter(|mark, _| time(10f64.powf(mark.value)))
+            .y_axis_formatter(|mark, _| percent(10f64.powf(mark.value)))
+            .show(ui, |plot| {
+                let front: Vec<_> = study.front().into_iter().map(place).collect();
+                plot.line(
+                    Line::new("best for its time", PlotPoints::from(front)).color(ink).allow_hover(false),
+                );
+                for family in Family::ALL {
+                    let points = study.points.iter().filter(|p| p.choice.family() == family);
+                    let places: Vec<_> = points.map(place).collect();
+                    if !places.is_empty() {
+                        plot.points(markers(family, places));
+                    }
+                }
+                if let Some(at) = current(study, self.current) {
+                    let ring = Points::new("current setting", vec![at]).shape(MarkerShape::Circle);
+                    plot.points(ring.radius(10.0).filled(false).color(accent).allow_hover(false));
+                }
+            });
+        let on_screen = |p| response.transform.position_from_point(&PlotPoint::from(place(p)));
+        let settings = study.points.iter().filter(|p| p.choice.maps == Depth::Float);
+        settings.map(|p| (p, on_screen(p))).collect()
+    }
+}
+
+/// The points of a family in its colour and shape. Maps get rings around what they change.
+fn markers(family: Family, places: Vec<[f64; 2]>) -> Points<'static> {
+    let [r, g, b] = family.colour();
+    let (shape, radius, filled) = match family {
+        Family::Sobol => (MarkerShape::Circle, 4.5, true),
+        Family::Random => (MarkerShape::Up, 5.5, true),
+        Family::Gpu => (MarkerShape::Square, 5.5, true),
+        Family::F64 => (MarkerShape::Down, 5.5, true),
+        Family::HalfMaps => (MarkerShape::Diamond, 7.0, false),
+        Family::EightBitMaps => (MarkerShape::Square, 8.0, false),
+    };
+    let points = Points::new(family.name(), places).shape(shape).radius(radius).filled(filled);
+    points.color(Color32::from_rgb(r, g, b)).allow_hover(false)
+}
+
+/// Whether a person clicks the point that is drawn at `at`. Under this name it is known to screen readers and tests.
+fn is_clicked(ui: &mut egui::Ui, point: &Point, at: Pos2) -> bool {
+    let area = Rect::from_center_size(at, Vec2::splat(2.0 * REACH));
+    let name = point.choice.options();
+    let response = ui.interact(area, ui.scope_id().with(&name), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    response.on_hover_text(description(point)).clicked()
+}
+
+fn description(point: &Point) -> String {
+    let Point { choice, seconds, error, seeds, .. } = point;
+    let family = choice.family().name();
+    let (near, distant) = (choice.near(), choice.distant());
+    format!(
+        "{} {family}: {near} near-field and {distant} distant\n{}, error {} over {seeds} seeds\n\
+         svbrdf loss {}",
+        choice.scenes,
+        time(*seconds),
+        percent(*error),
+        choice.options()
+    )
+}
+
+/// Where a point lies in the plot, whose axes are logarithms to the base 10.
+fn place(point: &Point) -> [f64; 2] {
+    [point.seconds.log10(), point.error.log10()]
+}
+
+/// Where a setting lies: on its point, or between the two points of its sampler that have less and more scenes.
+fn current(study: &Study, setting: Setting) -> Option<[f64; 2]> {
+    let family = if setting.sampler == Sampler::Sobol { Family::Sobol } else { Family::Random };
+    let scenes = setting.near + setting.distant;
+    let of_family = || study.points.iter().filter(|p| p.choice.family() == family);
+    let below = of_family().rfind(|p| p.choice.scenes <= scenes)?;
+    let above = of_family().find(|p| p.choice.scenes >= scenes)?;
+    let [from, to, here] = [below.choice.scenes, above.choice.scenes, scenes].map(|n| (n as f64).ln());
+    let share = if from == to { 0.0 } else { (here - from) / (to - from) };
+    let (a, b) = (place(below), place(above));
+    Some([0, 1].map(|axis| a[axis] + share * (b[axis] - a[axis])))
+}
+
+/// Grid lines at 1 and 3 times each power of ten, on an axis of logarithms.
+fn decades(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    let powers = low.floor() as i32..=high.ceil() as i32;
+    let marks = powers.flat_map(|power| {
+        let power = f64::from(power);
+        [GridMark { value: power, step_size: 1.0 }, GridMark { value: power + 3f64.log10(), step_size: 0.5 }]
+    });
+    marks.filter(|mark| (low..=high).contains(&mark.value)).collect()
+}
+
+fn about(study: &Study) -> String {
+    let [ground_truth, prediction] = &study.names;
+    format!("{prediction} against {ground_truth}")
+}

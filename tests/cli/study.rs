@@ -1,0 +1,91 @@
+//! `svbrdf study`.
+
+use std::path::Path;
+
+use super::{fail, folder, succeed, svbrdf, text};
+
+/// The rows of a table with a heading, as cells by name.
+fn rows(csv: &str) -> Vec<Vec<(&str, &str)>> {
+    let mut lines = csv.lines();
+    let heading: Vec<_> = lines.next().unwrap().split(',').collect();
+    lines.map(|line| heading.iter().copied().zip(line.split(',')).collect()).collect()
+}
+
+fn cell<'a>(row: &[(&str, &'a str)], name: &str) -> &'a str {
+    row.iter().find(|(column, _)| *column == name).unwrap().1
+}
+
+/// The stdout of a study without an adapter.
+fn study(folder: &Path, args: &str) -> String {
+    let mut command = svbrdf();
+    command.arg("study").args(args.split_whitespace()).current_dir(folder);
+    command.env("WGPU_BACKEND", "vulkan").env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none");
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("note: without the GPU: no usable graphics adapter"));
+    text(&output.stdout).to_owned()
+}
+
+#[test]
+fn a_study_prints_what_to_type_and_writes_its_points() {
+    let folder = folder();
+    let said = study(folder.path(), "gt.png a.png -o study.csv --plot study.svg");
+    for expected in ["a against gt, 8 x 8 texels, convention printed", "svbrdf loss", "f64: ", "8-bit maps: "]
+    {
+        assert!(said.contains(expected), "{expected} is missing in\n{said}");
+    }
+    let csv = std::fs::read_to_string(folder.path().join("study.csv")).unwrap();
+    let rows = rows(&csv);
+    let count = |name, value| rows.iter().filter(|row| cell(row, name) == value).count();
+    assert_eq!((count("sampler", "random"), count("scenes", "9000"), count("backend", "gpu")), (4, 1, 0));
+    // A slow machine leaves out the most scenes of these.
+    assert!(count("precision", "f64") >= 4 && count("maps", "8") >= 4 && count("maps", "half") >= 4);
+    assert!(count("pareto", "true") > 1);
+    let svg = std::fs::read_to_string(folder.path().join("study.svg")).unwrap();
+    for expected in ["What accuracy costs: a against gt", "random scenes", "Sobol, f64", "1%"] {
+        assert!(svg.contains(expected), "{expected} is missing in the plot");
+    }
+}
+
+#[test]
+fn the_options_that_a_study_names_give_a_loss_that_is_as_near_as_it_says() {
+    let folder = folder();
+    let said = study(folder.path(), "gt.png a.png");
+    let number = |text: &str| text.parse::<f64>().unwrap();
+    let reference =
+        number(said.lines().find_map(|l| l.strip_prefix("loss ")).unwrap().split(' ').next().unwrap());
+    let line = said.lines().find(|line| line.starts_with("   1%")).unwrap();
+    let options = &line[line.find("--").unwrap()..];
+    let csv = succeed(folder.path(), &format!("loss gt.png a.png --format csv {options}"));
+    let loss = number(cell(&rows(&csv)[0], "loss"));
+    // One draw of an error whose root mean square is at most 1%.
+    assert!((loss / reference - 1.0).abs() < 0.03, "{loss}, not {reference}");
+}
+
+#[test]
+fn a_png_shows_points() {
+    let folder = folder();
+    study(folder.path(), "gt.png b.png --plot study.png");
+    let picture = image::open(folder.path().join("study.png")).unwrap().to_rgb8();
+    let is = |colour: [u8; 3]| picture.pixels().filter(|pixel| pixel.0 == colour).count();
+    // The paper, the blue points and the orange triangles, with the samples beside their names.
+    assert!(is([255; 3]) > 500_000 && is([0, 114, 178]) > 9 * 60 && is([213, 94, 0]) > 4 * 30);
+}
+
+#[test]
+fn a_study_that_cannot_be_done_is_refused_before_it_begins() {
+    let folder = folder();
+    let cases = [
+        ("study gt.png", 64, "one prediction"),
+        ("study gt.png a.png b.png", 64, "not 2"),
+        ("study gt.png gt.png", 64, "look the same"),
+        ("study gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
+        ("study gt.png a.png --plot study.jpg", 1, ".svg, .png"),
+        ("study gt.png a.png --plot no/study.svg", 1, "create the folder"),
+        ("study gt.png a.png -o no/study.csv", 1, "create the folder"),
+    ];
+    for (args, code, said) in cases {
+        let stderr = fail(folder.path(), args, code);
+        assert!(stderr.contains(said), "{args}: `{said}` is missing in {stderr}");
+    }
+}

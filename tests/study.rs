@@ -1,0 +1,141 @@
+//! The study: its errors, against an independent reckoning.
+
+use svbrdf::convention::PRINTED;
+use svbrdf::error::Error;
+use svbrdf::loss::losses;
+use svbrdf::material::write::{self, Depth, Kind};
+use svbrdf::material::{Material, read};
+use svbrdf::progress::Progress;
+use svbrdf::sampler::Sampler;
+use svbrdf::samples;
+use svbrdf::study::{self, Family, Pair, Point, Study};
+
+use crate::support::fixtures::LINEAR;
+use crate::support::tolerance::{STUDY_ERROR, STUDY_REFERENCE, STUDY_SHIFT};
+
+/// The built-in ground truth and its first prediction, 8 texels wide.
+fn materials() -> [Material<f32>; 2] {
+    let samples = samples::load::<f32>().unwrap();
+    let [prediction, _] = samples.predictions.try_into().unwrap();
+    [samples.ground_truth, prediction].map(|read| read.material.resized([8, 8]).unwrap())
+}
+
+fn studied([ground_truth, prediction]: &[Material<f32>; 2]) -> Study {
+    let pair = Pair { ground_truth, prediction, convention: PRINTED, gpu: None };
+    study::run(&pair, &Progress::default(), |_| ()).unwrap()
+}
+
+fn plain_loss(
+    [ground_truth, prediction]: &[Material<f32>; 2],
+    sampler: Sampler,
+    seed: u64,
+    scenes: usize,
+) -> f64 {
+    let scenes = sampler.scenes(seed, scenes / 3 * 2, scenes / 3, &PRINTED);
+    let [ground_truth, prediction]: [Material<f64>; 2] = [ground_truth.cast(), prediction.cast()];
+    losses(&ground_truth, &[&prediction], &scenes, &PRINTED, &Progress::default()).unwrap()[0].estimate.mean
+}
+
+fn point(study: &Study, family: Family, scenes: usize) -> Point {
+    let is = |p: &&Point| p.choice.family() == family && p.choice.scenes == scenes;
+    *study.points.iter().find(is).unwrap()
+}
+
+/// The error as its definition has it, of the plain f64 loss over the seeds from `first` on.
+fn reckoned(materials: &[Material<f32>; 2], study: &Study, point: &Point, first: u64) -> f64 {
+    let of_seed = |seed| {
+        let loss = plain_loss(materials, point.choice.sampler, first + seed, point.choice.scenes);
+        loss / study.reference.loss - 1.0
+    };
+    ((0..point.seeds as u64).map(|seed| of_seed(seed).powi(2)).sum::<f64>() / point.seeds as f64).sqrt()
+}
+
+#[test]
+fn errors_are_those_of_plain_losses_over_the_same_seeds() {
+    let materials = materials();
+    let study = studied(&materials);
+    for (family, scenes) in
+        [(Family::Random, 9), (Family::Random, 90), (Family::Sobol, 24), (Family::F64, 48)]
+    {
+        let point = point(&study, family, scenes);
+        let expected = reckoned(&materials, &study, &point, 0);
+        let close = |want: f64| (point.error / want - 1.0).abs() < STUDY_ERROR;
+        assert!(close(expected), "{family:?} {scenes}: {} is not {expected}", point.error);
+        // A planted fault: one seed is another.
+        assert!(!close(reckoned(&materials, &study, &point, 1)), "{family:?} {scenes}");
+    }
+}
+
+#[test]
+fn the_reference_is_the_loss_over_other_scenes_within_its_error() {
+    let materials = materials();
+    let study = studied(&materials);
+    let other = plain_loss(&materials, Sampler::Sobol, 12_345, 49_152);
+    let off = (other / study.reference.loss - 1.0) / study.reference.error;
+    assert!(off.abs() < STUDY_REFERENCE, "{off} standard errors");
+    assert!(study.reference.error < 1e-3, "{:?}", study.reference);
+    let random = [9, 90, 900, 9000].map(|scenes| point(&study, Family::Random, scenes).error);
+    assert!(random.is_sorted_by(|a, b| a > b), "{random:?}");
+}
+
+#[test]
+fn maps_are_quantized_as_files_hold_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let [material, prediction] = materials();
+    let cases = [
+        ("8.png", Depth::Eight, Kind::Packed { sixteen: false }),
+        ("16.png", Depth::Sixteen, Kind::Packed { sixteen: true }),
+        ("half.exr", Depth::Half, Kind::Exr { half: true }),
+        ("float.exr", Depth::Float, Kind::Exr { half: false }),
+    ];
+    for (name, depth, kind) in cases {
+        let through_file = |material: &Material<f32>| {
+            let path = folder.path().join(name);
+            write::write(material, &path, kind).unwrap();
+            let read = read::read::<f32>(&path, &LINEAR, &Progress::default()).unwrap();
+            read.material.renamed(material.name())
+        };
+        let (expected, got) = (through_file(&material), write::held(&material, depth).unwrap());
+        assert_eq!(got.planes(), expected.planes(), "{name}");
+        assert_eq!(got == material, depth == Depth::Float, "{name}");
+        if depth == Depth::Eight {
+            let study = studied(&[material.clone(), prediction.clone()]);
+            let point = point(&study, Family::EightBitMaps, 96);
+            let pairs = [[expected, through_file(&prediction)], [material.clone(), prediction.clone()]];
+            let [stored, exact] = pairs.map(|pair| {
+                let of_seed = |seed| plain_loss(&pair, Sampler::Sobol, seed, 96);
+                (0..point.runs as u64).map(of_seed).sum::<f64>() / point.runs as f64
+            });
+            let shift = (stored - exact) / study.reference.loss;
+            assert!((point.shift - shift).abs() < STUDY_SHIFT, "{} is not {shift}", point.shift);
+            assert!(shift.abs() > 10.0 * STUDY_SHIFT, "{shift} tells nothing");
+        }
+    }
+}
+
+#[test]
+fn a_study_is_the_same_every_time_but_for_the_times() {
+    let materials = materials();
+    let [first, second] = [studied(&materials), studied(&materials)];
+    assert_eq!(first.reference, second.reference);
+    // The time decides how often other precisions and maps are run, and which are left out.
+    let twin = |p: &Point| second.points.iter().find(|q| (q.choice, q.runs) == (p.choice, p.runs));
+    let pairs: Vec<_> = first.points.iter().filter_map(|p| Some((p, twin(p)?))).collect();
+    assert!(pairs.len() >= 16, "{}", pairs.len());
+    for (p, q) in pairs {
+        assert_eq!((p.error, p.shift, p.seeds), (q.error, q.shift, q.seeds));
+    }
+}
+
+#[test]
+fn a_study_can_be_cancelled_at_any_point() {
+    let [ground_truth, prediction] = &materials();
+    let pair = Pair { ground_truth, prediction, convention: PRINTED, gpu: None };
+    let progress = Progress::default();
+    let cancelled = study::run(&pair, &progress, |study| {
+        if study.points.len() == 3 {
+            progress.cancel();
+        }
+    });
+    assert!(matches!(cancelled, Err(Error::Cancelled)), "{cancelled:?}");
+}
