@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use svbrdf::convention::Convention;
 use svbrdf::error::Error;
 use svbrdf::export;
+use svbrdf::loss::check_same_size;
 use svbrdf::study::{self, Pair, Study, plot};
 
 use super::backend::{Adapter, Job};
@@ -64,6 +65,8 @@ fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
 
 fn measured(args: &StudyArgs) -> Result<Study, Error> {
     let opened = materials::open::<f32>(&args.materials)?;
+    let (ground_truth, prediction) = (&opened.ground_truth, &opened.predictions[0]);
+    check_same_size(ground_truth, prediction)?;
     let adapter = match Adapter::start() {
         Ok(adapter) => Some(adapter),
         Err(problem) => {
@@ -80,11 +83,7 @@ fn measured(args: &StudyArgs) -> Result<Study, Error> {
         }
         None => Ok(Vec::new()),
     };
-    let pair = Pair {
-        ground_truth: &opened.ground_truth,
-        prediction: &opened.predictions[0],
-        convention: args.convention,
-        gpu: adapter.is_some().then_some(on_gpu),
-    };
+    let gpu = adapter.is_some().then_some(on_gpu);
+    let pair = Pair { ground_truth, prediction, convention: args.convention, gpu };
     watched("measuring", |progress| study::run(&pair, progress, |_| ()))
 }

@@ -120,14 +120,14 @@ pub fn held(material: &Material<f32>, depth: Depth) -> Result<Material<f32>, Err
     let Planes { normal, diffuse, specular, roughness } = material.planes();
     // Normals are stored as (n + 1) / 2.
     let vector = |levels| {
-        let component = |x: &f32| 2.0 * rounded((0.5 * x + 0.5).clamp(0.0, 1.0), levels) - 1.0;
+        let component = |x: &f32| (2.0 * rounded((0.5 * x + 0.5).clamp(0.0, 1.0), levels) - 1.0) as f32;
         normal.each_ref().map(|plane| plane.iter().map(component).collect())
     };
     let (normal, value): (_, &dyn Fn(f32) -> f32) = match depth {
         Depth::Float => return Ok(material.clone()),
         Depth::Half => (half_normals(normal), &|x| f16::from_f32(x).to_f32()),
-        Depth::Eight => (vector(255.0), &|x| rounded(x, 255.0)),
-        Depth::Sixteen => (vector(65_535.0), &|x| rounded(x, 65_535.0)),
+        Depth::Eight => (vector(255.0), &|x| rounded(x, 255.0) as f32),
+        Depth::Sixteen => (vector(65_535.0), &|x| rounded(x, 65_535.0) as f32),
     };
     let plane = |plane: &Vec<f32>| plane.iter().map(|&x| value(x)).collect();
     let planes = Planes {
@@ -140,8 +140,8 @@ pub fn held(material: &Material<f32>, depth: Depth) -> Result<Material<f32>, Err
 }
 
 /// `value` of [0, 1] to the nearest of `levels` + 1 steps.
-fn rounded(value: f32, levels: f64) -> f32 {
-    ((f64::from(value) * levels).round() / levels) as f32
+fn rounded(value: f32, levels: f64) -> f64 {
+    (f64::from(value) * levels).round() / levels
 }
 
 fn exr(file: impl Write + Seek, material: &Material<f32>, half: bool) -> io::Result<()> {

@@ -28,7 +28,7 @@ const SEEDS: std::ops::RangeInclusive<usize> = 3..=32;
 /// Texels times scenes of all seeds of a choice, unless these are too few.
 const SEEDS_WORK: usize = 1 << 28;
 /// A scene costs as much as this many texels even where the map has fewer.
-const LEAST_TEXELS: usize = 1 << 12;
+const LEAST_TEXELS: usize = 1 << 13;
 /// A choice whose loss would take longer, in seconds, is left out.
 const LONGEST: f64 = 3.0;
 /// The same for other precisions, backends and maps, whose errors need few runs.

@@ -78,7 +78,6 @@ fn a_study_that_cannot_be_done_is_refused_before_it_begins() {
     let cases = [
         ("study gt.png", 64, "one prediction"),
         ("study gt.png a.png b.png", 64, "not 2"),
-        ("study gt.png gt.png", 64, "look the same"),
         ("study gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
         ("study gt.png a.png --plot study.jpg", 1, ".svg, .png"),
         ("study gt.png a.png --plot no/study.svg", 1, "create the folder"),

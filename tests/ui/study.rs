@@ -1,21 +1,19 @@
 //! The study window.
 
-use egui_kittest::kittest::NodeT as _;
-use svbrdf::viewer::app::App;
-
 use super::*;
 use crate::support::pictures::packed;
 
 /// The window on two materials of 4 x 4 texels.
 fn tiny<'a>(folder: &std::path::Path) -> Option<Window<'a>> {
-    let write = |name: &str, change: u8| {
+    let write = |name: &str, brightness: f64| {
         let path = folder.join(name);
-        packed("NDRS", 4, |_, v| v.saturating_add(change)).save(&path).unwrap();
+        let encode = |map, value| if map == 'D' { brightness * value } else { value };
+        packed("NDRS", 4, encode).save(&path).unwrap();
         path
     };
     let options = ViewerOptions {
-        ground_truth: Some(write("gt.png", 0)),
-        predictions: vec![write("a.png", 30)],
+        ground_truth: Some(write("gt.png", 1.0)),
+        predictions: vec![write("a.png", 0.5)],
         ..ViewerOptions::default()
     };
     window(options)
