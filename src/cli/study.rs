@@ -6,6 +6,7 @@ use svbrdf::convention::Convention;
 use svbrdf::error::Error;
 use svbrdf::export;
 use svbrdf::loss::check_same_size;
+use svbrdf::scene::Scene;
 use svbrdf::study::{self, Pair, Study, plot};
 
 use super::backend::{Adapter, Job};
@@ -74,16 +75,14 @@ fn measured(args: &StudyArgs) -> Result<Study, Error> {
             None
         }
     };
-    if let Some(adapter) = &adapter {
+    let on_gpu = adapter.as_ref().map(|adapter| {
         exit::tell(&format!("note: the GPU is {}", adapter.name()));
-    }
-    let on_gpu: &study::OnGpu<'_> = &|ground_truth, prediction, scenes, convention, progress| match &adapter {
-        Some(adapter) => {
-            adapter.losses(&Job { ground_truth, predictions: &[prediction], convention }, scenes, progress)
+        |ground_truth: &_, prediction: &_, scenes: &[Scene], convention: &_, progress: &_| {
+            let job = Job { ground_truth, predictions: &[prediction], convention };
+            adapter.losses(&job, scenes, progress)
         }
-        None => Ok(Vec::new()),
-    };
-    let gpu = adapter.is_some().then_some(on_gpu);
+    });
+    let gpu = on_gpu.as_ref().map(|on_gpu| on_gpu as &study::OnGpu<'_>);
     let pair = Pair { ground_truth, prediction, convention: args.convention, gpu };
     watched("measuring", |progress| study::run(&pair, progress, |_| ()))
 }

@@ -189,7 +189,7 @@ fn marker<B: DrawingBackend, C>(
         Family::EightBitMaps => (4, 0.125, 11.0, 0.0),
     };
     let angle = |i| std::f64::consts::TAU * (f64::from(i) / f64::from(corners) + turn);
-    let corner = |i| [angle(i).cos(), angle(i).sin()].map(|c| (f64::from(radius) * c).round() as i32).into();
+    let corner = |i| [angle(i).cos(), angle(i).sin()].map(|c| (radius * c).round() as i32).into();
     let outline: Vec<Pixel> = (0..=corners).map(corner).collect();
     EmptyElement::at(at)
         + Polygon::new(outline.clone(), colour.mix(opacity).filled())

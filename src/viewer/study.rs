@@ -7,7 +7,6 @@ use eframe::egui;
 use super::slots::Slots;
 use super::worker::Job;
 use crate::convention::Convention;
-use crate::gpu::{self, Gpu};
 use crate::study::{self, Pair, Study};
 
 /// What a study holds for: the ids of the ground truth and of the prediction, and the convention.
@@ -74,21 +73,9 @@ impl StudyRun {
         let (sender, growing) = mpsc::channel();
         let seen = ctx.clone();
         let job = Job::start(ctx, move |progress| {
-            // A device of its own: the window keeps drawing with the other one.
-            let gpu = Gpu::headless().and_then(|gpu| Ok((gpu::Losses::new(&gpu)?, gpu))).ok();
-            let on_gpu: Option<Box<study::OnGpu<'_>>> = gpu.as_ref().map(|(losses, gpu)| {
-                let on_gpu: Box<study::OnGpu<'_>> =
-                    Box::new(move |truth, prediction, scenes, convention, p| {
-                        losses.compute(gpu, truth, &[prediction], scenes, convention, p)
-                    });
-                on_gpu
-            });
-            let pair = Pair {
-                ground_truth: &ground_truth.material,
-                prediction: &prediction.material,
-                convention,
-                gpu: on_gpu.as_deref(),
-            };
+            // The window's loss is computed on the CPU.
+            let (ground_truth, prediction) = (&ground_truth.material, &prediction.material);
+            let pair = Pair { ground_truth, prediction, convention, gpu: None };
             study::run(&pair, progress, |study| {
                 // Nobody looks any more where the window has dropped this job.
                 let _ = sender.send(study.clone());

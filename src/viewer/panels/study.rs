@@ -1,7 +1,7 @@
 //! Time against error: what each setting of the loss costs, the current one, and a click to take another.
 
 use eframe::egui::{self, Color32, Pos2, Rect, RichText, Sense, Vec2, vec2};
-use egui_plot::{GridInput, GridMark, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points};
+use egui_plot::{GridInput, GridMark, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points};
 
 use crate::material::write::Depth;
 use crate::sampler::Sampler;
@@ -9,7 +9,6 @@ use crate::study::text::{percent, time};
 use crate::study::{Choice, Family, Point, Study};
 use crate::viewer::command::Command;
 use crate::viewer::study::StudyRun;
-use crate::viewer::theme;
 
 /// How far from its middle a point is felt, in pixels.
 const REACH: f32 = 8.0;
@@ -122,7 +121,7 @@ impl StudyWindow<'_> {
         };
         let setting = Setting::from(&point.choice);
         let text = format!("{}: {}", percent(target), time(point.seconds));
-        let button = ui.add(egui::Button::selectable(setting == self.current, text));
+        let button = ui.add(egui::Button::new(text).selected(setting == self.current));
         if button.on_hover_text(description(point)).clicked() {
             commands.push(Command::ChooseSetting(setting));
         }
@@ -130,11 +129,12 @@ impl StudyWindow<'_> {
 
     /// Draws the plot; returns where on the screen each point is.
     fn plot<'s>(&self, ui: &mut egui::Ui, study: &'s Study, height: f32) -> Vec<(&'s Point, Pos2)> {
-        let accent = theme::accent(ui.visuals());
-        let ink = ui.visuals().text_color();
+        let (ink, dark) = (ui.visuals().text_color(), ui.visuals().dark_mode);
         let response = Plot::new("study")
             .height(height)
-            .legend(egui_plot::Legend::default())
+            .legend(Legend::default().follow_insertion_order(true))
+            .show_background(false)
+            .grid_color(ink.gamma_multiply(0.25))
             .allow_zoom(false)
             .allow_drag(false)
             .allow_scroll(false)
@@ -156,12 +156,12 @@ impl StudyWindow<'_> {
                     let points = study.points.iter().filter(|p| p.choice.family() == family);
                     let places: Vec<_> = points.map(place).collect();
                     if !places.is_empty() {
-                        plot.points(markers(family, places));
+                        plot.points(markers(family, places, dark));
                     }
                 }
                 if let Some(at) = current(study, self.current) {
                     let ring = Points::new("current setting", vec![at]).shape(MarkerShape::Circle);
-                    plot.points(ring.radius(10.0).filled(false).color(accent).allow_hover(false));
+                    plot.points(ring.radius(10.0).filled(false).color(ink).allow_hover(false));
                 }
             });
         let on_screen = |p| response.transform.position_from_point(&PlotPoint::from(place(p)));
@@ -171,8 +171,9 @@ impl StudyWindow<'_> {
 }
 
 /// The points of a family in its colour and shape. Maps get rings around what they change.
-fn markers(family: Family, places: Vec<[f64; 2]>) -> Points<'static> {
+fn markers(family: Family, places: Vec<[f64; 2]>, dark: bool) -> Points<'static> {
     let [r, g, b] = family.colour();
+    let colour = Color32::from_rgb(r, g, b).lerp_to_gamma(Color32::WHITE, if dark { 0.3 } else { 0.0 });
     let (shape, radius, filled) = match family {
         Family::Sobol => (MarkerShape::Circle, 4.5, true),
         Family::Random => (MarkerShape::Up, 5.5, true),
@@ -182,7 +183,7 @@ fn markers(family: Family, places: Vec<[f64; 2]>) -> Points<'static> {
         Family::EightBitMaps => (MarkerShape::Square, 8.0, false),
     };
     let points = Points::new(family.name(), places).shape(shape).radius(radius).filled(filled);
-    points.color(Color32::from_rgb(r, g, b)).allow_hover(false)
+    points.color(colour).allow_hover(false)
 }
 
 /// Whether a person clicks the point that is drawn at `at`. Under this name it is known to screen readers and tests.
