@@ -141,7 +141,7 @@ fn chart<B: DrawingBackend>(
     let front = study.front();
     chart
         .draw_series(LineSeries::new(front.iter().map(|p| place(p)), INK.stroke_width(2)))?
-        .label("best for its time, with its number")
+        .label("best for its time")
         .legend(|(x, y)| PathElement::new([(x, y), (x + 20, y)], INK.stroke_width(2)));
     if study.least_error() > y.start {
         let line = [x.start, x.end].map(|seconds| (seconds, study.least_error()));
@@ -199,7 +199,7 @@ fn marker<B: DrawingBackend, C>(
 /// What a point of the front is called beside it.
 fn label(point: &Point) -> String {
     match point.choice.family() {
-        Family::Sobol => point.choice.scenes.to_string(),
+        Family::Sobol => format!("{} scenes", point.choice.scenes),
         family => format!("{} {}", point.choice.scenes, family.name()),
     }
 }
