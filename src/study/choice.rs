@@ -1,13 +1,18 @@
 //! What a loss can be asked for, and which of it is tried.
 
-use crate::loss::Precision;
+use crate::loss::{Precision, Texels};
 use crate::material::write::Depth;
 use crate::sampler::Sampler;
 
 /// Numbers of random scenes that are tried.
 const RANDOM: &[usize] = &[9, 90, 900, 9000];
 /// Numbers of Sobol scenes that are tried: a power of two of either kind for each scrambling.
-const SOBOL: &[usize] = &[24, 48, 96, 192, 384, 768, 1536, 3072, 6144];
+const SOBOL: &[usize] = &[24, 48, 96, 192, 384, 768, 1536, 3072, 6144, 12_288, 24_576, 49_152];
+/// How many of these are tried on all texels.
+const ON_ALL: usize = 9;
+/// Texels of each scene that are tried, where not all are compared.
+const MORE: usize = 1024;
+const FEW: usize = 128;
 
 /// What a loss is computed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +27,7 @@ pub struct Choice {
     /// Near-field and distant scenes, 2 : 1: a multiple of 3.
     pub scenes: usize,
     pub sampler: Sampler,
+    pub texels: Texels,
     pub precision: Precision,
     pub backend: Backend,
     /// What the files hold that the maps are read from.
@@ -33,10 +39,26 @@ pub struct Choice {
 pub enum Family {
     Random,
     Sobol,
+    MoreTexels,
+    FewTexels,
     F64,
     Gpu,
     HalfMaps,
     EightBitMaps,
+}
+
+impl Default for Choice {
+    /// Sobol scenes, as few as there can be, in f32 on the CPU.
+    fn default() -> Self {
+        Self {
+            scenes: 3,
+            sampler: Sampler::Sobol,
+            texels: Texels::All,
+            precision: Precision::F32,
+            backend: Backend::Cpu,
+            maps: Depth::Float,
+        }
+    }
 }
 
 impl Choice {
@@ -54,9 +76,13 @@ impl Choice {
             Sampler::Random => String::new(),
             Sampler::Sobol => "--sampler sobol ".to_owned(),
         };
+        let texels = match self.texels {
+            Texels::All => String::new(),
+            Texels::Sampled(count) => format!(" --texels {count}"),
+        };
         let precision = if self.precision == Precision::F64 { " --precision f64" } else { "" };
         let backend = if self.backend == Backend::Gpu { " --backend gpu" } else { "" };
-        format!("{sampler}--near {} --distant {}{precision}{backend}", self.near(), self.distant())
+        format!("{sampler}--near {} --distant {}{texels}{precision}{backend}", self.near(), self.distant())
     }
 
     pub fn family(&self) -> Family {
@@ -65,6 +91,8 @@ impl Choice {
             Self { maps: Depth::Eight | Depth::Sixteen, .. } => Family::EightBitMaps,
             Self { backend: Backend::Gpu, .. } => Family::Gpu,
             Self { precision: Precision::F64, .. } => Family::F64,
+            Self { texels: Texels::Sampled(FEW), .. } => Family::FewTexels,
+            Self { texels: Texels::Sampled(_), .. } => Family::MoreTexels,
             Self { sampler: Sampler::Sobol, .. } => Family::Sobol,
             Self { sampler: Sampler::Random, .. } => Family::Random,
         }
@@ -78,13 +106,23 @@ impl Choice {
 
 impl Family {
     /// In the order in which they are measured: those that are over many seeds first.
-    pub const ALL: [Self; 6] =
-        [Self::Sobol, Self::Random, Self::Gpu, Self::F64, Self::HalfMaps, Self::EightBitMaps];
+    pub const ALL: [Self; 8] = [
+        Self::FewTexels,
+        Self::MoreTexels,
+        Self::Sobol,
+        Self::Random,
+        Self::Gpu,
+        Self::F64,
+        Self::HalfMaps,
+        Self::EightBitMaps,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {
             Self::Random => "random scenes",
             Self::Sobol => "Sobol scenes",
+            Self::MoreTexels => "Sobol, 1024 texels each",
+            Self::FewTexels => "Sobol, 128 texels each",
             Self::F64 => "Sobol, f64",
             Self::Gpu => "Sobol, GPU",
             Self::HalfMaps => "Sobol, half maps",
@@ -96,30 +134,28 @@ impl Family {
     pub fn colour(self) -> [u8; 3] {
         match self {
             Self::Random => [213, 94, 0],
-            Self::Sobol => [0, 114, 178],
+            Self::Sobol => [0, 158, 115],
+            Self::MoreTexels => [86, 180, 233],
+            Self::FewTexels => [0, 114, 178],
             Self::F64 => [130, 130, 130],
-            Self::Gpu => [0, 158, 115],
-            Self::HalfMaps => [204, 121, 167],
-            Self::EightBitMaps => [230, 159, 0],
+            Self::Gpu => [230, 159, 0],
+            Self::HalfMaps | Self::EightBitMaps => [204, 121, 167],
         }
     }
 
     /// The choices that are tried, with growing numbers of scenes.
     pub(super) fn choices(self) -> impl Iterator<Item = Choice> {
-        let base = Choice {
-            scenes: 0,
-            sampler: Sampler::Sobol,
-            precision: Precision::F32,
-            backend: Backend::Cpu,
-            maps: Depth::Float,
-        };
+        let base = Choice::default();
+        let on_all = &SOBOL[..ON_ALL];
         let (first, counts) = match self {
             Self::Random => (Choice { sampler: Sampler::Random, ..base }, RANDOM),
-            Self::Sobol => (base, SOBOL),
-            Self::F64 => (Choice { precision: Precision::F64, ..base }, SOBOL),
-            Self::Gpu => (Choice { backend: Backend::Gpu, ..base }, SOBOL),
-            Self::HalfMaps => (Choice { maps: Depth::Half, ..base }, SOBOL),
-            Self::EightBitMaps => (Choice { maps: Depth::Eight, ..base }, SOBOL),
+            Self::Sobol => (base, on_all),
+            Self::MoreTexels => (Choice { texels: Texels::Sampled(MORE), ..base }, SOBOL),
+            Self::FewTexels => (Choice { texels: Texels::Sampled(FEW), ..base }, SOBOL),
+            Self::F64 => (Choice { precision: Precision::F64, ..base }, on_all),
+            Self::Gpu => (Choice { backend: Backend::Gpu, ..base }, on_all),
+            Self::HalfMaps => (Choice { maps: Depth::Half, ..base }, on_all),
+            Self::EightBitMaps => (Choice { maps: Depth::Eight, ..base }, on_all),
         };
         counts.iter().map(move |&scenes| Choice { scenes, ..first })
     }

@@ -5,30 +5,32 @@ use std::time::Instant;
 use super::text::time;
 use super::{Choice, Family, Pair, Point, Reference, Study};
 use crate::error::Error;
-use crate::loss::{Estimate, Loss, Weights, losses, losses_f32};
+use crate::convention::Convention;
+use crate::loss::{Draw, Estimate, Loss, Losses, Texels, losses_of, losses_of_f32};
+use crate::real::Real;
 use crate::material::Material;
 use crate::material::write::{self, Depth};
 use crate::progress::Progress;
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
-/// Texels times scenes of the reference at most, and its most scenes. 24 x 2^n scenes are best for the sequence.
-const REFERENCE_WORK: usize = 1 << 31;
-const REFERENCE_SCENES: usize = 24 << 11;
-/// The reference is computed in this many pieces, so that its progress is seen.
-const PIECES: usize = 32;
-/// Texels times scenes that f64 is compared with f32 on at most, and the scenes that are enough.
-const CORRECTION_WORK: usize = 1 << 21;
+/// Scenes of the reference, 24 x 2^n for the sequence, and the most texels of each.
+const REFERENCE_SCENES: usize = 24 << 10;
+const REFERENCE_TEXELS: usize = (1 << 31) / REFERENCE_SCENES;
+/// Scenes that f64 is compared with f32 on, and the most texels of each.
 const CORRECTION_SCENES: usize = 24;
+const CORRECTION_TEXELS: usize = (1 << 21) / CORRECTION_SCENES;
 /// Names the scenes of the reference. Those of the choices have the seeds from 0 on.
 const REFERENCE_SEED: u64 = 1 << 40;
 
+/// Scenes that tell how long others will take.
+const WARMING_SCENES: usize = 6;
 /// Seeds of a choice.
 const SEEDS: std::ops::RangeInclusive<usize> = 3..=32;
 /// Texels times scenes of all seeds of a choice, unless these are too few.
 const SEEDS_WORK: usize = 1 << 28;
-/// A scene costs as much as this many texels even where the map has fewer.
-const LEAST_TEXELS: usize = 1 << 13;
+/// A scene costs as much as this many texels even where fewer are compared.
+const LEAST_TEXELS: usize = 1 << 11;
 /// A choice whose loss would take longer, in seconds, is left out.
 const LONGEST: f64 = 3.0;
 /// The same for other precisions, backends and maps, whose errors need few runs.
@@ -37,8 +39,40 @@ const LONGEST_VARIANT: f64 = 0.7;
 const VARIANT_RUNS: usize = 3;
 const VARIANT_TIME: f64 = 0.4;
 
-/// One of the ways to compute the losses over scenes, on materials of its own.
-type Kernel<'a> = Box<dyn Fn(&[Scene], &Progress) -> Result<Vec<Loss>, Error> + 'a>;
+/// One of the ways to compute the loss over scenes, on materials of its own.
+type Kernel<'a> = Box<dyn Fn(&Drawn, &Progress) -> Result<Loss, Error> + 'a>;
+
+/// Scenes, and how they and their texels were drawn.
+struct Drawn {
+    draw: Draw,
+    scenes: Vec<Scene>,
+}
+
+impl Drawn {
+    fn of(choice: &Choice, seed: u64, pair: &Pair<'_>) -> Self {
+        let draw = Draw { sampler: choice.sampler, seed, texels: choice.texels };
+        let scenes = draw.sampler.scenes(seed, choice.near(), choice.distant(), &pair.convention);
+        Self { draw, scenes }
+    }
+
+    /// The loss of one prediction.
+    fn loss<T: Real>(
+        &self,
+        kernel: Losses<T>,
+        ground_truth: &Material<T>,
+        prediction: &Material<T>,
+        convention: &Convention,
+        progress: &Progress,
+    ) -> Result<Loss, Error> {
+        the_one(self.draw.losses(kernel, ground_truth, &[prediction], &self.scenes, convention, progress)?)
+    }
+}
+
+/// The loss of the one prediction.
+fn the_one(losses: Vec<Loss>) -> Result<Loss, Error> {
+    let none = || Error::Usage("a study needs a prediction".to_owned());
+    losses.into_iter().next().ok_or_else(none)
+}
 
 /// What a study has found out so far that further points need.
 pub(super) struct Bench<'a> {
@@ -46,70 +80,37 @@ pub(super) struct Bench<'a> {
     progress: &'a Progress,
     /// The losses of the seeds, for each choice that was run with many.
     bases: Vec<(Choice, Vec<f64>)>,
-    /// Seconds a scene takes in f32 on the CPU, and in f64.
-    rate_f32: f64,
-    rate_f64: f64,
 }
 
 impl<'a> Bench<'a> {
     pub(super) fn new(pair: &Pair<'a>, progress: &'a Progress) -> Self {
-        Self { pair: *pair, progress, bases: Vec::new(), rate_f32: 0.0, rate_f64: 0.0 }
+        Self { pair: *pair, progress, bases: Vec::new() }
     }
 
-    fn texels(&self) -> usize {
-        self.pair.ground_truth.width() * self.pair.ground_truth.height()
-    }
-
-    fn scenes(&self, choice: &Choice, seed: u64) -> Vec<Scene> {
-        choice.sampler.scenes(seed, choice.near(), choice.distant(), &self.pair.convention)
-    }
-
-    /// The reference, whose runs also tell how long a scene takes.
+    /// The reference. It is a piece of work of its own for the progress.
     pub(super) fn reference(&mut self) -> Result<Reference, Error> {
-        let affordable = |work: usize| work / self.texels();
-        let mut count = 24;
-        while 2 * count <= affordable(REFERENCE_WORK).min(REFERENCE_SCENES) {
-            count *= 2;
-        }
-        let choices: u64 = Family::ALL.into_iter().flat_map(|family| self.plan(family)).sum();
-        self.progress.begin(count as u64 + choices);
+        let pair = &self.pair;
+        let fast = kernel(pair, Family::Sobol)?;
+        let sobol = |scenes, texels| {
+            let choice = Choice { scenes, texels: Texels::Sampled(texels), ..Choice::default() };
+            Drawn::of(&choice, REFERENCE_SEED, pair)
+        };
+        let many = sobol(REFERENCE_SCENES, REFERENCE_TEXELS);
+        let few = sobol(CORRECTION_SCENES, CORRECTION_TEXELS);
+        let loss = fast(&many, self.progress)?;
+        let exact = kernel(pair, Family::F64)?(&few, &self.progress.part())?.per_scene;
+        let rounded = fast(&few, &self.progress.part())?.per_scene;
+        let correction = Estimate::of_difference(Sampler::Sobol, &few.scenes, &exact, &rounded);
 
-        let fast = kernel(&self.pair, Family::Sobol)?;
-        let many = self.sobol(count);
-        fast(&many[..1], &self.progress.part())?;
-        let start = Instant::now();
-        let mut values = Vec::with_capacity(count);
-        for piece in many.chunks(count.div_ceil(PIECES)) {
-            values.extend(per_scene(fast(piece, &self.progress.part())?));
-            self.progress.advance(piece.len() as u64)?;
-        }
-        let rate_f32 = start.elapsed().as_secs_f64() / count as f64;
-        let estimate = Estimate::of_sampled(Sampler::Sobol, &many, &values);
-
-        let few = self.sobol(affordable(CORRECTION_WORK).clamp(3, CORRECTION_SCENES));
-        let exact = kernel(&self.pair, Family::F64)?;
-        let start = Instant::now();
-        let exact = per_scene(exact(&few, &self.progress.part())?);
-        let rate_f64 = start.elapsed().as_secs_f64() / few.len() as f64;
-        let fast = per_scene(fast(&few, &self.progress.part())?);
-        let correction = Estimate::of_difference(Weights::OfCounts, Sampler::Sobol, &few, &exact, &fast);
-
-        (self.rate_f32, self.rate_f64) = (rate_f32, rate_f64);
-        let loss = estimate.mean + correction.mean;
-        if loss.is_nan() || loss <= 0.0 {
+        let mean = loss.estimate.mean + correction.mean;
+        if mean.is_nan() || mean <= 0.0 {
             let problem = "the two materials look the same in every scene, so that there is no error to study; \
                 give a prediction that differs from the ground truth";
             return Err(Error::Usage(problem.to_owned()));
         }
-        // Where f64 is compared in too few scenes for an error of its own, all of it counts as error.
-        let of_correction = correction.standard_error.unwrap_or(correction.mean.abs());
-        let standard_error = estimate.standard_error.unwrap_or(f64::INFINITY).hypot(of_correction);
-        Ok(Reference { loss, error: standard_error / loss, scenes: count })
-    }
-
-    /// Sobol scenes of the reference, 2 : 1.
-    fn sobol(&self, count: usize) -> Vec<Scene> {
-        Sampler::Sobol.scenes(REFERENCE_SEED, count - count / 3, count / 3, &self.pair.convention)
+        let errors = [loss.estimate, correction].map(|e| e.standard_error.unwrap_or(f64::INFINITY));
+        self.progress.begin(Family::ALL.into_iter().flat_map(|family| self.plan(family)).sum());
+        Ok(Reference { loss: mean, error: errors[0].hypot(errors[1]) / mean, scenes: REFERENCE_SCENES })
     }
 
     /// Measures the choices of a family until one would take too long. An adapter that fails costs its own points only.
@@ -140,11 +141,7 @@ impl<'a> Bench<'a> {
             return self.progress.advance(plan.iter().sum());
         }
         let kernel = kernel(&self.pair, family)?;
-        let rate = match family {
-            Family::Gpu => self.warm(&kernel)?,
-            Family::F64 => self.rate_f64,
-            _ => self.rate_f32,
-        };
+        let rate = self.warm(&kernel, family)?;
         let seconds = |choice: &Choice| rate * choice.scenes as f64;
         let longest = |choice: &Choice| if *choice == choice.base() { LONGEST } else { LONGEST_VARIANT };
         let too_long = |choice: &Choice| seconds(choice) > longest(choice);
@@ -164,26 +161,34 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Seconds a scene takes after everything that is done once.
-    fn warm(&self, kernel: &Kernel<'_>) -> Result<f64, Error> {
-        let Some(smallest) = Family::Sobol.choices().next() else { return Ok(0.0) };
-        self.timed(kernel, &smallest, 0)?;
-        let (_, seconds) = self.timed(kernel, &smallest, 0)?;
-        Ok(seconds / smallest.scenes as f64)
+    /// Seconds a scene takes in this family, after everything that is done once.
+    fn warm(&self, kernel: &Kernel<'_>, family: Family) -> Result<f64, Error> {
+        let Some(first) = family.choices().next() else { return Ok(0.0) };
+        let few = Choice { scenes: WARMING_SCENES, ..first };
+        self.timed(kernel, &few, 0)?;
+        let (_, seconds) = self.timed(kernel, &few, 0)?;
+        Ok(seconds / WARMING_SCENES as f64)
     }
 
     /// What each choice of a family adds to the progress: about the work, in scenes in f32 on the CPU.
     fn plan(&self, family: Family) -> Vec<u64> {
-        let cost = |choice: Choice| match family {
-            Family::Random | Family::Sobol => choice.scenes * self.seeds(&choice),
-            _ => choice.scenes,
-        };
+        let runs = |choice: &Choice| if *choice == choice.base() { self.seeds(choice) } else { 1 };
+        let cost = |choice: Choice| choice.scenes * self.texels(&choice) * runs(&choice) / LEAST_TEXELS;
         family.choices().map(|choice| cost(choice) as u64).collect()
     }
 
+    /// Texels of each scene, and at least [`LEAST_TEXELS`].
+    fn texels(&self, choice: &Choice) -> usize {
+        let all = self.pair.ground_truth.width() * self.pair.ground_truth.height();
+        let compared = match choice.texels {
+            Texels::Sampled(count) => all.min(count),
+            Texels::All => all,
+        };
+        compared.max(LEAST_TEXELS)
+    }
+
     fn seeds(&self, choice: &Choice) -> usize {
-        let work = choice.scenes * self.texels().max(LEAST_TEXELS);
-        (SEEDS_WORK / work).clamp(*SEEDS.start(), *SEEDS.end())
+        (SEEDS_WORK / (choice.scenes * self.texels(choice))).clamp(*SEEDS.start(), *SEEDS.end())
     }
 
     /// Runs a choice that takes about `seconds`; `None` where the choice that it is compared with was left out.
@@ -229,9 +234,9 @@ impl<'a> Bench<'a> {
     /// The loss of a choice over the scenes of a seed, and the seconds that drawing and rendering them took.
     fn timed(&self, kernel: &Kernel<'_>, choice: &Choice, seed: u64) -> Result<(f64, f64), Error> {
         let start = Instant::now();
-        let losses = kernel(&self.scenes(choice, seed), &self.progress.part())?;
-        let mean = losses.first().map_or(f64::NAN, |loss| loss.estimate.mean);
-        Ok((mean, start.elapsed().as_secs_f64()))
+        let drawn = Drawn::of(choice, seed, &self.pair);
+        let loss = kernel(&drawn, &self.progress.part())?;
+        Ok((loss.estimate.mean, start.elapsed().as_secs_f64()))
     }
 }
 
@@ -239,28 +244,21 @@ impl<'a> Bench<'a> {
 fn kernel<'a>(pair: &Pair<'a>, family: Family) -> Result<Kernel<'a>, Error> {
     let Pair { ground_truth, prediction, convention, gpu } = *pair;
     let of_files = |depth| -> Result<Kernel<'a>, Error> {
-        let (ground_truth, prediction) = (write::held(ground_truth, depth)?, write::held(prediction, depth)?);
-        Ok(Box::new(move |scenes, p| losses_f32(&ground_truth, &[&prediction], scenes, &convention, p)))
+        let [truth, prediction] = [write::held(ground_truth, depth)?, write::held(prediction, depth)?];
+        Ok(Box::new(move |drawn, p| drawn.loss(losses_of_f32, &truth, &prediction, &convention, p)))
     };
     Ok(match (family, gpu) {
-        (Family::Gpu, Some(gpu)) => {
-            Box::new(move |scenes, p| gpu(ground_truth, prediction, scenes, &convention, p))
-        }
+        (Family::Gpu, Some(gpu)) => Box::new(move |drawn, p| {
+            the_one(gpu(ground_truth, prediction, &drawn.scenes, &convention, p)?)
+        }),
         (Family::F64, _) => {
-            let (ground_truth, prediction): (Material<f64>, Material<f64>) =
-                (ground_truth.cast(), prediction.cast());
-            Box::new(move |scenes, p| losses(&ground_truth, &[&prediction], scenes, &convention, p))
+            let [truth, prediction] = [ground_truth.cast::<f64>(), prediction.cast()];
+            Box::new(move |drawn, p| drawn.loss(losses_of, &truth, &prediction, &convention, p))
         }
         (Family::HalfMaps, _) => of_files(Depth::Half)?,
         (Family::EightBitMaps, _) => of_files(Depth::Eight)?,
-        (Family::Random | Family::Sobol | Family::Gpu, _) => {
-            Box::new(move |scenes, p| losses_f32(ground_truth, &[prediction], scenes, &convention, p))
-        }
+        _ => Box::new(move |drawn, p| drawn.loss(losses_of_f32, ground_truth, prediction, &convention, p)),
     })
-}
-
-fn per_scene(losses: Vec<Loss>) -> Vec<f64> {
-    losses.into_iter().next().map(|loss| loss.per_scene).unwrap_or_default()
 }
 
 /// The mean of `run` less the same seeds of `base`.

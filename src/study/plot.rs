@@ -182,6 +182,8 @@ fn marker<B: DrawingBackend, C>(
     let colour = RGBColor(r, g, b);
     let (corners, turn, radius, opacity) = match family {
         Family::Sobol => (20, 0.0, 5.0, 1.0),
+        Family::MoreTexels => (5, -0.25, 6.0, 1.0),
+        Family::FewTexels => (4, 0.0, 6.0, 1.0),
         Family::Random => (3, -0.25, 6.0, 1.0),
         Family::Gpu => (4, 0.125, 6.0, 1.0),
         Family::F64 => (3, 0.25, 6.0, 1.0),

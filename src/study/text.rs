@@ -12,7 +12,7 @@ use crate::material::write::Depth;
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
 const CSV_HEADING: &str =
-    "scenes,near,distant,sampler,precision,backend,maps,seconds,error,shift,seeds,runs,pareto,options\n";
+    "scenes,near,distant,sampler,texels,precision,backend,maps,seconds,error,shift,seeds,runs,pareto,options\n";
 
 impl Study {
     /// What a person wants to know first: the cheapest setting for each of a few errors, and how to ask for it.
@@ -93,11 +93,12 @@ fn csv_row(p: &Point) -> String {
     let precision = if c.precision == Precision::F64 { "f64" } else { "f32" };
     let backend = if c.backend == Backend::Gpu { "gpu" } else { "cpu" };
     format!(
-        "{},{},{},{},{precision},{backend},{},{:.4e},{:.4e},{:.4e},{},{},{},{}\n",
+        "{},{},{},{},{},{precision},{backend},{},{:.4e},{:.4e},{:.4e},{},{},{},{}\n",
         c.scenes,
         c.near(),
         c.distant(),
         c.sampler,
+        c.texels,
         c.maps.name(),
         p.seconds,
         p.error,

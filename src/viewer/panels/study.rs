@@ -176,6 +176,8 @@ fn markers(family: Family, places: Vec<[f64; 2]>, dark: bool) -> Points<'static>
     let colour = Color32::from_rgb(r, g, b).lerp_to_gamma(Color32::WHITE, if dark { 0.3 } else { 0.0 });
     let (shape, radius, filled) = match family {
         Family::Sobol => (MarkerShape::Circle, 4.5, true),
+        Family::MoreTexels => (MarkerShape::Right, 5.5, true),
+        Family::FewTexels => (MarkerShape::Diamond, 5.5, true),
         Family::Random => (MarkerShape::Up, 5.5, true),
         Family::Gpu => (MarkerShape::Square, 5.5, true),
         Family::F64 => (MarkerShape::Down, 5.5, true),
