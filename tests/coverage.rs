@@ -7,7 +7,7 @@ use std::path::Path;
 
 use svbrdf::convention::PRINTED;
 use svbrdf::loss::adaptive::{self, Goal};
-use svbrdf::loss::{Estimate, losses_f32};
+use svbrdf::loss::{Draw, Estimate, Loss, Texels, losses_of_f32};
 use svbrdf::material::read::{ReadOptions, read};
 use svbrdf::material::{Material, Planes};
 use svbrdf::progress::Progress;
@@ -56,25 +56,21 @@ impl Pair {
     fn new(ground_truth: &Material<f32>, prediction: &Material<f32>, step: usize, log_points: u32) -> Self {
         let [ground_truth, prediction] = [ground_truth, prediction].map(|m| thinned(m, step));
         let mut pair = Self { ground_truth, prediction, reference: 0.0 };
-        let count = 8 << log_points;
-        let values = pair.per_scene(Sampler::Sobol, 1 << 40, count, count);
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / count as f64;
-        pair.reference = (2.0 * mean(&values[..count]) + mean(&values[count..])) / 3.0;
+        let draw = Draw { sampler: Sampler::Sobol, seed: 1 << 40, texels: Texels::All };
+        pair.reference = pair.loss(draw, [16 << log_points, 8 << log_points]).estimate.mean;
         pair
     }
 
-    fn per_scene(&self, sampler: Sampler, seed: u64, near: usize, distant: usize) -> Vec<f64> {
-        let scenes = sampler.scenes(seed, near, distant, &PRINTED);
+    fn loss(&self, draw: Draw, [near, distant]: [usize; 2]) -> Loss {
+        let scenes = draw.sampler.scenes(draw.seed, near, distant, &PRINTED);
         let (gt, progress) = (&self.ground_truth, Progress::default());
-        losses_f32(gt, &[&self.prediction], &scenes, &PRINTED, &progress).unwrap().remove(0).per_scene
+        draw.losses(losses_of_f32, gt, &[&self.prediction], &scenes, &PRINTED, &progress).unwrap().remove(0)
     }
 
-    fn fixed(&self, sampler: Sampler, count: usize) -> impl Fn(u64) -> (Estimate, usize) {
+    fn fixed(&self, sampler: Sampler, texels: Texels, count: usize) -> impl Fn(u64) -> (Estimate, usize) {
         move |seed| {
-            let (near, distant) = (count / 3 * 2, count / 3);
-            let scenes = sampler.scenes(seed, near, distant, &PRINTED);
-            let values = self.per_scene(sampler, seed, near, distant);
-            (Estimate::of_sampled(sampler, &scenes, &values), count)
+            let draw = Draw { sampler, seed, texels };
+            (self.loss(draw, [count / 3 * 2, count / 3]).estimate, count)
         }
     }
 
@@ -84,7 +80,7 @@ impl Pair {
             let count = |reached: &adaptive::Reached| scenes += reached.scenes.len();
             let predictions = [&self.prediction];
             let reached =
-                adaptive::losses(losses_f32, gt, &predictions, seed, &PRINTED, goal, &progress, count);
+                adaptive::losses(losses_of_f32, gt, &predictions, seed, &PRINTED, goal, &progress, count);
             (reached.unwrap().losses[0].estimate, scenes)
         }
     }
@@ -129,7 +125,7 @@ fn golden(step: usize, log_points: u32) -> Vec<Pair> {
 fn intervals_of_few_scenes_cover_the_loss_and_means_have_no_bias() {
     let pair = &built_in(32, 10)[0];
     for (sampler, count) in [(Sampler::Random, 9), (Sampler::Random, 27), (Sampler::Sobol, 27)] {
-        let seen = pair.seen(600, pair.fixed(sampler, count));
+        let seen = pair.seen(600, pair.fixed(sampler, Texels::All, count));
         println!("{sampler}, {count}: {seen:?}");
         // Three standard errors of 600 seeds.
         assert!((95.0 - seen.coverage).abs() <= 1.5 + 2.7, "{sampler}, {count}: {seen:?}");
@@ -140,7 +136,8 @@ fn intervals_of_few_scenes_cover_the_loss_and_means_have_no_bias() {
 #[test]
 fn sobol_scenes_have_less_error_than_random_ones() {
     let pair = &built_in(32, 10)[0];
-    let [random, sobol] = [Sampler::Random, Sampler::Sobol].map(|s| pair.seen(60, pair.fixed(s, 384)).rms);
+    let [random, sobol] =
+        [Sampler::Random, Sampler::Sobol].map(|s| pair.seen(60, pair.fixed(s, Texels::All, 384)).rms);
     println!("rms {random:.2}% random, {sobol:.2}% Sobol");
     assert!(sobol < 0.7 * random, "{sobol}% against {random}%");
 }
@@ -168,7 +165,7 @@ fn coverage_of_all_pairs_and_numbers_of_scenes() {
         };
         for sampler in [Sampler::Random, Sampler::Sobol] {
             for count in [9, 27, 90, 900] {
-                note(format!("{sampler} {count}"), pair.seen(2_000, pair.fixed(sampler, count)));
+                note(format!("{sampler} {count}"), pair.seen(2_000, pair.fixed(sampler, Texels::All, count)));
             }
         }
         for target in [0.03, 0.01] {

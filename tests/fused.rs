@@ -9,8 +9,8 @@ mod pictures;
 use svbrdf::brdf::Texel;
 use svbrdf::convention::{self, Convention};
 use svbrdf::error::Error;
-use svbrdf::loss::fused::{Level, losses_at};
-use svbrdf::loss::{self, LossParams, losses_f32};
+use svbrdf::loss::fused::{Level, losses_at, losses_of_at};
+use svbrdf::loss::{self, LossParams, losses_f32, losses_of};
 use svbrdf::material::{Material, Planes};
 use svbrdf::progress::Progress;
 use svbrdf::scene::{Kind, Scene};
@@ -200,6 +200,29 @@ fn batches_change_no_bit() {
             let one_by_one = scenes.iter().map(|s| fused(level, &gt, prediction, &[*s], c).0);
             assert!(one_by_one.eq(alone), "{name}: scenes together and alone");
         }
+    }
+}
+
+#[test]
+fn some_texels_are_a_part_of_all() {
+    let c = &convention::PRINTED;
+    let size = [67, 41];
+    let (gt, prediction) = (random(19, size, 0.5, 0.05), random(20, size, 0.5, 0.05));
+    let (scenes, progress) = (scenes(6, 3, c), Progress::default());
+    let all: Vec<usize> = (0..67 * 41).collect();
+    // Out of order, one twice, no multiple of a vector.
+    let some: Vec<usize> = (0..200).map(|i| i * 1009 % (67 * 41)).chain([5, 5, 2746]).collect();
+    let want =
+        losses_of::<f64>(&gt.cast(), &[&prediction.cast()], Some(&some), &scenes, c, &progress).unwrap();
+    let want = (want[0].estimate.mean, want[0].per_scene.clone());
+    for (name, level) in levels() {
+        let of = |texels: &[usize]| {
+            let loss = losses_of_at(level, &gt, &[&prediction], Some(texels), &scenes, c, &progress).unwrap();
+            (loss[0].estimate.mean, loss[0].per_scene.clone())
+        };
+        assert_eq!(of(&all), fused(level, &gt, &prediction, &scenes, c), "{name}: all of them listed");
+        compare(&of(&some), &want, BOUNDS).unwrap();
+        assert!(compare(&of(&some[1..]), &want, BOUNDS).is_err(), "{name}: one texel missing");
     }
 }
 

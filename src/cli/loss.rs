@@ -6,7 +6,7 @@ use std::time::Duration;
 use svbrdf::convention::Convention;
 use svbrdf::error::Error;
 use svbrdf::loss::adaptive::{self, Goal, Reached};
-use svbrdf::loss::{Loss, LossParams, Losses, Precision, Weights, losses, losses_f32};
+use svbrdf::loss::{Draw, Loss, LossParams, Losses, Precision, Texels, losses, losses_of, losses_of_f32};
 use svbrdf::real::Real;
 use svbrdf::sampler::Sampler;
 use svbrdf::scene::{self, Scene};
@@ -39,14 +39,18 @@ pub struct LossArgs {
     #[arg(long, value_name = "random|sobol", default_value = "random")]
     sampler: Sampler,
 
+    /// Compares all texels, or so many in each scene, which differ from scene to scene: fast on maps of any size
+    #[arg(long, value_name = "all|N", default_value = "all", conflicts_with_all = ["scenes", "backend"])]
+    texels: Texels,
+
     /// Draws as many scenes as the loss needs to be known this well with 95% confidence, such as 1%
     #[arg(long, value_name = "PERCENT", value_parser = percent,
-        conflicts_with_all = ["near", "distant", "sampler", "scenes", "backend", "time_budget"])]
+        conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes", "backend", "time_budget"])]
     target_error: Option<f64>,
 
     /// Draws as many scenes as fit into this time, such as 500ms or 2s
     #[arg(long, value_name = "TIME", value_parser = duration,
-        conflicts_with_all = ["near", "distant", "sampler", "scenes", "backend"])]
+        conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes", "backend"])]
     time_budget: Option<Duration>,
 
     /// printed, single-image-2018, multi-image-2019 or guided-2020
@@ -81,13 +85,13 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
     check_predictions(&args.materials)?;
     let report = match (args.precision, args.backend) {
         (Precision::F32, backend) => {
-            report(args, losses_f32, |job, scenes| backend::losses(backend, job, scenes))?
+            report(args, losses_of_f32, |job, scenes| backend::losses(backend, job, scenes))?
         }
         (Precision::F64, Choice::Gpu) => {
             let problem = "graphics adapters compute in f32; leave out --backend gpu, or --precision f64";
             return Err(Error::Usage(problem.to_owned()));
         }
-        (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, losses, in_f64)?,
+        (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, losses_of, in_f64)?,
     };
     exit::put(&report.to_text(args.format).map_err(exit::unwritable)?)
 }
@@ -112,11 +116,20 @@ fn report<T: Real>(
     let (ground_truth, convention) = (&opened.ground_truth, &args.convention);
     let (reached, backend) = match goal(args) {
         None => {
-            let job = Job { ground_truth, predictions: &predictions, convention };
-            let (losses, backend) = over(&job, &scenes)?;
-            let sampler = args.sampler;
-            let losses = losses.into_iter().map(|loss| loss.sampled_by(sampler, &scenes)).collect();
-            (Reached { sampler, weights: Weights::OfCounts, scenes, losses }, backend)
+            let draw = Draw { sampler: args.sampler, seed: args.seed, texels: args.texels };
+            let (losses, backend) = match args.texels {
+                Texels::All => {
+                    let (losses, backend) =
+                        over(&Job { ground_truth, predictions: &predictions, convention }, &scenes)?;
+                    let sampled = |loss: Loss| loss.sampled_by(draw.sampler, &scenes);
+                    (losses.into_iter().map(sampled).collect(), backend)
+                }
+                Texels::Sampled(_) => {
+                    let run = |p: &_| draw.losses(kernel, ground_truth, &predictions, &scenes, convention, p);
+                    (watched("rendering", run)?, "cpu")
+                }
+            };
+            (Reached { draw, scenes, losses }, backend)
         }
         Some(goal) => {
             let run = |p: &_| {
@@ -132,8 +145,8 @@ fn report<T: Real>(
         seed: args.scenes.is_none().then_some(args.seed),
         precision: T::NAME,
         backend,
-        sampler: args.scenes.is_none().then_some(reached.sampler),
-        weights: reached.weights,
+        sampler: args.scenes.is_none().then_some(reached.draw.sampler),
+        texels: reached.draw.texels,
         scenes: reached.scenes,
         losses: reached.losses,
     })
@@ -159,6 +172,7 @@ fn scenes(args: &LossArgs) -> Result<Vec<Scene>, Error> {
             convention: args.convention,
             precision: args.precision,
             sampler: args.sampler,
+            texels: args.texels,
         }
         .scenes(),
     }

@@ -1,4 +1,5 @@
-//! As many scenes as a given accuracy or a given time needs, from scrambled Sobol sequences.
+//! As many scenes as a given accuracy or a given time needs: scrambled Sobol sequences, each scene on a few texels of
+//! its own.
 //!
 //! Stopping where the error looks small favours draws whose error looks smaller than it is. So the scenes that decide
 //! how many are needed are not those that give the loss: a run of one size predicts the size of the next, whose
@@ -8,7 +9,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Estimate, Loss, Losses, Weights, check};
+use super::{Draw, Loss, Losses, Texels};
 use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
@@ -17,18 +18,19 @@ use crate::real::Real;
 use crate::sampler::{REPLICATES, Sampler};
 use crate::scene::Scene;
 
-/// Near-field scenes for each distant one; both kinds keep the weights 2 : 1 of Algorithm 1's 6 + 3 scenes.
-///
-/// Near-field losses spread more, count twice, and need 6 dimensions for 4, so most of the error is theirs.
-const NEAR_PER_DISTANT: usize = 4;
-/// Near-field points of each scrambling in the first run.
-const PILOT: usize = 16;
-/// Most near-field points of each scrambling.
-const MOST: usize = 1 << 16;
+/// Texels of each scene. With fewer, scenes that are hardly seen take most of the time; with more, texels do that add
+/// little.
+pub const TEXELS: usize = 128;
+/// Near-field scenes for each distant one, as Algorithm 1 has 6 and 3: this is their share in the loss.
+const NEAR_PER_DISTANT: usize = 2;
+/// Distant scenes of each scrambling in the first run.
+const PILOT: usize = 8;
+/// Most distant scenes of each scrambling.
+const MOST: usize = 1 << 15;
 /// The variance of a run is assumed to fall as this power of its size. Where it falls more slowly, another run follows.
-const RATE: f64 = 1.6;
+const RATE: f64 = 1.5;
 /// A run is planned for this share of the error that is asked for: its own error is only estimated.
-const MARGIN: f64 = 0.7;
+const MARGIN: f64 = 0.75;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,8 +50,8 @@ impl Default for Goal {
 /// What an adaptive run has reached.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reached {
-    pub sampler: Sampler,
-    pub weights: Weights,
+    /// How the scenes and their texels were drawn.
+    pub draw: Draw,
     pub scenes: Vec<Scene>,
     pub losses: Vec<Loss>,
 }
@@ -75,24 +77,21 @@ pub fn losses<T: Real>(
     let start = Instant::now();
     let mut size = match goal {
         Goal::RelativeError(_) => PILOT,
-        Goal::Time(_) => NEAR_PER_DISTANT,
+        Goal::Time(_) => 1,
     };
     let mut best: Option<Reached> = None;
     for stage in 0.. {
         let run_start = Instant::now();
-        let (near, distant) = (size * REPLICATES, size / NEAR_PER_DISTANT * REPLICATES);
-        let scenes = Sampler::Sobol.scenes(stage_seed(seed, stage), near, distant, convention);
-        check(ground_truth, predictions, &scenes)?;
-        let losses = match (kernel(ground_truth, predictions, &scenes, convention, progress), best.take()) {
+        let distant = size * REPLICATES;
+        let draw =
+            Draw { sampler: Sampler::Sobol, seed: stage_seed(seed, stage), texels: Texels::Sampled(TEXELS) };
+        let scenes = draw.sampler.scenes(draw.seed, NEAR_PER_DISTANT * distant, distant, convention);
+        let losses = draw.losses(kernel, ground_truth, predictions, &scenes, convention, progress);
+        let losses = match (losses, best.take()) {
             (Err(Error::Cancelled), Some(reached)) => return Ok(reached),
             (losses, _) => losses?,
         };
-        let weighted = |loss: Loss| Loss {
-            estimate: Estimate::weighted(Weights::TwoToOne, Sampler::Sobol, &scenes, &loss.per_scene),
-            ..loss
-        };
-        let losses: Vec<Loss> = losses.into_iter().map(weighted).collect();
-        let reached = Reached { sampler: Sampler::Sobol, weights: Weights::TwoToOne, scenes, losses };
+        let reached = Reached { draw, scenes, losses };
         update(&reached);
         let next = match goal {
             Goal::RelativeError(target) => next_size(size, target, stage, &reached.losses),
@@ -115,13 +114,19 @@ fn next_size(size: usize, target: f64, stage: u64, losses: &[Loss]) -> Option<us
         return None;
     }
     let factor = (error / (MARGIN * target)).powf(2.0 / RATE).clamp(0.25, MOST as f64);
-    let wanted = ((size as f64 * factor) as usize).next_power_of_two().clamp(NEAR_PER_DISTANT, MOST);
+    let wanted = rounded((size as f64 * factor).ceil() as usize).clamp(1, MOST);
     if stage == 0 {
         Some(wanted)
     } else {
         // The size that was enough by its prediction was not.
         (size < MOST).then(|| wanted.max(2 * size).min(MOST))
     }
+}
+
+/// The next 2^k or 3 x 2^k: Sobol sequences of these lengths are even, and steps are short.
+fn rounded(size: usize) -> usize {
+    let power = size.next_power_of_two();
+    if size <= power / 4 * 3 { power / 4 * 3 } else { power }
 }
 
 /// The seed of the scenes of a stage: independent of those of other stages.

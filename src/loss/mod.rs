@@ -3,14 +3,16 @@
 pub mod adaptive;
 pub mod fused;
 mod statistics;
+mod texels;
 
 use std::str::FromStr;
 
 use rayon::prelude::*;
 use serde::Serialize;
 
-pub use fused::losses_f32;
-pub use statistics::{Estimate, Weights};
+pub use fused::{losses_f32, losses_of_f32};
+pub use statistics::Estimate;
+pub use texels::{Draw, Texels};
 
 use crate::brdf::Model;
 use crate::convention::Convention;
@@ -37,6 +39,7 @@ pub struct LossParams {
     pub convention: Convention,
     pub precision: Precision,
     pub sampler: Sampler,
+    pub texels: Texels,
 }
 
 impl Default for LossParams {
@@ -48,6 +51,7 @@ impl Default for LossParams {
             convention: Convention::default(),
             precision: Precision::F32,
             sampler: Sampler::Random,
+            texels: Texels::All,
         }
     }
 }
@@ -74,6 +78,11 @@ impl LossParams {
             )));
         }
         Ok(self.sampler.scenes(self.seed, self.near, self.distant, &self.convention))
+    }
+
+    /// What draws the scenes and their texels.
+    pub fn draw(&self) -> Draw {
+        Draw { sampler: self.sampler, seed: self.seed, texels: self.texels }
     }
 }
 
@@ -128,9 +137,15 @@ impl Loss {
     }
 }
 
-/// Algorithm 1 in one precision: [`losses`] or a faster twin of it.
-pub type Losses<T> =
-    fn(&Material<T>, &[&Material<T>], &[Scene], &Convention, &Progress) -> Result<Vec<Loss>, Error>;
+/// Algorithm 1 in one precision: [`losses_of`] or a faster twin of it.
+pub type Losses<T> = fn(
+    &Material<T>,
+    &[&Material<T>],
+    Option<&[usize]>,
+    &[Scene],
+    &Convention,
+    &Progress,
+) -> Result<Vec<Loss>, Error>;
 
 /// The losses of `predictions` against `ground_truth` over `scenes`, in the order of the predictions.
 ///
@@ -145,10 +160,29 @@ pub fn losses<T: Real>(
     convention: &Convention,
     progress: &Progress,
 ) -> Result<Vec<Loss>, Error> {
+    losses_of(ground_truth, predictions, None, scenes, convention, progress)
+}
+
+/// [`losses`] over some texels only, given as row * width + column; those that are given twice count twice. `None`: all.
+///
+/// # Errors
+/// As [`losses`].
+///
+/// # Panics
+/// Where there is no such texel, as indexing a slice does.
+pub fn losses_of<T: Real>(
+    ground_truth: &Material<T>,
+    predictions: &[&Material<T>],
+    texels: Option<&[usize]>,
+    scenes: &[Scene],
+    convention: &Convention,
+    progress: &Progress,
+) -> Result<Vec<Loss>, Error> {
     check(ground_truth, predictions, scenes)?;
     let model = Model::from(convention);
     let epsilon = T::of(convention.epsilon);
-    let texels = ground_truth.width() * ground_truth.height();
+    let listed = texels;
+    let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
     let blocks = texels.div_ceil(TEXELS_PER_BLOCK);
     progress.begin((scenes.len() * blocks) as u64);
 
@@ -158,6 +192,7 @@ pub fn losses<T: Real>(
             let (scene, block) = (&scenes[job / blocks], job % blocks);
             let range = block * TEXELS_PER_BLOCK..texels.min((block + 1) * TEXELS_PER_BLOCK);
             let rays = scene.rays();
+            let range = range.map(|at| listed.map_or(at, |texels| texels[at]));
             let sums = block_sums(ground_truth, predictions, range, |material, column, row| {
                 render_texel(material, &model, &rays, column, row).map(|radiance| (radiance + epsilon).ln())
             });
@@ -178,16 +213,16 @@ pub fn losses<T: Real>(
         .collect())
 }
 
-/// For each prediction the sum of `|log R_gt - log R_pred|` over the texels of `range` and RGB.
+/// For each prediction the sum of `|log R_gt - log R_pred|` over `texels` and RGB.
 fn block_sums<T: Real>(
     ground_truth: &Material<T>,
     predictions: &[&Material<T>],
-    range: std::ops::Range<usize>,
+    texels: impl Iterator<Item = usize>,
     log_radiance: impl Fn(&Material<T>, usize, usize) -> [T; 3],
 ) -> Vec<f64> {
     let width = ground_truth.width();
     let mut sums = vec![0.0; predictions.len()];
-    for index in range {
+    for index in texels {
         let (column, row) = (index % width, index / width);
         let expected = log_radiance(ground_truth, column, row);
         for (sum, prediction) in sums.iter_mut().zip(predictions) {

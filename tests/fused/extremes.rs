@@ -39,6 +39,7 @@ fn extremes() {
         ("black", uniform([0.0, 0.0, 1.0], 0.0, 0.0, 0.0, size)),
         ("white", uniform([0.0, 0.0, 1.0], 1.0, 1.0, 0.0, size)),
         ("grazing", uniform([1.0, 0.0, 1e-3], 0.0, 1.0, 1.0, size)),
+        ("in the plane", uniform([1.0, 0.0, 1e-9], 0.0, 1.0, 1.0, size)),
         ("from behind", uniform([0.0, 0.0, -1.0], 0.3, 1.0, 1.0, size)),
     ];
     for c in &convention::ALL {

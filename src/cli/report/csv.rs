@@ -6,17 +6,21 @@ use svbrdf::scene::Kind;
 use super::Report;
 
 const HEADING: &str = "prediction,loss,standard_error,interval95_low,interval95_high,\
-    convention,epsilon,width,height,near,distant,seed\n";
+    convention,epsilon,width,height,near,distant,seed,sampler,texels,precision,backend\n";
 
 pub(super) fn write(report: &Report) -> String {
     let [width, height] = report.size;
     let common = format!(
-        "{},{},{width},{height},{},{},{}",
+        "{},{},{width},{height},{},{},{},{},{},{},{}",
         report.convention.name,
         report.convention.epsilon,
         report.count(Kind::Near),
         report.count(Kind::Distant),
         report.seed.map_or(String::new(), |seed| seed.to_string()),
+        report.sampler.map_or(String::new(), |sampler| sampler.to_string()),
+        report.texels,
+        report.precision,
+        report.backend,
     );
     let rows: String = report.losses.iter().map(|loss| format!("{},{common}\n", cells(loss))).collect();
     format!("{HEADING}{rows}")

@@ -3,7 +3,7 @@
 use std::io;
 
 use serde::Serialize;
-use svbrdf::loss::{Estimate, Loss};
+use svbrdf::loss::{Estimate, Loss, Texels};
 use svbrdf::sampler::Sampler;
 use svbrdf::scene::{Kind, Scene};
 
@@ -19,6 +19,9 @@ struct Object<'a> {
     distant: usize,
     seed: Option<u64>,
     sampler: Option<Sampler>,
+    /// In each scene; absent where all are compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    texels: Option<usize>,
     differences: Vec<DifferenceEntry<'a>>,
     results: Vec<Entry<'a>>,
 }
@@ -60,6 +63,10 @@ pub(super) fn write(report: &Report) -> io::Result<String> {
         distant: report.count(Kind::Distant),
         seed: report.seed,
         sampler: report.sampler,
+        texels: match report.texels {
+            Texels::All => None,
+            Texels::Sampled(count) => Some(count),
+        },
         differences: report.differences().into_iter().map(|d| difference(report, d)).collect(),
         results: report.losses.iter().map(|loss| entry(&report.scenes, loss)).collect(),
     };

@@ -7,7 +7,7 @@ mod text;
 use std::io;
 
 use svbrdf::convention::Convention;
-use svbrdf::loss::{Estimate, Loss, Weights};
+use svbrdf::loss::{Estimate, Loss, Texels};
 use svbrdf::sampler::Sampler;
 use svbrdf::scene::{Kind, Scene};
 
@@ -32,7 +32,7 @@ pub struct Report {
     pub seed: Option<u64>,
     /// `None` where the scenes come from a file.
     pub sampler: Option<Sampler>,
-    pub weights: Weights,
+    pub texels: Texels,
     pub precision: &'static str,
     /// What computed it: cpu or gpu.
     pub backend: &'static str,
@@ -54,9 +54,8 @@ impl Report {
     fn differences(&self) -> Vec<(&Loss, Estimate)> {
         let Some((first, others)) = self.losses.split_first() else { return Vec::new() };
         let sampler = self.sampler.unwrap_or_default();
-        let difference = |loss: &Loss| {
-            Estimate::of_difference(self.weights, sampler, &self.scenes, &loss.per_scene, &first.per_scene)
-        };
+        let difference =
+            |loss: &Loss| Estimate::of_difference(sampler, &self.scenes, &loss.per_scene, &first.per_scene);
         others.iter().map(|loss| (loss, difference(loss))).collect()
     }
 

@@ -1,6 +1,6 @@
 //! A table for people.
 
-use svbrdf::loss::Loss;
+use svbrdf::loss::{Loss, Texels};
 use svbrdf::sampler::Sampler;
 use svbrdf::scene::Kind;
 
@@ -36,10 +36,14 @@ fn header(report: &Report) -> String {
         Some(Sampler::Sobol) => format!("{origin}, scrambled Sobol"),
         _ => origin,
     };
+    let texels = match report.texels {
+        Texels::All => String::new(),
+        Texels::Sampled(count) => format!(", each on {count} texels of its own"),
+    };
     format!(
         "rendering loss against {ground_truth}, {width} x {height} texels, {precision} on the {backend}\n\
          convention {}, epsilon {}\n\
-         {near} near-field and {distant} distant scenes {origin}\n",
+         {near} near-field and {distant} distant scenes {origin}{texels}\n",
         convention.name, convention.epsilon
     )
 }

@@ -15,14 +15,14 @@ const LEAST_SQUARE: f32 = 1e-18;
 
 /// The geometry of a vector of texels.
 ///
-/// Directions have length 2, which saves a multiplication, and the half vector is never normalized: q = 2 (l + v),
+/// Directions have length 2, which saves a multiplication, and the half vector is never normalized: q = 2 l + 2 v,
 /// |q|^2 = 16 VoH^2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ray<F> {
     /// 2 l.
     pub(super) light: [F; 3],
-    /// 2 (l + v).
-    pub(super) q: [F; 3],
+    /// 2 v.
+    pub(super) view: [F; 3],
     /// |q|^2.
     pub(super) square: F,
     /// Schlick's power.
@@ -77,9 +77,8 @@ impl Source {
         let splat = |p: [f32; 3]| p.map(|c| V::<S>::splat(simd, 2.0 * c));
         let (light, view) = (splat(self.light), splat(self.view));
         let boost = V::<S>::splat(simd, self.boost.min(self.boost_limit));
-        let q = std::array::from_fn(|i| light[i] + view[i]);
-        let (square, weight) = half_way(simd, q);
-        Some(Ray { light, q, square, weight, boost })
+        let (square, weight) = half_way(simd, sum(light, view));
+        Some(Ray { light, view, square, weight, boost })
     }
 
     /// The numbers of the scene as vectors.
@@ -103,7 +102,7 @@ struct Near<F> {
     boost_limit: F,
 }
 
-/// (2 l, q, boost) of a near-field scene at a vector of texels.
+/// (2 l, 2 v, boost) of a near-field scene at a vector of texels.
 #[inline(always)]
 fn near<S: Lanes>(simd: S, scene: &Near<V<S>>, x: V<S>, y: V<S>) -> ([V<S>; 3], [V<S>; 3], V<S>) {
     let from_texel = |p: [V<S>; 3]| [p[0] - x, p[1] - y, p[2]];
@@ -111,16 +110,20 @@ fn near<S: Lanes>(simd: S, scene: &Near<V<S>>, x: V<S>, y: V<S>) -> ([V<S>; 3], 
     let light_square = dot(to_light, to_light);
     let per_light = twice_rsqrt(simd, light_square);
     let per_view = twice_rsqrt(simd, dot(to_view, to_view));
-    let light = to_light.map(|c| c * per_light);
-    let q = std::array::from_fn(|i| to_view[i].mul_add(per_view, light[i]));
     let boost = (light_square * per_light * scene.boost).min(scene.boost_limit);
-    (light, q, boost)
+    (to_light.map(|c| c * per_light), to_view.map(|c| c * per_view), boost)
 }
 
 /// a . b.
 #[inline(always)]
 pub(super) fn dot<S: Simd, F: SimdFloat<S>>(a: [F; 3], b: [F; 3]) -> F {
     a[0].mul_add(b[0], a[1].mul_add(b[1], a[2] * b[2]))
+}
+
+/// a + b.
+#[inline(always)]
+pub(super) fn sum<S: Simd, F: SimdFloat<S>>(a: [F; 3], b: [F; 3]) -> [F; 3] {
+    std::array::from_fn(|i| a[i] + b[i])
 }
 
 /// (|q|^2, Schlick's power).
@@ -173,7 +176,7 @@ fn exp2<S: Simd>(simd: S, x: V<S>) -> V<S> {
 #[derive(Clone, Debug)]
 pub(super) struct Rays {
     light: [Plane; 3],
-    q: [Plane; 3],
+    view: [Plane; 3],
     square: Plane,
     weight: Plane,
     boost: Plane,
@@ -182,7 +185,7 @@ pub(super) struct Rays {
 impl Rays {
     pub(super) const ZERO: Self = Self {
         light: [Plane::ZERO; 3],
-        q: [Plane::ZERO; 3],
+        view: [Plane::ZERO; 3],
         square: Plane::ZERO,
         weight: Plane::ZERO,
         boost: Plane::ZERO,
@@ -194,15 +197,16 @@ impl Rays {
     pub(super) fn fill<S: Lanes>(&mut self, simd: S, source: &Source, places: &Places) {
         let scene = source.splat(simd);
         for i in 0..vectors::<S>() {
-            let (light, q, boost) = near(simd, &scene, places.x.load(simd, i), places.y.load(simd, i));
+            let (light, view, boost) = near(simd, &scene, places.x.load(simd, i), places.y.load(simd, i));
             for c in 0..3 {
                 self.light[c].store::<S>(i, light[c]);
-                self.q[c].store::<S>(i, q[c]);
+                self.view[c].store::<S>(i, view[c]);
             }
             self.boost.store::<S>(i, boost);
         }
         for i in 0..vectors::<S>() {
-            let (square, weight) = half_way(simd, self.q.each_ref().map(|p| p.load(simd, i)));
+            let load = |direction: &[Plane; 3]| direction.each_ref().map(|p| p.load(simd, i));
+            let (square, weight) = half_way(simd, sum(load(&self.light), load(&self.view)));
             self.square.store::<S>(i, square);
             self.weight.store::<S>(i, weight);
         }
@@ -212,7 +216,7 @@ impl Rays {
     pub(super) fn load<S: Simd>(&self, simd: S, i: usize) -> Ray<V<S>> {
         Ray {
             light: self.light.each_ref().map(|p| p.load(simd, i)),
-            q: self.q.each_ref().map(|p| p.load(simd, i)),
+            view: self.view.each_ref().map(|p| p.load(simd, i)),
             square: self.square.load(simd, i),
             weight: self.weight.load(simd, i),
             boost: self.boost.load(simd, i),

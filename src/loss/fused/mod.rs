@@ -49,7 +49,25 @@ pub fn losses_f32(
     convention: &Convention,
     progress: &Progress,
 ) -> Result<Vec<Loss>, Error> {
-    losses_at(Level::best(), ground_truth, predictions, scenes, convention, progress)
+    losses_of_f32(ground_truth, predictions, None, scenes, convention, progress)
+}
+
+/// [`losses_f32`] over some texels only, as [`super::losses_of`].
+///
+/// # Errors
+/// As [`losses_f32`].
+///
+/// # Panics
+/// Where there is no such texel, as indexing a slice does.
+pub fn losses_of_f32(
+    ground_truth: &Material<f32>,
+    predictions: &[&Material<f32>],
+    texels: Option<&[usize]>,
+    scenes: &[Scene],
+    convention: &Convention,
+    progress: &Progress,
+) -> Result<Vec<Loss>, Error> {
+    losses_of_at(Level::best(), ground_truth, predictions, texels, scenes, convention, progress)
 }
 
 /// [`losses_f32`] with a given instruction set.
@@ -64,11 +82,30 @@ pub fn losses_at(
     convention: &Convention,
     progress: &Progress,
 ) -> Result<Vec<Loss>, Error> {
+    losses_of_at(level, ground_truth, predictions, None, scenes, convention, progress)
+}
+
+/// [`losses_of_f32`] with a given instruction set.
+///
+/// # Errors
+/// As [`losses_f32`].
+///
+/// # Panics
+/// As [`losses_of_f32`].
+pub fn losses_of_at(
+    level: Level,
+    ground_truth: &Material<f32>,
+    predictions: &[&Material<f32>],
+    texels: Option<&[usize]>,
+    scenes: &[Scene],
+    convention: &Convention,
+    progress: &Progress,
+) -> Result<Vec<Loss>, Error> {
     check(ground_truth, predictions, scenes)?;
     if predictions.is_empty() {
         return Ok(Vec::new());
     }
-    let job = Job::new(ground_truth, predictions, convention);
+    let job = Job::new(ground_truth, predictions, texels, convention);
     let groups: usize = scenes.len().div_ceil(SCENES_PER_GROUP);
     progress.begin((groups * job.blocks) as u64);
     let per_batch = SCENES_PER_GROUP * (MAX_SUMS / (SCENES_PER_GROUP * job.blocks)).max(1);

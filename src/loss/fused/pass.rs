@@ -5,7 +5,7 @@ use super::geometry::{Ray, Rays, Source};
 use super::lanes::{Lanes, V};
 use super::shade::{Model, Radiance};
 use super::sums::Job;
-use super::tile::{Places, Terms};
+use super::tile::{At, Places, Terms};
 
 /// The texels that are in cache.
 pub(super) struct Tile {
@@ -30,12 +30,12 @@ impl Tile {
     }
 
     #[inline(always)]
-    pub(super) fn fill(&mut self, job: &Job<'_>, at: std::ops::Range<usize>) {
-        self.places.fill(&job.axes, at.clone());
+    pub(super) fn fill(&mut self, job: &Job<'_>, at: &At<'_>) {
+        self.places.fill(&job.axes, at);
         let floor = job.model.roughness_floor;
-        self.ground_truth.fill(job.ground_truth.planes(), at.clone(), floor);
+        self.ground_truth.fill(job.ground_truth.planes(), at, floor);
         for (terms, material) in self.predictions.iter_mut().zip(job.predictions) {
-            terms.fill(material.planes(), at.clone(), floor);
+            terms.fill(material.planes(), at, floor);
         }
     }
 

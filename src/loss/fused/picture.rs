@@ -1,7 +1,5 @@
 //! Whole images through the kernel: the same geometry and the same radiance, without a comparison.
 
-use std::ops::Range;
-
 use fearless_simd::{Fallback, Simd};
 use rayon::prelude::*;
 
@@ -9,7 +7,7 @@ use super::TEXELS_PER_BLOCK;
 use super::geometry::{Rays, Source};
 use super::lanes::{Lanes, Level, dispatch};
 use super::shade::{Model, Radiance};
-use super::tile::{self, Axes, Places, TEXELS, Terms, prefetch};
+use super::tile::{self, At, Axes, Places, TEXELS, Terms, prefetch};
 use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::{Material, Planes};
@@ -71,7 +69,7 @@ impl<'a> View<'a> {
         for (i, pixels) in pixels.chunks_mut(TEXELS).enumerate() {
             let at = start + i * TEXELS;
             prefetch(simd, &self.planes, at + TEXELS);
-            tile.render(simd, self, at..at + pixels.len());
+            tile.render(simd, self, &At::Run(at..at + pixels.len()));
             tile.copy_to(pixels);
         }
     }
@@ -90,8 +88,8 @@ impl Tile {
         Self { places: Places::ZERO, rays: Rays::ZERO, terms: Terms::ZERO, radiance: Radiance::ZERO };
 
     #[inline(always)]
-    fn render<S: Lanes>(&mut self, simd: S, view: &View<'_>, at: Range<usize>) {
-        self.terms.fill(view.material, at.clone(), view.model.roughness_floor);
+    fn render<S: Lanes>(&mut self, simd: S, view: &View<'_>, at: &At<'_>) {
+        self.terms.fill(view.material, at, view.model.roughness_floor);
         if let Some(ray) = view.source.distant(simd) {
             self.radiance.render(
                 simd,

@@ -2,7 +2,7 @@
 
 use fearless_simd::prelude::*;
 
-use super::geometry::{Ray, Source, dot};
+use super::geometry::{Ray, Source, dot, sum};
 use super::lanes::{Lanes, V, neg_mul_add};
 use super::tile::{Plane, Terms, vectors};
 use crate::convention::Convention;
@@ -133,13 +133,14 @@ fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
     let splat = |c| V::<S>::splat(simd, c);
     let n = terms.normal.each_ref().map(|p| p.load(simd, i));
     let a = terms.a.load(simd, i);
-    let n_dot_l = dot(n, ray.light);
-    let n_dot_q = dot(n, ray.q);
-    let n_dot_v = (n_dot_q - n_dot_l).max(splat(0.0));
+    let (n_dot_l, n_dot_v) = (dot(n, ray.light), dot(n, ray.view));
+    let n_dot_q = n_dot_l + n_dot_v;
+    let n_dot_v = n_dot_v.max(splat(0.0));
     let n_dot_l = n_dot_l.max(splat(0.0));
     let e = n_dot_l * ray.boost;
 
-    let across: [V<S>; 3] = std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], ray.q[c]));
+    let q = sum(ray.light, ray.view);
+    let across: [V<S>; 3] = std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], q[c]));
     let along = a * n_dot_q;
     // In this order only three additions wait for `across`.
     let mut d = across.iter().fold(along * along, |sum, &c| c.mul_add(c, sum));

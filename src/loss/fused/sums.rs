@@ -9,7 +9,7 @@ use super::geometry::Source;
 use super::lanes::{Lanes, Level, dispatch};
 use super::pass::Tile;
 use super::shade::Model;
-use super::tile::{self, Axes, TEXELS, prefetch};
+use super::tile::{self, At, Axes, TEXELS, prefetch};
 use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
@@ -26,7 +26,9 @@ pub(super) struct Job<'a> {
     convention: &'a Convention,
     pub(super) model: Model,
     pub(super) axes: Axes,
-    /// All planes of all materials.
+    /// The texels that are compared; `None`: all.
+    listed: Option<&'a [usize]>,
+    /// All planes of all materials, which are read from their beginnings to their ends; none where texels are listed.
     planes: Vec<&'a [f32]>,
     texels: usize,
     pub(super) blocks: usize,
@@ -36,20 +38,21 @@ impl<'a> Job<'a> {
     pub(super) fn new(
         ground_truth: &'a Material<f32>,
         predictions: &'a [&'a Material<f32>],
+        listed: Option<&'a [usize]>,
         convention: &'a Convention,
     ) -> Self {
-        let texels = ground_truth.width() * ground_truth.height();
+        let grid = ground_truth.grid();
+        let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
+        let planes = [&ground_truth].into_iter().chain(predictions);
+        let planes = planes.flat_map(|m| tile::planes(m.planes())).filter(|_| listed.is_none());
         Self {
             ground_truth,
             predictions,
             convention,
             model: Model::from(convention),
-            axes: Axes::from(ground_truth.grid()),
-            planes: [&ground_truth]
-                .into_iter()
-                .chain(predictions)
-                .flat_map(|m| tile::planes(m.planes()))
-                .collect(),
+            axes: if listed.is_none() { Axes::from(grid) } else { Axes::without_runs(grid) },
+            listed,
+            planes: planes.collect(),
             texels,
             blocks: texels.div_ceil(TEXELS_PER_BLOCK),
         }
@@ -90,6 +93,14 @@ impl<'a> Job<'a> {
         Ok(())
     }
 
+    /// The texels from the `range.start`-th to the `range.end`-th.
+    pub(super) fn at(&self, range: std::ops::Range<usize>) -> At<'a> {
+        match self.listed {
+            None => At::Run(range),
+            Some(texels) => At::Listed(&texels[range]),
+        }
+    }
+
     /// The sums of one block: for each scene, for each prediction.
     #[inline(always)]
     fn block<S: Lanes>(&self, simd: S, tile: &mut Tile, sources: &[Source], block: usize) -> Vec<f64> {
@@ -97,7 +108,7 @@ impl<'a> Job<'a> {
         let distant: Vec<_> = sources.iter().map(|source| source.distant(simd)).collect();
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
-            tile.fill(self, start..end.min(start + TEXELS));
+            tile.fill(self, &self.at(start..end.min(start + TEXELS)));
             for (i, sums) in sums.chunks_mut(self.predictions.len()).enumerate() {
                 self.prefetch_part(simd, start + TEXELS, i, sources.len());
                 tile.add(simd, &self.model, &sources[i], distant[i], sums);

@@ -34,17 +34,35 @@ impl Plane {
         value.store_slice(&mut self.0[at..at + V::<S>::LEN]);
     }
 
-    /// The first texels are `values`, the others `pad`.
+    /// The first texels are those `at` some of a plane, the others `pad`.
     #[inline(always)]
-    fn fill(&mut self, values: &[f32], pad: f32) {
-        if let Ok(values) = values.try_into() {
-            self.0 = values;
-            return;
+    fn fill(&mut self, plane: &[f32], at: &At<'_>, pad: f32) {
+        match at {
+            At::Run(range) => match plane[range.clone()].try_into() {
+                Ok(values) => self.0 = values,
+                Err(_) => {
+                    let (used, unused) = self.0.split_at_mut(range.len());
+                    used.copy_from_slice(&plane[range.clone()]);
+                    unused.fill(pad);
+                }
+            },
+            At::Listed(texels) => {
+                let (used, unused) = self.0.split_at_mut(texels.len());
+                for (value, &texel) in used.iter_mut().zip(*texels) {
+                    *value = plane[texel];
+                }
+                unused.fill(pad);
+            }
         }
-        let (used, unused) = self.0.split_at_mut(values.len());
-        used.copy_from_slice(values);
-        unused.fill(pad);
     }
+}
+
+/// At most [`TEXELS`] texels of a picture, as row * width + column.
+#[derive(Clone, Debug)]
+pub(super) enum At<'a> {
+    /// One after another.
+    Run(std::ops::Range<usize>),
+    Listed(&'a [usize]),
 }
 
 /// Vectors in a tile.
@@ -75,14 +93,14 @@ impl Terms {
         lambert: [Plane::ZERO; 3],
     };
 
-    /// The terms of the texels `at`, at most [`TEXELS`]. The rest of the tile is lit from nowhere: n = 0, R = 0 in
+    /// The terms of the texels `at`. The rest of the tile is lit from nowhere: n = 0, R = 0 in
     /// every material, so that it adds nothing to a loss.
     #[inline(always)]
-    pub(super) fn fill(&mut self, planes: &Planes<f32>, at: std::ops::Range<usize>, roughness_floor: f32) {
+    pub(super) fn fill(&mut self, planes: &Planes<f32>, at: &At<'_>, roughness_floor: f32) {
         for (tile, plane) in self.normal.iter_mut().zip(&planes.normal) {
-            tile.fill(&plane[at.clone()], 0.0);
+            tile.fill(plane, at, 0.0);
         }
-        self.a.fill(&planes.roughness[at.clone()], 1.0);
+        self.a.fill(&planes.roughness, at, 1.0);
         for (a, other) in self.a.0.iter_mut().zip(&mut self.one_minus_k.0) {
             let rough = a.max(roughness_floor);
             *a = rough * rough;
@@ -90,8 +108,8 @@ impl Terms {
         }
         for channel in 0..3 {
             let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
-            specular.fill(&planes.specular[channel][at.clone()], 0.0);
-            lambert.fill(&planes.diffuse[channel][at.clone()], 0.0);
+            specular.fill(&planes.specular[channel], at, 0.0);
+            lambert.fill(&planes.diffuse[channel], at, 0.0);
             for (l, s) in lambert.0.iter_mut().zip(&specular.0) {
                 *l *= 1.0 - s;
             }
@@ -115,9 +133,10 @@ pub(super) fn prefetch<S: Lanes>(simd: S, planes: &[&[f32]], start: usize) {
     }
 }
 
-/// The coordinates of all columns and rows of a grid.
+/// A grid, and the coordinates of all its columns and rows, which runs of texels need.
 #[derive(Debug)]
 pub(super) struct Axes {
+    grid: Grid,
     x: Vec<f32>,
     y: Vec<f32>,
 }
@@ -125,9 +144,17 @@ pub(super) struct Axes {
 impl From<Grid> for Axes {
     fn from(grid: Grid) -> Self {
         Self {
+            grid,
             x: (0..grid.width).map(|column| grid.position(column, 0).x).collect(),
             y: (0..grid.height).map(|row| grid.position(0, row).y).collect(),
         }
+    }
+}
+
+impl Axes {
+    /// For listed texels only.
+    pub(super) fn without_runs(grid: Grid) -> Self {
+        Self { grid, x: Vec::new(), y: Vec::new() }
     }
 }
 
@@ -141,10 +168,20 @@ pub(super) struct Places {
 impl Places {
     pub(super) const ZERO: Self = Self { x: Plane::ZERO, y: Plane::ZERO };
 
-    /// The places of the texels `at`, row by row; the rest of the tile keeps what it had.
+    /// The places of the texels `at`; the rest of the tile keeps what it had.
     #[inline(always)]
-    pub(super) fn fill(&mut self, axes: &Axes, at: std::ops::Range<usize>) {
-        let width = axes.x.len();
+    pub(super) fn fill(&mut self, axes: &Axes, at: &At<'_>) {
+        let width = axes.grid.width;
+        let at = match at {
+            At::Run(range) => range,
+            At::Listed(texels) => {
+                for ((x, y), &texel) in self.x.0.iter_mut().zip(&mut self.y.0).zip(*texels) {
+                    let position = axes.grid.position::<f32>(texel % width, texel / width);
+                    (*x, *y) = (position.x, position.y);
+                }
+                return;
+            }
+        };
         let mut next = at.start;
         while next < at.end {
             let (row, column) = (next / width, next % width);
