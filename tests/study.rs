@@ -4,22 +4,21 @@ use std::sync::LazyLock;
 
 use svbrdf::convention::PRINTED;
 use svbrdf::error::Error;
-use svbrdf::loss::losses;
+use svbrdf::loss::{Draw, Texels, losses, losses_of};
 use svbrdf::material::write::{self, Depth, Kind};
 use svbrdf::material::{Material, read};
 use svbrdf::progress::Progress;
-use svbrdf::sampler::Sampler;
 use svbrdf::samples;
-use svbrdf::study::{self, Family, Pair, Point, Study};
+use svbrdf::study::{self, Choice, Family, Pair, Point, Study};
 
 use crate::support::fixtures::LINEAR;
 use crate::support::tolerance::{STUDY_ERROR, STUDY_REFERENCE, STUDY_SHIFT};
 
-/// The built-in ground truth and its first prediction, 8 texels wide.
+/// The built-in ground truth and its first prediction, 16 texels wide.
 fn materials() -> [Material<f32>; 2] {
     let samples = samples::load::<f32>().unwrap();
     let [prediction, _] = samples.predictions.try_into().unwrap();
-    [samples.ground_truth, prediction].map(|read| read.material.resized([8, 8]).unwrap())
+    [samples.ground_truth, prediction].map(|read| read.material.resized([16, 16]).unwrap())
 }
 
 fn run([ground_truth, prediction]: &[Material<f32>; 2], progress: &Progress) -> Result<Study, Error> {
@@ -32,15 +31,19 @@ fn studied() -> &'static Study {
     &STUDY
 }
 
-fn plain_loss(
-    [ground_truth, prediction]: &[Material<f32>; 2],
-    sampler: Sampler,
-    seed: u64,
-    scenes: usize,
-) -> f64 {
-    let scenes = sampler.scenes(seed, scenes / 3 * 2, scenes / 3, &PRINTED);
+/// The loss of `choice` over the scenes of a seed, by the plain f64 kernel.
+fn plain_loss([ground_truth, prediction]: &[Material<f32>; 2], choice: &Choice, seed: u64) -> f64 {
+    let scenes = choice.sampler.scenes(seed, choice.near(), choice.distant(), &PRINTED);
     let [ground_truth, prediction]: [Material<f64>; 2] = [ground_truth.cast(), prediction.cast()];
-    losses(&ground_truth, &[&prediction], &scenes, &PRINTED, &Progress::default()).unwrap()[0].estimate.mean
+    let draw = Draw { sampler: choice.sampler, seed, texels: choice.texels };
+    let (progress, predictions) = (Progress::default(), [&prediction]);
+    let losses = match choice.texels {
+        Texels::All => losses(&ground_truth, &predictions, &scenes, &PRINTED, &progress),
+        Texels::Sampled(_) => {
+            draw.losses(losses_of, &ground_truth, &predictions, &scenes, &PRINTED, &progress)
+        }
+    };
+    losses.unwrap()[0].estimate.mean
 }
 
 fn point(study: &Study, family: Family, scenes: usize) -> Point {
@@ -51,7 +54,7 @@ fn point(study: &Study, family: Family, scenes: usize) -> Point {
 /// The error as its definition has it, of the plain f64 loss over the seeds from `first` on.
 fn reckoned(materials: &[Material<f32>; 2], study: &Study, point: &Point, first: u64) -> f64 {
     let of_seed = |seed| {
-        let loss = plain_loss(materials, point.choice.sampler, first + seed, point.choice.scenes);
+        let loss = plain_loss(materials, &point.choice, first + seed);
         loss / study.reference.loss - 1.0
     };
     ((0..point.seeds as u64).map(|seed| of_seed(seed).powi(2)).sum::<f64>() / point.seeds as f64).sqrt()
@@ -61,9 +64,13 @@ fn reckoned(materials: &[Material<f32>; 2], study: &Study, point: &Point, first:
 fn errors_are_those_of_plain_losses_over_the_same_seeds() {
     let materials = materials();
     let study = studied();
-    for (family, scenes) in
-        [(Family::Random, 9), (Family::Random, 90), (Family::Sobol, 24), (Family::F64, 48)]
-    {
+    for (family, scenes) in [
+        (Family::Random, 9),
+        (Family::Random, 90),
+        (Family::Sobol, 24),
+        (Family::FewTexels, 96),
+        (Family::F64, 48),
+    ] {
         let point = point(study, family, scenes);
         let expected = reckoned(&materials, study, &point, 0);
         let close = |want: f64| (point.error / want - 1.0).abs() < STUDY_ERROR;
@@ -77,7 +84,8 @@ fn errors_are_those_of_plain_losses_over_the_same_seeds() {
 fn the_reference_is_the_loss_over_other_scenes_within_its_error() {
     let materials = materials();
     let study = studied();
-    let other = plain_loss(&materials, Sampler::Sobol, 12_345, 49_152);
+    let other = plain_loss(&materials, &Choice { scenes: 12_288, ..Choice::default() }, 12_345);
+    // The other loss has half of the scenes, and about twice the error.
     let off = (other / study.reference.loss - 1.0) / study.reference.error;
     assert!(off.abs() < STUDY_REFERENCE, "{off} standard errors");
     assert!(study.reference.error < 1e-3, "{:?}", study.reference);
@@ -110,7 +118,7 @@ fn maps_are_quantized_as_files_hold_them() {
             let point = point(study, Family::EightBitMaps, 96);
             let pairs = [[expected, through_file(&prediction)], [material.clone(), prediction.clone()]];
             let [stored, exact] = pairs.map(|pair| {
-                let of_seed = |seed| plain_loss(&pair, Sampler::Sobol, seed, 96);
+                let of_seed = |seed| plain_loss(&pair, &point.choice, seed);
                 (0..point.runs as u64).map(of_seed).sum::<f64>() / point.runs as f64
             });
             let shift = (stored - exact) / study.reference.loss;

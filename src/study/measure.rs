@@ -4,13 +4,13 @@ use std::time::Instant;
 
 use super::text::time;
 use super::{Choice, Family, Pair, Point, Reference, Study};
-use crate::error::Error;
 use crate::convention::Convention;
+use crate::error::Error;
 use crate::loss::{Draw, Estimate, Loss, Losses, Texels, losses_of, losses_of_f32};
-use crate::real::Real;
 use crate::material::Material;
 use crate::material::write::{self, Depth};
 use crate::progress::Progress;
+use crate::real::Real;
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
@@ -248,9 +248,9 @@ fn kernel<'a>(pair: &Pair<'a>, family: Family) -> Result<Kernel<'a>, Error> {
         Ok(Box::new(move |drawn, p| drawn.loss(losses_of_f32, &truth, &prediction, &convention, p)))
     };
     Ok(match (family, gpu) {
-        (Family::Gpu, Some(gpu)) => Box::new(move |drawn, p| {
-            the_one(gpu(ground_truth, prediction, &drawn.scenes, &convention, p)?)
-        }),
+        (Family::Gpu, Some(gpu)) => {
+            Box::new(move |drawn, p| the_one(gpu(ground_truth, prediction, &drawn.scenes, &convention, p)?))
+        }
         (Family::F64, _) => {
             let [truth, prediction] = [ground_truth.cast::<f64>(), prediction.cast()];
             Box::new(move |drawn, p| drawn.loss(losses_of, &truth, &prediction, &convention, p))

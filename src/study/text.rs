@@ -11,8 +11,7 @@ use crate::material::write::Depth;
 /// Errors that a person may want, as shares of the loss.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
-const CSV_HEADING: &str =
-    "scenes,near,distant,sampler,texels,precision,backend,maps,seconds,error,shift,seeds,runs,pareto,options\n";
+const CSV_HEADING: &str = "scenes,near,distant,sampler,texels,precision,backend,maps,seconds,error,shift,seeds,runs,pareto,options\n";
 
 impl Study {
     /// What a person wants to know first: the cheapest setting for each of a few errors, and how to ask for it.

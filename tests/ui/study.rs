@@ -25,16 +25,18 @@ fn a_click_on_a_point_of_the_study_sets_the_loss_to_it() {
     let Some(mut window) = tiny(folder.path()) else { return };
     window.get_by_label("Study: time against error...").click();
     window.run_steps(3);
-    window.get_by_label("Cancel study");
-    wait(&mut window, "the study", |app| app.study().is_some_and(|(_, complete)| complete));
-    let points = window.state().study().unwrap().0.points.len();
-    assert!(points > 20, "{points}");
-    window.get_by_label("Measure again");
-    let before = (window.state().settings.near, window.state().settings.distant);
-    assert_eq!(before, (6, 3));
-    window.get_by_label("--near 60 --distant 30").click();
+    wait(&mut window, "the first points", |app| app.study().is_some_and(|(study, _)| study.points.len() > 4));
+    assert_eq!((window.state().settings.near, window.state().settings.distant), (6, 3));
+    let options = window.state().study().unwrap().0.points[2].choice.options();
+    assert_eq!(options, "--sampler sobol --near 64 --distant 32 --texels 128");
+    window.get_by_label(&options).click();
     window.run_steps(3);
-    assert_eq!((window.state().settings.near, window.state().settings.distant), (60, 30));
+    assert_eq!((window.state().settings.near, window.state().settings.distant), (64, 32));
+
+    window.get_by_label("Cancel study").click();
+    window.run_steps(3);
+    window.get_by_label("Measure again");
+    assert!(window.state().study().unwrap().0.points.len() > 4, "what was measured stays");
     press(&mut window, egui::Key::Escape);
     assert!(window.query_by_label("Measure again").is_none());
 }
