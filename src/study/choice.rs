@@ -7,7 +7,7 @@ use crate::sampler::Sampler;
 /// Numbers of random scenes that are tried.
 const RANDOM: &[usize] = &[9, 90, 900, 9000];
 /// Numbers of Sobol scenes that are tried: a power of two of either kind for each scrambling.
-const SOBOL: &[usize] = &[24, 48, 96, 192, 384, 768, 1536, 3072, 6144, 12_288, 24_576, 49_152];
+const SOBOL: &[usize] = &[24, 48, 96, 192, 384, 768, 1536, 3072, 6144, 12_288, 24_576];
 /// How many of these are tried on all texels.
 const ON_ALL: usize = 9;
 /// Texels of each scene that are tried, where not all are compared.

@@ -14,9 +14,9 @@ use crate::real::Real;
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
-/// Scenes of the reference, 24 x 2^n for the sequence, and the most texels of each.
-const REFERENCE_SCENES: usize = 24 << 10;
-const REFERENCE_TEXELS: usize = (1 << 31) / REFERENCE_SCENES;
+/// Scenes of the reference, 24 x 2^n for the sequence, and the most texels of each: more of these add little.
+const REFERENCE_SCENES: usize = 24 << 13;
+const REFERENCE_TEXELS: usize = 1024;
 /// Scenes that f64 is compared with f32 on, and the most texels of each.
 const CORRECTION_SCENES: usize = 24;
 const CORRECTION_TEXELS: usize = (1 << 21) / CORRECTION_SCENES;

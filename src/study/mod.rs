@@ -71,7 +71,8 @@ impl fmt::Debug for Pair<'_> {
     }
 }
 
-/// What errors are measured against: the loss over many Sobol scenes in f32, plus what f64 adds to it on a few.
+/// What errors are measured against: the loss over 8 times the scenes of any choice and texels of their own, from another
+/// seed, in f32; plus what f64 adds to it on a few. Choices on all texels show that these are no worse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reference {
     pub loss: f64,

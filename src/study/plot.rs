@@ -113,7 +113,7 @@ fn chart<B: DrawingBackend>(
     let [ground_truth, prediction] = &study.names;
     let title = format!("What accuracy costs: {prediction} against {ground_truth}");
     // The name of the fastest point stands left of it.
-    let (x, y) = (span(study, 4.0, |p| p.seconds), span(study, 1.5, |p| p.error));
+    let (x, y) = (span(study, 2.5, |p| p.seconds), span(study, 1.5, |p| p.error));
     let mut chart = ChartBuilder::on(area)
         .caption(title, (FONT, 24).into_font().color(&INK))
         .margin(16)
@@ -147,7 +147,7 @@ fn chart<B: DrawingBackend>(
         let line = [x.start, x.end].map(|seconds| (seconds, study.least_error()));
         chart
             .draw_series(DashedLineSeries::new(line, 6, 6, INK.stroke_width(1)))?
-            .label("below: not told from 0")
+            .label("limit of the reference")
             .legend(|(x, y)| PathElement::new([(x, y), (x + 20, y)], INK.stroke_width(1)));
     }
     for family in Family::ALL {
@@ -198,12 +198,9 @@ fn marker<B: DrawingBackend, C>(
         + PathElement::new(outline, colour.stroke_width(2))
 }
 
-/// What a point of the front is called beside it.
+/// What a point of the front is called beside it; its shape tells the rest.
 fn label(point: &Point) -> String {
-    match point.choice.family() {
-        Family::Sobol => format!("{} scenes", point.choice.scenes),
-        family => format!("{} {}", point.choice.scenes, family.name()),
-    }
+    format!("{} scenes", point.choice.scenes)
 }
 
 fn place(point: &Point) -> (f64, f64) {

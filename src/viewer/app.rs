@@ -284,11 +284,11 @@ impl App {
     }
 
     fn study_window(&self, ctx: &egui::Context) -> Vec<Command> {
-        let LossParams { near, distant, sampler, convention, .. } = self.loss_params();
+        let LossParams { near, distant, sampler, texels, convention, .. } = self.loss_params();
         let window = StudyWindow {
             run: &self.study,
             shown: self.study.shown(&self.slots, self.state.prediction, &convention),
-            current: Setting { near, distant, sampler },
+            current: Setting { near, distant, sampler, texels },
         };
         window.ui(ctx)
     }

@@ -3,6 +3,7 @@
 use eframe::egui::{self, Color32, Pos2, Rect, RichText, Sense, Vec2, vec2};
 use egui_plot::{GridInput, GridMark, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points};
 
+use crate::loss::Texels;
 use crate::material::write::Depth;
 use crate::sampler::Sampler;
 use crate::study::text::{percent, time};
@@ -28,11 +29,17 @@ pub struct Setting {
     pub near: usize,
     pub distant: usize,
     pub sampler: Sampler,
+    pub texels: Texels,
 }
 
 impl From<&Choice> for Setting {
     fn from(choice: &Choice) -> Self {
-        Self { near: choice.near(), distant: choice.distant(), sampler: choice.sampler }
+        Self {
+            near: choice.near(),
+            distant: choice.distant(),
+            sampler: choice.sampler,
+            texels: choice.texels,
+        }
     }
 }
 
@@ -98,7 +105,10 @@ impl StudyWindow<'_> {
             }
         });
         let below = [
-            vec!["Click a point to set the loss to it. The ring is the current setting.".to_owned()],
+            vec![
+                "Click a point to give the loss its numbers of scenes. The ring is the current setting."
+                    .to_owned(),
+            ],
             study.variants(),
         ];
         let below = below.concat().join("\n");
@@ -216,11 +226,12 @@ fn place(point: &Point) -> [f64; 2] {
     [point.seconds.log10(), point.error.log10()]
 }
 
-/// Where a setting lies: on its point, or between the two points of its sampler that have less and more scenes.
+/// Where a setting lies: on its point, or between the two points that have less and more scenes drawn in its way.
 fn current(study: &Study, setting: Setting) -> Option<[f64; 2]> {
-    let family = if setting.sampler == Sampler::Sobol { Family::Sobol } else { Family::Random };
-    let scenes = setting.near + setting.distant;
-    let of_family = || study.points.iter().filter(|p| p.choice.family() == family);
+    let Setting { near, distant, sampler, texels } = setting;
+    let scenes = near + distant;
+    let drawn = |scenes| Choice { scenes, sampler, texels, ..Choice::default() };
+    let of_family = || study.points.iter().filter(|p| p.choice == drawn(p.choice.scenes));
     let below = of_family().rfind(|p| p.choice.scenes <= scenes)?;
     let above = of_family().find(|p| p.choice.scenes >= scenes)?;
     let [from, to, here] = [below.choice.scenes, above.choice.scenes, scenes].map(|n| (n as f64).ln());
