@@ -144,6 +144,12 @@ pub fn map_exr(path: &Path, map: usize, damage: impl Fn(usize, f32) -> f32) {
     );
 }
 
+/// A picture as an EXR of 32-bit floats.
+pub fn rgb_exr(path: &Path, image: &image::Rgb32FImage) {
+    let plane = |c: usize| FlatSamples::F32(image.pixels().map(|rgb| rgb.0[c]).collect());
+    exr(path, vec![(None, ["R", "G", "B"].iter().enumerate().map(|(c, n)| channel(n, plane(c))).collect())]);
+}
+
 /// An npy array of (rows, columns, channels).
 pub fn npy(shape: [u64; 3], values: &[f32]) -> Vec<u8> {
     let mut bytes = Vec::new();
