@@ -5,8 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, Text, WritableImage, f16,
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds,
+    Layer, LayerAttributes, Text, WritableImage, f16,
 };
 use image::{DynamicImage, ImageFormat, RgbImage};
 use npyz::WriterBuilder;
@@ -124,6 +124,15 @@ pub fn layered(path: &Path, preview: bool) {
         all.extend(channels(1, ""));
     }
     exr(path, vec![(None, all)]);
+}
+
+/// A material in one part with layers, compressed in one of the ways of EXR.
+pub fn compressed(path: &Path, compression: Compression) {
+    let channels = (0..4).flat_map(|map| channels(map, &format!("{}.", NAMES[map])));
+    let encoding = Encoding { compression, ..Encoding::FAST_LOSSLESS };
+    let channels = AnyChannels::sort(channels.collect());
+    let layer = Layer::new((SIDE, SIDE), LayerAttributes::default(), encoding, channels);
+    Image::from_layer(layer).write().to_file(path).unwrap();
 }
 
 /// A material in one part for each map.

@@ -4,6 +4,7 @@
 
 mod exr;
 mod head;
+mod hushed;
 mod numpy;
 mod picture;
 mod tiff;
