@@ -32,12 +32,13 @@ fn make(out: &Path, side: &str, depth: &str) -> Result<(), Error> {
     write::write(&large(side)?, out, Kind::new(out, &options)?)
 }
 
-/// The sample, repeated to fill a square of `side` texels.
+/// The sample, repeated to fill a square of `side` texels, under a grain that keeps the files from being small.
 fn large(side: usize) -> Result<Material<f32>, Error> {
     let sample = samples::load::<f32>()?.ground_truth.material;
     let [width, height] = sample.size();
     let repeated = |plane: &Vec<f32>| -> Vec<f32> {
-        (0..side * side).map(|i| plane[i / side % height * width + i % side % width]).collect()
+        let value = |i: usize| plane[i / side % height * width + i % side % width];
+        (0..side * side).map(|i| 0.96 * value(i) + 0.02 + 0.02 * grain(i)).collect()
     };
     let Planes { normal, diffuse, specular, roughness } = sample.planes();
     let planes = Planes {
@@ -47,4 +48,12 @@ fn large(side: usize) -> Result<Material<f32>, Error> {
         roughness: repeated(roughness),
     };
     Material::new("large", side, side, planes)
+}
+
+/// White noise in [-1, 1): the finalizer of SplitMix64.
+fn grain(index: usize) -> f32 {
+    let mut z = (index as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z >> 40) as f32 / (1 << 23) as f32 - 1.0
 }
