@@ -1,16 +1,19 @@
 //! Bad material files: one clear error each, and never a panic.
 
+mod claims;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use image::GrayImage;
+use image::{GrayImage, RgbImage};
 use svbrdf::material::Material;
 use svbrdf::material::read::{ReadOptions, read, read_bytes};
 use svbrdf::progress::Progress;
 use tempfile::tempdir;
 
-use crate::support::fixtures::{flat, map, png_bytes, save, save_maps, strip};
+use crate::support::fixtures::{bytes_at, flat, map, png_bytes, save, save_maps, strip};
+use crate::support::png::crc32;
 
 /// A kind of bad input: what it is, what makes it (in an empty folder) and returns what to open, and the words that
 /// the message must contain: file, map, what was expected, what was found, what to do.
@@ -180,27 +183,9 @@ fn files_that_are_no_whole_image_are_refused() {
 }
 
 #[test]
-fn absurd_sizes_are_refused_at_once() {
-    assert_all_refused(&[
-        (
-            "30000 x 30000 pixels",
-            |f| written(f, &header_only(30_000, 30_000)),
-            &["x.png", "expected at most 65536 x 16384", "found 30000 x 30000", "scale"],
-        ),
-        (
-            "the widest PNG",
-            |f| written(f, &header_only(0x7fff_ffff, 1)),
-            &["x.png", "expected at most 4 GiB of pixels, found more", "scale"],
-        ),
-        ("the largest PNG", |f| written(f, &header_only(0x7fff_ffff, 0x7fff_ffff)), &["x.png", "material"]),
-        ("no column", |f| written(f, &header_only(0, 4)), &["x.png", "expected a valid PNG"]),
-        ("no row", |f| written(f, &header_only(16, 0)), &["x.png", "expected a valid PNG"]),
-    ]);
-}
-
-#[test]
 fn damaged_strips_give_an_error_or_a_valid_material() {
-    let small = png_bytes(&strip(0).crop_imm(0, 0, 4, 1));
+    let texels = RgbImage::from_fn(4, 1, |x, _| bytes_at(x as usize, 0, 0).into());
+    let small = png_bytes(&texels.into());
     let (mut opened, mut refused) = (0, 0);
     let mut check = |bytes: &[u8]| match read_bytes::<f32>("damaged", bytes, &ReadOptions::default()) {
         Ok(read) => {
@@ -244,15 +229,6 @@ fn written(folder: &Path, bytes: &[u8]) -> PathBuf {
     path
 }
 
-/// A PNG in 8-bit RGB that claims its size and holds no more than the beginning of its pixels.
-fn header_only(width: u32, height: u32) -> Vec<u8> {
-    let mut bytes = png_bytes(&flat(1, 1, [0; 3]));
-    bytes[16..20].copy_from_slice(&width.to_be_bytes());
-    bytes[20..24].copy_from_slice(&height.to_be_bytes());
-    sign(&mut bytes);
-    bytes
-}
-
 /// Makes the checksum of every chunk of a PNG right.
 fn sign(png: &mut [u8]) {
     let mut start = 8;
@@ -265,9 +241,4 @@ fn sign(png: &mut [u8]) {
         place.copy_from_slice(&checksum);
         start = end + 4;
     }
-}
-
-fn crc32(bytes: &[u8]) -> u32 {
-    let shift = |crc: u32, _| if crc & 1 == 1 { 0xedb8_8320 ^ (crc >> 1) } else { crc >> 1 };
-    !bytes.iter().fold(!0, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), shift))
 }

@@ -331,7 +331,7 @@ fn info_says_what_was_assumed_and_strict_refuses_guesses() {
         "{given}"
     );
 
-    RgbImage::from_pixel(32, 8, Rgb([200, 200, 200])).save(folder.path().join("flat.png")).unwrap();
+    RgbImage::from_pixel(32, 8, Rgb([90, 90, 90])).save(folder.path().join("flat.png")).unwrap();
     assert!(
         succeed(folder.path(), "info flat.png").contains("layout: ndrs in 4 x 1 tiles of 8 x 8 (unsure)")
     );

@@ -1,19 +1,27 @@
-//! Damaged files of every binary format: an error that names the file or a valid material, never a panic.
+//! Damaged files for every reader: an error that names the file or a valid material, never a panic.
 //!
-//! `SVBRDF_MUTATIONS=100000 cargo test mutations -- --nocapture` tries more than the usual number for each format.
+//! It stands in for cargo-fuzz, which needs a nightly compiler. `SVBRDF_MUTATIONS=40000 cargo test mutations --
+//! --nocapture` tries more than the usual number for each reader, and prints how many opened and were refused.
 
 use std::io::Cursor;
 use std::path::Path;
 
-use image::ImageFormat;
+use exr::prelude::Compression;
+use image::{DynamicImage, ImageFormat};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use svbrdf::material::read::{NonFinite, ReadOptions, read_bytes};
+use svbrdf::error::Error;
+use svbrdf::material::read::{
+    Binding, Grid, NonFinite, Order, Read, ReadOptions, Reflectance, read, read_bytes,
+};
+use svbrdf::progress::Progress;
 use tempfile::tempdir;
 
-use crate::support::pictures::{layered, multi_part, npy, npz, packed};
+use crate::scene_files::{GLTF_PBR, STANDARD_SURFACE, glb, gltf_text, textures};
+use crate::support::pictures::{SIDE, compressed, layered, multi_part, npy, npz, packed, stored};
+use crate::support::png::{self, Png, crc32};
 
-/// Inputs for each format in a usual run.
+/// Inputs for each reader in a usual run.
 const BUDGET: usize = 400;
 
 fn budget() -> usize {
@@ -27,9 +35,7 @@ fn written(write: impl Fn(&Path)) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
 
-fn encoded(format: ImageFormat) -> Vec<u8> {
-    let image = packed("NDRS", 4, |_, v| v);
-    let image = if format == ImageFormat::Hdr { image.to_rgb32f().into() } else { image };
+fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     image.write_to(&mut bytes, format).unwrap();
     bytes.into_inner()
@@ -65,47 +71,191 @@ fn damaged(bytes: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
     bytes
 }
 
-fn try_all(format: &str, whole: &[u8]) {
-    let options = ReadOptions { non_finite: NonFinite::Replace, ..ReadOptions::default() };
-    read_bytes::<f32>("whole", whole, &options).unwrap_or_else(|e| panic!("{format}: {e}"));
+const OPTIONS: ReadOptions = ReadOptions { non_finite: NonFinite::Replace, ..ReadOptions::AUTO };
+
+fn in_memory(bytes: &[u8]) -> Result<Read<f32>, Error> {
+    read_bytes("damaged", bytes, &OPTIONS)
+}
+
+/// Opens damaged copies of `whole`, each made by `damage`.
+fn try_all(
+    reader: &str,
+    whole: &[u8],
+    damage: impl Fn(&[u8], &mut ChaCha8Rng) -> Vec<u8>,
+    open: impl Fn(&[u8]) -> Result<Read<f32>, Error>,
+) {
+    open(whole).unwrap_or_else(|e| panic!("{reader}: {e}"));
     let mut random = ChaCha8Rng::seed_from_u64(5);
     let (mut opened, mut refused) = (0, 0);
     for _ in 0..budget() {
-        match read_bytes::<f32>("damaged", &damaged(whole, &mut random), &options) {
+        match open(&damage(whole, &mut random)) {
             Ok(read) => {
                 let planes = read.material.planes();
-                assert!(planes.roughness.iter().all(|r| (0.0..=1.0).contains(r)));
+                let channels = planes.diffuse.iter().chain(&planes.specular).chain([&planes.roughness]);
+                assert!(channels.flatten().all(|value| (0.0..=1.0).contains(value)), "{reader}");
+                assert!(planes.normal.iter().flatten().all(|n| n.abs() <= 1.0 + 1e-6), "{reader}");
                 opened += 1;
             }
             Err(error) => {
-                assert!(error.to_string().contains("damaged"), "{format}: {error}");
+                assert!(
+                    error.to_string().contains("damaged") || !matches!(error, Error::BadImage { .. }),
+                    "{error}"
+                );
                 refused += 1;
             }
         }
     }
-    println!("{format}: {opened} opened, {refused} refused");
-    assert!(refused > 0, "{format}");
+    println!("{reader}: {opened} opened, {refused} refused");
+    assert!(refused > 0, "{reader}");
 }
 
 #[test]
 fn damaged_pictures_never_panic() {
-    for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr, ImageFormat::Tiff] {
-        try_all(&format!("{format:?}"), &encoded(format));
+    let eight = packed("NDRS", 4, |_, v| v);
+    let [sixteen, float] = [eight.to_rgb16().into(), eight.to_rgb32f().into()];
+    for (what, image, format) in [
+        ("PNG of 8 bits", &eight, ImageFormat::Png),
+        ("PNG of 16 bits", &sixteen, ImageFormat::Png),
+        ("JPEG", &eight, ImageFormat::Jpeg),
+        ("HDR", &float, ImageFormat::Hdr),
+        ("TIFF of 8 bits", &eight, ImageFormat::Tiff),
+        ("TIFF of 16 bits", &sixteen, ImageFormat::Tiff),
+        ("TIFF of floats", &float, ImageFormat::Tiff),
+    ] {
+        try_all(what, &encoded(image, format), damaged, in_memory);
+    }
+}
+
+/// An interlaced PNG of a palette of 256 grays.
+fn palette() -> Vec<u8> {
+    let chunks = [(*b"PLTE", (0..=255).flat_map(|k| [k; 3]).collect()), (*b"gAMA", vec![0, 0, 0xb1, 0x8f])];
+    let (size, colour) = ([4 * SIDE, SIDE], png::PALETTE);
+    let png = Png { size, depth: 8, colour, interlaced: true, chunks: &chunks };
+    png.bytes(|x, y, _| (255.0 * stored(x / SIDE, x % SIDE, y, |v| v)[2]) as u16)
+}
+
+#[test]
+fn damaged_png_with_right_checksums_never_panics() {
+    let signed = |whole: &[u8], random: &mut ChaCha8Rng| {
+        let mut bytes = damaged(whole, random);
+        sign(&mut bytes);
+        bytes
+    };
+    try_all("PNG of a palette, signed again", &palette(), signed, in_memory);
+    let eight = encoded(&packed("NDRS", 4, |_, v| v), ImageFormat::Png);
+    try_all("PNG of 8 bits, signed again", &eight, signed, in_memory);
+}
+
+/// Makes the checksum of every chunk of a PNG right, as far as there are chunks.
+fn sign(png: &mut [u8]) {
+    let mut start = 8;
+    while let Some(length) = png.get(start..start + 4) {
+        let length = u32::from_be_bytes([length[0], length[1], length[2], length[3]]) as usize;
+        let end = start + 8 + length;
+        let Some(checksum) = png.get(start + 4..end).map(crc32) else { return };
+        let Some(place) = png.get_mut(end..end + 4) else { return };
+        place.copy_from_slice(&checksum.to_be_bytes());
+        start = end + 4;
     }
 }
 
 #[test]
 fn damaged_layered_exr_never_panics() {
-    try_all("EXR of one part", &written(|path| layered(path, true)));
-    try_all("EXR of four parts", &written(multi_part));
+    try_all("EXR of one part", &written(|path| layered(path, true)), damaged, in_memory);
+    try_all("EXR of four parts", &written(multi_part), damaged, in_memory);
+}
+
+#[test]
+fn damaged_exr_of_every_compression_never_panics() {
+    use Compression::{B44, B44A, PIZ, PXR24, RLE, Uncompressed, ZIP1, ZIP16};
+    for compression in [Uncompressed, RLE, ZIP1, ZIP16, PIZ, PXR24, B44, B44A] {
+        let whole = written(|path| compressed(path, compression));
+        try_all(&format!("EXR, {compression}"), &whole, damaged, in_memory);
+    }
 }
 
 #[test]
 fn damaged_numpy_files_never_panic() {
     let image = packed("NDRS", 4, |_, v| v).to_rgb32f();
     let shape = [u64::from(image.height()), u64::from(image.width()), 3];
-    try_all("npy", &npy(shape, image.as_raw()));
-    try_all("npz", &written(npz));
+    try_all("npy", &npy(shape, image.as_raw()), damaged, in_memory);
+    try_all("npz", &written(npz), damaged, in_memory);
+}
+
+#[test]
+fn damaged_files_that_name_textures_never_panic() {
+    let folder = textures();
+    for (name, whole) in [
+        ("damaged.gltf", gltf_text()),
+        ("damaged.glb", glb(folder.path())),
+        ("damaged.mtlx", GLTF_PBR.as_bytes().to_vec()),
+        ("damaged2.mtlx", STANDARD_SURFACE.as_bytes().to_vec()),
+    ] {
+        let path = folder.path().join(name);
+        try_all(name, &whole, damaged, |bytes| {
+            std::fs::write(&path, bytes).unwrap();
+            read(&path, &OPTIONS, &Progress::default())
+        });
+    }
+}
+
+#[test]
+fn folders_of_any_names_never_panic() {
+    const PARTS: [&str; 16] = [
+        "normal",
+        "gl",
+        "DX",
+        "diff",
+        "rough",
+        "_",
+        "-",
+        ".",
+        " ",
+        "ks",
+        "shared",
+        "0",
+        "3",
+        "1024",
+        "\u{e4}\u{130}",
+        "orm",
+    ];
+    let picture = encoded(&packed("N", 1, |_, v| v), ImageFormat::Png);
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    let mut below = |limit: usize| random.next_u32() as usize % limit;
+    let (mut opened, mut refused) = (0, 0);
+    for _ in 0..budget() {
+        let folder = tempdir().unwrap();
+        for _ in 0..1 + below(6) {
+            let name: String = (0..1 + below(6)).map(|_| PARTS[below(PARTS.len())]).collect();
+            std::fs::write(folder.path().join(name + ".png"), &picture).unwrap();
+        }
+        match read::<f32>(folder.path(), &OPTIONS, &Progress::default()) {
+            Ok(_) => opened += 1,
+            Err(_) => refused += 1,
+        }
+    }
+    println!("folders: {opened} opened, {refused} refused");
+    assert!(opened > 0 && refused > 0);
+}
+
+#[test]
+fn options_of_any_letters_never_panic() {
+    let mut random = ChaCha8Rng::seed_from_u64(13);
+    let mut below = |limit: usize| random.next_u32() as usize % limit;
+    let letters: Vec<char> = "nndrsbmi4x1:=.-e\u{e4}NaNinf".chars().collect();
+    let mut understood = 0;
+    for _ in 0..100 * budget() {
+        let text: String = (0..below(8)).map(|_| letters[below(letters.len())]).collect();
+        if let Ok(order) = text.parse::<Order>() {
+            assert_eq!(order.to_string().parse::<Order>().unwrap(), order);
+            understood += 1;
+        }
+        understood += usize::from(text.parse::<Grid>().is_ok_and(|grid| grid.columns > 0 && grid.rows > 0));
+        understood +=
+            usize::from(text.parse::<Reflectance>().is_ok_and(|f| (0.0..=1.0).contains(&f.value())));
+        understood += usize::from(text.parse::<Binding>().is_ok());
+    }
+    assert!(understood > 0);
 }
 
 #[test]
@@ -128,20 +278,4 @@ fn archives_and_arrays_that_claim_too_much_are_refused_at_once() {
         assert!(message.contains("claims"), "{message}");
         assert!(started.elapsed().as_secs() < 2, "{claim} took {:?}", started.elapsed());
     }
-}
-
-/// The bytes of a PNG with an ancillary chunk whose checksum is wrong.
-#[test]
-fn a_wrong_checksum_in_an_ancillary_chunk_is_no_reason_to_refuse() {
-    let whole = encoded(ImageFormat::Png);
-    // Behind the signature and IHDR.
-    let mut bytes = whole[..33].to_vec();
-    bytes.extend([0, 0, 0, 4]);
-    bytes.extend(b"gAMA");
-    bytes.extend([0, 0, 0xb1, 0x8f]);
-    bytes.extend([1, 2, 3, 4]);
-    bytes.extend(&whole[33..]);
-    let read = read_bytes::<f32>("crc", &bytes, &ReadOptions::default()).unwrap();
-    let plain = read_bytes::<f32>("crc", &whole, &ReadOptions::default()).unwrap();
-    assert_eq!(read.material, plain.material);
 }

@@ -149,6 +149,7 @@ fn albedo_decodes_diffuse_and_specular_and_nothing_else() {
             Albedo::Srgb if value <= 0.04045 => value / 12.92,
             Albedo::Srgb => ((value + 0.055) / 1.055).powf(2.4),
             Albedo::Gamma22 => value.powf(2.2),
+            Albedo::Log => (0.01 * 101_f64.powf(value) - 0.01).clamp(0.0, 1.0),
         };
         assert_eq!(texel.diffuse, stored.diffuse.map(decode), "{albedo}");
         assert_eq!(texel.specular, stored.specular.map(decode), "{albedo}");

@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use svbrdf::convention::PRINTED;
 use svbrdf::error::Error;
 use svbrdf::loss::{Draw, Texels, losses, losses_of};
+use svbrdf::material::read::Preset;
 use svbrdf::material::write::{self, Depth, Kind};
 use svbrdf::material::{Material, read};
 use svbrdf::progress::Progress;
@@ -99,10 +100,10 @@ fn maps_are_quantized_as_files_hold_them() {
     let folder = tempfile::tempdir().unwrap();
     let [material, prediction] = materials();
     let cases = [
-        ("8.png", Depth::Eight, Kind::Packed { sixteen: false }),
-        ("16.png", Depth::Sixteen, Kind::Packed { sixteen: true }),
-        ("half.exr", Depth::Half, Kind::Exr { half: true }),
-        ("float.exr", Depth::Float, Kind::Exr { half: false }),
+        ("8.png", Depth::Eight, Kind::Packed { sixteen: false, like: Preset::Deschaintre }),
+        ("16.png", Depth::Sixteen, Kind::Packed { sixteen: true, like: Preset::Deschaintre }),
+        ("half.exr", Depth::Half, Kind::Exr { half: true, preview: false }),
+        ("float.exr", Depth::Float, Kind::Exr { half: false, preview: false }),
     ];
     for (name, depth, kind) in cases {
         let through_file = |material: &Material<f32>| {

@@ -1,5 +1,6 @@
 //! The window without a window: egui_kittest drives it by accessible labels, on a real adapter.
 
+mod doctor;
 mod files;
 mod gestures;
 mod key_presses;

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use svbrdf::error::Error;
 use svbrdf::material::Material;
-use svbrdf::material::write::{self, Depth, Kind};
+use svbrdf::material::read::{Binding, Preset};
+use svbrdf::material::write::{self, Depth, Kind, WriteOptions};
 
 use super::materials::{ReadingArgs, noted, read_one};
 
@@ -26,6 +27,25 @@ pub struct ConvertArgs {
     #[arg(long, value_name = "8|16|half|float")]
     depth: Option<Depth>,
 
+    /// Whose order, names and encoding the files get
+    ///
+    /// A packed PNG can be like deschaintre (the default), gao, materialgan, lookahead or matfusion; a folder like
+    /// materialgan, or like gltf: base colour, normals and occlusion | roughness | metallic, which loses what metallic
+    /// cannot say.
+    #[arg(long, value_name = "PRESET")]
+    like: Option<Preset>,
+
+    /// Adds a rendering to an EXR, as R, G and B for programs that know no layers
+    #[arg(long)]
+    preview: bool,
+
+    /// A map by its file, or by a channel or layer of it; may be given several times
+    ///
+    /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer. The map
+    /// takes the place of what IN has.
+    #[arg(long = "map", value_name = "MAP=FILE[:PART]")]
+    bindings: Vec<Binding>,
+
     #[command(flatten)]
     reading: ReadingArgs,
 }
@@ -35,8 +55,9 @@ pub struct ConvertArgs {
 /// # Errors
 /// Those of the reader and of the writer.
 pub fn run(args: &ConvertArgs) -> Result<(), Error> {
-    let kind = Kind::new(&args.output, args.depth)?;
-    let read = read_one(&args.material, &args.reading.options())?;
+    let options = WriteOptions { depth: args.depth, like: args.like, preview: args.preview };
+    let kind = Kind::new(&args.output, &options)?;
+    let read = read_one(&args.material, &args.bindings, &args.reading.options())?;
     args.reading.check(&args.material, &read)?;
     let material: Material<f32> = noted(read);
     write::write(&material, &args.output, kind)

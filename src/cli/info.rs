@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde::Serialize;
 use svbrdf::error::Error;
-use svbrdf::material::read::{Assumption, MapReport, Read};
+use svbrdf::material::read::{Assumption, Binding, MapReport, Read};
 
 use super::exit;
 use super::materials::{ReadingArgs, read_one};
@@ -21,6 +21,13 @@ pub struct InfoArgs {
     /// What is printed: text for people, json for programs
     #[arg(long, value_enum, default_value_t)]
     format: Format,
+
+    /// A map by its file, or by a channel or layer of it; may be given several times
+    ///
+    /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer. The map
+    /// takes the place of what MATERIAL has.
+    #[arg(long = "map", value_name = "MAP=FILE[:PART]")]
+    bindings: Vec<Binding>,
 
     #[command(flatten)]
     reading: ReadingArgs,
@@ -48,7 +55,7 @@ struct Info<'a> {
 /// # Errors
 /// Those of the reader; [`Error::Guessed`] with `--strict`.
 pub fn run(args: &InfoArgs) -> Result<(), Error> {
-    let read: Read<f32> = read_one(&args.material, &args.reading.options())?;
+    let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading.options())?;
     args.reading.check(&args.material, &read)?;
     let info = Info {
         name: read.material.name(),

@@ -5,7 +5,10 @@ use std::str::FromStr;
 
 use svbrdf::error::Error;
 use svbrdf::material::Material;
-use svbrdf::material::read::{self, Albedo, NonFinite, NormalY, Order, Read, ReadOptions, Roughness};
+use svbrdf::material::read::{
+    self, Albedo, Binding, Energy, Grid, NonFinite, NormalCode, NormalY, Order, Preset, Read, ReadOptions,
+    Reflectance, Roughness, Workflow,
+};
 use svbrdf::real::Real;
 use svbrdf::samples;
 
@@ -33,11 +36,11 @@ pub struct Reading {
     both: ReadingArgs,
 
     /// The same as --albedo for the ground truth only
-    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth")]
+    #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     gt_albedo: Option<Albedo>,
 
     /// The same as --albedo for the predictions only
-    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth")]
+    #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     pred_albedo: Option<Albedo>,
 
     /// Resizes materials of differing sizes: to that of the ground truth, of the first prediction, or N wide
@@ -49,12 +52,16 @@ pub struct Reading {
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[command(next_help_heading = "Reading materials")]
 pub struct ReadingArgs {
+    /// What a source of materials does, for all that the other options leave open
+    #[arg(long, value_name = "NAME", requires = "ground_truth", long_help = preset_help())]
+    preset: Option<Preset>,
+
     /// How diffuse, base colour and specular are stored [default: found out]
-    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth")]
+    #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     albedo: Option<Albedo>,
 
     /// How specular is stored where that differs
-    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "ground_truth")]
+    #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     specular_albedo: Option<Albedo>,
 
     /// Where the green of normal maps points [default: found out]
@@ -62,12 +69,36 @@ pub struct ReadingArgs {
     normal_y: Option<NormalY>,
 
     /// What roughness values mean [default: found out]
-    #[arg(long, value_name = "r|gloss|alpha|gamma2.2", requires = "ground_truth")]
+    #[arg(long, value_name = "r|gloss|alpha|axay|gamma2.2", requires = "ground_truth")]
     roughness: Option<Roughness>,
 
-    /// Order of the tiles of a packed image [default: found out]
-    #[arg(long, value_name = "ndrs|dnrs|dnr|dsrn|ndsr", requires = "ground_truth")]
+    /// How the components of normals are stored [default: found out]
+    #[arg(long, value_name = "unsigned|signed|xy|ag", requires = "ground_truth")]
+    normal_code: Option<NormalCode>,
+
+    /// Diffuse and specular, or base colour and metallic [default: by the maps that are there]
+    #[arg(long, value_name = "specular|metallic", requires = "ground_truth")]
+    workflow: Option<Workflow>,
+
+    /// Reflectance of what is no metal, where no map says it [default: 0.04]
+    #[arg(long, value_name = "F0", requires = "ground_truth")]
+    dielectric_f0: Option<Reflectance>,
+
+    /// What the renderer that diffuse was made for takes: d (1 - s), as ours, or plain d [default: deschaintre]
+    #[arg(long, value_name = "deschaintre|plain", requires = "ground_truth")]
+    energy: Option<Energy>,
+
+    /// Order of the tiles of a packed image, a letter each: ndrs, dnrs, dsrn, ... [default: found out]
+    #[arg(long, value_name = "LETTERS", requires = "ground_truth")]
     order: Option<Order>,
+
+    /// How a packed image is divided [default: into square tiles]
+    #[arg(long, value_name = "COLUMNSxROWS", requires = "ground_truth")]
+    grid: Option<Grid>,
+
+    /// Row 0 of every picture is the lowest one
+    #[arg(long, requires = "ground_truth")]
+    flip_v: bool,
 
     /// Which row of a packed image of several materials, from 0
     #[arg(long, value_name = "K", requires = "ground_truth", default_value_t = 0)]
@@ -85,12 +116,19 @@ pub struct ReadingArgs {
 impl ReadingArgs {
     pub fn options(&self) -> ReadOptions {
         ReadOptions {
+            preset: self.preset,
             albedo: self.albedo,
             specular: self.specular_albedo,
             normal_y: self.normal_y,
+            normal_code: self.normal_code,
             roughness: self.roughness,
+            workflow: self.workflow,
+            dielectric: self.dielectric_f0,
+            energy: self.energy,
             order: self.order,
+            grid: self.grid,
             exemplar: self.exemplar,
+            flip_v: self.flip_v,
             non_finite: self.non_finite,
         }
     }
@@ -122,6 +160,11 @@ impl Reading {
         let options = self.both.options();
         ReadOptions { albedo: albedo.or(options.albedo), ..options }
     }
+}
+
+fn preset_help() -> String {
+    let known = Preset::ALL.map(Preset::name).join(", ");
+    format!("What a source of materials does, for all that the other options leave open: {known}")
 }
 
 /// The size that materials are brought to.
@@ -210,17 +253,19 @@ fn resized<T: Real>(opened: Opened<T>, to: ResizeTo) -> Result<Opened<T>, Error>
 }
 
 fn open_one<T: Real>(path: &Path, options: &ReadOptions, args: &ReadingArgs) -> Result<Material<T>, Error> {
-    let read = read_one(path, options)?;
+    let read = read_one(path, &[], options)?;
     args.check(path, &read)?;
     Ok(noted(read))
 }
 
-/// Reads one material under a progress bar.
+/// Reads one material under a progress bar, with the maps of `bindings` in the place of its own.
 ///
 /// # Errors
 /// Those of the reader.
-pub fn read_one<T: Real>(path: &Path, options: &ReadOptions) -> Result<Read<T>, Error> {
-    watched(&format!("reading {}", path.display()), |progress| read::read(path, options, progress))
+pub fn read_one<T: Real>(path: &Path, bindings: &[Binding], options: &ReadOptions) -> Result<Read<T>, Error> {
+    watched(&format!("reading {}", path.display()), |progress| {
+        read::read_bound(path, bindings, options, progress)
+    })
 }
 
 /// The material, after what there is to say about its files.

@@ -7,7 +7,7 @@ mod noise;
 mod tiles;
 
 use crate::error::Error;
-use crate::material::read::{Albedo, NonFinite, NormalY, Order, Read, ReadOptions, Roughness, read_bytes};
+use crate::material::read::{Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, read_bytes};
 use crate::real::Real;
 
 /// How the samples are stored: nothing of it is left to be found out.
@@ -16,9 +16,8 @@ const STORED: ReadOptions = ReadOptions {
     specular: Some(Albedo::Linear),
     normal_y: Some(NormalY::Up),
     roughness: Some(Roughness::R),
-    order: Some(Order::Ndrs),
-    exemplar: 0,
-    non_finite: NonFinite::Refuse,
+    order: Some(Order::NDRS),
+    ..ReadOptions::AUTO
 };
 
 /// A ground truth and predictions of it, of the same size.
@@ -33,7 +32,13 @@ pub struct Samples<T> {
 /// # Errors
 /// None, unless the samples that were built in are damaged.
 pub fn load<T: Real>() -> Result<Samples<T>, Error> {
-    let read = |name, bytes| read_bytes(name, bytes, &STORED);
+    let read = |name, bytes| -> Result<Read<T>, Error> {
+        let mut read = read_bytes(name, bytes, &STORED)?;
+        for known in read.assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
+            (known.why, known.certainty) = ("it was made so".to_owned(), Certainty::Sure);
+        }
+        Ok(read)
+    };
     Ok(Samples {
         ground_truth: read("worn tiles", include_bytes!("../../assets/worn_tiles.png"))?,
         predictions: vec![

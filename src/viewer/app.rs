@@ -26,6 +26,7 @@ use super::watch::Watch;
 use super::worker::Job;
 use super::{ViewerOptions, keys, panels, theme};
 use crate::loss::{Loss, LossParams, Precision};
+use crate::material::Material;
 use crate::study::Study;
 
 /// The viewer. What it shows is public for tests; what changes it are [`Command`]s.
@@ -135,6 +136,11 @@ impl App {
     /// The names of the materials, the ground truth first.
     pub fn names(&self) -> Vec<String> {
         self.slots.slots.iter().map(|s| s.name().to_owned()).collect()
+    }
+
+    /// The materials in the window, the ground truth first.
+    pub fn materials(&self) -> impl Iterator<Item = &Material<f32>> {
+        self.slots.slots.iter().map(|slot| &slot.loaded.material)
     }
 
     /// What the window tells the person: errors and what was done.

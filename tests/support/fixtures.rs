@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, RgbImage};
-use svbrdf::material::read::{Albedo, NonFinite, NormalY, ReadOptions, Roughness};
+use svbrdf::material::read::{Albedo, NormalY, ReadOptions, Roughness};
 
 /// Width and height of the maps of the fixtures.
 pub const SIDE: u32 = 4;
@@ -40,12 +40,9 @@ pub fn strip(photos: u32) -> DynamicImage {
 /// The maps as they are stored: nothing is left to be found out.
 pub const LINEAR: ReadOptions = ReadOptions {
     albedo: Some(Albedo::Linear),
-    specular: None,
     normal_y: Some(NormalY::Up),
     roughness: Some(Roughness::R),
-    order: None,
-    exemplar: 0,
-    non_finite: NonFinite::Refuse,
+    ..ReadOptions::AUTO
 };
 
 /// An image of one colour.

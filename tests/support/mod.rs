@@ -1,9 +1,11 @@
 //! What the tests share.
 
 pub mod compare;
+pub mod exr;
 pub mod fixtures;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod pictures;
+pub mod png;
 pub mod points;
 pub mod tolerance;

@@ -5,8 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds, Layer,
-    LayerAttributes, Text, WritableImage, f16,
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds,
+    Layer, LayerAttributes, Text, WritableImage, f16,
 };
 use image::{DynamicImage, ImageFormat, RgbImage};
 use npyz::WriterBuilder;
@@ -126,6 +126,15 @@ pub fn layered(path: &Path, preview: bool) {
     exr(path, vec![(None, all)]);
 }
 
+/// A material in one part with layers, compressed in one of the ways of EXR.
+pub fn compressed(path: &Path, compression: Compression) {
+    let channels = (0..4).flat_map(|map| channels(map, &format!("{}.", NAMES[map])));
+    let encoding = Encoding { compression, ..Encoding::FAST_LOSSLESS };
+    let channels = AnyChannels::sort(channels.collect());
+    let layer = Layer::new((SIDE, SIDE), LayerAttributes::default(), encoding, channels);
+    Image::from_layer(layer).write().to_file(path).unwrap();
+}
+
 /// A material in one part for each map.
 pub fn multi_part(path: &Path) {
     exr(path, (0..4).map(|map| (Some(NAMES[map]), channels(map, ""))).collect());
@@ -142,6 +151,12 @@ pub fn map_exr(path: &Path, map: usize, damage: impl Fn(usize, f32) -> f32) {
             names.iter().enumerate().map(|(c, n)| channel(n, FlatSamples::F32(values(c)))).collect(),
         )],
     );
+}
+
+/// A picture as an EXR of 32-bit floats.
+pub fn rgb_exr(path: &Path, image: &image::Rgb32FImage) {
+    let plane = |c: usize| FlatSamples::F32(image.pixels().map(|rgb| rgb.0[c]).collect());
+    exr(path, vec![(None, ["R", "G", "B"].iter().enumerate().map(|(c, n)| channel(n, plane(c))).collect())]);
 }
 
 /// An npy array of (rows, columns, channels).

@@ -22,6 +22,8 @@ pub enum What {
     NormalCode,
     /// What a roughness value means.
     Roughness,
+    /// What the renderer that the diffuse was made for does with it.
+    Energy,
     /// A map that is not there.
     Missing,
     /// Maps of different sizes.
@@ -41,6 +43,7 @@ impl What {
             Self::NormalY => "normal y",
             Self::NormalCode => "normal code",
             Self::Roughness => "roughness",
+            Self::Energy => "energy",
             Self::Missing => "missing",
             Self::Size => "size",
             Self::Values => "values",

@@ -1,18 +1,19 @@
 //! From stored samples to the linear values of a material: each choice made here is recorded as an assumption.
 
+use rayon::prelude::*;
+
 use super::assumption::{Assumption, Certainty, What};
 use super::evidence;
 use super::found::{Found, Hint, Source};
 use super::normals;
-use super::options::{Albedo, NonFinite, ReadOptions, Roughness};
+use super::options::{Albedo, Energy, ReadOptions, Reflectance, Roughness};
 use super::raster::Samples;
 use super::resize::{self, Filter};
+use super::transfer::{self, linear};
+use super::values::{self, Clamped, finite};
 use crate::error::Error;
 use crate::material::Planes;
 use crate::real::Real;
-
-/// Reflectance at normal incidence of what is no metal.
-const DIELECTRIC: f64 = 0.04;
 
 /// The planes that the maps of `found` stand for, and their (width, height); each map is let go once it is decoded.
 ///
@@ -20,158 +21,106 @@ const DIELECTRIC: f64 = 0.04;
 /// [`Error::OutOfRange`] at NaN and infinity, [`Error::SizesDiffer`] where maps have another shape,
 /// [`Error::NotAMaterial`] where the normal map is gray.
 pub fn planes<T: Real>(found: &mut Found, options: &ReadOptions) -> Result<(Planes<T>, [usize; 2]), Error> {
-    let size = common_size(found)?;
-    for source in sources(found) {
-        check_finite(source.1, source.0, options.non_finite, &mut Vec::new())?;
-    }
-    say_replaced(found, options);
+    let size = found.common_size()?;
+    values::check(found, options)?;
     let albedo = albedo(found, options);
     let specular_space = specular_space(found, options, albedo);
     let roughness_code = roughness_code(found, options);
     let normal = match found.normal.take() {
-        Some(source) => normals::planes(&source, found, options, size)?,
+        Some(source) => normals::planes(source, found, options, size)?,
         None => normals::flat(found, size),
     };
     let mut clamped = Clamped::default();
-    let mut colour = |source: &Source, space: Albedo, name| -> [Vec<T>; 3] {
-        let channels = &source.raster.channels;
-        let last = channels.len() - 1;
-        let decode = |c: usize| {
-            let plane = channels[last.min(c)].decoded(|v| linear(clamped.unit(finite(v, 0.0), name), space));
-            resize::plane(plane, source.raster.size(), size, Filter::Value)
+    let mut colour = |source: Source, space: Albedo, name| -> [Vec<T>; 3] {
+        let Source { raster, .. } = source;
+        let (from, last) = (raster.size(), raster.channels.len() - 1);
+        let mut decode = |plane: &Samples| {
+            let plane = plane.decoded(|v| linear(clamped.unit(finite(v, 0.0), name), space));
+            resize::plane(plane, from, size, Filter::Value)
         };
-        let mut decode = decode;
-        [decode(0), decode(1), decode(2)]
+        [0, 1, 2].map(|c| decode(&raster.channels[last.min(c)]))
     };
-    let diffuse = colour(&found.colour, albedo, "diffuse");
-    let specular = found.specular.take().map(|source| colour(&source, specular_space, "specular"));
-    let roughness = roughness_plane(&found.roughness, roughness_code, size, &mut clamped, &mut found.notes);
+    let diffuse = colour(found.colour.take(), albedo, "diffuse");
+    let specular = found.specular.take().map(|source| colour(source, specular_space, "specular"));
+    let roughness =
+        roughness_plane(found.roughness.take(), roughness_code, size, &mut clamped, &mut found.notes);
     let metallic = found.metallic.take().map(|source| {
         let plane = source.raster.channels[0].decoded(|v| clamped.unit(finite(v, 0.0), "metallic"));
         resize::plane::<T>(plane, source.raster.size(), size, Filter::Value)
     });
     clamped.say(found);
-    let (diffuse, specular) = match (metallic, specular) {
-        (Some(metallic), _) => from_base(diffuse, &metallic),
+    let dielectric = options.dielectric.unwrap_or(Reflectance::DIELECTRIC);
+    let (mut diffuse, specular) = match (metallic, specular) {
+        (Some(metallic), _) => from_base(diffuse, &metallic, dielectric),
         (None, Some(specular)) => (diffuse, specular),
         (None, None) => {
-            let why = "there is no specular map; it is that of most that is no metal";
-            found.assumptions.push(Assumption::new(What::Missing, "specular 0.04", why, Certainty::Likely));
-            (diffuse, [0; 3].map(|_| vec![T::of(DIELECTRIC); size[0] * size[1]]))
+            let chosen = format!("specular {dielectric}");
+            found.assumptions.push(match options.dielectric {
+                Some(_) => Assumption::given(What::Missing, chosen),
+                None => {
+                    let why = "there is no specular map; it is that of most that is no metal";
+                    Assumption::new(What::Missing, chosen, why, Certainty::Likely)
+                }
+            });
+            (diffuse, [0; 3].map(|_| vec![T::of(dielectric.value()); size[0] * size[1]]))
         }
     };
-    Ok((Planes { normal, diffuse, specular, roughness }, size))
+    if options.energy == Some(Energy::Plain) {
+        undo_energy(&mut diffuse, &specular, found);
+    }
+    let mut planes = Planes { normal, diffuse, specular, roughness };
+    if options.flip_v {
+        mirror(&mut planes, size[0]);
+        found.notes.push("Row 0 is taken as the lowest, as you said: the material is mirrored.".to_owned());
+    }
+    Ok((planes, size))
 }
 
-/// d = b (1 - m) and s = 0.04 (1 - m) + b m.
-fn from_base<T: Real>(mut base: [Vec<T>; 3], metallic: &[T]) -> ([Vec<T>; 3], [Vec<T>; 3]) {
+/// d = b (1 - m) and s = f (1 - m) + b m.
+fn from_base<T: Real>(
+    mut base: [Vec<T>; 3],
+    metallic: &[T],
+    dielectric: Reflectance,
+) -> ([Vec<T>; 3], [Vec<T>; 3]) {
     let specular = base.each_mut().map(|plane| {
-        let pairs = plane.iter_mut().zip(metallic);
+        let pairs = plane.par_iter_mut().zip(metallic);
         pairs
             .map(|(value, &m)| {
                 let (b, m) = (value.f64(), m.f64());
                 *value = T::of(b * (1.0 - m));
-                T::of(DIELECTRIC * (1.0 - m) + b * m)
+                T::of(dielectric.value() * (1.0 - m) + b * m)
             })
             .collect()
     });
     (base, specular)
 }
 
-/// Every map with its name.
-pub fn sources(found: &Found) -> Vec<(&'static str, &Source)> {
-    let colour = if found.metallic.is_some() { "base colour" } else { "diffuse" };
-    let optional = [("normal", &found.normal), ("specular", &found.specular), ("metallic", &found.metallic)];
-    let always = [(colour, &found.colour), ("roughness", &found.roughness)];
-    let there = optional.into_iter().filter_map(|(name, source)| source.as_ref().map(|s| (name, s)));
-    there.chain(always).collect()
-}
-
-/// The size of the largest map; says so where others are smaller.
-fn common_size(found: &mut Found) -> Result<[usize; 2], Error> {
-    let all: Vec<_> = sources(found)
-        .into_iter()
-        .map(|(name, s)| (format!("{name} map {}", s.file.display()), name, s.raster.size()))
-        .collect();
-    let Some((largest_whose, _, largest)) = all.iter().max_by_key(|(.., size)| size[0] * size[1]) else {
-        return Ok([0; 2]);
-    };
-    let [width, height] = *largest;
-    let mut smaller = Vec::new();
-    for (whose, name, size) in &all {
-        // A single value has every shape.
-        if *size == [1, 1] {
-            continue;
-        }
-        if size[0] * height != size[1] * width {
-            return Err(Error::SizesDiffer {
-                first: largest_whose.clone(),
-                first_size: *largest,
-                second: whose.clone(),
-                second_size: *size,
-                remedy: "resize them so that the maps of a material have one shape",
-            });
-        }
-        if size != largest {
-            smaller.push(format!("{name} from {} x {}", size[0], size[1]));
-        }
+/// d / (1 - s), at most 1: our renderer takes d (1 - s), that of these maps took d.
+fn undo_energy<T: Real>(diffuse: &mut [Vec<T>; 3], specular: &[Vec<T>; 3], found: &mut Found) {
+    let mut clamped = 0;
+    for (d, s) in diffuse.iter_mut().flatten().zip(specular.iter().flatten()) {
+        let (value, left) = (d.f64(), 1.0 - s.f64());
+        clamped += usize::from(value > left);
+        *d = if value >= left { T::of(f64::from(value > 0.0)) } else { T::of(value / left) };
     }
-    if !smaller.is_empty() {
-        let chosen = format!("{width} x {height}");
-        let why = format!("the largest map has it; resampled bilinearly: {}", smaller.join(", "));
-        found.assumptions.push(Assumption::new(What::Size, chosen, why, Certainty::Likely));
-    }
-    Ok([width, height])
-}
-
-/// Counts NaN and infinity; refuses the first one where the user does not want them replaced.
-fn check_finite(
-    source: &Source,
-    map: &'static str,
-    policy: NonFinite,
-    counts: &mut Vec<usize>,
-) -> Result<(), Error> {
-    let width = source.raster.width;
-    let mut first = None;
-    let (mut nans, mut infinities) = (0, 0);
-    for channel in &source.raster.channels {
-        let Samples::Floats(values) = channel else { continue };
-        for (index, value) in values.iter().enumerate().filter(|(_, v)| !v.is_finite()) {
-            first = first.or(Some((index, *value)));
-            if value.is_nan() { nans += 1 } else { infinities += 1 }
-        }
-    }
-    counts.push(nans + infinities);
-    match (first, policy) {
-        (Some((index, value)), NonFinite::Refuse) => Err(Error::OutOfRange {
-            whose: source.file.display().to_string(),
-            map,
-            column: index % width,
-            row: index / width,
-            expected: "finite numbers (--non-finite replace puts others in their place)",
-            found: format!("{value}, one of {nans} NaN and {infinities} infinite samples"),
-        }),
-        _ => Ok(()),
+    found.assumptions.push(Assumption::given(What::Energy, "plain, d / (1 - s)"));
+    if clamped > 0 {
+        let why = format!("{clamped} samples reflect more than all light with their specular");
+        found.assumptions.push(Assumption::new(What::Values, "diffuse 1", why, Certainty::Unsure));
     }
 }
 
-fn say_replaced(found: &mut Found, options: &ReadOptions) {
-    let mut said = Vec::new();
-    for (name, source) in sources(found) {
-        let mut counts = Vec::new();
-        let _ = check_finite(source, name, NonFinite::Replace, &mut counts);
-        if counts.iter().any(|&n| n > 0) {
-            let why =
-                format!("{} samples of the {name} map are NaN or infinite", counts.iter().sum::<usize>());
-            said.push(Assumption::new(What::Values, options.non_finite, why, Certainty::Given));
+/// Top and bottom exchanged, and the normals with them.
+fn mirror<T: Real>(planes: &mut Planes<T>, width: usize) {
+    let Planes { normal, diffuse, specular, roughness } = planes;
+    normal[1].iter_mut().for_each(|y| *y = -*y);
+    for plane in normal.iter_mut().chain(diffuse).chain(specular).chain([roughness]) {
+        let height = plane.len() / width;
+        for row in 0..height / 2 {
+            let (above, below) = plane.split_at_mut((height - 1 - row) * width);
+            above[row * width..(row + 1) * width].swap_with_slice(&mut below[..width]);
         }
     }
-    found.assumptions.extend(said);
-}
-
-/// `value`, or `instead` of NaN and infinity.
-fn finite(value: f64, instead: f64) -> f64 {
-    if value.is_finite() { value } else { instead }
 }
 
 /// What the user said, else the hint, else `detected`; recorded.
@@ -249,18 +198,26 @@ fn roughness_code(found: &mut Found, options: &ReadOptions) -> Roughness {
     })
 }
 
-/// The first channel, or the mean of channels that differ.
+/// The first channel, or the mean of channels that differ; the geometric mean of two widths.
 fn roughness_plane<T: Real>(
-    source: &Source,
+    source: Source,
     code: Roughness,
     size: [usize; 2],
     clamped: &mut Clamped,
     notes: &mut Vec<String>,
 ) -> Vec<T> {
-    let channels = &source.raster.channels;
-    let mut value = |v: f64| roughness(clamped.unit(finite(v, 1.0), "roughness"), code);
+    let Source { raster, .. } = source;
+    let channels = &raster.channels;
+    let mut value = |v: f64| transfer::roughness(clamped.unit(finite(v, 1.0), "roughness"), code);
     let largest = channel_spread(channels);
-    let plane = if largest == 0.0 {
+    let plane = if code == Roughness::Anisotropic && channels.len() > 1 {
+        notes.push(format!(
+            "The two widths of the roughness map differ by up to {:.4}; an isotropic lobe stands for both.",
+            channel_spread(&channels[..2])
+        ));
+        let width = |i: usize| (channels[0].at(i) * channels[1].at(i)).sqrt();
+        (0..channels[0].len()).map(|i| T::of(value(width(i)))).collect()
+    } else if largest == 0.0 {
         channels[0].decoded(value)
     } else {
         notes.push(format!(
@@ -268,7 +225,7 @@ fn roughness_plane<T: Real>(
         ));
         (0..channels[0].len()).map(|i| T::of(value(mean(channels, i)))).collect()
     };
-    resize::plane(plane, source.raster.size(), size, Filter::Roughness)
+    resize::plane(plane, raster.size(), size, Filter::Roughness)
 }
 
 /// Of codes exactly: their sum is an integer.
@@ -287,67 +244,16 @@ fn mean(channels: &[Samples], index: usize) -> f64 {
     codes / (channels.len() as f64 * top)
 }
 
+/// The largest difference between the channels of a texel.
 fn channel_spread(channels: &[Samples]) -> f64 {
-    let [red, green, blue] = channels else { return 0.0 };
-    if red == green && green == blue {
+    let Some((first, others)) = channels.split_first() else { return 0.0 };
+    if others.iter().all(|other| other == first) {
         return 0.0;
     }
     let spread = |i| {
-        let rgb = [red.at(i), green.at(i), blue.at(i)];
-        rgb.iter().fold(f64::MIN, |a, &b| a.max(b)) - rgb.iter().fold(f64::MAX, |a, &b| a.min(b))
+        let values = channels.iter().map(|channel| channel.at(i));
+        let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
+        high - low
     };
-    (0..red.len()).map(spread).fold(0.0, f64::max)
-}
-
-/// The roughness r that a stored `value` of [0, 1] stands for.
-fn roughness(value: f64, code: Roughness) -> f64 {
-    match code {
-        Roughness::R => value,
-        Roughness::Gloss => 1.0 - value,
-        Roughness::Alpha => value.sqrt(),
-        Roughness::Gamma22 => value.powf(2.2),
-    }
-}
-
-/// The reflectance, in [0, 1], that a stored `value` of [0, 1] stands for.
-fn linear(value: f64, albedo: Albedo) -> f64 {
-    match albedo {
-        Albedo::Linear => value,
-        Albedo::Srgb if value <= 0.040_45 => value / 12.92,
-        Albedo::Srgb => ((value + 0.055) / 1.055).powf(2.4),
-        Albedo::Gamma22 => value.powf(2.2),
-    }
-}
-
-/// Values that lay outside [0, 1], and how far.
-#[derive(Debug, Default)]
-struct Clamped {
-    maps: Vec<(&'static str, usize, f64, f64)>,
-}
-
-impl Clamped {
-    fn unit(&mut self, value: f64, map: &'static str) -> f64 {
-        if (0.0..=1.0).contains(&value) {
-            return value;
-        }
-        let place = self.maps.iter().position(|m| m.0 == map).unwrap_or_else(|| {
-            self.maps.push((map, 0, 0.0, 1.0));
-            self.maps.len() - 1
-        });
-        let entry = &mut self.maps[place];
-        *entry = (map, entry.1 + 1, entry.2.min(value), entry.3.max(value));
-        value.clamp(0.0, 1.0)
-    }
-
-    fn say(self, found: &mut Found) {
-        for (map, count, low, high) in self.maps {
-            let why = format!("{count} samples of the {map} map lie outside, between {low} and {high}");
-            found.assumptions.push(Assumption::new(
-                What::Values,
-                "clamped to [0, 1]",
-                why,
-                Certainty::Unsure,
-            ));
-        }
-    }
+    (0..first.len()).into_par_iter().map(spread).reduce(|| 0.0, f64::max)
 }

@@ -1,74 +1,74 @@
 //! One file a map: in a folder, behind a common prefix, or around one of the files.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::assumption::Certainty;
+use super::assumption::{Assumption, Certainty, What};
 use super::decode;
+use super::evidence::{NORMAL_AT_LEAST, normal_score};
 use super::found::{Found, Hints, Pictures, Source};
 use super::names::{Label, Role, words};
-use super::options::{Albedo, NormalY, Roughness};
+use super::options::{Albedo, NormalY, ReadOptions, Reflectance, Roughness};
+use super::set::{self, Named, Set};
 use crate::error::Error;
 use crate::progress::Progress;
 
 /// Most file names that a message lists.
 const MOST_LISTED: usize = 12;
-/// Extensions of the pictures that count, the better one of two last.
-const EXTENSIONS: [&str; 8] = ["jpg", "jpeg", "hdr", "png", "tif", "tiff", "npy", "exr"];
-
-/// A file that its name says to be a map.
-#[derive(Clone, Debug)]
-struct Named {
-    file: String,
-    label: Label,
-}
-
-impl Named {
-    /// The higher, the better a source for its map.
-    fn rank(&self) -> (u8, Option<usize>) {
-        let extension =
-            Path::new(&self.file).extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        (self.label.rank(), EXTENSIONS.iter().position(|e| *e == extension))
-    }
-}
-
-/// Which files of a folder are one material.
-struct Set {
-    files: Vec<Named>,
-    notes: Vec<String>,
-}
+/// A picture whose name says nothing is the normal map where this share of its pixels looks like normals.
+const NORMAL_ALL_OVER: f64 = 0.95;
 
 /// Reads the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, folder: &Path, prefix: &str, progress: &Progress) -> Result<Found, Error> {
-    let names = list(path, folder, prefix)?;
+pub fn open(
+    path: &Path,
+    folder: &Path,
+    prefix: &str,
+    bound: Vec<(Role, Source)>,
+    options: &ReadOptions,
+    progress: &Progress,
+) -> Result<Found, Error> {
+    let mut names = list(path, folder, prefix)?;
     if names.is_empty() && !prefix.is_empty() {
         let absent = io::Error::new(io::ErrorKind::NotFound, "no file, folder or prefix of files is there");
         return Err(Error::unreadable(path, absent));
     }
-    let set = choose(path, &names, None)?;
-    assemble(path, folder, material_name(path, prefix), set, &names, progress)
+    if !prefix.is_empty() {
+        let others = list(path, folder, "")?.into_iter().filter(|name| set::is_shared_with(name, prefix));
+        names.extend(others);
+        names.sort();
+        names.dedup();
+    }
+    let roles: Vec<_> = bound.iter().map(|(role, _)| *role).collect();
+    let set = set::choose(path, &names, None, &roles)?;
+    let name = material_name(path, prefix);
+    Assembly { path, folder, name, set, bound, names: &names, options }.read(progress)
 }
 
 /// Reads the set of maps that the file `path` belongs to by its name; `None` where its name says nothing.
 ///
 /// # Errors
 /// As `read`.
-pub fn open_around(path: &Path, progress: &Progress) -> Option<Result<Found, Error>> {
+pub fn open_around(
+    path: &Path,
+    bound: Vec<(Role, Source)>,
+    options: &ReadOptions,
+    progress: &Progress,
+) -> Option<Result<Found, Error>> {
     let stem = path.file_stem()?.to_string_lossy();
     let label = Label::of(&stem)?;
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let read = || {
         let names = list(path, folder, "")?;
-        let set = choose(path, &names, Some(&label.stem))?;
+        let roles: Vec<_> = bound.iter().map(|(role, _)| *role).collect();
+        let set = set::choose(path, &names, Some(&label.stem), &roles)?;
         let name = if label.stem.is_empty() { material_name(folder, "") } else { label.stem.join(" ") };
-        assemble(path, folder, name, set, &names, progress)
+        Assembly { path, folder, name, set, bound, names: &names, options }.read(progress)
     };
     Some(read())
 }
@@ -92,118 +92,98 @@ fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Error> 
     Ok(names)
 }
 
-fn is_picture(name: &str) -> bool {
-    let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    EXTENSIONS.contains(&extension.as_str())
-}
-
-/// The files of the one material among `names`: of the stem `wanted`, or of the only stem that is complete.
-fn choose(path: &Path, names: &[String], wanted: Option<&[String]>) -> Result<Set, Error> {
-    let mut groups: BTreeMap<Vec<String>, Vec<Named>> = BTreeMap::new();
-    let mut notes = Vec::new();
-    for name in names.iter().filter(|name| is_picture(name)) {
-        let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-        match Label::of(&stem) {
-            Some(label) => {
-                groups.entry(label.stem.clone()).or_default().push(Named { file: name.clone(), label })
-            }
-            None => notes.push(format!("{name} is not used: its name says no map.")),
-        }
-    }
-    groups.retain(|_, files| files.len() > 1 || !files[0].label.is_short());
-    let complete: Vec<_> =
-        groups.iter().filter(|(_, files)| is_complete(files)).map(|(stem, _)| stem).collect();
-    let files = match (wanted, complete.as_slice()) {
-        (Some(stem), _) => groups.remove(stem).unwrap_or_default(),
-        (None, [only]) => {
-            let only = (*only).clone();
-            groups.remove(&only).unwrap_or_default()
-        }
-        (None, []) => groups.into_values().flatten().collect(),
-        (None, several) => {
-            let found = several.iter().map(|stem| stem.join("_")).collect::<Vec<_>>();
-            return Err(Error::NotAMaterial {
-                path: path.to_owned(),
-                expected: "the maps of one material".to_owned(),
-                found: format!("several: {}", listing(&found)),
-                remedy: "give the prefix that only the files of one material share".to_owned(),
-            });
-        }
-    };
-    Ok(Set { files: best(path, files, &mut notes)?, notes })
-}
-
-fn is_complete(files: &[Named]) -> bool {
-    let has = |roles: &[Role]| files.iter().any(|f| roles.contains(&f.label.role));
-    has(&[Role::Base, Role::Diffuse])
-        && has(&[Role::Roughness, Role::OcclusionRoughnessMetallic, Role::RoughnessMetallicOcclusion])
-}
-
-/// One file a map: the better of two, with a note; an error where neither is.
-fn best(path: &Path, mut files: Vec<Named>, notes: &mut Vec<String>) -> Result<Vec<Named>, Error> {
-    files.sort_by_key(Named::rank);
-    let mut chosen: Vec<Named> = Vec::new();
-    for file in files.into_iter().rev() {
-        if file.label.role == Role::Ignored {
-            notes.push(format!("{} is not used.", file.file));
-            continue;
-        }
-        match chosen.iter().find(|c| c.label.role == file.label.role) {
-            None => chosen.push(file),
-            Some(better) if better.rank() > file.rank() => {
-                notes.push(format!("{} is not used: {} is taken before it.", file.file, better.file));
-            }
-            Some(equal) => {
-                let (first, second) = if file.file < equal.file { (&file, equal) } else { (equal, &file) };
-                return Err(Error::NotAMaterial {
-                    path: path.to_owned(),
-                    expected: format!("one picture for the {} map", file.label.role.name()),
-                    found: format!("{} and {}", first.file, second.file),
-                    remedy: "give the prefix that only the files of this material share, or move one away"
-                        .to_owned(),
-                });
-            }
-        }
-    }
-    Ok(chosen)
-}
-
-fn assemble(
-    path: &Path,
-    folder: &Path,
+/// The files of a material, chosen.
+struct Assembly<'a> {
+    path: &'a Path,
+    folder: &'a Path,
     name: String,
     set: Set,
-    names: &[String],
-    progress: &Progress,
-) -> Result<Found, Error> {
-    progress.begin(set.files.len() as u64);
-    let load = |named: &Named| {
-        let what = format!("{} map", named.label.role.name());
-        let decoded = decode::decode_one(&folder.join(&named.file), &what);
-        progress.step().and(decoded)
-    };
-    let decoded: Vec<_> = set.files.par_iter().map(load).collect::<Result<_, _>>()?;
-    let mut pictures = Pictures::default();
-    let mut notes = Vec::new();
-    let mut floats = true;
-    for (named, (raster, said)) in set.files.iter().zip(decoded) {
-        notes.push(format!("The {} map is {}.", named.label.role.name(), named.file));
-        notes.extend(said);
-        let is_colour = matches!(named.label.role, Role::Base | Role::Diffuse | Role::Specular);
-        floats &= raster.is_float() || !is_colour;
-        let file = folder.join(&named.file);
-        pictures.add(named.label.role, Source { raster, file, part: String::new() });
+    /// Maps that the user named.
+    bound: Vec<(Role, Source)>,
+    /// What there is, for messages.
+    names: &'a [String],
+    options: &'a ReadOptions,
+}
+
+impl Assembly<'_> {
+    fn read(self, progress: &Progress) -> Result<Found, Error> {
+        let Self { path, folder, name, set, bound, names, options } = self;
+        progress.begin(set.files.len() as u64);
+        let load = |named: &Named| {
+            let what = format!("{} map", named.label.role.name());
+            let decoded = decode::decode_one(&folder.join(&named.file), &what);
+            progress.step().and(decoded)
+        };
+        let decoded: Vec<_> = set.files.par_iter().map(load).collect::<Result<_, _>>()?;
+        let mut pictures = Pictures::default();
+        let mut notes = Vec::new();
+        let mut floats = true;
+        let is_opensvbrdf = set.files.iter().any(|f| f.label.word == "axay");
+        for (named, (mut raster, said)) in set.files.iter().zip(decoded) {
+            let Named { file, label } = named;
+            notes.push(format!("The {} map is {file}.", label.role.name()));
+            notes.extend(said);
+            floats &= raster.is_float() || !is_colour(label.role);
+            if label.word == set::NUMBERED
+                && label.role == Role::Normal
+                && normal_score(&raster) < NORMAL_AT_LEAST
+            {
+                return Err(numbers_mislead(path, file));
+            }
+            if is_opensvbrdf && label.word == "ps" {
+                raster = raster.scaled(&[Reflectance::DIELECTRIC.value() as f32]);
+                notes.push(format!("{file} is taken as a factor on 0.04, as OpenSVBRDF writes it."));
+            }
+            pictures.add(label.role, Source { raster, file: folder.join(file), part: String::new() });
+        }
+        for (role, source) in bound {
+            notes.push(format!("The {} map is {}, as you said.", role.name(), source.file.display()));
+            floats &= source.raster.is_float() || !is_colour(role);
+            pictures.replace(role, source);
+        }
+        let mut doubts = Vec::new();
+        for riddle in set.riddles {
+            let rescued = if pictures.has(Role::Normal) { None } else { rescued(&folder.join(&riddle)) };
+            let Some(source) = rescued else {
+                notes.push(format!("{riddle} is not used: its name says no map."));
+                continue;
+            };
+            pictures.add(Role::Normal, source);
+            let why = "nearly all of its pixels look like normals, though its name says no map";
+            doubts.push(Assumption::new(What::Layout, format!("normal is {riddle}"), why, Certainty::Unsure));
+        }
+        let mut found = pictures.into_found(path, name, &listing(names), options)?;
+        found.assumptions.append(&mut doubts);
+        found.hints = hints(folder, &set.files, floats);
+        if is_diffmat(&set.files, &found) {
+            let why = "DiffMat writes these names and depths, and y down unless told otherwise";
+            found.hints.albedo = Some((Albedo::Gamma22, why.to_owned(), Certainty::Likely));
+            found.hints.normal_y = Some((NormalY::Down, why.to_owned(), Certainty::Unsure));
+        }
+        notes.extend(set.notes);
+        found.notes = notes;
+        Ok(found)
     }
-    let mut found = pictures.into_found(path, name, &listing(names))?;
-    found.hints = hints(folder, &set.files, floats);
-    if is_diffmat(&set.files, &found) {
-        let why = "DiffMat writes these names and depths, and y down unless told otherwise";
-        found.hints.albedo = Some((Albedo::Gamma22, why.to_owned(), Certainty::Likely));
-        found.hints.normal_y = Some((NormalY::Down, why.to_owned(), Certainty::Unsure));
+}
+
+fn is_colour(role: Role) -> bool {
+    matches!(role, Role::Base | Role::Diffuse | Role::Specular)
+}
+
+fn numbers_mislead(path: &Path, file: &str) -> Error {
+    Error::NotAMaterial {
+        path: path.to_owned(),
+        expected: "files 0 to 3 to be normal, diffuse, roughness and specular".to_owned(),
+        found: format!("{file} without the look of normals"),
+        remedy: "name the files by their maps".to_owned(),
     }
-    notes.extend(set.notes);
-    found.notes = notes;
-    Ok(found)
+}
+
+/// The picture `file`, if it looks like a normal map all over.
+fn rescued(file: &Path) -> Option<Source> {
+    let (raster, _) = decode::decode_one(file, "picture").ok()?;
+    let score = normal_score(&raster);
+    (score > NORMAL_ALL_OVER).then(|| Source { raster, file: file.to_owned(), part: String::new() })
 }
 
 /// Whether the files look as DiffMat writes them: whole names, colour in 8 bits, gray in 16.
@@ -237,6 +217,8 @@ fn hints(folder: &Path, files: &[Named], floats: bool) -> Hints {
         let why = "MaterialGAN and its heirs use these names and store so";
         hints.roughness = Some((Roughness::Gamma22, why.to_owned(), Certainty::Likely));
         Some((Albedo::Gamma22, why, Certainty::Likely))
+    } else if colour == set::NUMBERED {
+        Some((Albedo::Gamma22, "the results of Deschaintre et al. 2020 are numbered so", Certainty::Unsure))
     } else if colour.contains("gammad") {
         Some((Albedo::Gamma22, "the names say gammad", Certainty::Sure))
     } else if colour.starts_with("outputs") || colour.starts_with("targets") {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::assumption::{Assumption, Certainty, What};
 use super::names::Role;
-use super::options::{Albedo, NormalY, Roughness};
+use super::options::{Albedo, NormalY, ReadOptions, Roughness, Workflow};
 use super::raster::Raster;
 use crate::error::Error;
 
@@ -15,6 +15,18 @@ pub struct Source {
     pub file: PathBuf,
     /// Layer, channel or tile within the file, for people; may be empty.
     pub part: String,
+}
+
+impl Source {
+    /// Takes the samples out, so that they can be let go; size and names stay.
+    pub fn take(&mut self) -> Self {
+        let left = self.raster.without_samples();
+        Self {
+            raster: std::mem::replace(&mut self.raster, left),
+            file: self.file.clone(),
+            part: self.part.clone(),
+        }
+    }
 }
 
 /// What a convention says about stored values, with why and how surely. `None` where it says nothing.
@@ -62,38 +74,49 @@ impl Pictures {
         self.all.iter().any(|(r, _)| *r == role)
     }
 
+    /// Puts `source` in the place of what there is for its role.
+    pub fn replace(&mut self, role: Role, source: Source) {
+        self.all.retain(|(r, _)| *r != role);
+        self.all.push((role, source));
+    }
+
     fn take(&mut self, role: Role) -> Option<Source> {
         let place = self.all.iter().position(|(r, _)| *r == role)?;
         Some(self.all.swap_remove(place).1)
     }
 
-    /// Takes the channel at `channel` of a packed picture as a picture of its own.
-    fn channel(&self, role: Role, channel: usize, name: &str) -> Option<Source> {
-        let (_, source) = self.all.iter().find(|(r, s)| *r == role && s.raster.channels.len() == 3)?;
-        let part = format!(
-            "{}{name}",
-            if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) }
-        );
-        Some(Source { raster: source.raster.channel(channel), file: source.file.clone(), part })
+    /// Roughness (0) or metallic (1) out of a picture that holds both.
+    fn packed(&self, which: usize) -> Option<Source> {
+        self.all.iter().find_map(|(role, source)| {
+            let channel = role.packing()?[which];
+            let plane =
+                if channel == 3 { source.raster.alpha.as_ref() } else { source.raster.channels.get(channel) };
+            let raster = source.raster.of(plane?.clone());
+            let name = ["red", "green", "blue", "alpha"][channel];
+            let before = if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) };
+            Some(Source { raster, file: source.file.clone(), part: before + name })
+        })
     }
 
     fn roughness(&mut self) -> Option<Source> {
-        self.take(Role::Roughness)
-            .or_else(|| self.channel(Role::OcclusionRoughnessMetallic, 1, "green"))
-            .or_else(|| self.channel(Role::RoughnessMetallicOcclusion, 0, "red"))
+        self.take(Role::Roughness).or_else(|| self.packed(0))
     }
 
     fn metallic(&mut self) -> Option<Source> {
-        self.take(Role::Metallic)
-            .or_else(|| self.channel(Role::OcclusionRoughnessMetallic, 2, "blue"))
-            .or_else(|| self.channel(Role::RoughnessMetallicOcclusion, 1, "green"))
+        self.take(Role::Metallic).or_else(|| self.packed(1))
     }
 
     /// Chooses the workflow and puts the maps in their places; `path` is what the user gave, `listed` what is there.
     ///
     /// # Errors
     /// [`Error::NotAMaterial`] without a colour or without roughness.
-    pub fn into_found(mut self, path: &Path, name: String, listed: &str) -> Result<Found, Error> {
+    pub fn into_found(
+        mut self,
+        path: &Path,
+        name: String,
+        listed: &str,
+        options: &ReadOptions,
+    ) -> Result<Found, Error> {
         let missing = |role: Role| Error::NotAMaterial {
             path: path.to_owned(),
             expected: format!(
@@ -108,20 +131,26 @@ impl Pictures {
         let mut files: Vec<_> = self.all.iter().map(|(_, source)| source.file.clone()).collect();
         files.sort();
         files.dedup();
-        if let Some((_, source)) = self.all.iter().find(|(r, _)| *r == Role::RoughnessMetallicOcclusion) {
-            assumptions.push(Assumption::new(
-                What::Layout,
-                "red roughness, green metallic, blue occlusion",
-                format!("by the name of {}; such packings differ", source.file.display()),
-                Certainty::Unsure,
-            ));
+        let doubtful = [Role::RoughnessMetallicOcclusion, Role::MetallicRoughnessOcclusion];
+        if let Some((role, source)) = self.all.iter().find(|(role, _)| doubtful.contains(role)) {
+            let chosen = if *role == doubtful[0] {
+                "red roughness, green metallic, blue occlusion"
+            } else {
+                "red metallic, green roughness, blue occlusion"
+            };
+            let why = format!("by the name of {}; such packings differ", source.file.display());
+            assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
         }
         let normal = self.take(Role::Normal);
         let roughness = self.roughness();
         let metallic = self.metallic();
         let specular = self.take(Role::Specular);
         let (base, diffuse) = (self.take(Role::Base), self.take(Role::Diffuse));
-        let use_metallic = metallic.is_some() && (base.is_some() || specular.is_none());
+        let use_metallic = match options.workflow {
+            Some(workflow) => workflow == Workflow::Metallic && metallic.is_some(),
+            None => metallic.is_some() && (base.is_some() || specular.is_none()),
+        };
+        let specular = specular.filter(|_| options.workflow != Some(Workflow::Metallic));
         let colour = if use_metallic { base.or(diffuse) } else { diffuse.or(base) };
         if normal.is_none() && colour.is_none() && roughness.is_none() {
             return Err(missing(Role::Normal));
@@ -129,11 +158,22 @@ impl Pictures {
         let colour = colour.ok_or_else(|| missing(Role::Diffuse))?;
         let roughness = roughness.ok_or_else(|| missing(Role::Roughness))?;
         let (chosen, why) = match (use_metallic, specular.is_some()) {
-            (true, _) => ("metallic", "there is a metallic map: d = b (1 - m), s = 0.04 (1 - m) + b m"),
-            (false, true) => ("specular", "there is a specular map"),
-            (false, false) => ("specular", "there is neither a specular nor a metallic map"),
+            (true, _) => {
+                (Workflow::Metallic, "there is a metallic map: d = b (1 - m), s = 0.04 (1 - m) + b m")
+            }
+            (false, true) => (Workflow::Specular, "there is a specular map"),
+            (false, false) => (Workflow::Specular, "there is neither a specular nor a metallic map"),
         };
-        assumptions.push(Assumption::new(What::Workflow, chosen, why, Certainty::Sure));
+        assumptions.push(match options.workflow {
+            Some(given) if given == chosen => Assumption::given(What::Workflow, given),
+            Some(given) => Assumption::new(
+                What::Workflow,
+                given,
+                "as you said, but there is no metallic map",
+                Certainty::Given,
+            ),
+            None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
+        });
         Ok(Found {
             name,
             normal,
@@ -146,5 +186,68 @@ impl Pictures {
             notes: Vec::new(),
             files,
         })
+    }
+}
+
+impl Found {
+    /// Puts `source` in the place of the map of its role.
+    pub fn replace(&mut self, role: Role, source: Source) {
+        self.files.push(source.file.clone());
+        self.files.sort();
+        self.files.dedup();
+        match role {
+            Role::Normal => self.normal = Some(source),
+            Role::Specular => (self.specular, self.metallic) = (Some(source), None),
+            Role::Roughness => self.roughness = source,
+            Role::Metallic => (self.metallic, self.specular) = (Some(source), None),
+            _ => self.colour = source,
+        }
+    }
+
+    /// Every map with its name.
+    pub fn sources(&self) -> Vec<(&'static str, &Source)> {
+        let colour = if self.metallic.is_some() { "base colour" } else { "diffuse" };
+        let optional = [("normal", &self.normal), ("specular", &self.specular), ("metallic", &self.metallic)];
+        let always = [(colour, &self.colour), ("roughness", &self.roughness)];
+        let there = optional.into_iter().filter_map(|(name, source)| source.as_ref().map(|s| (name, s)));
+        there.chain(always).collect()
+    }
+
+    /// The size of the largest map; says so where others are smaller.
+    pub fn common_size(&mut self) -> Result<[usize; 2], Error> {
+        let all: Vec<_> = self
+            .sources()
+            .into_iter()
+            .map(|(name, s)| (format!("{name} map {}", s.file.display()), name, s.raster.size()))
+            .collect();
+        let Some((largest_whose, _, largest)) = all.iter().max_by_key(|(.., size)| size[0] * size[1]) else {
+            return Ok([0; 2]);
+        };
+        let [width, height] = *largest;
+        let mut smaller = Vec::new();
+        for (whose, name, size) in &all {
+            // A single value has every shape.
+            if *size == [1, 1] {
+                continue;
+            }
+            if size[0] * height != size[1] * width {
+                return Err(Error::SizesDiffer {
+                    first: largest_whose.clone(),
+                    first_size: *largest,
+                    second: whose.clone(),
+                    second_size: *size,
+                    remedy: "resize them so that the maps of a material have one shape",
+                });
+            }
+            if size != largest {
+                smaller.push(format!("{name} from {} x {}", size[0], size[1]));
+            }
+        }
+        if !smaller.is_empty() {
+            let chosen = format!("{width} x {height}");
+            let why = format!("the largest map has it; resampled bilinearly: {}", smaller.join(", "));
+            self.assumptions.push(Assumption::new(What::Size, chosen, why, Certainty::Likely));
+        }
+        Ok([width, height])
     }
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use gltf::image::Source as Image;
+use gltf::material::{PbrMetallicRoughness, PbrSpecularGlossiness};
 use gltf::{Document, Gltf, Texture};
 
 use super::assumption::{Assumption, Certainty, What};
@@ -14,6 +15,7 @@ use super::found::{Found, Pictures, Source};
 use super::names::Role;
 use super::options::{Albedo, NormalY, ReadOptions, Roughness};
 use super::raster::{Raster, Samples};
+use super::transfer::{encoded, linear};
 use crate::error::Error;
 use crate::progress::Progress;
 
@@ -45,16 +47,14 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         found: "none".to_owned(),
         remedy: "export the model with its materials".to_owned(),
     })?;
-    let pbr = material.pbr_metallic_roughness();
     progress.begin(3);
-    let load = |texture: Option<Texture<'_>>, what: &str| -> Result<Option<Source>, Error> {
-        let source = texture.map(|texture| scene.picture(&texture, what)).transpose()?;
-        progress.step().map(|()| source)
+    let mut pictures = Pictures::default();
+    let normal = scene.load(material.normal_texture().map(|t| t.texture()), "normal map", progress)?;
+    let textured = match material.pbr_specular_glossiness() {
+        Some(spec_gloss) => scene.specular_glossiness(&spec_gloss, &mut pictures, progress)?,
+        None => scene.metallic_roughness(&material.pbr_metallic_roughness(), &mut pictures, progress)?,
     };
-    let colour = load(pbr.base_color_texture().map(|t| t.texture()), "base colour map")?;
-    let orm = load(pbr.metallic_roughness_texture().map(|t| t.texture()), "roughness and metallic map")?;
-    let normal = load(material.normal_texture().map(|t| t.texture()), "normal map")?;
-    if colour.is_none() && orm.is_none() && normal.is_none() {
+    if !textured && normal.is_none() {
         return Err(Error::NotAMaterial {
             path: path.to_owned(),
             expected: "a material with textures".to_owned(),
@@ -62,26 +62,16 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
             remedy: "choose another with --exemplar".to_owned(),
         });
     }
-    let channel = |number: usize, factor: f32| match &orm {
-        Some(orm) => Source { raster: scaled(orm.raster.channel(number), &[factor]), ..orm.clone() },
-        None => scene.constant(&[factor]),
-    };
-    let [r, g, b, _] = pbr.base_color_factor();
-    let mut pictures = Pictures::default();
-    pictures.add(Role::Roughness, channel(1, pbr.roughness_factor()));
-    pictures.add(Role::Metallic, channel(2, pbr.metallic_factor()));
-    // A factor is linear and the picture is not: see `base`.
-    pictures
-        .add(Role::Base, colour.map_or_else(|| scene.constant(&[r, g, b].map(srgb)), |c| base(c, [r, g, b])));
     if let Some(normal) = normal {
         pictures.add(Role::Normal, normal);
     }
     let name = material.name().map_or_else(|| format!("material {index}"), str::to_owned);
-    let mut found = pictures.into_found(path, name, "")?;
+    let mut found = pictures.into_found(path, name, "", options)?;
     found.files.push(path.to_owned());
     found.files.sort();
     found.files.dedup();
-    specify(&mut found);
+    let gloss = material.pbr_specular_glossiness().is_some();
+    specify(&mut found, if gloss { Roughness::Gloss } else { Roughness::R });
     if count > 1 {
         let line =
             format!("The glTF holds {count} materials; this is number {index} from 0. Another: --exemplar.");
@@ -91,10 +81,11 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
 }
 
 /// What the specification of glTF 2.0 says.
-fn specify(found: &mut Found) {
+fn specify(found: &mut Found, roughness: Roughness) {
     let why = || "glTF 2.0 is so by its specification".to_owned();
     found.hints.albedo = Some((Albedo::Srgb, why(), Certainty::Sure));
-    found.hints.roughness = Some((Roughness::R, why(), Certainty::Sure));
+    found.hints.specular = found.hints.albedo.clone();
+    found.hints.roughness = Some((roughness, why(), Certainty::Sure));
     found.hints.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
     found
         .assumptions
@@ -106,6 +97,85 @@ fn bad(path: &Path, problem: String) -> Error {
 }
 
 impl Scene {
+    fn load(
+        &self,
+        texture: Option<Texture<'_>>,
+        what: &str,
+        progress: &Progress,
+    ) -> Result<Option<Source>, Error> {
+        let source = texture.map(|texture| self.picture(&texture, what)).transpose()?;
+        progress.step().map(|()| source)
+    }
+
+    /// Base colour, roughness and metallic; whether there is any texture.
+    fn metallic_roughness(
+        &self,
+        pbr: &PbrMetallicRoughness<'_>,
+        pictures: &mut Pictures,
+        progress: &Progress,
+    ) -> Result<bool, Error> {
+        let colour = self.load(pbr.base_color_texture().map(|t| t.texture()), "base colour map", progress)?;
+        let orm = pbr.metallic_roughness_texture().map(|t| t.texture());
+        let orm = self.load(orm, "roughness and metallic map", progress)?;
+        let textured = colour.is_some() || orm.is_some();
+        let channel = |number: usize, factor: f32| match &orm {
+            Some(orm) => Source { raster: orm.raster.channel(number).scaled(&[factor]), ..orm.clone() },
+            None => self.constant(&[factor]),
+        };
+        let [r, g, b, _] = pbr.base_color_factor();
+        pictures.add(Role::Roughness, channel(1, pbr.roughness_factor()));
+        pictures.add(Role::Metallic, channel(2, pbr.metallic_factor()));
+        pictures.add(Role::Base, self.colour(colour, [r, g, b]));
+        Ok(textured)
+    }
+
+    /// Diffuse, specular and glossiness of the extension `KHR_materials_pbrSpecularGlossiness`.
+    fn specular_glossiness(
+        &self,
+        pbr: &PbrSpecularGlossiness<'_>,
+        pictures: &mut Pictures,
+        progress: &Progress,
+    ) -> Result<bool, Error> {
+        let diffuse = self.load(pbr.diffuse_texture().map(|t| t.texture()), "diffuse map", progress)?;
+        let both = pbr.specular_glossiness_texture().map(|t| t.texture());
+        let both = self.load(both, "specular and glossiness map", progress)?;
+        let textured = diffuse.is_some() || both.is_some();
+        let factor = pbr.glossiness_factor();
+        let gloss = match &both {
+            // Alpha that is 1 everywhere is not kept.
+            Some(Source { raster, .. }) => match raster.alpha.clone() {
+                Some(alpha) => raster.of(alpha).scaled(&[factor]),
+                None => Raster::constant("alpha", &[factor]),
+            },
+            None => Raster::constant("factor", &[factor]),
+        };
+        let file = both.as_ref().map_or(&self.path, |source| &source.file).clone();
+        let [r, g, b, _] = pbr.diffuse_factor();
+        pictures.add(Role::Diffuse, self.colour(diffuse, [r, g, b]));
+        pictures.add(Role::Specular, self.colour(both, pbr.specular_factor()));
+        pictures.add(Role::Roughness, Source { raster: gloss, file, part: "alpha".to_owned() });
+        Ok(textured)
+    }
+
+    /// The sRGB picture of a colour times a linear factor, in sRGB.
+    fn colour(&self, source: Option<Source>, factor: [f32; 3]) -> Source {
+        let srgb = |value: f64| encoded(value, Albedo::Srgb) as f32;
+        let Some(source) = source else {
+            return self.constant(&factor.map(|value| srgb(value.into())));
+        };
+        if factor == [1.0; 3] {
+            return source;
+        }
+        let last = source.raster.channels.len() - 1;
+        let times = |c: usize| {
+            let plane = &source.raster.channels[last.min(c)];
+            let value = |i| srgb(linear(plane.at(i), Albedo::Srgb) * f64::from(factor[c]));
+            Samples::Floats((0..plane.len()).map(value).collect())
+        };
+        let channels = [0, 1, 2].map(times).into();
+        Source { raster: Raster { channels, ..source.raster.without_samples() }, ..source }
+    }
+
     /// The picture of a texture.
     fn picture(&self, texture: &Texture<'_>, what: &str) -> Result<Source, Error> {
         let (raster, file, part) = match texture.source().source() {
@@ -178,38 +248,7 @@ impl Scene {
 
     /// A map of one value: a factor without a texture.
     fn constant(&self, values: &[f32]) -> Source {
-        let channels = values.iter().map(|&value| Samples::Floats(vec![value])).collect();
-        let raster = Raster { width: 1, height: 1, depth: "factor", channels, alpha: None };
+        let raster = Raster::constant("factor", values);
         Source { raster, file: self.path.clone(), part: "factor".to_owned() }
     }
-}
-
-/// The picture times a factor for each channel; as it is where all are 1.
-fn scaled(raster: Raster, factors: &[f32]) -> Raster {
-    if factors.iter().all(|&factor| factor == 1.0) {
-        return raster;
-    }
-    let times = |(plane, &factor): (&Samples, &f32)| {
-        Samples::Floats((0..plane.len()).map(|i| plane.at(i) as f32 * factor).collect())
-    };
-    Raster { channels: raster.channels.iter().zip(factors.iter().cycle()).map(times).collect(), ..raster }
-}
-
-/// The sRGB picture of a base colour times a linear factor, in sRGB.
-fn base(source: Source, factor: [f32; 3]) -> Source {
-    if factor == [1.0; 3] {
-        return source;
-    }
-    let linear = |v: f32| if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
-    let last = source.raster.channels.len() - 1;
-    let times = |c: usize| {
-        let plane = &source.raster.channels[last.min(c)];
-        Samples::Floats((0..plane.len()).map(|i| srgb(linear(plane.at(i) as f32) * factor[c])).collect())
-    };
-    let channels = [0, 1, 2].map(times).into();
-    Source { raster: Raster { channels, ..source.raster }, ..source }
-}
-
-fn srgb(value: f32) -> f32 {
-    if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
 }

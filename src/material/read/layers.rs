@@ -6,7 +6,7 @@ use super::assumption::{Assumption, Certainty, What};
 use super::decode::Layer;
 use super::found::{Found, Pictures, Source};
 use super::names::Label;
-use super::options::{Albedo, NormalY, Roughness};
+use super::options::{Albedo, NormalY, ReadOptions, Roughness};
 use crate::error::Error;
 
 /// Whether the name of a layer says which map it is.
@@ -14,12 +14,22 @@ pub fn is_named(layer: &Layer) -> bool {
     Label::of(&layer.name).is_some()
 }
 
+/// The name of a layer, for messages.
+pub fn name(layer: &Layer) -> String {
+    if layer.name.is_empty() { "one without a name".to_owned() } else { format!("`{}`", layer.name) }
+}
+
 /// The maps among `layers`, by their names; others are left aside and named.
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where maps are missing, or one is there twice.
-pub fn assemble(path: &Path, layers: Vec<Layer>, native: bool) -> Result<Found, Error> {
-    let names: Vec<String> = layers.iter().map(|layer| format!("`{}`", layer.name)).collect();
+pub fn assemble(
+    path: &Path,
+    layers: Vec<Layer>,
+    native: bool,
+    options: &ReadOptions,
+) -> Result<Found, Error> {
+    let names: Vec<String> = layers.iter().map(name).collect();
     let listed = format!("the layers {}", super::folder::listing(&names));
     let mut pictures = Pictures::default();
     let mut notes = Vec::new();
@@ -46,7 +56,7 @@ pub fn assemble(path: &Path, layers: Vec<Layer>, native: bool) -> Result<Found, 
         }
     }
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let mut found = pictures.into_found(path, name, &listed)?;
+    let mut found = pictures.into_found(path, name, &listed, options)?;
     let layout =
         Assumption::new(What::Layout, "layers", "the names of the layers say the maps", Certainty::Sure);
     found.assumptions.insert(0, layout);

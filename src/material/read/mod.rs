@@ -7,27 +7,40 @@
 //! names and pixels, and recorded as an [`Assumption`].
 
 mod assumption;
+mod binding;
 mod decode;
 mod encoding;
 mod evidence;
 mod folder;
 mod found;
 mod gltf;
+mod grid;
 mod layers;
 mod mtlx;
 mod names;
 mod normals;
 mod options;
+mod order;
 mod packed;
+mod preset;
 mod raster;
 mod report;
 pub(crate) mod resize;
+mod set;
+pub(crate) mod transfer;
+mod values;
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 pub use assumption::{Assumption, Certainty, What};
-pub use options::{Albedo, NonFinite, NormalY, Order, ReadOptions, Roughness};
+pub use binding::Binding;
+pub use grid::Grid;
+pub use options::{
+    Albedo, Energy, NonFinite, NormalCode, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
+};
+pub use order::Order;
+pub use preset::Preset;
 pub use report::MapReport;
 
 use crate::error::Error;
@@ -35,7 +48,11 @@ use crate::material::Material;
 use crate::progress::Progress;
 use crate::real::Real;
 use decode::Decoded;
-use found::Found;
+use found::{Found, Source};
+use names::Role;
+
+/// Extensions of files that name their textures.
+const NAMING: [&str; 3] = ["gltf", "glb", "mtlx"];
 
 /// A material, and how it came to be.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +90,22 @@ impl<T> Read<T> {
 /// normal map, [`Error::SizesDiffer`] where maps differ in shape, [`Error::OutOfRange`] at NaN and infinity,
 /// [`Error::Cancelled`].
 pub fn read<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
-    finish(find(path, options, progress)?, options)
+    read_bound(path, &[], options, progress)
+}
+
+/// As [`read`], with the maps of `bindings` in the place of what is found at `path`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_bound<T: Real>(
+    path: &Path,
+    bindings: &[Binding],
+    options: &ReadOptions,
+    progress: &Progress,
+) -> Result<Read<T>, Error> {
+    let options = &options.with_preset();
+    let bound = bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
+    finish(find(path, bound, options, progress)?, options)
 }
 
 /// Reads a packed or layered image that lies in memory; `name` is the name of the material.
@@ -82,38 +114,55 @@ pub fn read<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) ->
 /// As [`read`].
 pub fn read_bytes<T: Real>(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Read<T>, Error> {
     let path = Path::new(name);
+    let options = &options.with_preset();
     let decoded = decode::decode(Cursor::new(bytes), path, "material")?;
     let found = within(path, decoded, options)?;
     let read = finish(Found { name: name.to_owned(), ..found }, options)?;
     Ok(Read { files: Vec::new(), ..read })
 }
 
-fn find(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
+fn find(
+    path: &Path,
+    bound: Vec<(Role, Source)>,
+    options: &ReadOptions,
+    progress: &Progress,
+) -> Result<Found, Error> {
     if path.is_dir() {
-        return folder::open(path, path, "", progress);
+        return folder::open(path, path, "", bound, options, progress);
     }
     if !path.exists()
         && let Some(prefix) = path.file_name()
     {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        return folder::open(path, folder, &prefix.to_string_lossy(), progress);
+        return folder::open(path, folder, &prefix.to_string_lossy(), bound, options, progress);
     }
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match extension.as_str() {
-        "gltf" | "glb" => return gltf::open(path, options, progress),
-        "mtlx" => return mtlx::open(path, options, progress),
-        _ => (),
+    let found = match extension.as_str() {
+        "gltf" | "glb" => gltf::open(path, options, progress),
+        "mtlx" => mtlx::open(path, options, progress),
+        _ => find_in_picture(path, options, progress),
+    };
+    let mut found = match found {
+        Err(refusal @ Error::NotAMaterial { .. })
+            if options.order.is_none() && !NAMING.contains(&extension.as_str()) =>
+        {
+            return folder::open_around(path, bound, options, progress).and_then(Result::ok).ok_or(refusal);
+        }
+        found => found?,
+    };
+    for (role, source) in bound {
+        found.notes.push(format!("The {} map is {}, as you said.", role.name(), source.file.display()));
+        found.replace(role, source);
     }
+    Ok(found)
+}
+
+/// The material within the picture `path`.
+fn find_in_picture(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
     progress.begin(1);
     let decoded = decode::decode_file(path, "material")?;
     progress.step()?;
-    let found = within(path, decoded, options);
-    match found {
-        Err(Error::NotAMaterial { .. }) if options.order.is_none() => {
-            folder::open_around(path, progress).and_then(Result::ok).map_or(found, Ok)
-        }
-        found => found,
-    }
+    within(path, decoded, options)
 }
 
 /// The material within one file: a packed picture, or one of named layers.
@@ -123,7 +172,7 @@ fn within(path: &Path, decoded: Decoded, options: &ReadOptions) -> Result<Found,
         Some(only) if layers.is_empty() && !layers::is_named(&only) => {
             packed::unpack(path, &only.raster, options)?
         }
-        last => layers::assemble(path, layers.into_iter().chain(last).collect(), native)?,
+        last => layers::assemble(path, layers.into_iter().chain(last).collect(), native, options)?,
     };
     notes.append(&mut found.notes);
     Ok(Found { notes, ..found })
@@ -131,11 +180,11 @@ fn within(path: &Path, decoded: Decoded, options: &ReadOptions) -> Result<Found,
 
 fn finish<T: Real>(mut found: Found, options: &ReadOptions) -> Result<Read<T>, Error> {
     let maps = report::maps(&found);
-    let transparent = |(name, source): (&str, &found::Source)| {
+    let transparent = |(name, source): (&str, &Source)| {
         let noted = source.raster.alpha.is_some() && name != "normal";
         noted.then(|| format!("The {name} map is partly transparent; its alpha is ignored."))
     };
-    let noted: Vec<_> = encoding::sources(&found).into_iter().filter_map(transparent).collect();
+    let noted: Vec<_> = found.sources().into_iter().filter_map(transparent).collect();
     found.notes.extend(noted);
     let (planes, [width, height]) = encoding::planes(&mut found, options)?;
     let material = Material::new(found.name, width, height, planes)?;

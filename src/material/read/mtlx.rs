@@ -10,7 +10,7 @@ use super::decode;
 use super::found::{Found, Hint, Pictures, Source};
 use super::names::Role;
 use super::options::{Albedo, NormalY, ReadOptions};
-use super::raster::{Raster, Samples};
+use super::raster::Raster;
 use crate::error::Error;
 use crate::progress::Progress;
 
@@ -83,7 +83,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         pictures.add(role, source);
     }
     let name = surface.attribute("name").unwrap_or("material").to_owned();
-    let mut found = pictures.into_found(path, name, "")?;
+    let mut found = pictures.into_found(path, name, "", options)?;
     found.files.push(path.to_owned());
     found.files.sort();
     found.files.dedup();
@@ -189,7 +189,5 @@ fn resolved(path: &Path, file: &str) -> PathBuf {
 }
 
 fn constant(path: &Path, values: &[f32]) -> Source {
-    let channels = values.iter().map(|&value| Samples::Floats(vec![value])).collect();
-    let raster = Raster { width: 1, height: 1, depth: "value", channels, alpha: None };
-    Source { raster, file: path.to_owned(), part: "value".to_owned() }
+    Source { raster: Raster::constant("value", values), file: path.to_owned(), part: "value".to_owned() }
 }

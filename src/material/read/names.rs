@@ -16,6 +16,10 @@ pub enum Role {
     OcclusionRoughnessMetallic,
     /// Red roughness, green metallic, blue occlusion.
     RoughnessMetallicOcclusion,
+    /// Red metallic, green roughness, blue occlusion.
+    MetallicRoughnessOcclusion,
+    /// Red metallic, alpha smoothness: Unity.
+    MetallicSmoothness,
     /// Of no use here, but no riddle either.
     Ignored,
 }
@@ -29,9 +33,10 @@ impl Role {
             Self::Specular => "specular",
             Self::Roughness => "roughness",
             Self::Metallic => "metallic",
-            Self::OcclusionRoughnessMetallic | Self::RoughnessMetallicOcclusion => {
-                "packed roughness and metallic"
-            }
+            Self::OcclusionRoughnessMetallic
+            | Self::RoughnessMetallicOcclusion
+            | Self::MetallicRoughnessOcclusion
+            | Self::MetallicSmoothness => "packed roughness and metallic",
             Self::Ignored => "unused",
         }
     }
@@ -56,7 +61,9 @@ impl Role {
                 "arm",
                 "ks",
             ],
-            Self::RoughnessMetallicOcclusion => &["rmo", "rma"],
+            Self::RoughnessMetallicOcclusion => &["rmo", "rma", "roughnessmetallicocclusion"],
+            Self::MetallicRoughnessOcclusion => &["mra"],
+            Self::MetallicSmoothness => &["metallicsmoothness", "maskmap"],
             Self::Ignored => &[
                 "ao",
                 "ambientocclusion",
@@ -88,11 +95,12 @@ impl Role {
                 "thumb",
                 "flow",
                 "depth",
+                "specularlevel",
             ],
         }
     }
 
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 11] = [
         Self::Normal,
         Self::Base,
         Self::Diffuse,
@@ -101,8 +109,21 @@ impl Role {
         Self::Metallic,
         Self::OcclusionRoughnessMetallic,
         Self::RoughnessMetallicOcclusion,
+        Self::MetallicRoughnessOcclusion,
+        Self::MetallicSmoothness,
         Self::Ignored,
     ];
+
+    /// The channels of roughness and of metallic where both are in one picture; 3 is alpha.
+    pub fn packing(self) -> Option<[usize; 2]> {
+        match self {
+            Self::OcclusionRoughnessMetallic => Some([1, 2]),
+            Self::RoughnessMetallicOcclusion => Some([0, 1]),
+            Self::MetallicRoughnessOcclusion => Some([1, 0]),
+            Self::MetallicSmoothness => Some([3, 0]),
+            _ => None,
+        }
+    }
 
     fn of_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.words().contains(&word))
@@ -145,8 +166,10 @@ impl Label {
     /// What the word says about a roughness map.
     pub fn roughness(&self) -> Option<Roughness> {
         match self.word.as_str() {
-            "glossiness" | "gloss" | "glossy" | "smoothness" => Some(Roughness::Gloss),
-            "axay" => Some(Roughness::Alpha),
+            "glossiness" | "gloss" | "glossy" | "smoothness" | "metallicsmoothness" | "maskmap" => {
+                Some(Roughness::Gloss)
+            }
+            "axay" => Some(Roughness::Anisotropic),
             _ => None,
         }
     }
@@ -192,12 +215,12 @@ fn meaning(word: &str) -> Option<(Role, Option<NormalY>)> {
     Role::of_word(plain).map(|role| (role, None))
 }
 
-/// Words such as 2k, 1024, jpg, 16bit, LOD0 and the tile 1001.
+/// Words such as 2k, 1024, jpg, 16bit, LOD0, texture and the tile 1001.
 fn is_size_or_format(word: &str) -> bool {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     let number = word.parse::<u32>().is_ok_and(|n| n == 1001 || (n >= 64 && n.is_power_of_two()));
     let ends = ["k", "bit", "px"].iter().any(|unit| word.strip_suffix(unit).is_some_and(digits));
-    let format = ["jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr"].contains(&word);
+    let format = ["jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr", "texture"].contains(&word);
     number || ends || format || word.strip_prefix("lod").is_some_and(digits)
 }
 
@@ -246,6 +269,10 @@ mod tests {
             ("T_Wall_BC", Role::Base),
             ("0000001_Rout", Role::Roughness),
             ("Metal_AmbientOcclusion", Role::Ignored),
+            ("pd_texture", Role::Diffuse),
+            ("ax_ay_texture", Role::Roughness),
+            ("Rock_MaskMap", Role::MetallicSmoothness),
+            ("Rock_SpecularLevel", Role::Ignored),
         ] {
             assert_eq!(role(name), Some(expected), "{name}");
         }

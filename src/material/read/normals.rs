@@ -4,7 +4,7 @@ use super::assumption::{Assumption, Certainty, What};
 use super::encoding::decide;
 use super::evidence;
 use super::found::{Found, Source};
-use super::options::{NormalY, ReadOptions};
+use super::options::{NormalCode as Code, NormalY, ReadOptions};
 use super::raster::{Raster, Samples};
 use super::resize::{self, Filter};
 use crate::error::Error;
@@ -20,36 +20,12 @@ const UP: f64 = 0.1;
 /// Squared sine of the slope above which z is visibly below 1.
 const STEEP: f64 = 0.05;
 
-/// How the components are stored.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Code {
-    /// (n + 1) / 2.
-    Unsigned,
-    /// n itself.
-    Signed,
-    /// (n + 1) / 2 of x and y; z follows.
-    Two,
-    /// The same in alpha and green ("DXT5nm").
-    AlphaGreen,
-}
-
-impl Code {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Unsigned => "(n + 1) / 2",
-            Self::Signed => "signed",
-            Self::Two => "x and y, z rebuilt",
-            Self::AlphaGreen => "x in alpha, y in green, z rebuilt",
-        }
-    }
-}
-
 /// The components of the normals in `source`, not yet of unit length, y up.
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where the map is gray.
 pub fn planes<T: Real>(
-    source: &Source,
+    source: Source,
     found: &mut Found,
     options: &ReadOptions,
     size: [usize; 2],
@@ -57,24 +33,28 @@ pub fn planes<T: Real>(
     let raster = &source.raster;
     if raster.channels.len() < 2 {
         return Err(Error::NotAMaterial {
-            path: source.file.clone(),
+            path: source.file,
             expected: "a normal map in RGB".to_owned(),
             found: "one in gray".to_owned(),
             remedy: "give a normal map, not a height map".to_owned(),
         });
     }
     let (code, why) = code_of(raster);
-    let certainty = if code == Code::Unsigned { Certainty::Likely } else { Certainty::Unsure };
-    let certainty = if raster.is_float() { Certainty::Likely } else { certainty };
-    found.assumptions.push(Assumption::new(What::NormalCode, code.name(), why, certainty));
+    let sure = code == Code::Unsigned || raster.is_float();
+    let certainty = if sure { Certainty::Likely } else { Certainty::Unsure };
+    let code = decide(&mut found.assumptions, What::NormalCode, options.normal_code, None, || {
+        (code, why, certainty)
+    });
     let y = normal_y(raster, code, found, options);
     let (mut planes, missing) = decoded::<T>(raster, code, y);
     if missing > 0 {
         let why = format!("{missing} texels have a vector of no length, or none that is a number");
         found.assumptions.push(Assumption::new(What::Values, "normal (0, 0, 1)", why, Certainty::Unsure));
     }
-    if raster.size() != size {
-        planes = planes.map(|plane| resize::plane(plane, raster.size(), size, Filter::Value));
+    let from = raster.size();
+    drop(source);
+    if from != size {
+        planes = planes.map(|plane| resize::plane(plane, from, size, Filter::Value));
     }
     Ok(planes)
 }
@@ -87,26 +67,26 @@ pub fn flat<T: Real>(found: &mut Found, size: [usize; 2]) -> [Vec<T>; 3] {
 }
 
 fn code_of(raster: &Raster) -> (Code, String) {
-    if raster.channels.len() == 2 {
-        return (Code::Two, "the map has two channels".to_owned());
-    }
     let range = |plane: &Samples| {
         let values = raster.sampled().map(|i| plane.at(i));
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
     };
+    let least = raster.channels.iter().map(|c| range(c).0).fold(0.0, f64::min);
+    if raster.is_float() && least < -0.01 {
+        return (Code::Signed, format!("the least component is {least:.2}"));
+    }
+    if raster.channels.len() == 2 {
+        return (Code::Xy, "the map has two channels".to_owned());
+    }
     let [x, _, z] = [0, 1, 2].map(|c| range(&raster.channels[c]));
     if let Some(alpha) = &raster.alpha
         && x.0 > 0.98
         && range(alpha).1 - range(alpha).0 > 0.05
     {
-        return (Code::AlphaGreen, "red is 1 everywhere, alpha varies".to_owned());
+        return (Code::Ag, "red is 1 everywhere, alpha varies".to_owned());
     }
     let score = evidence::normal_score(raster);
     if raster.is_float() {
-        let least = raster.channels.iter().map(|c| range(c).0).fold(0.0, f64::min);
-        if least < -0.01 {
-            return (Code::Signed, format!("the least component is {least:.2}"));
-        }
         let signed = evidence::signed_normal_score(raster);
         if signed > score {
             return (
@@ -121,7 +101,7 @@ fn code_of(raster: &Raster) -> (Code, String) {
         x * x + y * y > STEEP
     };
     if z.1 < 0.02 || (z.0 > 0.98 && raster.sampled().any(steep)) {
-        return (Code::Two, format!("blue is {:.0} everywhere", z.0.round()));
+        return (Code::Xy, format!("blue is {:.0} everywhere", z.0.round()));
     }
     (Code::Unsigned, format!("{:.0} % of the texels have length 1 then", 100.0 * score))
 }
@@ -132,9 +112,16 @@ fn vector(raster: &Raster, code: Code, index: usize) -> [f64; 3] {
     let with_z = |x: f64, y: f64| [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()];
     match code {
         Code::Unsigned => raster.rgb(index).map(signed),
+        Code::Signed if raster.channels.len() == 2 => {
+            let [x, y, _] = raster.rgb(index);
+            with_z(x, y)
+        }
         Code::Signed => raster.rgb(index),
-        Code::Two => with_z(signed(raster.channels[0].at(index)), signed(raster.channels[1].at(index))),
-        Code::AlphaGreen => {
+        Code::Xy => {
+            let [x, y, _] = raster.rgb(index);
+            with_z(signed(x), signed(y))
+        }
+        Code::Ag => {
             let x = raster.alpha.as_ref().map_or(0.5, |alpha| alpha.at(index));
             with_z(signed(x), signed(raster.channels[1].at(index)))
         }

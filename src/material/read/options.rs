@@ -5,190 +5,226 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use super::grid::Grid;
+use super::order::Order;
+use super::preset::Preset;
 use crate::error::Error;
 
-/// The names of the values of an enum: for users, for files, and back.
-macro_rules! named {
-    ($type:ident, $what:literal) => {
-        impl fmt::Display for $type {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+/// An enum whose values have names: for users, for files, and back.
+macro_rules! choices {
+    ($(#[$meta:meta])* $type:ident, $what:literal: $($(#[$of_variant:meta])* $variant:ident = $name:literal,)+) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub enum $type {
+            $($(#[$of_variant])* #[serde(rename = $name)] $variant,)+
+        }
+
+        impl $type {
+            /// Every choice.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
+
+            /// How users call it.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)+
+                }
+            }
+        }
+
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
                 f.pad(self.name())
             }
         }
 
-        impl FromStr for $type {
-            type Err = Error;
+        impl std::str::FromStr for $type {
+            type Err = crate::error::Error;
 
-            fn from_str(name: &str) -> Result<Self, Error> {
-                Self::ALL.into_iter().find(|value| value.name() == name).ok_or_else(|| Error::UnknownName {
-                    what: $what,
-                    found: name.to_owned(),
-                    known: Self::ALL.map(Self::name).join(", "),
+            fn from_str(name: &str) -> Result<Self, Self::Err> {
+                Self::ALL.into_iter().find(|value| value.name() == name).ok_or_else(|| {
+                    crate::error::Error::UnknownName {
+                        what: $what,
+                        found: name.to_owned(),
+                        known: Self::ALL.map(Self::name).join(", "),
+                    }
                 })
             }
         }
     };
 }
+pub(super) use choices;
 
-/// Colour space of diffuse, specular and base colour as stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Albedo {
+choices! {
+    /// Colour space of diffuse, specular and base colour as stored.
+    Albedo, "albedo":
     /// The stored value is the reflectance.
-    #[serde(rename = "linear")]
-    Linear,
+    Linear = "linear",
     /// Encoded by the transfer function of IEC 61966-2-1.
-    #[serde(rename = "srgb")]
-    Srgb,
+    Srgb = "srgb",
     /// Encoded by the power 1 / 2.2.
-    #[serde(rename = "gamma2.2")]
-    Gamma22,
+    Gamma22 = "gamma2.2",
+    /// (ln(x + 0.01) - ln 0.01) / (ln 1.01 - ln 0.01): the `logOutputAlbedos` of Deschaintre et al. 2018.
+    Log = "log0.01",
 }
 
-impl Albedo {
-    /// Every choice.
-    pub const ALL: [Self; 3] = [Self::Linear, Self::Srgb, Self::Gamma22];
-
-    /// How users call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Srgb => "srgb",
-            Self::Gamma22 => "gamma2.2",
-        }
-    }
-}
-
-/// Where the y axis of a normal map points, seen on the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum NormalY {
+choices! {
+    /// Where the y axis of a normal map points, seen on the picture.
+    NormalY, "direction of normal y":
     /// Green grows towards the top ("OpenGL").
-    #[serde(rename = "up")]
-    Up,
+    Up = "up",
     /// Green grows towards the bottom ("DirectX"); y is negated on reading.
-    #[serde(rename = "down")]
-    Down,
+    Down = "down",
 }
 
-impl NormalY {
-    /// Every choice.
-    pub const ALL: [Self; 2] = [Self::Up, Self::Down];
-
-    /// How users call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Up => "up",
-            Self::Down => "down",
-        }
-    }
+choices! {
+    /// How the components of normals are stored.
+    NormalCode, "code of normals":
+    /// (n + 1) / 2.
+    Unsigned = "unsigned",
+    /// n itself.
+    Signed = "signed",
+    /// (n + 1) / 2 of x and y; z follows.
+    Xy = "xy",
+    /// The same with x in alpha and y in green ("DXT5nm").
+    Ag = "ag",
 }
 
-/// What the stored value c of a roughness map means; r is the roughness, alpha = r^2 the width of GGX.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Roughness {
+choices! {
+    /// What the stored value c of a roughness map means; r is the roughness, alpha = r^2 the width of GGX.
+    Roughness, "meaning of roughness":
     /// r = c.
-    #[serde(rename = "r")]
-    R,
+    R = "r",
     /// Glossiness or smoothness: r = 1 - c.
-    #[serde(rename = "gloss")]
-    Gloss,
+    Gloss = "gloss",
     /// The width of GGX itself: r = sqrt(c).
-    #[serde(rename = "alpha")]
-    Alpha,
+    Alpha = "alpha",
+    /// The widths of an anisotropic GGX in red and green: r = sqrt(sqrt(c_red c_green)).
+    Anisotropic = "axay",
     /// Stored like a colour: r = c^2.2.
-    #[serde(rename = "gamma2.2")]
-    Gamma22,
+    Gamma22 = "gamma2.2",
 }
 
-impl Roughness {
-    /// Every choice.
-    pub const ALL: [Self; 4] = [Self::R, Self::Gloss, Self::Alpha, Self::Gamma22];
-
-    /// How users call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::R => "r",
-            Self::Gloss => "gloss",
-            Self::Alpha => "alpha",
-            Self::Gamma22 => "gamma2.2",
-        }
-    }
+choices! {
+    /// Which maps say what is reflected.
+    Workflow, "workflow":
+    /// Diffuse and specular.
+    Specular = "specular",
+    /// A base colour b and metallic m: d = b (1 - m), s = f (1 - m) + b m with f of dielectrics.
+    Metallic = "metallic",
 }
 
-/// The order of the tiles of a packed image, row by row: N normal, D diffuse, R roughness, S specular.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Order {
-    /// Deschaintre and most who follow.
-    Ndrs,
-    /// MaterialGAN.
-    Dnrs,
-    /// MaterialGAN without specular.
-    Dnr,
-    /// MatFusion.
-    Dsrn,
-    /// The 2 x 2 picture of svbrdf-diff-renderer.
-    Ndsr,
+choices! {
+    /// What the renderer that the diffuse was made for does with it. Ours takes d (1 - s).
+    Energy, "kind of diffuse":
+    /// The same (Deschaintre, MaterialGAN): the stored value is used.
+    Deschaintre = "deschaintre",
+    /// It takes d alone: d / (1 - s) is used, so that it looks the same here.
+    Plain = "plain",
 }
 
-impl Order {
-    /// Every choice.
-    pub const ALL: [Self; 5] = [Self::Ndrs, Self::Dnrs, Self::Dnr, Self::Dsrn, Self::Ndsr];
-
-    /// How users call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ndrs => "ndrs",
-            Self::Dnrs => "dnrs",
-            Self::Dnr => "dnr",
-            Self::Dsrn => "dsrn",
-            Self::Ndsr => "ndsr",
-        }
-    }
-}
-
-/// What becomes of NaN and infinity.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum NonFinite {
+choices! {
+    /// What becomes of NaN and infinity.
+    #[derive(Default)]
+    NonFinite, "treatment of NaN and infinity":
     /// The first one is an error that says where it is and how many there are.
     #[default]
-    Refuse,
+    Refuse = "refuse",
     /// Colours become 0, roughness 1, normals (0, 0, 1); how many is said.
-    Replace,
+    Replace = "replace",
 }
 
-impl NonFinite {
-    /// Every choice.
-    pub const ALL: [Self; 2] = [Self::Refuse, Self::Replace];
+/// Reflectance at normal incidence, in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reflectance(f64);
 
-    /// How users call it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Refuse => "refuse",
-            Self::Replace => "replace",
-        }
+impl Reflectance {
+    /// That of most that is no metal.
+    pub const DIELECTRIC: Self = Self(0.04);
+
+    pub fn value(self) -> f64 {
+        self.0
     }
 }
 
-named!(Albedo, "albedo");
-named!(NormalY, "direction of normal y");
-named!(Roughness, "meaning of roughness");
-named!(Order, "order of tiles");
-named!(NonFinite, "treatment of NaN and infinity");
+impl FromStr for Reflectance {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let value = text.parse().ok().filter(|value| (0.0..=1.0).contains(value));
+        value.map(Self).ok_or_else(|| Error::UnknownName {
+            what: "reflectance",
+            found: text.to_owned(),
+            known: "a number from 0 to 1, such as 0.04".to_owned(),
+        })
+    }
+}
+
+impl fmt::Display for Reflectance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
 
 /// What the user says about the files of a material. `None` is found out from the files, and said.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ReadOptions {
+    /// What a source of materials does, for all that is not said here.
+    pub preset: Option<Preset>,
     /// Colour space of diffuse, base colour and, unless `specular` says otherwise, specular.
     pub albedo: Option<Albedo>,
     /// Colour space of specular where it is another one.
     pub specular: Option<Albedo>,
     pub normal_y: Option<NormalY>,
+    pub normal_code: Option<NormalCode>,
     pub roughness: Option<Roughness>,
+    pub workflow: Option<Workflow>,
+    /// Reflectance of what is no metal, where no map says it.
+    pub dielectric: Option<Reflectance>,
+    pub energy: Option<Energy>,
     /// Order of the tiles of a packed image.
     pub order: Option<Order>,
+    /// How a packed image is divided; needed where its tiles are not square.
+    pub grid: Option<Grid>,
     /// Which of several materials, or rows of a packed image, from 0.
     pub exemplar: usize,
+    /// Whether row 0 is the lowest: then the material is mirrored, normals with it.
+    pub flip_v: bool,
     pub non_finite: NonFinite,
+}
+
+impl ReadOptions {
+    /// Everything is found out.
+    pub const AUTO: Self = Self {
+        preset: None,
+        albedo: None,
+        specular: None,
+        normal_y: None,
+        normal_code: None,
+        roughness: None,
+        workflow: None,
+        dielectric: None,
+        energy: None,
+        order: None,
+        grid: None,
+        exemplar: 0,
+        flip_v: false,
+        non_finite: NonFinite::Refuse,
+    };
+
+    /// With what the preset says wherever nothing else is said.
+    pub(super) fn with_preset(self) -> Self {
+        let Some(preset) = self.preset else { return self };
+        let usual = preset.options();
+        Self {
+            albedo: self.albedo.or(usual.albedo),
+            specular: self.specular.or(self.albedo).or(usual.specular),
+            normal_y: self.normal_y.or(usual.normal_y),
+            normal_code: self.normal_code.or(usual.normal_code),
+            roughness: self.roughness.or(usual.roughness),
+            workflow: self.workflow.or(usual.workflow),
+            energy: self.energy.or(usual.energy),
+            ..self
+        }
+    }
 }

@@ -43,6 +43,16 @@ impl Samples {
         matches!(self, Self::Floats(_))
     }
 
+    /// `count` samples, each from the place that `place` says.
+    pub fn picked(&self, count: usize, place: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Codes { codes, max } => {
+                Self::Codes { codes: (0..count).map(|i| codes[place(i)]).collect(), max: *max }
+            }
+            Self::Floats(values) => Self::Floats((0..count).map(|i| values[place(i)]).collect()),
+        }
+    }
+
     fn crop(&self, width: usize, [left, top]: [usize; 2], [w, h]: [usize; 2]) -> Self {
         fn cut<S: Copy>(all: &[S], width: usize, [left, top, w, h]: [usize; 4]) -> Vec<S> {
             let rows = all.chunks_exact(width).skip(top).take(h);
@@ -85,7 +95,7 @@ impl Raster {
     /// Only channel number `index`.
     pub fn channel(&self, index: usize) -> Self {
         let channels = self.channels.get(index).or(self.channels.last()).cloned();
-        Self { channels: channels.into_iter().collect(), alpha: None, ..*self }
+        Self { channels: channels.into_iter().collect(), ..self.without_samples() }
     }
 
     pub fn size(&self) -> [usize; 2] {
@@ -110,13 +120,57 @@ impl Raster {
         let step = (count / MOST).max(1) | 1;
         (0..count).step_by(step)
     }
-}
 
-impl Raster {
+    /// `plane`, of the same size.
+    pub fn of(&self, plane: Samples) -> Self {
+        Self { channels: vec![plane], ..self.without_samples() }
+    }
+
+    /// Size and depth alone.
+    pub fn without_samples(&self) -> Self {
+        Self { channels: Vec::new(), alpha: None, ..*self }
+    }
+
     /// Of 1 to 4 channels; the last of 2 or 4 is alpha, and forgotten where it is opaque everywhere.
     pub fn with_alpha(width: usize, height: usize, depth: &'static str, mut channels: Vec<Samples>) -> Self {
         let alpha = if channels.len().is_multiple_of(2) { channels.pop() } else { None };
         let opaque = |alpha: &Samples| (0..alpha.len()).all(|i| alpha.at(i) == 1.0);
         Self { width, height, depth, channels, alpha: alpha.filter(|alpha| !opaque(alpha)) }
+    }
+
+    /// Every number of the channels times a factor, one for each; as it is where all are 1.
+    pub fn scaled(self, factors: &[f32]) -> Self {
+        if factors.iter().all(|&factor| factor == 1.0) {
+            return self;
+        }
+        let times = |(plane, &factor): (&Samples, &f32)| {
+            Samples::Floats((0..plane.len()).map(|i| plane.at(i) as f32 * factor).collect())
+        };
+        Self { channels: self.channels.iter().zip(factors.iter().cycle()).map(times).collect(), ..self }
+    }
+
+    /// The picture as it is seen whose rows and columns are stored in the TIFF `orientation` (1 to 8).
+    pub fn oriented(self, orientation: u16) -> Self {
+        let (mirrored, upset) = (matches!(orientation, 2 | 3 | 6 | 7), matches!(orientation, 3 | 4 | 7 | 8));
+        let turned = matches!(orientation, 5..=8);
+        if !(mirrored || upset || turned) {
+            return self;
+        }
+        let [width, height] = if turned { [self.height, self.width] } else { self.size() };
+        let stored = |index: usize| {
+            let (x, y) = (index % width, index / width);
+            let x = if mirrored { width - 1 - x } else { x };
+            let y = if upset { height - 1 - y } else { y };
+            if turned { x * self.width + y } else { y * self.width + x }
+        };
+        let plane = |plane: &Samples| plane.picked(width * height, stored);
+        let (channels, alpha) = (self.channels.iter().map(plane).collect(), self.alpha.as_ref().map(plane));
+        Self { width, height, channels, alpha, ..self }
+    }
+
+    /// A single texel of the given channels.
+    pub fn constant(depth: &'static str, values: &[f32]) -> Self {
+        let channels = values.iter().map(|&value| Samples::Floats(vec![value])).collect();
+        Self { width: 1, height: 1, depth, channels, alpha: None }
     }
 }

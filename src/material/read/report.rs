@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use super::encoding::sources;
 use super::evidence;
 use super::found::{Found, Source};
 
@@ -36,7 +35,7 @@ pub struct MapReport {
 }
 
 pub(super) fn maps(found: &Found) -> Vec<MapReport> {
-    sources(found).into_iter().map(|(map, source)| report(map, source)).collect()
+    found.sources().into_iter().map(|(map, source)| report(map, source)).collect()
 }
 
 fn report(map: &'static str, source: &Source) -> MapReport {

@@ -71,7 +71,7 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
     );
     if matches!(loaded.origin, Origin::Path(_)) {
         let mut read = loaded.read;
-        super::read_options(ui, "assumed", &mut read, &loaded.assumptions);
+        super::read_options(ui, slot.name(), &mut read, &loaded.assumptions);
         if read != loaded.read {
             commands.push(Command::ReadAs { slot: index, read });
         }

@@ -13,7 +13,10 @@ pub mod top;
 
 use eframe::egui::{self, DragValue, Response, RichText};
 
-use crate::material::read::{Albedo, Assumption, Certainty, NormalY, Order, ReadOptions, Roughness, What};
+use crate::material::read::{
+    Albedo, Assumption, Certainty, Energy, NonFinite, NormalCode, NormalY, Order, Preset, ReadOptions,
+    Roughness, What, Workflow,
+};
 
 /// A number that can be dragged and typed; a double-click puts back its `default`.
 ///
@@ -41,22 +44,44 @@ pub fn number<T: egui::emath::Numeric>(
 
 /// Drop-downs for how a material's files are to be understood; of each the first choice is to find it out.
 ///
-/// `assumptions` are those of the last reading: they say what was found out, and why.
+/// `name` tells them from those of other materials. `assumptions` are those of the last reading: they say what was
+/// found out, and why.
 pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, assumptions: &[Assumption]) {
     let found = |what| assumptions.iter().find(|a| a.what == what);
+    let ReadOptions {
+        preset,
+        order,
+        workflow,
+        albedo,
+        specular,
+        normal_y,
+        normal_code,
+        roughness,
+        energy,
+        ..
+    } = options;
     ui.horizontal_wrapped(|ui| {
-        choice(ui, (name, "order"), &mut options.order, &Order::ALL, found(What::Layout));
-        choice(ui, (name, "albedo"), &mut options.albedo, &Albedo::ALL, found(What::Albedo));
-        choice(ui, (name, "specular"), &mut options.specular, &Albedo::ALL, found(What::Specular));
-        choice(ui, (name, "normal"), &mut options.normal_y, &NormalY::ALL, found(What::NormalY));
-        choice(ui, (name, "roughness"), &mut options.roughness, &Roughness::ALL, found(What::Roughness));
+        choice(ui, (name, "preset"), preset, &Preset::ALL, None);
+        choice(ui, (name, "order"), order, &Order::ALL, found(What::Layout));
+        choice(ui, (name, "workflow"), workflow, &Workflow::ALL, found(What::Workflow));
+        choice(ui, (name, "albedo"), albedo, &Albedo::ALL, found(What::Albedo));
+        choice(ui, (name, "specular"), specular, &Albedo::ALL, found(What::Specular));
+        choice(ui, (name, "normal y"), normal_y, &NormalY::ALL, found(What::NormalY));
+        choice(ui, (name, "normal code"), normal_code, &NormalCode::ALL, found(What::NormalCode));
+        choice(ui, (name, "roughness"), roughness, &Roughness::ALL, found(What::Roughness));
+        choice(ui, (name, "energy"), energy, &Energy::ALL, found(What::Energy));
+        let mut replace = options.non_finite == NonFinite::Replace;
+        ui.checkbox(&mut replace, "replace NaN").on_hover_text("NaN and infinity: else they are an error");
+        options.non_finite = if replace { NonFinite::Replace } else { NonFinite::Refuse };
+        ui.checkbox(&mut options.flip_v, "flip rows")
+            .on_hover_text("Row 0 of every picture is the lowest one");
     });
 }
 
 /// A drop-down for one assumption: `None` is to find it out.
 fn choice<T: Copy + PartialEq + std::fmt::Display>(
     ui: &mut egui::Ui,
-    id: (&str, &str),
+    (material, what): (&str, &str),
     value: &mut Option<T>,
     all: &[T],
     found: Option<&Assumption>,
@@ -68,14 +93,16 @@ fn choice<T: Copy + PartialEq + std::fmt::Display>(
         (None, None) => "auto".to_owned(),
     };
     let unsure = found.is_some_and(|f| f.certainty == Certainty::Unsure);
-    let text = RichText::new(format!("{} {chosen}", id.1));
+    let text = RichText::new(format!("{what} {chosen}"));
     let text = if unsure { text.color(ui.visuals().warn_fg_color) } else { text };
-    let response = egui::ComboBox::from_id_salt(id).selected_text(text).show_ui(ui, |ui| {
-        ui.selectable_value(value, None, format!("auto: find out {}", id.1));
+    let response = egui::ComboBox::from_id_salt((material, what)).selected_text(text).show_ui(ui, |ui| {
+        ui.selectable_value(value, None, format!("auto: find out {what}"));
         for one in all {
-            ui.selectable_value(value, Some(*one), format!("{} {one}", id.1));
+            ui.selectable_value(value, Some(*one), format!("{what} {one}"));
         }
     });
-    let why = found.map_or_else(|| "Not known yet".to_owned(), ToString::to_string);
+    let name = format!("{what} of {material}");
+    response.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &name));
+    let why = found.map_or_else(|| "Nothing is known of it".to_owned(), ToString::to_string);
     response.response.on_hover_text(why);
 }

@@ -93,7 +93,7 @@ impl OpenWindow {
             "The first is the ground truth, the others predictions",
         );
         ui.radio_value(&mut self.as_predictions, true, "All are further predictions");
-        super::read_options(ui, "open", &mut self.read, &[]);
+        super::read_options(ui, "what is opened", &mut self.read, &[]);
         let paths: Vec<PathBuf> =
             self.text.lines().map(str::trim).filter(|l| !l.is_empty()).map(PathBuf::from).collect();
         let button = ui.add_enabled(!paths.is_empty(), egui::Button::new("Open these"));

@@ -3,6 +3,8 @@
 //! What a file is, is told by how it begins, not by its name.
 
 mod exr;
+mod head;
+mod hushed;
 mod numpy;
 mod picture;
 mod tiff;
@@ -64,6 +66,11 @@ impl Place<'_> {
         self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
     }
 
+    /// Whether colour spaces mean nothing here, as far as is known.
+    fn is_data(self) -> bool {
+        ["normal", "roughness", "metallic"].iter().any(|map| self.what.contains(map))
+    }
+
     fn truncated(self) -> Error {
         self.bad("expected the whole image, found the end of the file within it", "copy the file again")
     }
@@ -110,7 +117,7 @@ pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: &str) -> Resul
     } else if begins(b"II*\0") || begins(b"MM\0*") || begins(b"II+\0") || begins(b"MM\0+") {
         tiff::decode(reader, place).map(alone)
     } else {
-        picture::decode(reader, place).map(alone)
+        picture::decode(reader, place)
     }
 }
 

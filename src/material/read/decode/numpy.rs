@@ -24,13 +24,23 @@ pub(super) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> R
         let problem = format!("expected 1 to {MOST_ARRAYS} arrays in the npz, found {}", names.len());
         return Err(place.bad(problem, "save the maps as named arrays"));
     }
+    // An archive bomb says so in its directory, or meets the limit of a single array or of all of them.
+    let mut unpacked = 0_u64;
+    for file in &names {
+        unpacked = unpacked.saturating_add(archive.by_name(file).map_err(invalid)?.size());
+    }
+    if unpacked > MAX_BYTES {
+        let problem =
+            format!("expected at most {} GiB in the npz, found {} GiB", MAX_BYTES >> 30, unpacked >> 30);
+        return Err(place.bad(problem, "save fewer or smaller arrays"));
+    }
     let mut decoded = Decoded::default();
     let mut bytes = 0;
     for file in names {
         let name = file.trim_end_matches(".npy").to_owned();
         let array = archive.by_name(&file).map_err(invalid)?;
         let layer = decode_array(array, name, place)?;
-        // In memory: 2 to 4 bytes a sample. An archive bomb meets the limit of a single array or this one.
+        // In memory: 2 to 4 bytes a sample.
         bytes += 4 * (layer.raster.width * layer.raster.height * layer.raster.channels.len()) as u64;
         place.check_size(layer.raster.width as u64, layer.raster.height as u64, bytes)?;
         decoded.layers.push(layer);
@@ -121,15 +131,4 @@ fn values<R: Read>(
         return Err(invalid(std::io::ErrorKind::UnexpectedEof.into()));
     }
     Ok((samples, depth))
-}
-
-impl Samples {
-    fn picked(&self, count: usize, place: impl Fn(usize) -> usize) -> Self {
-        match self {
-            Self::Codes { codes, max } => {
-                Self::Codes { codes: (0..count).map(|i| codes[place(i)]).collect(), max: *max }
-            }
-            Self::Floats(values) => Self::Floats((0..count).map(|i| values[place(i)]).collect()),
-        }
-    }
 }

@@ -1,38 +1,88 @@
 //! PNG, JPEG and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
 
-use std::io::{BufRead, ErrorKind, Seek};
+use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
 
+use image::codecs::hdr::HdrDecoder;
+use image::codecs::jpeg::JpegDecoder;
+use image::codecs::png::PngDecoder;
 use image::error::{ImageError, LimitErrorKind};
-use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
-use super::{FORMATS, MAX_BYTES, Place, planes};
+use super::{Decoded, FORMATS, MAX_BYTES, Place, alone, head, planes};
 use crate::error::Error;
 use crate::material::read::raster::{Raster, Samples};
 
-pub(super) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
-    let mut reader =
-        ImageReader::new(reader).with_guessed_format().map_err(|e| Error::unreadable(place.path, e))?;
-    let format = match reader.format() {
-        Some(ImageFormat::Png) => "PNG",
-        Some(ImageFormat::Jpeg) => "JPEG",
-        Some(ImageFormat::Hdr) => "HDR",
-        Some(other) => {
-            return Err(place.bad(format!("expected {FORMATS}, found {other:?}"), "convert it to PNG"));
+pub(super) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
+    let unreadable = |e| Error::unreadable(place.path, e);
+    let head = reader.fill_buf().map_err(unreadable)?;
+    match image::guess_format(head) {
+        Ok(ImageFormat::Png) => {
+            let linear = head::png_is_linear(&mut reader).unwrap_or(false);
+            reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+            let decoder = PngDecoder::with_limits(reader, limits()).map_err(|e| explain(&e, "PNG", place))?;
+            let mut decoded = decode_with(decoder, "PNG", place)?;
+            if linear && !place.is_data() {
+                decoded.notes.push(format!(
+                    "The {} says in a gAMA chunk that it is linear, which is ignored: --albedo linear takes it so.",
+                    place.what
+                ));
+            }
+            Ok(decoded)
         }
-        None => {
-            return Err(
-                place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file")
-            );
+        Ok(ImageFormat::Jpeg) => {
+            let components = head::jpeg_components(&mut reader).unwrap_or(None);
+            if components == Some(4) {
+                return Err(place.bad("expected gray or RGB, found a JPEG in CMYK", "convert it to RGB"));
+            }
+            reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+            let decoder = JpegDecoder::new(reader).map_err(|error| explain(&error, "JPEG", place))?;
+            decode_with(decoder, "JPEG", place)
         }
-    };
-    reader.limits(limits());
+        Ok(ImageFormat::Hdr) => {
+            let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
+            decode_with(decoder, "HDR", place)
+        }
+        Ok(other) => Err(place.bad(format!("expected {FORMATS}, found {other:?}"), "convert it to PNG")),
+        Err(_) => {
+            Err(place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file"))
+        }
+    }
+}
+
+fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -> Result<Decoded, Error> {
     let broken = |error: ImageError| explain(&error, format, place);
-    let decoder = reader.into_decoder().map_err(broken)?;
+    decoder.set_limits(limits()).map_err(broken)?;
     let (width, height) = decoder.dimensions();
     place.check_size(width.into(), height.into(), decoder.total_bytes())?;
+    let notes = ignored(&mut decoder, place);
     let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
     let found = image.color();
-    raster(image).ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))
+    let raster = raster(image)
+        .ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))?;
+    Ok(Decoded { notes, ..alone(raster) })
+}
+
+/// What the file says beside its pixels and nobody heeds.
+fn ignored(decoder: &mut impl ImageDecoder, place: Place<'_>) -> Vec<String> {
+    let mut notes = Vec::new();
+    let what = place.what;
+    let turned = decoder.orientation().is_ok_and(|turned| turned != Orientation::NoTransforms);
+    if turned {
+        notes
+            .push(format!("The {what} has an EXIF orientation, which is ignored: rows are taken as stored."));
+    }
+    let profile = decoder.icc_profile().ok().flatten().filter(|_| !place.is_data());
+    if profile.is_some_and(|profile| !is_srgb(&profile)) {
+        notes.push(format!("The {what} has an ICC profile other than sRGB, which is ignored."));
+    }
+    notes
+}
+
+/// Whether an ICC profile calls itself sRGB, in ASCII or UTF-16.
+fn is_srgb(profile: &[u8]) -> bool {
+    let says = |name: &[u8]| profile.windows(name.len()).any(|bytes| bytes == name);
+    says(b"sRGB") || says(b"s\0R\0G\0B")
 }
 
 /// What the decoder may allocate. The size of the image is checked apart, for a message with numbers.

@@ -27,6 +27,7 @@ pub(super) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Ra
         u64::from(width) * u64::from(height) * count as u64 * u64::from(colour.bit_depth()).div_ceil(8);
     place.check_size(width.into(), height.into(), bytes)?;
     let planar = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(invalid)? == Some(2);
+    let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(invalid)?.unwrap_or(1);
     let mut result = DecodingResult::U8(Vec::new());
     decoder.read_image_to_buffer(&mut result).map_err(invalid)?;
     let (width, height) = (width as usize, height as usize);
@@ -34,7 +35,7 @@ pub(super) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Ra
     let (channels, depth) = layout
         .samples(result)
         .ok_or_else(|| place.bad("expected 8, 16 or 32 bits for each sample, found others", "convert it"))?;
-    Ok(Raster::with_alpha(width, height, depth, channels))
+    Ok(Raster::with_alpha(width, height, depth, channels).oriented(orientation))
 }
 
 fn channels_of(colour: ColorType) -> Option<usize> {

@@ -1,0 +1,46 @@
+//! What files say before their pixels, and the libraries that decode them keep to themselves.
+
+use std::io::{self, Read, Seek, SeekFrom};
+
+/// How many components the pixels of a JPEG have, 4 for CMYK; `None` where no frame begins as it should.
+pub(super) fn jpeg_components(mut reader: impl Read + Seek) -> io::Result<Option<u8>> {
+    let mut two = [0; 2];
+    reader.read_exact(&mut two)?;
+    loop {
+        reader.read_exact(&mut two)?;
+        let [255, marker] = two else { return Ok(None) };
+        reader.read_exact(&mut two)?;
+        let length = u16::from_be_bytes(two);
+        // The frames: all of C0 to CF but the tables of C4, C8 and CC.
+        if (0xc0..=0xcf).contains(&marker) && marker % 4 != 0 || marker == 0xc0 {
+            let mut frame = [0; 6];
+            reader.read_exact(&mut frame)?;
+            return Ok(Some(frame[5]));
+        }
+        reader.seek(SeekFrom::Current(i64::from(length) - 2))?;
+    }
+}
+
+/// Whether a PNG says in a gAMA chunk, without an sRGB one, that its values are linear.
+pub(super) fn png_is_linear(mut reader: impl Read + Seek) -> io::Result<bool> {
+    let mut linear = false;
+    reader.seek(SeekFrom::Current(8))?;
+    loop {
+        let (mut length, mut name) = ([0; 4], [0; 4]);
+        reader.read_exact(&mut length)?;
+        reader.read_exact(&mut name)?;
+        let mut left = i64::from(u32::from_be_bytes(length)) + 4;
+        match &name {
+            b"IDAT" => return Ok(linear),
+            b"sRGB" => return Ok(false),
+            b"gAMA" => {
+                let mut gamma = [0; 4];
+                reader.read_exact(&mut gamma)?;
+                left -= 4;
+                linear = u32::from_be_bytes(gamma).abs_diff(100_000) < 1000;
+            }
+            _ => (),
+        }
+        reader.seek(SeekFrom::Current(left))?;
+    }
+}

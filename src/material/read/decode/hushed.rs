@@ -1,0 +1,26 @@
+//! Panics of a library that become errors, without a word on stderr.
+
+use std::cell::Cell;
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Once;
+
+thread_local! {
+    static HUSHED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What `work` returns, or an error where it panics.
+pub(super) fn hushed<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let usual = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            if !HUSHED.get() {
+                usual(info);
+            }
+        }));
+    });
+    HUSHED.set(true);
+    let result = panic::catch_unwind(AssertUnwindSafe(work));
+    HUSHED.set(false);
+    result
+}

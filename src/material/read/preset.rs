@@ -1,0 +1,79 @@
+//! What the sources of materials do, as bundles of options.
+
+use serde::{Deserialize, Serialize};
+
+use super::options::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow, choices};
+use super::order::Order;
+
+choices! {
+    /// A source of materials: a research code, a data set, a library or a tool.
+    Preset, "preset":
+    /// Deschaintre et al. 2018-2020, mworchel: N D R S, all linear. What 2018 does otherwise is about photos only.
+    Deschaintre = "deschaintre",
+    /// Gao et al. 2019: N D R S, only D with gamma 2.2.
+    Gao = "gao",
+    /// MaterialGAN and svbrdf-diff-renderer: D, S and R with gamma 2.2.
+    MaterialGan = "materialgan",
+    /// Zhou & Kalantari 2022: D N R S, D and S with gamma 2.2, R as it is.
+    LookAhead = "lookahead",
+    /// MatFusion: D S R N, D and S with gamma 2.2.
+    MatFusion = "matfusion",
+    /// SurfaceNet and MatFuse: files of raw values.
+    SurfaceNet = "surfacenet",
+    /// DiffMat: metallic, base colour with gamma 2.2, y down.
+    DiffMat = "diffmat",
+    /// OpenSVBRDF: linear, GGX widths ax and ay.
+    OpenSvbrdf = "opensvbrdf",
+    /// glTF 2.0: metallic, base colour sRGB, y up.
+    Gltf = "gltf",
+    /// Poly Haven: as glTF.
+    PolyHaven = "polyhaven",
+    /// ambientCG: as glTF.
+    AmbientCg = "ambientcg",
+    /// Substance, specular and glossiness: colours sRGB.
+    SubstanceSg = "substance-sg",
+}
+
+impl Preset {
+    /// The order in which it packs maps, where it does.
+    pub(crate) fn order(self) -> Option<Order> {
+        match self {
+            Self::Deschaintre | Self::Gao => Some(Order::NDRS),
+            Self::MaterialGan | Self::LookAhead => Some(Order::DNRS),
+            Self::MatFusion => Some(Order::DSRN),
+            _ => None,
+        }
+    }
+
+    /// What it says about values. The direction of y is left open where names say it.
+    pub(crate) fn options(self) -> ReadOptions {
+        let linear = (Albedo::Linear, Albedo::Linear);
+        let gamma = (Albedo::Gamma22, Albedo::Gamma22);
+        let srgb = (Albedo::Srgb, Albedo::Srgb);
+        let (same, plain) = (Some(Energy::Deschaintre), Some(Energy::Plain));
+        let up = Some(NormalY::Up);
+        let metallic = Some(Workflow::Metallic);
+        let specular = Some(Workflow::Specular);
+        let ((albedo, of_specular), roughness, normal_y, workflow, energy) = match self {
+            Self::Deschaintre | Self::SurfaceNet => (linear, Roughness::R, up, specular, same),
+            Self::Gao => ((Albedo::Gamma22, Albedo::Linear), Roughness::R, up, specular, plain),
+            Self::MaterialGan => (gamma, Roughness::Gamma22, up, specular, same),
+            Self::LookAhead => (gamma, Roughness::R, up, specular, same),
+            Self::MatFusion => (gamma, Roughness::R, up, None, plain),
+            Self::DiffMat => (gamma, Roughness::R, Some(NormalY::Down), metallic, None),
+            Self::OpenSvbrdf => (linear, Roughness::Anisotropic, up, specular, plain),
+            Self::Gltf => (srgb, Roughness::R, up, metallic, None),
+            Self::PolyHaven | Self::AmbientCg => (srgb, Roughness::R, None, metallic, None),
+            Self::SubstanceSg => (srgb, Roughness::Gloss, None, specular, None),
+        };
+        ReadOptions {
+            albedo: Some(albedo),
+            specular: Some(of_specular),
+            roughness: Some(roughness),
+            normal_y,
+            workflow,
+            energy,
+            ..ReadOptions::AUTO
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Which files of a folder are the maps of one material, by their names.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::folder::listing;
+use super::names::{Label, Role, words};
+use crate::error::Error;
+
+/// Extensions of the pictures that count, the better one of two last.
+const EXTENSIONS: [&str; 8] = ["jpg", "jpeg", "hdr", "png", "tif", "tiff", "npy", "exr"];
+/// The word of files that are maps by their numbers alone.
+pub const NUMBERED: &str = "0 to 3";
+
+/// A file that its name says to be a map.
+#[derive(Clone, Debug)]
+pub struct Named {
+    pub file: String,
+    pub label: Label,
+}
+
+impl Named {
+    /// The higher, the better a source for its map.
+    fn rank(&self) -> (u8, Option<usize>) {
+        let extension =
+            Path::new(&self.file).extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        (self.label.rank(), EXTENSIONS.iter().position(|e| *e == extension))
+    }
+}
+
+/// One file for each map.
+#[derive(Debug, Default)]
+pub struct Set {
+    pub files: Vec<Named>,
+    /// Pictures whose names say nothing.
+    pub riddles: Vec<String>,
+    pub notes: Vec<String>,
+}
+
+type Groups = BTreeMap<Vec<String>, Vec<Named>>;
+
+/// The files of the one material among `names`: of the stem `wanted`, or of the only stem that is complete with what
+/// is `bound` already.
+///
+/// # Errors
+/// [`Error::NotAMaterial`] where there are several materials, or two files for a map.
+pub fn choose(
+    path: &Path,
+    names: &[String],
+    wanted: Option<&[String]>,
+    bound: &[Role],
+) -> Result<Set, Error> {
+    let mut set = Set::default();
+    let mut groups = Groups::new();
+    for name in names.iter().filter(|name| is_picture(name)) {
+        let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+        match Label::of(&stem) {
+            Some(label) => {
+                groups.entry(label.stem.clone()).or_default().push(Named { file: name.clone(), label })
+            }
+            None => set.riddles.push(name.clone()),
+        }
+    }
+    share(&mut groups);
+    groups.retain(|_, files| files.len() > 1 || !files[0].label.is_short());
+    let is_whole = |files: &[Named]| is_complete(files, bound);
+    let mut complete: Vec<_> =
+        groups.iter().filter(|(_, files)| is_whole(files)).map(|(s, _)| s.clone()).collect();
+    if complete.is_empty() {
+        let numbered = numbered(&set.riddles);
+        complete = numbered.keys().cloned().collect();
+        set.riddles.retain(|name| !numbered.values().flatten().any(|n| n.file == *name));
+        groups.extend(numbered);
+    }
+    let files = match (wanted, complete.as_slice()) {
+        (Some(stem), _) => groups.remove(stem).unwrap_or_default(),
+        (None, [only]) => groups.remove(only).unwrap_or_default(),
+        (None, []) => groups.into_values().flatten().collect(),
+        (None, several) => {
+            let found = several.iter().map(|stem| stem.join("_")).collect::<Vec<_>>();
+            return Err(Error::NotAMaterial {
+                path: path.to_owned(),
+                expected: "the maps of one material".to_owned(),
+                found: format!("several: {}", listing(&found)),
+                remedy: "give the prefix that only the files of one material share".to_owned(),
+            });
+        }
+    };
+    set.files = best(path, files, bound, &mut set.notes)?;
+    Ok(set)
+}
+
+fn is_picture(name: &str) -> bool {
+    let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    EXTENSIONS.contains(&extension.as_str())
+}
+
+fn is_complete(files: &[Named], bound: &[Role]) -> bool {
+    let has = |is: fn(Role) -> bool| files.iter().map(|f| f.label.role).chain(bound.iter().copied()).any(is);
+    has(|role| matches!(role, Role::Base | Role::Diffuse))
+        && has(|role| role == Role::Roughness || role.packing().is_some())
+}
+
+/// The stem of what the file shares with others, as in `bishop_shared_metallic`; `None` for others.
+fn shared(stem: &[String]) -> Option<&[String]> {
+    stem.split_last()
+        .filter(|(last, before)| *last == "shared" && !before.is_empty())
+        .map(|(_, before)| before)
+}
+
+/// Whether `name` is a map that a material shares whose file names begin with `prefix`.
+pub fn is_shared_with(name: &str, prefix: &str) -> bool {
+    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    let label = Label::of(&stem).filter(|_| is_picture(name));
+    label.is_some_and(|l| shared(&l.stem).is_some_and(|stem| words(prefix).starts_with(stem)))
+}
+
+/// Adds the maps of a stem `PREFIX shared` to every stem that begins with the prefix and has no such map.
+fn share(groups: &mut Groups) {
+    let stems: Vec<_> = groups.keys().filter(|stem| shared(stem).is_some()).cloned().collect();
+    for stem in stems {
+        let prefix = &stem[..stem.len() - 1];
+        let heirs = |other: &Vec<String>| other.starts_with(prefix) && *other != stem;
+        if !groups.keys().any(heirs) {
+            continue;
+        }
+        let files = groups.remove(&stem).unwrap_or_default();
+        for (_, heir) in groups.iter_mut().filter(|(other, _)| other.starts_with(prefix)) {
+            for file in &files {
+                if heir.iter().all(|own| own.label.role != file.label.role) {
+                    heir.push(file.clone());
+                }
+            }
+        }
+    }
+}
+
+/// Files `NAME_0` to `NAME_3` and no more: the networks of Deschaintre et al. 2020 write normal, diffuse, roughness
+/// and specular so.
+fn numbered(names: &[String]) -> Groups {
+    const ROLES: [Role; 4] = [Role::Normal, Role::Diffuse, Role::Roughness, Role::Specular];
+    let mut groups: BTreeMap<Vec<String>, Vec<(usize, String)>> = BTreeMap::new();
+    for name in names {
+        let mut stem = words(&Path::new(name).file_stem().unwrap_or_default().to_string_lossy());
+        if let Some(number) = stem.pop().and_then(|word| word.parse().ok()) {
+            groups.entry(stem).or_default().push((number, name.clone()));
+        }
+    }
+    let whole = |(stem, mut files): (Vec<String>, Vec<(usize, String)>)| {
+        files.sort();
+        let numbers: Vec<usize> = files.iter().map(|(number, _)| *number).collect();
+        let named = |(role, (_, file)): (Role, (usize, String))| {
+            let label = Label { role, word: NUMBERED.to_owned(), stem: stem.clone(), normal_y: None };
+            Named { file, label }
+        };
+        (numbers == [0, 1, 2, 3]).then(|| (stem.clone(), ROLES.into_iter().zip(files).map(named).collect()))
+    };
+    groups.into_iter().filter_map(whole).collect()
+}
+
+/// One file a map: the better of two, with a note; an error where neither is.
+fn best(
+    path: &Path,
+    mut files: Vec<Named>,
+    bound: &[Role],
+    notes: &mut Vec<String>,
+) -> Result<Vec<Named>, Error> {
+    files.sort_by_key(Named::rank);
+    let mut chosen: Vec<Named> = Vec::new();
+    for file in files.into_iter().rev() {
+        if file.label.role == Role::Ignored || bound.contains(&file.label.role) {
+            notes.push(format!("{} is not used.", file.file));
+            continue;
+        }
+        match chosen.iter().find(|c| c.label.role == file.label.role) {
+            None => chosen.push(file),
+            Some(better) if better.rank() > file.rank() => {
+                notes.push(format!("{} is not used: {} is taken before it.", file.file, better.file));
+            }
+            Some(equal) => {
+                let (first, second) = if file.file < equal.file { (&file, equal) } else { (equal, &file) };
+                return Err(Error::NotAMaterial {
+                    path: path.to_owned(),
+                    expected: format!("one picture for the {} map", file.label.role.name()),
+                    found: format!("{} and {}", first.file, second.file),
+                    remedy: "give the prefix that only the files of this material share, or move one away"
+                        .to_owned(),
+                });
+            }
+        }
+    }
+    Ok(chosen)
+}

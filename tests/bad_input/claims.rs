@@ -1,0 +1,149 @@
+//! Files that claim to be what nobody can hold, or what nobody can read.
+
+use std::io::{Cursor, Write};
+
+use zip::write::SimpleFileOptions;
+
+use super::*;
+use crate::support::exr;
+
+#[test]
+fn absurd_sizes_are_refused_at_once() {
+    assert_all_refused(&[
+        (
+            "30000 x 30000 pixels",
+            |f| written(f, &header_only(30_000, 30_000)),
+            &["x.png", "expected at most 65536 x 16384", "found 30000 x 30000", "scale"],
+        ),
+        (
+            "the widest PNG",
+            |f| written(f, &header_only(0x7fff_ffff, 1)),
+            &["x.png", "expected at most 4 GiB of pixels, found more", "scale"],
+        ),
+        ("the largest PNG", |f| written(f, &header_only(0x7fff_ffff, 0x7fff_ffff)), &["x.png", "material"]),
+        ("no column", |f| written(f, &header_only(0, 4)), &["x.png", "expected a valid PNG"]),
+        (
+            "a deep EXR",
+            |f| written(f, &exr::deep()),
+            &["x.png", "expected flat samples, found a deep EXR", "flatten it"],
+        ),
+        (
+            "an EXR of 2^31 columns",
+            |f| written(f, &exr::header([0, 0, i32::MAX, 0], false)),
+            &["x.png", "material: expected a valid EXR", "window", "again"],
+        ),
+        (
+            "an EXR of 2^29 columns",
+            |f| written(f, &exr::header([0, 0, (1 << 29) - 1, 0], false)),
+            &["x.png", "expected at most 65536 x 16384", "found 536870912 x 1", "scale"],
+        ),
+        (
+            "an EXR whose window is the wrong way round",
+            |f| written(f, &exr::header([5, 0, 2, 0], false)),
+            &["x.png", "material: expected a valid EXR", "again"],
+        ),
+        (
+            "an EXR whose window overflows",
+            |f| written(f, &exr::header([i32::MIN, i32::MIN, i32::MAX, i32::MAX], false)),
+            &["x.png", "material: expected"],
+        ),
+        (
+            "a TIFF of 2^31 columns",
+            |f| written(f, &tiff_head(1 << 31, 1)),
+            &["x.png", "expected at most 65536 x 16384", "found 2147483648 x 1", "scale"],
+        ),
+        ("a TIFF of 2^32 - 1 squared", |f| written(f, &tiff_head(u32::MAX, u32::MAX)), &["x.png", "at most"]),
+        ("a TIFF without columns", |f| written(f, &tiff_head(0, 4)), &["x.png", "material: expected"]),
+        (
+            "an HDR of 2^31 columns",
+            |f| written(f, b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2147483648\n"),
+            &["x.png", "expected at most 65536 x 16384", "found 2147483648 x 1", "scale"],
+        ),
+        (
+            "a JPEG of 65535 x 65535",
+            |f| written(f, &jpeg_head(3, 65_535, 65_535)),
+            &["x.png", "expected at most 65536 x 16384", "found 65535 x 65535", "scale"],
+        ),
+        (
+            "a JPEG in CMYK",
+            |f| written(f, &jpeg_head(4, 8, 8)),
+            &["x.png", "expected gray or RGB, found a JPEG in CMYK", "convert it to RGB"],
+        ),
+        ("an archive bomb", |f| written(f, &bomb()), &["x.png", "at most 4 GiB", "found 8 GiB"]),
+        (
+            "an archive of too many arrays",
+            |f| written(f, &archive(65)),
+            &["x.png", "expected 1 to 64 arrays in the npz, found 65"],
+        ),
+        ("no row", |f| written(f, &header_only(16, 0)), &["x.png", "expected a valid PNG"]),
+    ]);
+}
+
+/// A PNG in 8-bit RGB that claims its size and holds no more than the beginning of its pixels.
+fn header_only(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = png_bytes(&flat(1, 1, [0; 3]));
+    bytes[16..20].copy_from_slice(&width.to_be_bytes());
+    bytes[20..24].copy_from_slice(&height.to_be_bytes());
+    sign(&mut bytes);
+    bytes
+}
+
+/// The tags of a TIFF in 8-bit gray of this size, and no pixels.
+fn tiff_head(width: u32, height: u32) -> Vec<u8> {
+    let entries = [
+        [256, width],
+        [257, height],
+        [258, 8],
+        [259, 1],
+        [262, 1],
+        [273, 8],
+        [277, 1],
+        [278, height],
+        [279, 1],
+    ];
+    let mut file = b"II*\0\x08\0\0\0".to_vec();
+    file.extend((entries.len() as u16).to_le_bytes());
+    for [tag, value] in entries {
+        file.extend((tag as u16).to_le_bytes());
+        // One 32-bit integer.
+        file.extend([4, 0, 1, 0, 0, 0]);
+        file.extend(value.to_le_bytes());
+    }
+    file.extend([0; 4]);
+    file
+}
+
+/// A JPEG up to the end of its frame, behind a comment.
+fn jpeg_head(components: u8, width: u16, height: u16) -> Vec<u8> {
+    let mut file = b"\xff\xd8\xff\xfe\0\x04hi\xff\xc0".to_vec();
+    file.extend((8 + 3 * u16::from(components)).to_be_bytes());
+    file.push(8);
+    file.extend(height.to_be_bytes());
+    file.extend(width.to_be_bytes());
+    file.push(components);
+    (1..=components).for_each(|number| file.extend([number, 0x11, 0]));
+    file.extend(b"\xff\xda\0\x08\x01\x01\0\0\x3f\0\xff\xd9");
+    file
+}
+
+/// An archive of arrays of one byte.
+fn archive(count: usize) -> Vec<u8> {
+    let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for number in 0..count {
+        zip.start_file(format!("{number}.npy"), SimpleFileOptions::default()).unwrap();
+        zip.write_all(&[0; 8]).unwrap();
+    }
+    zip.finish().unwrap().into_inner()
+}
+
+/// An archive of four arrays of which each claims to unpack into 2 GiB.
+fn bomb() -> Vec<u8> {
+    let mut bytes = archive(4);
+    let directory = b"PK\x01\x02";
+    for at in 0..bytes.len() - directory.len() {
+        if bytes[at..].starts_with(directory) {
+            bytes[at + 24..at + 28].copy_from_slice(&(1_u32 << 31).to_le_bytes());
+        }
+    }
+    bytes
+}

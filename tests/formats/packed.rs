@@ -1,0 +1,97 @@
+//! Packed images.
+
+use super::*;
+
+#[test]
+fn every_packed_layout_is_found_by_its_normal_tile() {
+    type Encode = fn(char, f64) -> f64;
+    let table: [(&str, usize, Encode, &str); 9] = [
+        ("NDRS", 4, linear, "ndrs in 4 x 1"),
+        ("NDRS", 1, linear, "ndrs in 1 x 4"),
+        ("INDRS", 5, linear, "ndrs in 5 x 1"),
+        ("IIINDRS", 7, linear, "ndrs in 7 x 1"),
+        ("DNRS", 4, |_, v| gamma(v), "dnrs in 4 x 1"),
+        ("DSRN", 4, colours, "dsrn in 4 x 1"),
+        ("NDSR", 2, |_, v| gamma(v), "ndsr in 2 x 2"),
+        ("DSRN", 2, colours, "dsrn in 2 x 2"),
+        ("NDRSNDRS", 4, linear, "ndrs in 4 x 2"),
+    ];
+    let folder = tempdir().unwrap();
+    for (order, columns, encode, layout) in table {
+        let path = save(folder.path(), "some.png", &packed(order, columns, encode), ImageFormat::Png);
+        let read = open(&path);
+        assert!(chosen(&read, What::Layout).starts_with(layout), "{order}: {:?}", read.assumptions);
+        assert_same(&read, if layout.starts_with("ndrs") { EIGHT_BITS } else { 2.5 * EIGHT_BITS });
+    }
+}
+
+#[test]
+fn a_strip_of_three_has_the_specular_of_dielectrics() {
+    let folder = tempdir().unwrap();
+    let path = save(folder.path(), "tex.png", &packed("DNR", 3, |_, v| gamma(v)), ImageFormat::Png);
+    let read = open(&path);
+    assert!(chosen(&read, What::Layout).starts_with("dnr in 3 x 1"));
+    assert_eq!(read.material.texel(7).specular, [0.04; 3]);
+    assert_eq!(chosen(&read, What::Missing), "specular 0.04");
+}
+
+#[test]
+fn of_several_exemplars_one_is_chosen() {
+    let folder = tempdir().unwrap();
+    let image = packed("NDRSNDRS", 4, linear).into_rgb8();
+    let mut image = image;
+    for y in SIDE as u32..2 * SIDE as u32 {
+        for x in SIDE as u32..2 * SIDE as u32 {
+            image.put_pixel(x, y, [51, 51, 51].into());
+        }
+    }
+    let path = save(folder.path(), "two.png", &image.into(), ImageFormat::Png);
+    let second = open_as(&path, &ReadOptions { exemplar: 1, ..ReadOptions::default() });
+    assert_same(&open(&path), EIGHT_BITS);
+    assert!((second.material.texel(5).diffuse[0] - 0.2).abs() < 1e-12);
+    assert!(second.notes.iter().any(|note| note.contains("holds 2 materials")));
+}
+
+#[test]
+fn the_order_of_tiles_can_be_said() {
+    let folder = tempdir().unwrap();
+    let path = save(folder.path(), "a.png", &packed("DNRS", 4, linear), ImageFormat::Png);
+    let options = ReadOptions {
+        order: Some(Order::DNRS),
+        albedo: Some(Albedo::Linear),
+        roughness: Some(Roughness::R),
+        ..ReadOptions::default()
+    };
+    assert_same(&open_as(&path, &options), EIGHT_BITS);
+    assert_eq!(certainty(&open_as(&path, &options), What::Layout), Some(Certainty::Given));
+}
+
+#[test]
+fn a_strip_without_normals_is_of_base_colour_by_its_name_only() {
+    let folder = tempdir().unwrap();
+    // Photo, base colour, roughness, metallic.
+    let image = picture(4 * SIDE, SIDE, |x, y| match x / SIDE {
+        0 => [0.9, 0.1, 0.3],
+        1 => [0.5, 0.4, 0.3].map(srgb),
+        2 => texel(2, x % SIDE, y),
+        _ => [0.0; 3],
+    });
+    let named = save(folder.path(), "wood_svbrdf.png", &image, ImageFormat::Png);
+    let read = open(&named);
+    assert!(chosen(&read, What::Layout).starts_with("ibrm in 4 x 1"), "{:#?}", read.assumptions);
+    assert_eq!(certainty(&read, What::Layout), Some(Certainty::Unsure));
+    let got = read.material.texel(77);
+    assert!((got.diffuse[0] - 0.5).abs() < EIGHT_BITS && got.specular == [0.04; 3], "{got:?}");
+    assert!((got.roughness - texel(2, 77 % SIDE, 77 / SIDE)[0]).abs() < EIGHT_BITS, "{got:?}");
+    let other = open(&save(folder.path(), "wood.png", &image, ImageFormat::Png));
+    assert!(chosen(&other, What::Layout).starts_with("ndrs in 4 x 1"), "{:#?}", other.assumptions);
+    assert_eq!(certainty(&other, What::Layout), Some(Certainty::Unsure));
+}
+
+#[test]
+fn a_wide_map_of_normals_is_no_strip() {
+    let folder = tempdir().unwrap();
+    let image = packed("NNNN", 4, linear);
+    let message = refusal(&save(folder.path(), "wide.png", &image, ImageFormat::Png));
+    assert!(message.contains("64 x 16 pixels without one"), "{message}");
+}

@@ -1,0 +1,118 @@
+//! The drop-downs of assumptions: what they switch is switched in the material, the panes and the loss.
+
+use std::path::PathBuf;
+
+use eframe::egui::accesskit::Role;
+use svbrdf::material::Material;
+use svbrdf::samples::generate;
+
+use super::*;
+
+/// The built-in ground truth as two files, `truth` and `guess`.
+fn two_strips() -> (tempfile::TempDir, [PathBuf; 2]) {
+    let folder = tempfile::tempdir().unwrap();
+    let side = generate::SIDE as u32;
+    let pixels = generate::pack(&generate::ground_truth());
+    let paths = ["truth.png", "guess.png"].map(|name| folder.path().join(name));
+    for path in &paths {
+        image::save_buffer(path, &pixels, 4 * side, side, image::ColorType::Rgb8).unwrap();
+    }
+    (folder, paths)
+}
+
+/// A window on both, high enough for all panels, once their loss is there.
+fn on_two_strips<'a>([truth, guess]: [PathBuf; 2]) -> Option<Window<'a>> {
+    let options =
+        ViewerOptions { ground_truth: Some(truth), predictions: vec![guess], ..ViewerOptions::default() };
+    let mut window = window(options)?;
+    window.set_size(vec2(1200.0, 2000.0));
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    Some(window)
+}
+
+/// Clicks the drop-down `name`, then `choice` in it; not before the loss is there, whose panel moves those below.
+fn choose(window: &mut Window<'_>, name: &str, choice: &str) {
+    loss(window);
+    window.get_by_role_and_label(Role::ComboBox, name).click();
+    window.run_steps(4);
+    window.get_by_label(choice).click();
+    window.run_steps(2);
+}
+
+fn material(app: &App, index: usize) -> Material<f32> {
+    app.materials().nth(index).unwrap().clone()
+}
+
+fn loss(window: &mut Window<'_>) -> f64 {
+    wait(window, "the loss", |app| app.losses().is_some());
+    window.state().losses().unwrap()[0].estimate.mean
+}
+
+#[test]
+fn a_click_on_another_albedo_changes_material_pane_and_loss() {
+    let (_folder, paths) = two_strips();
+    let Some(mut window) = on_two_strips(paths) else { return };
+    assert_eq!(loss(&mut window), 0.0, "a material beside itself");
+    let panes = ["GROUND TRUTH  truth", "1  guess"].map(|title| pane(&window, title));
+    let before = panes.map(|rect| pixels(&mut window, rect));
+    let materials = [0, 1].map(|index| material(window.state(), index));
+    assert_eq!(materials[0].planes(), materials[1].planes());
+
+    choose(&mut window, "albedo of guess", "albedo srgb");
+    wait(&mut window, "the material to be read again", |app| {
+        *app.materials().nth(1).unwrap() != materials[1]
+    });
+    let switched = material(window.state(), 1);
+    let decode = |v: f32| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
+    for (old, new) in
+        materials[1].planes().diffuse.iter().flatten().zip(switched.planes().diffuse.iter().flatten())
+    {
+        assert!((decode(*old) - new).abs() < 1e-6, "{old} became {new}");
+    }
+    assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
+    assert_eq!(material(window.state(), 0), materials[0]);
+    assert!(loss(&mut window) > 0.1);
+    window.get_by_label("albedo: srgb: as you said");
+    let after = panes.map(|rect| pixels(&mut window, rect));
+    assert!(before[0] == after[0], "the pane of the ground truth stays");
+    assert!(before[1] != after[1], "the pane of the prediction changes");
+
+    choose(&mut window, "albedo of guess", "auto: find out albedo");
+    wait(&mut window, "the material to be as before", |app| *app.materials().nth(1).unwrap() == materials[1]);
+    assert_eq!(loss(&mut window), 0.0);
+    assert!(pixels(&mut window, panes[1]) == before[1]);
+}
+
+#[test]
+fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
+    let (_folder, paths) = two_strips();
+    let Some(mut window) = on_two_strips(paths) else { return };
+    for (what, choice) in [
+        ("preset", "materialgan"),
+        ("order", "dsrn"),
+        ("albedo", "log0.01"),
+        ("specular", "gamma2.2"),
+        ("normal y", "down"),
+        ("normal code", "xy"),
+        ("roughness", "gloss"),
+        ("energy", "plain"),
+    ] {
+        let before = material(window.state(), 0);
+        choose(&mut window, &format!("{what} of truth"), &format!("{what} {choice}"));
+        wait(&mut window, choice, |app| *app.materials().next().unwrap() != before);
+        assert!(window.state().messages().is_empty(), "{choice}: {:?}", window.state().messages());
+        assert!(loss(&mut window) > 0.0, "{choice}");
+        let changed = material(window.state(), 0);
+        choose(&mut window, &format!("{what} of truth"), &format!("auto: find out {what}"));
+        wait(&mut window, "auto", |app| *app.materials().next().unwrap() != changed);
+        assert!(material(window.state(), 0) == before, "{choice}, and back");
+    }
+    assert_eq!(loss(&mut window), 0.0);
+}
+
+#[test]
+fn nobody_is_said_to_have_said_what_is_built_in() {
+    let Some(window) = built_in() else { return };
+    assert!(window.query_all_by_label_contains("as you said").next().is_none());
+    assert!(window.query_all_by_label_contains("it was made so").count() >= 3);
+}
