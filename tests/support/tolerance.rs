@@ -94,3 +94,6 @@ pub const FUSED_LEAST: f64 = 0.02;
 /// Single texels of fused renderings against f64, in the unit of POINT_ULPS: its reciprocal roots are estimates with
 /// one Newton step, off by 4 of them.
 pub const FUSED_ULPS: f64 = 16.0;
+
+/// Extremes: relative error of [f64, f32, fused, GPU] in each region, in the order of docs/extremes.md.
+pub const EXTREMES: [[f64; 4]; 12] = [[f64::INFINITY; 4]; 12];

@@ -1,0 +1,228 @@
+//! How far each rung is off in each region: the comparator, and what it has seen.
+
+use rayon::prelude::*;
+
+use super::cases::Batch;
+use super::regions::{Place, Region, Truth};
+use super::rungs::{self, Rgb, Rung};
+use crate::support::tolerance::EXTREMES;
+
+/// Errors of many cases, relative to what was expected.
+#[derive(Clone)]
+pub struct Errors {
+    pub count: u64,
+    pub worst: f64,
+    pub worst_case: Option<Case>,
+    /// How many lie in each tenth of a decade from 1e-18 to 1e32; others in the first and the last.
+    tenths: Vec<u64>,
+}
+
+/// One channel of a texel that a rung was seen at.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    pub convention: &'static str,
+    /// The instruction set of the fused kernel.
+    pub level: &'static str,
+    pub place: Place,
+    pub one_ulp: f64,
+    pub got: f64,
+    pub want: f64,
+}
+
+impl Errors {
+    const TENTHS: usize = 500;
+
+    fn new() -> Self {
+        Self { count: 0, worst: 0.0, worst_case: None, tenths: vec![0; Self::TENTHS] }
+    }
+
+    fn add(&mut self, error: f64, case: impl FnOnce() -> Option<Case>) {
+        let tenth = (10.0 * (error.log10() + 18.0)).clamp(0.0, (Self::TENTHS - 1) as f64);
+        self.count += 1;
+        if error > self.worst {
+            (self.worst, self.worst_case) = (error, case());
+        }
+        self.tenths[tenth as usize] += 1;
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.count += other.count;
+        if other.worst > self.worst {
+            (self.worst, self.worst_case) = (other.worst, other.worst_case);
+        }
+        self.tenths.iter_mut().zip(&other.tenths).for_each(|(a, b)| *a += b);
+    }
+
+    /// What 99 of 100 errors do not exceed, to a tenth of a decade; no more than the worst.
+    pub fn percentile99(&self) -> f64 {
+        let mut left = self.count.div_ceil(100);
+        for (tenth, count) in self.tenths.iter().enumerate().rev() {
+            if *count >= left {
+                let end = 10f64.powf((tenth + 1) as f64 / 10.0 - 18.0);
+                return if tenth + 1 == Self::TENTHS { self.worst } else { end.min(self.worst) };
+            }
+            left -= count;
+        }
+        self.worst
+    }
+}
+
+/// What a survey has seen.
+#[derive(Clone)]
+pub struct Survey {
+    /// In the order of `Region::ALL`, of each region in that of `Rung::ALL`.
+    errors: Vec<Vec<Errors>>,
+    /// Of each region: what one ulp of the input changes.
+    one_ulp: Vec<Errors>,
+    /// The largest share of its bound that each rung has used.
+    pub shares: Vec<f64>,
+    /// A few cases that broke a bound.
+    faults: Vec<(Rung, String)>,
+    pub points: u64,
+}
+
+impl Survey {
+    const FAULTS_PER_RUNG: usize = 3;
+
+    pub fn new() -> Self {
+        Self {
+            errors: vec![vec![Errors::new(); Rung::ALL.len()]; Region::ALL.len()],
+            one_ulp: vec![Errors::new(); Region::ALL.len()],
+            shares: vec![0.0; Rung::ALL.len()],
+            faults: Vec::new(),
+            points: 0,
+        }
+    }
+
+    pub fn errors(&self, region: Region, rung: Rung) -> &Errors {
+        &self.errors[region.index()][rung as usize]
+    }
+
+    pub fn one_ulp(&self, region: Region) -> &Errors {
+        &self.one_ulp[region.index()]
+    }
+
+    pub fn merge(mut self, other: Self) -> Self {
+        for (mine, theirs) in self.errors.iter_mut().flatten().zip(other.errors.iter().flatten()) {
+            mine.merge(theirs);
+        }
+        self.one_ulp.iter_mut().zip(&other.one_ulp).for_each(|(a, b)| a.merge(b));
+        self.shares.iter_mut().zip(other.shares).for_each(|(a, b)| *a = a.max(b));
+        for (rung, fault) in other.faults {
+            if self.room_for(rung) {
+                self.faults.push((rung, fault));
+            }
+        }
+        self.points += other.points;
+        self
+    }
+
+    /// Every rung over `batches`; 256 bits over every `exact_every`-th of them.
+    pub fn of(batches: &[Batch], exact_every: usize) -> Self {
+        let on_gpu = rungs::on_gpu(batches);
+        let surveyed = batches.par_iter().enumerate().map(|(i, batch)| {
+            let (mut survey, truth) = (Self::new(), Truth::of(batch));
+            survey.count(&truth);
+            if i.is_multiple_of(exact_every) {
+                survey.hold(Rung::F64, "256 bits", batch, &truth, &rungs::with_256_bits(batch));
+            }
+            survey.hold(Rung::F32, "", batch, &truth, &rungs::in_f32(batch));
+            for (name, level) in rungs::levels() {
+                if let Some(got) = rungs::fused(level, batch) {
+                    survey.hold(Rung::Fused, name, batch, &truth, &got);
+                }
+            }
+            if let Some(on_gpu) = &on_gpu {
+                survey.hold(Rung::Gpu, "", batch, &truth, &on_gpu[i]);
+            }
+            for (rung, got) in
+                [(Rung::Cancelling, rungs::cancelling(batch)), (Rung::Clamps, rungs::clamped(batch))]
+            {
+                if let Some(got) = got {
+                    survey.note(rung, &truth, &got);
+                }
+            }
+            survey
+        });
+        surveyed.reduce(Self::new, Self::merge)
+    }
+
+    fn room_for(&self, rung: Rung) -> bool {
+        self.faults.iter().filter(|(r, _)| *r == rung).count() < Self::FAULTS_PER_RUNG
+    }
+
+    /// # Errors
+    /// A few cases of each rung that broke a bound.
+    pub fn verdict(&self) -> Result<(), String> {
+        let faults: Vec<_> = self.faults.iter().map(|(_, fault)| fault.as_str()).collect();
+        if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
+    }
+
+    fn count(&mut self, truth: &[Truth]) {
+        self.points += truth.len() as u64;
+        for truth in truth {
+            for (region, one_ulp) in truth.region.iter().zip(truth.one_ulp) {
+                self.one_ulp[region.index()].add(one_ulp, || None);
+            }
+        }
+    }
+
+    /// Notes errors of what is held to nothing. What is not finite or negative counts as infinitely wrong.
+    fn note(&mut self, rung: Rung, truth: &[Truth], got: &[Rgb]) {
+        for (truth, got) in truth.iter().zip(got) {
+            for c in 0..3 {
+                let sane = got[c].is_finite() && got[c] >= 0.0;
+                let error = if sane { relative(got[c], truth.expected[c]) } else { f64::INFINITY };
+                self.errors[truth.region[c].index()][rung as usize].add(error, || None);
+            }
+        }
+    }
+
+    /// Holds a rung to its bounds: the one of the point, and the one of its region. Of `Rung::F64`, `other` are the
+    /// exact numbers; else what the rung gave.
+    pub fn hold(&mut self, rung: Rung, what: &'static str, batch: &Batch, truth: &[Truth], other: &[Rgb]) {
+        assert_eq!(truth.len(), other.len(), "no case may get lost");
+        for (i, (truth, other)) in truth.iter().zip(other).enumerate() {
+            for c in 0..3 {
+                let (got, want, bound) = match rung {
+                    Rung::F64 => (truth.expected[c], other[c], truth.f64_bound[c]),
+                    Rung::Fused => (other[c], truth.expected[c], truth.fused_bound[c]),
+                    _ => (other[c], truth.expected[c], truth.bound[c]),
+                };
+                let region = truth.region[c];
+                let error = relative(got, want);
+                let sane = |x: f64| x.is_finite() && x >= 0.0;
+                let limit = EXTREMES[region.index()][rung as usize];
+                let within = (got - want).abs() <= bound && error <= limit;
+                if !(sane(got) && sane(want) && within) && self.room_for(rung) {
+                    self.faults.push((rung, format!(
+                        "{} {what}, {}, {}: got {got:e}, expected {want:e}, off by a relative {error:e} > {limit:e} \
+                        or by {:e} > {bound:e}; one ulp changes it by {:e}; channel {c} of {:?}, w_l {:?}, w_v {:?}{}",
+                        rung.name(),
+                        batch.convention.name,
+                        region.description(),
+                        (got - want).abs(),
+                        truth.one_ulp[c],
+                        batch.material.texel(i),
+                        batch.w_l,
+                        batch.w_v,
+                        if batch.near { ", near" } else { "" },
+                    )));
+                }
+                if got != want {
+                    self.shares[rung as usize] = self.shares[rung as usize].max((got - want).abs() / bound);
+                }
+                let case = || {
+                    let (convention, one_ulp) = (batch.convention.name, truth.one_ulp[c]);
+                    Some(Case { convention, level: what, place: truth.place, one_ulp, got, want })
+                };
+                self.errors[region.index()][rung as usize].add(error, case);
+            }
+        }
+    }
+}
+
+/// |got - want| / want; 0 where both are 0.
+pub fn relative(got: f64, want: f64) -> f64 {
+    if got == want { 0.0 } else { (got - want).abs() / want }
+}
