@@ -15,8 +15,8 @@ pub fn markdown(survey: &Survey, random: u64, adapter: Option<&str>) -> String {
         table = survey.points - random,
         levels = levels.join(", "),
         adapter = adapter.unwrap_or("none"),
-        worst = table(survey, |errors| errors.worst),
-        percentile99 = table(survey, Errors::percentile99),
+        worst = table(survey, |errors| number(errors.worst)),
+        within = table(survey, |errors| errors.shares_within().map(percent).join(" / ")),
         f64_share = share(survey, Rung::F64),
         f32_share = share(survey, Rung::F32),
         fused_share = share(survey, Rung::Fused),
@@ -31,16 +31,16 @@ fn share(survey: &Survey, rung: Rung) -> String {
 }
 
 /// A row for each region, a column for each rung.
-fn table(survey: &Survey, value: impl Fn(&Errors) -> f64) -> String {
+fn table(survey: &Survey, value: impl Fn(&Errors) -> String) -> String {
     let mut text = "| region | values | one ulp |".to_owned();
     Rung::ALL.iter().for_each(|rung| text.extend([" ", rung.name(), " |"]));
     text.extend(["\n|---|---|---|", &"---|".repeat(Rung::ALL.len()), "\n"]);
     for region in Region::ALL {
         let one_ulp = survey.one_ulp(region);
-        let _ = write!(text, "| {} | {} | {} |", region.description(), one_ulp.count, number(value(one_ulp)));
+        let _ = write!(text, "| {} | {} | {} |", region.description(), one_ulp.count, value(one_ulp));
         for rung in Rung::ALL {
             let errors = survey.errors(region, rung);
-            let shown = if errors.count == 0 { "-".to_owned() } else { number(value(errors)) };
+            let shown = if errors.count == 0 { "-".to_owned() } else { value(errors) };
             let _ = write!(text, " {shown} |");
         }
         text.push('\n');
@@ -54,6 +54,11 @@ fn number(x: f64) -> String {
         _ if x.is_infinite() => "inf".to_owned(),
         _ => format!("{x:.1e}"),
     }
+}
+
+/// Rounded down: 100% are all.
+fn percent(share: f64) -> String {
+    format!("{}%", (1000.0 * share).floor() / 10.0)
 }
 
 /// Where each rung of each region is worst.

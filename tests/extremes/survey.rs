@@ -7,14 +7,17 @@ use super::regions::{Place, Region, Truth};
 use super::rungs::{self, Rgb, Rung};
 use crate::support::tolerance::EXTREMES;
 
+/// Relative errors of which it is counted how many are smaller.
+pub const WITHIN: [f64; 2] = [1e-6, 1e-3];
+
 /// Errors of many cases, relative to what was expected.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub struct Errors {
     pub count: u64,
     pub worst: f64,
     pub worst_case: Option<Case>,
-    /// How many lie in each tenth of a decade from 1e-18 to 1e32; others in the first and the last.
-    tenths: Vec<u64>,
+    /// How many are within each of [`WITHIN`].
+    within: [u64; 2],
 }
 
 /// One channel of a texel that a rung was seen at.
@@ -30,40 +33,27 @@ pub struct Case {
 }
 
 impl Errors {
-    const TENTHS: usize = 500;
-
-    fn new() -> Self {
-        Self { count: 0, worst: 0.0, worst_case: None, tenths: vec![0; Self::TENTHS] }
-    }
-
     fn add(&mut self, error: f64, case: impl FnOnce() -> Option<Case>) {
-        let tenth = (10.0 * (error.log10() + 18.0)).clamp(0.0, (Self::TENTHS - 1) as f64);
         self.count += 1;
+        for (within, limit) in self.within.iter_mut().zip(WITHIN) {
+            *within += u64::from(error <= limit);
+        }
         if error > self.worst {
             (self.worst, self.worst_case) = (error, case());
         }
-        self.tenths[tenth as usize] += 1;
     }
 
     fn merge(&mut self, other: &Self) {
         self.count += other.count;
+        self.within.iter_mut().zip(other.within).for_each(|(a, b)| *a += b);
         if other.worst > self.worst {
             (self.worst, self.worst_case) = (other.worst, other.worst_case);
         }
-        self.tenths.iter_mut().zip(&other.tenths).for_each(|(a, b)| *a += b);
     }
 
-    /// What 99 of 100 errors do not exceed, to a tenth of a decade; no more than the worst.
-    pub fn percentile99(&self) -> f64 {
-        let mut left = self.count.div_ceil(100);
-        for (tenth, count) in self.tenths.iter().enumerate().rev() {
-            if *count >= left {
-                let end = 10f64.powf((tenth + 1) as f64 / 10.0 - 18.0);
-                return if tenth + 1 == Self::TENTHS { self.worst } else { end.min(self.worst) };
-            }
-            left -= count;
-        }
-        self.worst
+    /// How many of all errors are within each of [`WITHIN`], from 0 to 1.
+    pub fn shares_within(&self) -> [f64; 2] {
+        self.within.map(|within| within as f64 / self.count as f64)
     }
 }
 
@@ -86,8 +76,8 @@ impl Survey {
 
     pub fn new() -> Self {
         Self {
-            errors: vec![vec![Errors::new(); Rung::ALL.len()]; Region::ALL.len()],
-            one_ulp: vec![Errors::new(); Region::ALL.len()],
+            errors: vec![vec![Errors::default(); Rung::ALL.len()]; Region::ALL.len()],
+            one_ulp: vec![Errors::default(); Region::ALL.len()],
             shares: vec![0.0; Rung::ALL.len()],
             faults: Vec::new(),
             points: 0,
