@@ -21,8 +21,8 @@ pub const VIEWS: [View; 9] = [
     View::Height(1e-6),
     View::Height(-0.5),
     View::Mirror,
+    View::AlmostMirror,
     View::Light,
-    View::AlmostOpposite,
     View::Opposite,
 ];
 /// Specular and diffuse albedo.
@@ -39,8 +39,8 @@ pub enum View {
     Mirror,
     /// v = l.
     Light,
-    /// As `Opposite`, but as far above the plane as the light: a view that a scene may have.
-    AlmostOpposite,
+    /// A thousandth of a radian off it.
+    AlmostMirror,
     /// v = -l.
     Opposite,
 }
@@ -122,22 +122,33 @@ fn half_way(l: Vec3<f64>, v: Vec3<f64>) -> Vec3<f64> {
 
 /// The values of a case, as indices into the axes, in this order: roughness, NoH, light, view, diffuse, specular,
 /// distance of the light, distance of the view, format, convention.
-pub type Place = [usize; 10];
+pub type Indices = [usize; 10];
 /// How many values each axis has.
-pub const SIZES: Place = [9, 4, 6, 9, 4, 4, 5, 5, 3, 4];
+pub const SIZES: Indices = [
+    ROUGHNESS.len(),
+    N_DOT_H.len(),
+    LIGHT_Z.len(),
+    VIEWS.len(),
+    ALBEDO.len(),
+    ALBEDO.len(),
+    DISTANCE.len(),
+    DISTANCE.len(),
+    FORMATS.len(),
+    convention::ALL.len(),
+];
 
 /// What each batch of the table holds: every roughness, NoH and pair of albedos for a light and a view. Distances,
 /// formats and sides to which normals are turned alternate.
-pub fn table() -> impl Iterator<Item = (Batch, Vec<[Place; 3]>)> {
+pub fn table() -> impl Iterator<Item = (Batch, Vec<[Indices; 3]>)> {
     let rounds = LIGHT_Z.len() * VIEWS.len() * DISTANCE.len();
     (0..rounds * convention::ALL.len()).map(move |i| batch_of_table(i / rounds, i % rounds))
 }
 
-fn batch_of_table(convention: usize, i: usize) -> (Batch, Vec<[Place; 3]>) {
+fn batch_of_table(convention: usize, i: usize) -> (Batch, Vec<[Indices; 3]>) {
     /// Three pairs of albedos fit a texel: six texels hold the 16 pairs, two of them twice.
     const ALBEDO_TEXELS: usize = 6;
     let (light, view, round) = (i % 6, i / 6 % 9, i / 54);
-    let distances = [round, (2 * round + light + view + convention) % 5];
+    let (light_distance, view_distance) = (round, (2 * round + light + view + convention) % 5);
     let (l, v) = directions(LIGHT_Z[light], VIEWS[view], 0.7 * i as f64);
     let h = half_way(l, v);
     let (mut texels, mut places) = (Vec::new(), Vec::new());
@@ -156,11 +167,11 @@ fn batch_of_table(convention: usize, i: usize) -> (Batch, Vec<[Place; 3]>) {
             roughness: FORMATS[format].value(ROUGHNESS[r]),
         });
         places.push(pairs.map(|pair| {
-            let [near_light, near_view] = distances;
-            [r, n_dot_h, light, view, pair / 4, pair % 4, near_light, near_view, format, convention]
+            let (diffuse, specular) = (pair / 4, pair % 4);
+            [r, n_dot_h, light, view, diffuse, specular, light_distance, view_distance, format, convention]
         }));
     }
-    let [w_l, w_v] = [l * DISTANCE[distances[0]], v * DISTANCE[distances[1]]].map(Vec3::cast);
+    let [w_l, w_v] = [l * DISTANCE[light_distance], v * DISTANCE[view_distance]].map(Vec3::cast);
     let near = (light + view + round).is_multiple_of(4);
     (Batch { convention: convention::ALL[convention], near, material: row(&texels), w_l, w_v }, places)
 }
@@ -172,10 +183,11 @@ fn directions(z: f64, view: View, azimuth: f64) -> (Vec3<f64>, Vec3<f64>) {
         Vec3::new(rho * azimuth.cos(), rho * azimuth.sin(), z)
     };
     let l = at(z, azimuth);
+    let mirrored = Vec3::new(-l.x, -l.y, l.z);
     let v = match view {
         View::Height(z) => at(z, 2.0 * azimuth),
-        View::Mirror => Vec3::new(-l.x, -l.y, l.z),
-        View::AlmostOpposite => turned(Vec3::new(-l.x, -l.y, l.z), 1e-3, 1.0),
+        View::Mirror => mirrored,
+        View::AlmostMirror => turned(mirrored, 1e-3, 1.0),
         View::Light => l,
         View::Opposite => l * -1.0,
     };

@@ -1,6 +1,6 @@
 //! Errors over roughness and the angle between n and h, as an SVG.
 
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 
 use rayon::prelude::*;
 use svbrdf::brdf::Texel;
@@ -10,7 +10,7 @@ use svbrdf::vec3::Vec3;
 use super::cases::{Batch, row, turned};
 use super::regions::Truth;
 use super::rungs::{self, Rgb};
-use super::survey::relative;
+use super::survey::error_of_any;
 use crate::support::points::Generator;
 
 const COLUMNS: usize = 70;
@@ -84,9 +84,7 @@ fn panels() -> Vec<Panel> {
         let mut errors = vec![0.0f64; if got.is_empty() { 0 } else { COLUMNS * ROWS }];
         for (got, truth) in got.iter().zip(&truth) {
             for ((worst, got), truth) in errors.iter_mut().zip(got).zip(truth) {
-                let sane = got[0].is_finite() && got[0] >= 0.0;
-                let error = if sane { relative(got[0], truth.expected[0]) } else { f64::INFINITY };
-                *worst = worst.max(error);
+                *worst = worst.max(error_of_any(got[0], truth.expected[0]));
             }
         }
         Panel { title, errors }
@@ -138,62 +136,49 @@ pub fn svg() -> String {
 fn draw(svg: &mut String, panel: &Panel, with_roughness: bool) {
     let _ = writeln!(svg, "<text y=\"-7\" font-weight=\"bold\">{}</text>", panel.title);
     for (row, errors) in panel.errors.chunks(COLUMNS).enumerate() {
+        let y = (ROWS - 1 - row) * CELL;
         let mut start = 0;
         // One rectangle for neighbours of one colour.
         for run in errors.chunk_by(|a, b| colour(*a) == colour(*b)) {
+            let (x, width, colour) = (start * CELL, run.len() * CELL, colour(run[0]));
             let _ = writeln!(
                 svg,
-                "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{CELL}\" fill=\"{}\"/>",
-                start * CELL,
-                (ROWS - 1 - row) * CELL,
-                run.len() * CELL,
-                colour(run[0]),
+                "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{CELL}\" fill=\"{colour}\"/>"
             );
             start += run.len();
         }
     }
     if panel.errors.is_empty() {
-        let _ = writeln!(svg, "<text x=\"90\" y=\"100\" fill=\"#555\">no adapter</text>");
+        label(svg, WIDTH / 2, HEIGHT / 2, "middle", "no adapter");
     }
     let _ = writeln!(svg, "<rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"none\" stroke=\"#333\"/>");
-    // angle = r^2, from r = 10^-3.5 at the lower left.
-    let [left, right] = [ANGLES[0], 0.0].map(|angle| [x_of(angle), y_of(angle / 2.0)]);
-    let _ = writeln!(
-        svg,
-        "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"black\" stroke-dasharray=\"5 4\"/>",
-        left[0], left[1], right[0], right[1],
-    );
-    for (angle, label) in [(-7.0, "1e-7"), (-5.0, "1e-5"), (-3.0, "1e-3"), (-1.0, "0.1")] {
-        let (x, y) = (x_of(angle), HEIGHT);
-        let _ = writeln!(
-            svg,
-            "<path d=\"M{x} {y}v4\" stroke=\"#333\"/><text x=\"{x}\" y=\"{}\" text-anchor=\"middle\">{label}</text>",
-            y + 17,
-        );
+    let [low, high] = ANGLES.map(|angle| y_of(angle / 2.0));
+    let _ = writeln!(svg, "<path d=\"M0 {low}L{WIDTH} {high}\" stroke=\"black\" stroke-dasharray=\"5 4\"/>");
+    axes(svg, with_roughness);
+}
+
+fn axes(svg: &mut String, with_roughness: bool) {
+    for (angle, text) in [(-7.0, "1e-7"), (-5.0, "1e-5"), (-3.0, "1e-3"), (-1.0, "0.1")] {
+        let x = x_of(angle);
+        let _ = writeln!(svg, "<path d=\"M{x} {HEIGHT}v4\" stroke=\"#333\"/>");
+        label(svg, x, HEIGHT + 17, "middle", text);
     }
-    let _ = writeln!(
-        svg,
-        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" fill=\"#555\">angle between n and h (radians)</text>",
-        WIDTH / 2,
-        HEIGHT + 33,
-    );
-    if with_roughness {
-        let levels =
-            [(-4.0, "1e-4"), (-3.0, "1e-3"), ((1.0 / 255f64).log10(), "1/255"), (-1.0, "0.1"), (0.0, "1")];
-        for (level, label) in levels {
-            let y = y_of(level);
-            let _ = writeln!(
-                svg,
-                "<path d=\"M0 {y:.1}h-4\" stroke=\"#333\"/><text x=\"-8\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
-                y + 4.0,
-            );
-        }
-        let _ = writeln!(
-            svg,
-            "<text transform=\"translate(-52 {}) rotate(-90)\" text-anchor=\"middle\" fill=\"#555\">roughness r</text>",
-            HEIGHT / 2,
-        );
+    label(svg, WIDTH / 2, HEIGHT + 33, "middle", "angle between n and h (radians)");
+    if !with_roughness {
+        return;
     }
+    for (r, text) in [(1e-4, "1e-4"), (1e-3, "1e-3"), (1.0 / 255.0, "1/255"), (0.1, "0.1"), (1.0, "1")] {
+        let y = y_of(f64::log10(r)).round() as usize;
+        let _ = writeln!(svg, "<path d=\"M0 {y}h-4\" stroke=\"#333\"/>");
+        label(svg, -8, y + 4, "end", text);
+    }
+    let _ = writeln!(svg, "<g transform=\"translate(-52 {}) rotate(-90)\">", HEIGHT / 2);
+    label(svg, 0, 0, "middle", "roughness r");
+    svg.push_str("</g>\n");
+}
+
+fn label(svg: &mut String, x: impl Display, y: usize, anchor: &str, text: &str) {
+    let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>");
 }
 
 fn x_of(log_angle: f64) -> f64 {

@@ -1,11 +1,9 @@
 //! Defects that a rung might have, shown to its comparator.
 
-use exr::prelude::f16;
 use svbrdf::brdf::Texel;
 use svbrdf::convention::{GUIDED_2020, PRINTED};
 use svbrdf::loss::fused::Level;
 use svbrdf::material::Material;
-use svbrdf::vec3::Vec3;
 
 use super::cases::{self, Batch, row};
 use super::regions::{Region, Truth};
@@ -101,9 +99,13 @@ fn defects_of_the_fused_kernel_are_seen() {
     held(Rung::Fused, &batches, rough).expect_err("another floor of the roughness");
 }
 
+#[cfg(feature = "gpu")]
 #[test]
 fn defects_of_the_gpu_are_seen() {
-    if rungs::on_gpu(&[]).is_none() {
+    use exr::prelude::f16;
+    use svbrdf::vec3::Vec3;
+
+    if crate::support::gpu::gpu().is_none() {
         return;
     }
     let on_gpu = |b: Batch| rungs::on_gpu(&[b]).unwrap().remove(0);

@@ -13,6 +13,7 @@ pub fn markdown(survey: &Survey, random: u64, adapter: Option<&str>) -> String {
         include_str!("report.txt"),
         random = random,
         table = survey.points - random,
+        exact = Region::ALL.iter().map(|r| survey.errors(*r, Rung::F64).count).sum::<u64>() / 3,
         levels = levels.join(", "),
         adapter = adapter.unwrap_or("none"),
         worst = table(survey, |errors| number(errors.worst)),

@@ -157,62 +157,73 @@ impl Survey {
         }
     }
 
-    /// Notes errors of what is held to nothing. What is not finite or negative counts as infinitely wrong.
+    /// Notes errors of what is held to nothing.
     fn note(&mut self, rung: Rung, truth: &[Truth], got: &[Rgb]) {
         for (truth, got) in truth.iter().zip(got) {
-            for c in 0..3 {
-                let sane = got[c].is_finite() && got[c] >= 0.0;
-                let error = if sane { relative(got[c], truth.expected[c]) } else { f64::INFINITY };
+            for (c, &got) in got.iter().enumerate() {
+                let error = error_of_any(got, truth.expected[c]);
                 self.errors[truth.region[c].index()][rung as usize].add(error, || None);
             }
         }
     }
 
     /// Holds a rung to its bounds: the one of the point, and the one of its region. Of `Rung::F64`, `other` are the
-    /// exact numbers; else what the rung gave.
-    pub fn hold(&mut self, rung: Rung, what: &'static str, batch: &Batch, truth: &[Truth], other: &[Rgb]) {
+    /// exact numbers; else what the rung gave, at the instruction set `level`.
+    pub fn hold(&mut self, rung: Rung, level: &'static str, batch: &Batch, truth: &[Truth], other: &[Rgb]) {
         assert_eq!(truth.len(), other.len(), "no case may get lost");
         for (i, (truth, other)) in truth.iter().zip(other).enumerate() {
-            for c in 0..3 {
+            for (c, &other) in other.iter().enumerate() {
+                let expected = truth.expected[c];
                 let (got, want, bound) = match rung {
-                    Rung::F64 => (truth.expected[c], other[c], truth.f64_bound[c]),
-                    Rung::Fused => (other[c], truth.expected[c], truth.fused_bound[c]),
-                    _ => (other[c], truth.expected[c], truth.bound[c]),
+                    Rung::F64 => (expected, other, truth.f64_bound[c]),
+                    Rung::Fused => (other, expected, truth.fused_bound[c]),
+                    _ => (other, expected, truth.bound[c]),
                 };
-                let region = truth.region[c];
-                let error = relative(got, want);
-                let sane = |x: f64| x.is_finite() && x >= 0.0;
-                let limit = EXTREMES[region.index()][rung as usize];
-                let within = (got - want).abs() <= bound && error <= limit;
-                if !(sane(got) && sane(want) && within) && self.room_for(rung) {
-                    self.faults.push((rung, format!(
-                        "{} {what}, {}, {}: got {got:e}, expected {want:e}, off by a relative {error:e} > {limit:e} \
-                        or by {:e} > {bound:e}; one ulp changes it by {:e}; channel {c} of {:?}, w_l {:?}, w_v {:?}{}",
-                        rung.name(),
-                        batch.convention.name,
-                        region.description(),
-                        (got - want).abs(),
-                        truth.one_ulp[c],
-                        batch.material.texel(i),
-                        batch.w_l,
-                        batch.w_v,
-                        if batch.near { ", near" } else { "" },
-                    )));
+                let (convention, one_ulp) = (batch.convention.name, truth.one_ulp[c]);
+                let case = Case { convention, level, place: truth.place, one_ulp, got, want };
+                if let Err(problem) = self.hold_value(rung, truth.region[c], case, bound)
+                    && self.room_for(rung)
+                {
+                    let (texel, near) = (batch.material.texel(i), batch.near);
+                    let (l, v) = (batch.w_l, batch.w_v);
+                    let place = format!("channel {c} of {texel:?}, w_l {l:?}, w_v {v:?}, near {near}");
+                    self.faults.push((rung, format!("{problem}; {place}")));
                 }
-                if got != want {
-                    self.shares[rung as usize] = self.shares[rung as usize].max((got - want).abs() / bound);
-                }
-                let case = || {
-                    let (convention, one_ulp) = (batch.convention.name, truth.one_ulp[c]);
-                    Some(Case { convention, level: what, place: truth.place, one_ulp, got, want })
-                };
-                self.errors[region.index()][rung as usize].add(error, case);
             }
         }
     }
+
+    fn hold_value(&mut self, rung: Rung, region: Region, case: Case, bound: f64) -> Result<(), String> {
+        let Case { convention, level, one_ulp, got, want, .. } = case;
+        let (off, error) = ((got - want).abs(), relative(got, want));
+        self.errors[region.index()][rung as usize].add(error, || Some(case));
+        if got != want {
+            self.shares[rung as usize] = self.shares[rung as usize].max(off / bound);
+        }
+        let limit = EXTREMES[region.index()][rung as usize];
+        let within = off <= bound && error <= limit;
+        if is_radiance(got) && is_radiance(want) && within {
+            return Ok(());
+        }
+        Err(format!(
+            "{} {level}, {convention}, {}: got {got:e}, expected {want:e}, off by {off:e}, at most {bound:e}, relative \
+            {error:e}, at most {limit:e}; one ulp changes it by {one_ulp:e}",
+            rung.name(),
+            region.description(),
+        ))
+    }
+}
+
+fn is_radiance(x: f64) -> bool {
+    x.is_finite() && x >= 0.0
+}
+
+/// [`relative`], and infinite for what is no radiance.
+pub fn error_of_any(got: f64, want: f64) -> f64 {
+    if is_radiance(got) { relative(got, want) } else { f64::INFINITY }
 }
 
 /// |got - want| / want; 0 where both are 0.
-pub fn relative(got: f64, want: f64) -> f64 {
+fn relative(got: f64, want: f64) -> f64 {
     if got == want { 0.0 } else { (got - want).abs() / want }
 }
