@@ -53,7 +53,6 @@ pub const LOSS_SUM_F64: f64 = 1e-14;
 /// units of 2^-24, from which `points::error_bound` derives a bound for each point.
 ///
 /// Measured on 800,000 random and extreme points in four conventions, lavapipe and CPU alike: 3.8 needed.
-#[cfg(feature = "gpu")]
 pub const POINT_ULPS: f64 = 8.0;
 
 /// The same for whole renderings on the GPU, where the shader also computes positions and directions.
