@@ -8,6 +8,7 @@ use eframe::egui::util::undoer::{self, Undoer};
 
 use super::command::Command;
 use super::gpu_view::GpuView;
+use super::loss_request::LossRequest;
 use super::loss_run::LossRun;
 use super::panels::loss::LossPanel;
 use super::panels::materials::MaterialsPanel;
@@ -23,7 +24,7 @@ use super::viewport::{Scenery, Viewport};
 use super::watch::Watch;
 use super::worker::Job;
 use super::{ViewerOptions, keys, panels, theme};
-use crate::loss::{Loss, LossParams, Precision};
+use crate::loss::Loss;
 
 /// The viewer. What it shows is public for tests; what changes it are [`Command`]s.
 #[derive(Debug)]
@@ -100,22 +101,14 @@ impl App {
         self.slots.open(ctx, gpu, sources, Target::Everything);
     }
 
-    /// What the loss is asked for: the numbers of the settings, the convention that is rendered.
-    pub(super) fn loss_params(&self) -> LossParams {
-        LossParams {
-            near: self.settings.near,
-            distant: self.settings.distant,
-            seed: self.settings.seed,
-            convention: self.state.convention(),
-            precision: Precision::F32,
-            ..LossParams::default()
-        }
+    /// What is asked of the loss: by the settings, in the convention that is rendered.
+    pub(super) fn loss_request(&self) -> LossRequest {
+        self.settings.loss.request(self.state.convention())
     }
 
-    /// The losses of the predictions, where they have been computed for what is shown now.
+    /// The losses of the predictions, where they have been computed to the end for what is shown now.
     pub fn losses(&self) -> Option<&[Loss]> {
-        let (done, current) = self.loss.done(&self.slots, &self.loss_params())?;
-        current.then_some(done.losses.as_slice())
+        self.loss.finished(&self.slots, &self.loss_request())
     }
 
     /// The names of the materials, the ground truth first.
@@ -151,9 +144,7 @@ impl App {
             let gpu = self.gpu.as_ref().map(|g| &g.gpu);
             self.slots.reload(ctx, gpu, Some(&stale));
         }
-        if self.settings.auto_loss && !self.slots.predictions().is_empty() {
-            self.loss.keep_up(ctx, &self.slots, &self.loss_params());
-        }
+        self.loss.follow(ctx, &self.slots, &self.loss_request(), self.settings.auto_loss);
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
@@ -216,9 +207,8 @@ impl App {
             egui::CollapsingHeader::new(name).default_open(true).show_unindented(ui, |ui| add(ui));
         };
         let scene = ScenePanel { state: &self.state, highlight_follows: self.settings.highlight_follows };
-        let params = self.loss_params();
         let loss = LossPanel {
-            params: &params,
+            settings: &self.settings.loss,
             auto: self.settings.auto_loss,
             run: &self.loss,
             slots: &self.slots,

@@ -17,7 +17,7 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     window.run_steps(2);
     window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Seed").type_text("7");
     press(&mut window, egui::Key::Enter);
-    assert_eq!(window.state().settings.seed, 7);
+    assert_eq!(window.state().settings.loss.seed, 7);
     assert_eq!(window.state().losses(), None, "the loss of another seed is no loss of this one");
     window.get_by_label("Compute loss").click();
     window.run_steps(2);
