@@ -86,7 +86,7 @@ impl LossPanel<'_> {
         if let Some((fraction, elapsed, reached)) = self.run.busy() {
             let doing = if reached { "refining" } else { "first scenes" };
             let text = format!("{doing}, {} s", elapsed.as_secs());
-            ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height));
+            ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
             return;
         }
         let text = match self.run.shown() {

@@ -41,7 +41,7 @@ fn result(ui: &mut egui::Ui, index: usize, loss: &Loss, chosen: bool) -> egui::R
             .on_hover_text("Half of the 95% interval, as a share of the loss")
     };
     let (response, _) = Sides::new().shrink_left().truncate().show(ui, left, right);
-    numbers(ui, ("loss result", index), &loss.estimate, "Mean over the scenes");
+    numbers(ui, ("loss result", index), "loss", &loss.estimate, "Mean over the scenes");
     response
 }
 
@@ -61,14 +61,14 @@ fn difference(ui: &mut egui::Ui, index: usize, [first, second]: [&str; 2], estim
     };
     Sides::new().shrink_left().truncate().show(ui, left, right);
     let meaning = "Mean of the differences over the scenes, which both have in common";
-    numbers(ui, ("loss difference", index), estimate, meaning);
+    numbers(ui, ("loss difference", index), "mean", estimate, meaning);
 }
 
 /// A mean with its error, and its interval below.
-fn numbers(ui: &mut egui::Ui, id: (&str, usize), estimate: &Estimate, meaning: &str) {
+fn numbers(ui: &mut egui::Ui, id: (&str, usize), label: &str, estimate: &Estimate, meaning: &str) {
     let [mean, error, interval] = estimate.texts();
     egui::Grid::new(id).num_columns(2).show(ui, |ui| {
-        ui.label("    mean");
+        ui.label(format!("    {label}"));
         ui.label(RichText::new(format!("{mean} +- {error}")).monospace().strong())
             .on_hover_text(format!("{meaning} +- its standard error, which is due to the choice of scenes"));
         ui.end_row();
