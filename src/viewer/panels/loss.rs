@@ -57,12 +57,12 @@ impl LossPanel<'_> {
     fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             if self.run.busy().is_some() {
-                if ui.button("Cancel loss").on_hover_text("Keep what is reached (Esc)").clicked() {
+                if ui.add(button("Cancel loss")).on_hover_text("Keep what is reached (Esc)").clicked() {
                     commands.push(Command::CancelLoss);
                 }
             } else {
                 let enabled = !self.slots.predictions().is_empty();
-                let compute = ui.add_enabled(enabled, egui::Button::new("Compute loss"));
+                let compute = ui.add_enabled(enabled, button("Compute loss"));
                 if compute.on_hover_text("Enter").clicked() {
                     commands.push(Command::ComputeLoss);
                 }
@@ -120,6 +120,11 @@ fn took(shown: &Shown) -> String {
     let (near, distant) = (shown.report.count(Kind::Near), shown.report.count(Kind::Distant));
     let error = loss_results::accuracy(shown.relative_error());
     format!("{error} from {near} + {distant} scenes in {}", seconds(shown.elapsed))
+}
+
+/// Buttons that take each other's place have one width.
+fn button(text: &str) -> egui::Button<'_> {
+    egui::Button::new(text).min_size(egui::vec2(90.0, 0.0))
 }
 
 /// What is asked for: how first, then the fields that matter for it.

@@ -22,7 +22,9 @@ pub(super) fn ui(ui: &mut egui::Ui, shown: &Shown, chosen: usize) -> Vec<Command
     if let (Some(less), Some(differences)) = (losses.get(chosen), shown.differences.get(chosen)) {
         let all = losses.iter().zip(differences).enumerate();
         for (index, (loss, estimate)) in all.filter(|(index, _)| *index != chosen) {
-            difference(ui, index, [&loss.prediction, &less.prediction], estimate);
+            let names =
+                [(index, loss), (chosen, less)].map(|(i, loss)| format!("{} {}", i + 1, loss.prediction));
+            difference(ui, index, &names, estimate);
         }
     }
     ui.label(RichText::new(summary(shown)).weak().small());
@@ -46,7 +48,7 @@ fn result(ui: &mut egui::Ui, index: usize, loss: &Loss, chosen: bool) -> egui::R
 }
 
 /// How much larger the first loss is than the second, and whether that can be told from 0.
-fn difference(ui: &mut egui::Ui, index: usize, [first, second]: [&str; 2], estimate: &Estimate) {
+fn difference(ui: &mut egui::Ui, index: usize, [first, second]: &[String; 2], estimate: &Estimate) {
     ui.separator();
     let name = format!("{first} less {second}");
     let verdict = Verdict::of(estimate);

@@ -21,13 +21,13 @@ fn difference(swapped: bool) -> String {
 fn the_difference_to_the_chosen_prediction_has_its_sign_its_error_and_its_verdict() {
     let Some(mut window) = built_in() else { return };
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    window.get_by_label("wrong roughness less blurred normals");
+    window.get_by_label("2 wrong roughness less 1 blurred normals");
     window.get_by_label("better");
     window.get_by_label(&difference(false));
     // The planted fault: the difference of the other order is not what is shown.
     assert!(window.query_by_label(&difference(true)).is_none());
     press(&mut window, egui::Key::Num2);
-    window.get_by_label("blurred normals less wrong roughness");
+    window.get_by_label("1 blurred normals less 2 wrong roughness");
     window.get_by_label("worse");
     window.get_by_label(&difference(true));
     assert!(window.query_by_label(&difference(false)).is_none());
