@@ -77,7 +77,7 @@ fn auto_computes_again_when_the_convention_changes() {
 fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
     let Some(mut window) = built_in() else { return };
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    window.get_by_label("Copy loss").click();
+    window.get_by_label("Copy").click();
     let mut copied = String::new();
     for _ in 0..4 {
         window.step();

@@ -55,7 +55,7 @@ impl LossPanel<'_> {
     }
 
     fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             if self.run.busy().is_some() {
                 if ui.add(button("Cancel loss")).on_hover_text("Keep what is reached (Esc)").clicked() {
                     commands.push(Command::CancelLoss);
@@ -72,7 +72,7 @@ impl LossPanel<'_> {
             if auto != self.auto {
                 commands.push(Command::SetAutoLoss(auto));
             }
-            let copy = ui.add_enabled(self.run.shown().is_some(), egui::Button::new("Copy loss"));
+            let copy = ui.add_enabled(self.run.shown().is_some(), egui::Button::new("Copy"));
             if copy.on_hover_text("As text, as `svbrdf loss` prints it").clicked() {
                 commands.push(Command::CopyLoss);
             }
@@ -129,7 +129,7 @@ fn button(text: &str) -> egui::Button<'_> {
 
 /// What is asked for: how first, then the fields that matter for it.
 fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         for (ask, name, meaning) in [
             (Ask::Scenes, "Scenes", "A number of scenes, such as the 6 + 3 of the papers"),
@@ -144,7 +144,7 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
         Ask::Accuracy => accuracy(ui, &mut settings.target_percent),
         Ask::Time => time(ui, &mut settings.time_ms),
     }
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label("Seed");
         super::number(ui, "Seed", &mut settings.seed, 0, |d| d.speed(0.2))
             .on_hover_text("Names the scenes: the same seed draws the same ones");
@@ -159,7 +159,7 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
 
 fn scenes(ui: &mut egui::Ui, settings: &mut LossSettings) {
     let default = LossSettings::default();
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label("Near");
         super::number(ui, "Near-field scenes", &mut settings.near, default.near, |d| {
             d.speed(0.2).range(0..=MOST)
@@ -173,7 +173,7 @@ fn scenes(ui: &mut egui::Ui, settings: &mut LossSettings) {
 
 fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
     let default = LossSettings::default().target_percent;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         slider(ui, "Accuracy slider", Slider::new(target, PERCENT).max_decimals(2));
         super::number(ui, "Accuracy", target, default, |d| {
             d.speed(0.01).range(PERCENT).max_decimals(2).prefix("+-").suffix("%")
@@ -184,7 +184,7 @@ fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
 
 fn time(ui: &mut egui::Ui, milliseconds: &mut u64) {
     let default = LossSettings::default().time_ms;
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         slider(ui, "Time slider", Slider::new(milliseconds, MILLISECONDS));
         super::number(ui, "Time", milliseconds, default, |d| d.range(MILLISECONDS).suffix(" ms"));
     });
@@ -192,6 +192,7 @@ fn time(ui: &mut egui::Ui, milliseconds: &mut u64) {
 
 /// A slider without its number, over a range of many sizes.
 fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) {
+    ui.spacing_mut().slider_width = 80.0;
     let response = ui.add(slider.logarithmic(true).show_value(false));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, name));
 }

@@ -57,7 +57,7 @@ fn difference(ui: &mut egui::Ui, index: usize, [first, second]: &[String; 2], es
         Verdict::Worse => theme::problem(ui.visuals()),
         Verdict::NotToldApart => ui.visuals().weak_text_color(),
     };
-    let left = |ui: &mut egui::Ui| ui.label(&name).on_hover_text(format!("{name}, on the same scenes"));
+    let left = |ui: &mut egui::Ui| ui.label(name);
     let right = |ui: &mut egui::Ui| {
         ui.label(RichText::new(verdict.text()).color(colour)).on_hover_text(verdict.meaning(first, second));
     };
@@ -69,12 +69,12 @@ fn difference(ui: &mut egui::Ui, index: usize, [first, second]: &[String; 2], es
 /// A mean with its error, and its interval below.
 fn numbers(ui: &mut egui::Ui, id: (&str, usize), label: &str, estimate: &Estimate, meaning: &str) {
     let [mean, error, interval] = estimate.texts();
-    egui::Grid::new(id).num_columns(2).show(ui, |ui| {
-        ui.label(format!("    {label}"));
+    egui::Grid::new(id).num_columns(2).spacing([6.0, 5.0]).show(ui, |ui| {
+        ui.label(format!("  {label}"));
         ui.label(RichText::new(format!("{mean} +- {error}")).monospace().strong())
             .on_hover_text(format!("{meaning} +- its standard error, which is due to the choice of scenes"));
         ui.end_row();
-        ui.label("    95%");
+        ui.label("  95%");
         ui.label(RichText::new(interval).monospace());
         ui.end_row();
     });
