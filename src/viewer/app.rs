@@ -124,7 +124,6 @@ impl App {
     /// Takes over what the workers have finished.
     fn poll(&mut self, ctx: &egui::Context) {
         self.messages.extend(self.slots.poll(ctx));
-        self.messages.extend(self.loss.poll(ctx));
         self.messages.extend(self.gpu.as_ref().and_then(|g| g.gpu.take_fault()).map(|e| e.to_string()));
         if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
             self.saving = None;
@@ -145,6 +144,7 @@ impl App {
             self.slots.reload(ctx, gpu, Some(&stale));
         }
         self.loss.follow(ctx, &self.slots, &self.loss_request(), self.settings.auto_loss);
+        self.messages.extend(self.loss.poll(ctx));
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {

@@ -137,6 +137,8 @@ impl LossRun {
                 Some(Shown { key: running.key.clone(), report, differences, elapsed, end: End::NotYet });
         }
         let result = ended?;
+        // Something else may be asked for by now.
+        ctx.request_repaint();
         let running = self.running.take()?;
         match result {
             Ok(()) => {
@@ -169,8 +171,9 @@ impl LossRun {
         }
         let done = self.finished(slots, request).is_some();
         match &self.running {
-            Some(running) if running.key == key || running.is_young() => {}
+            Some(running) if running.key == key => {}
             _ if done => self.running = None,
+            Some(running) if running.is_young() => {}
             _ => self.start(ctx, slots, request),
         }
     }
