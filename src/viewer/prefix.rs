@@ -111,7 +111,6 @@ impl Prefix {
 }
 
 #[cfg(test)]
-#[expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
     use super::*;
     use crate::loss::losses_f32;
@@ -119,7 +118,7 @@ mod tests {
     use crate::samples;
 
     /// All updates over `near` + `distant` scenes of a seed, and the materials they are for.
-    fn updates(
+    fn run(
         near: usize,
         distant: usize,
         sampler: Sampler,
@@ -150,7 +149,7 @@ mod tests {
             (61, 13, Sampler::Sobol),
             (0, 30, Sampler::Random),
         ] {
-            let (params, updates, samples) = updates(near, distant, sampler);
+            let (params, updates, samples) = run(near, distant, sampler);
             assert_eq!(updates.len() > 1, near + distant > FIRST, "{near} + {distant}");
             for reached in &updates {
                 let is_near = |s: &&Scene| s.kind == crate::scene::Kind::Near;
@@ -170,10 +169,10 @@ mod tests {
 
     #[test]
     fn no_update_has_an_unknown_error_where_the_whole_has_a_known_one() {
-        let (_, updates, _) = updates(58, 2, Sampler::Random);
+        let (_, updates, _) = run(58, 2, Sampler::Random);
         let known = |r: &Reached| r.losses.iter().all(|loss| loss.estimate.standard_error.is_some());
         assert!(!updates.is_empty() && updates.iter().all(known), "{updates:?}");
-        let (_, updates, _) = super::tests::updates(1, 1, Sampler::Random);
+        let (_, updates, _) = run(1, 1, Sampler::Random);
         assert_eq!(updates.len(), 1, "what is unknown at last is shown");
     }
 
