@@ -54,6 +54,7 @@ impl Running {
 pub enum End {
     NotYet,
     Finished,
+    /// By a person, or by an error.
     Cancelled,
 }
 
@@ -117,7 +118,7 @@ impl LossRun {
         let elapsed = running.job.elapsed();
         let LossRequest { params, goal } = &running.key.request;
         let fraction = match goal {
-            Some(Goal::Time(time)) => elapsed.as_secs_f32() / time.as_secs_f32(),
+            Some(Goal::Time(time)) if running.scenes > 0 => elapsed.as_secs_f32() / time.as_secs_f32(),
             None if running.scenes > 0 => running.scenes as f32 / (params.near + params.distant) as f32,
             _ => running.job.fraction(),
         };

@@ -1,5 +1,7 @@
 //! The sampled rendering loss: what is asked for, how far it is, what came out.
 
+use std::time::Duration;
+
 use eframe::egui::{self, RichText, Slider};
 
 use super::loss_results::{self, seconds};
@@ -81,11 +83,10 @@ impl LossPanel<'_> {
 
     /// One line, always there, so that nothing below it jumps: how far the loss is, or what it took.
     fn state(&self, ui: &mut egui::Ui) {
-        let height = ui.spacing().interact_size.y;
-        let warning = ui.visuals().warn_fg_color;
         if let Some((fraction, elapsed, reached)) = self.run.busy() {
             let doing = if reached { "refining" } else { "first scenes" };
             let text = format!("{doing}, {} s", elapsed.as_secs());
+            let height = ui.spacing().interact_size.y;
             ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
             return;
         }
@@ -94,32 +95,36 @@ impl LossPanel<'_> {
             Some((_, false)) if self.run.stale() => {
                 RichText::new("Out of date: materials or parameters have changed.")
             }
-            Some((shown, _)) => match (shown.end, missed(shown)) {
-                (End::Cancelled, _) => RichText::new(format!("Cancelled: {}", took(shown))).color(warning),
-                (End::Finished, Some(target)) => {
-                    let text = format!("Not within {}: {}", loss_results::accuracy(target), took(shown));
-                    RichText::new(text).color(theme::problem(ui.visuals()))
-                }
-                _ => RichText::new(took(shown)),
-            },
+            Some((shown, _)) => outcome(shown, ui.visuals()),
         };
         ui.horizontal_wrapped(|ui| ui.label(text.small()));
     }
 }
 
-/// The accuracy that was asked for, where the most scenes that there are did not reach it.
-fn missed(shown: &Shown) -> Option<f64> {
-    match shown.request().goal {
-        Some(Goal::RelativeError(target)) if shown.relative_error() > target => Some(target),
-        _ => None,
+/// What accuracy took how much, and whether that is what was asked for.
+fn outcome(shown: &Shown, visuals: &egui::Visuals) -> RichText {
+    let (near, distant) = (shown.report.count(Kind::Near), shown.report.count(Kind::Distant));
+    let (error, elapsed) = (shown.relative_error(), shown.elapsed);
+    let took =
+        format!("{} from {near} + {distant} scenes in {}", loss_results::accuracy(error), seconds(elapsed));
+    match (shown.end, missed(shown.request().goal, error, elapsed)) {
+        (End::Cancelled, _) => RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color),
+        (End::Finished, Some(missed)) => {
+            RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
+        }
+        _ => RichText::new(took),
     }
 }
 
-/// What accuracy took how much.
-fn took(shown: &Shown) -> String {
-    let (near, distant) = (shown.report.count(Kind::Near), shown.report.count(Kind::Distant));
-    let error = loss_results::accuracy(shown.relative_error());
-    format!("{error} from {near} + {distant} scenes in {}", seconds(shown.elapsed))
+/// Says so where the accuracy or the time that was asked for was not kept.
+fn missed(goal: Option<Goal>, relative_error: f64, elapsed: Duration) -> Option<String> {
+    match goal? {
+        Goal::RelativeError(target) if relative_error > target => {
+            Some(format!("Not within {}", loss_results::accuracy(target)))
+        }
+        Goal::Time(time) if elapsed > time => Some(format!("Not within {}", seconds(time))),
+        _ => None,
+    }
 }
 
 /// Buttons that take each other's place have one width.
@@ -195,4 +200,19 @@ fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) {
     ui.spacing_mut().slider_width = 80.0;
     let response = ui.add(slider.logarithmic(true).show_value(false));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, name));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_promise_that_was_not_kept_is_said_so() {
+        let of = |goal| missed(goal, 0.02, Duration::from_millis(50));
+        assert_eq!(of(Some(Goal::RelativeError(0.01))), Some("Not within +-1.00%".to_owned()));
+        assert_eq!(of(Some(Goal::Time(Duration::from_millis(16)))), Some("Not within 16 ms".to_owned()));
+        assert_eq!(of(Some(Goal::RelativeError(0.03))), None);
+        assert_eq!(of(Some(Goal::Time(Duration::from_millis(60)))), None);
+        assert_eq!(of(None), None);
+    }
 }
