@@ -35,6 +35,7 @@
 //! | [`loss`] | Algorithm 1: plain and generic, and fused for f32; standard errors |
 //! | [`display`], [`export`] | what a screen shows; renderings as PNG and EXR files |
 //! | [`camera`], [`view`] | where in a pane the material is seen, and what of it |
+//! | [`report`] | losses with what gives them a meaning, as text |
 //! | [`progress`], [`error`] | long work watched and cancelled; one error variant a cause |
 #![cfg_attr(
     feature = "gpu",
@@ -61,6 +62,7 @@ pub mod material;
 pub mod progress;
 pub mod real;
 pub mod render;
+pub mod report;
 pub mod sampler;
 pub mod samples;
 pub mod scene;

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::loss_request::LossSettings;
 use super::state::{End, Layout};
 use crate::material::read::ReadOptions;
 use crate::scene::Scene;
@@ -77,11 +78,8 @@ pub enum Command {
     ComputeLoss,
     CancelLoss,
     SetAutoLoss(bool),
-    SetScenes {
-        near: usize,
-        distant: usize,
-        seed: u64,
-    },
+    SetLoss(LossSettings),
+    CopyLoss,
 
     ShowSave(bool),
     /// Write the view to this file, as `svbrdf render` does.
