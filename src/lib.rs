@@ -36,6 +36,7 @@
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`display`], [`export`] | what a screen shows; renderings as PNG and EXR files |
 //! | [`camera`], [`view`] | where in a pane the material is seen, and what of it |
+//! | [`report`] | losses with what gives them a meaning, as text |
 //! | [`progress`], [`error`] | long work watched and cancelled; one error variant a cause |
 #![cfg_attr(
     feature = "gpu",
@@ -62,6 +63,7 @@ pub mod material;
 pub mod progress;
 pub mod real;
 pub mod render;
+pub mod report;
 pub mod sampler;
 pub mod samples;
 pub mod scene;

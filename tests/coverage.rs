@@ -8,7 +8,7 @@ use std::path::Path;
 use svbrdf::convention::PRINTED;
 use svbrdf::loss::adaptive::{self, Goal};
 use svbrdf::loss::{Draw, Estimate, Loss, Texels, losses_of_f32};
-use svbrdf::material::read::{ReadOptions, read};
+use svbrdf::material::read::{Albedo, ReadOptions, read};
 use svbrdf::material::{Material, Planes};
 use svbrdf::progress::Progress;
 use svbrdf::sampler::Sampler;
@@ -115,22 +115,48 @@ fn built_in(step: usize, log_points: u32) -> Vec<Pair> {
 
 fn golden(step: usize, log_points: u32) -> Vec<Pair> {
     let maps = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden/maps");
-    let open = |name| read(&maps.join(name), &ReadOptions::default(), &Progress::default());
+    let options = ReadOptions { albedo: Some(Albedo::Gamma22), ..ReadOptions::default() };
+    let open = |name| read(&maps.join(name), &options, &Progress::default());
     let Ok(gt) = open("gt.png") else { return Vec::new() };
     let predictions = ["l1.png", "rend.png"].map(|name| open(name).unwrap().material);
     predictions.iter().map(|p| Pair::new(&gt.material, p, step, log_points)).collect()
 }
 
+/// Few texels of a scene.
+const SOME: Texels = Texels::Sampled(32);
+
 #[test]
 fn intervals_of_few_scenes_cover_the_loss_and_means_have_no_bias() {
     let pair = &built_in(32, 10)[0];
-    for (sampler, count) in [(Sampler::Random, 9), (Sampler::Random, 27), (Sampler::Sobol, 27)] {
-        let seen = pair.seen(600, pair.fixed(sampler, Texels::All, count));
-        println!("{sampler}, {count}: {seen:?}");
+    let cases = [
+        (Sampler::Random, Texels::All, 9),
+        (Sampler::Random, Texels::All, 27),
+        (Sampler::Sobol, Texels::All, 27),
+        (Sampler::Random, SOME, 27),
+        (Sampler::Sobol, SOME, 48),
+    ];
+    for (sampler, texels, count) in cases {
+        let seen = pair.seen(600, pair.fixed(sampler, texels, count));
+        println!("{sampler}, {count}, {texels} texels: {seen:?}");
         // Three standard errors of 600 seeds.
-        assert!((95.0 - seen.coverage).abs() <= 1.5 + 2.7, "{sampler}, {count}: {seen:?}");
-        assert!(seen.bias.abs() < 4.0 * seen.bias_error, "{sampler}, {count}: {seen:?}");
+        assert!((95.0 - seen.coverage).abs() <= 1.5 + 2.7, "{sampler}, {count}, {texels}: {seen:?}");
+        assert!(seen.bias.abs() < 4.0 * seen.bias_error, "{sampler}, {count}, {texels}: {seen:?}");
     }
+}
+
+#[test]
+fn a_biased_choice_of_texels_is_seen() {
+    let pair = &built_in(32, 10)[0];
+    // Always the same texels, an eighth of those there are.
+    let scenes = |seed| Sampler::Sobol.scenes(seed, 320, 160, &PRINTED);
+    let texels: Vec<usize> = (0..8).collect();
+    let seen = pair.seen(100, |seed| {
+        let (gt, scenes, progress) = (&pair.ground_truth, scenes(seed), Progress::default());
+        let losses =
+            losses_of_f32(gt, &[&pair.prediction], Some(&texels), &scenes, &PRINTED, &progress).unwrap();
+        (losses[0].clone().sampled_by(Sampler::Sobol, &scenes).estimate, 480)
+    });
+    assert!(seen.bias.abs() > 4.0 * seen.bias_error && seen.coverage < 90.0, "{seen:?}");
 }
 
 #[test]
@@ -144,10 +170,11 @@ fn sobol_scenes_have_less_error_than_random_ones() {
 
 #[test]
 fn an_adaptive_loss_keeps_its_promise() {
-    let pair = &built_in(32, 10)[0];
-    let seen = pair.seen(100, pair.adaptive(Goal::RelativeError(0.03)));
+    let pair = &built_in(8, 7)[0];
+    let seen = pair.seen(400, pair.adaptive(Goal::RelativeError(0.05)));
     println!("{seen:?}");
-    assert!(seen.coverage >= 88.0 && seen.half_width <= 3.0, "{seen:?}");
+    // Three standard errors of 400 seeds.
+    assert!((95.0 - seen.coverage).abs() <= 1.5 + 3.3 && seen.half_width <= 5.0, "{seen:?}");
     assert!(seen.bias.abs() < 4.0 * seen.bias_error, "{seen:?}");
 }
 
@@ -155,22 +182,35 @@ fn an_adaptive_loss_keeps_its_promise() {
 #[ignore = "minutes: the whole table of coverages, see above"]
 fn coverage_of_all_pairs_and_numbers_of_scenes() {
     let mut bad = Vec::new();
-    for pair in built_in(16, 16).into_iter().chain(golden(16, 16)) {
-        println!("{} against {}", pair.prediction.name(), pair.ground_truth.name());
-        let mut note = |what: String, seen: Seen| {
-            println!("{what}: {seen:.3?}");
-            if !ALLOWED.contains(&seen.coverage) || seen.bias.abs() > 4.0 * seen.bias_error {
-                bad.push(format!("{}, {what}: {seen:.3?}", pair.prediction.name()));
-            }
-        };
+    let mut note = |pair: &Pair, what: String, seen: Seen| {
+        println!("{what}: {seen:.3?}");
+        if !ALLOWED.contains(&seen.coverage) || seen.bias.abs() > 4.0 * seen.bias_error {
+            bad.push(format!("{}, {what}: {seen:.3?}", pair.prediction.name()));
+        }
+    };
+    for pair in built_in(16, 13).into_iter().chain(golden(16, 13)) {
+        println!("{} against {}, 16 x 16", pair.prediction.name(), pair.ground_truth.name());
         for sampler in [Sampler::Random, Sampler::Sobol] {
             for count in [9, 27, 90, 900] {
-                note(format!("{sampler} {count}"), pair.seen(2_000, pair.fixed(sampler, Texels::All, count)));
+                let what = format!("{sampler} {count}");
+                // Where that is quick, more seeds than are asked for: the coverage itself is then known to 0.2%.
+                let seeds = if count < 90 { 10_000 } else { 2_000 };
+                note(&pair, what, pair.seen(seeds, pair.fixed(sampler, Texels::All, count)));
+            }
+        }
+    }
+    for pair in built_in(1, 11).into_iter().chain(golden(1, 11)) {
+        println!("{} against {}, 256 x 256", pair.prediction.name(), pair.ground_truth.name());
+        for sampler in [Sampler::Random, Sampler::Sobol] {
+            let texels = Texels::Sampled(adaptive::TEXELS);
+            for count in [27, 90, 900] {
+                let what = format!("{sampler} {count}, {texels} texels");
+                note(&pair, what, pair.seen(2_000, pair.fixed(sampler, texels, count)));
             }
         }
         for target in [0.03, 0.01] {
             let goal = Goal::RelativeError(target);
-            note(format!("{goal:?}"), pair.seen(2_000, pair.adaptive(goal)));
+            note(&pair, format!("{goal:?}"), pair.seen(2_000, pair.adaptive(goal)));
         }
     }
     assert!(bad.is_empty(), "{}", bad.join("\n"));

@@ -9,6 +9,7 @@ mod cli;
 mod coverage;
 #[cfg(feature = "viewer")]
 mod end_to_end;
+mod extremes;
 mod formats;
 mod fused;
 mod golden_loss;

@@ -8,12 +8,13 @@ use svbrdf::error::Error;
 use svbrdf::loss::adaptive::{self, Goal, Reached};
 use svbrdf::loss::{Draw, Loss, LossParams, Losses, Precision, Texels, losses, losses_of, losses_of_f32};
 use svbrdf::real::Real;
+use svbrdf::report::Report;
 use svbrdf::sampler::Sampler;
 use svbrdf::scene::{self, Scene};
 
 use super::backend::{self, Choice, Job};
 use super::bar::watched;
-use super::report::{Format, Report};
+use super::report::Format;
 use super::{exit, materials};
 
 /// Prints the rendering loss of predictions against a ground truth
@@ -93,7 +94,7 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
         }
         (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, losses_of, in_f64)?,
     };
-    exit::put(&report.to_text(args.format).map_err(exit::unwritable)?)
+    exit::put(&args.format.write(&report).map_err(exit::unwritable)?)
 }
 
 /// The plain loss, which the CPU alone can compute.

@@ -8,6 +8,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{Loss, Losses, check};
 use crate::convention::Convention;
@@ -19,7 +20,8 @@ use crate::sampler::Sampler;
 use crate::scene::{Kind, Scene};
 
 /// Which texels of the materials are compared in a scene.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Texels {
     #[default]
     All,
@@ -49,6 +51,24 @@ impl Draw {
         convention: &Convention,
         progress: &Progress,
     ) -> Result<Vec<Loss>, Error> {
+        self.losses_after([0, 0], kernel, ground_truth, predictions, scenes, convention, progress)
+    }
+
+    /// [`Draw::losses`] for scenes that come after so many [near-field, distant] ones of this draw.
+    ///
+    /// # Errors
+    /// Those of `kernel`.
+    #[expect(clippy::too_many_arguments, reason = "those of a loss, and which part of it")]
+    pub fn losses_after<T: Real>(
+        &self,
+        before: [usize; 2],
+        kernel: Losses<T>,
+        ground_truth: &Material<T>,
+        predictions: &[&Material<T>],
+        scenes: &[Scene],
+        convention: &Convention,
+        progress: &Progress,
+    ) -> Result<Vec<Loss>, Error> {
         let size = ground_truth.size();
         let sampled_by = |loss: Loss| loss.sampled_by(self.sampler, scenes);
         let count = match self.texels {
@@ -67,7 +87,7 @@ impl Draw {
             progress.step()?;
             Ok(losses.into_iter().map(|loss| loss.per_scene[0]).collect())
         };
-        let indexed: Vec<_> = scenes.iter().zip(indices(scenes)).collect();
+        let indexed: Vec<_> = scenes.iter().zip(indices(before, scenes)).collect();
         let values = indexed.into_par_iter().map(of_scene).collect::<Result<Vec<Vec<f64>>, Error>>()?;
         let of_prediction = |(p, prediction): (usize, &&Material<T>)| {
             let per_scene = values.iter().map(|of_scene| of_scene[p]).collect();
@@ -77,9 +97,9 @@ impl Draw {
     }
 }
 
-/// Which one of its kind each scene is.
-fn indices(scenes: &[Scene]) -> impl Iterator<Item = usize> {
-    let (mut near, mut distant) = (0.., 0..);
+/// Which one of its kind each scene is, after so many [near-field, distant] ones.
+fn indices(before: [usize; 2], scenes: &[Scene]) -> impl Iterator<Item = usize> {
+    let [mut near, mut distant] = before.map(|count| count..);
     scenes.iter().filter_map(move |scene| match scene.kind {
         Kind::Near => near.next(),
         Kind::Distant => distant.next(),

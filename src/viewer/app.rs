@@ -8,6 +8,7 @@ use eframe::egui::util::undoer::{self, Undoer};
 
 use super::command::Command;
 use super::gpu_view::GpuView;
+use super::loss_request::LossRequest;
 use super::loss_run::LossRun;
 use super::panels::loss::LossPanel;
 use super::panels::materials::MaterialsPanel;
@@ -25,7 +26,7 @@ use super::viewport::{Scenery, Viewport};
 use super::watch::Watch;
 use super::worker::Job;
 use super::{ViewerOptions, keys, panels, theme};
-use crate::loss::{Loss, LossParams, Precision};
+use crate::loss::Loss;
 use crate::material::Material;
 use crate::study::Study;
 
@@ -108,22 +109,14 @@ impl App {
         self.slots.open(ctx, gpu, sources, Target::Everything);
     }
 
-    /// What the loss is asked for: the numbers of the settings, the convention that is rendered.
-    pub(super) fn loss_params(&self) -> LossParams {
-        LossParams {
-            near: self.settings.near,
-            distant: self.settings.distant,
-            seed: self.settings.seed,
-            convention: self.state.convention(),
-            precision: Precision::F32,
-            ..LossParams::default()
-        }
+    /// What is asked of the loss: by the settings, in the convention that is rendered.
+    pub(super) fn loss_request(&self) -> LossRequest {
+        self.settings.loss.request(self.state.convention())
     }
 
-    /// The losses of the predictions, where they have been computed for what is shown now.
+    /// The losses of the predictions, where they have been computed to the end for what is shown now.
     pub fn losses(&self) -> Option<&[Loss]> {
-        let (done, current) = self.loss.done(&self.slots, &self.loss_params())?;
-        current.then_some(done.losses.as_slice())
+        self.loss.finished(&self.slots, &self.loss_request())
     }
 
     /// What has been measured of the chosen pair, and whether that is all.
@@ -151,7 +144,6 @@ impl App {
     /// Takes over what the workers have finished.
     fn poll(&mut self, ctx: &egui::Context) {
         self.messages.extend(self.slots.poll(ctx));
-        self.messages.extend(self.loss.poll(ctx));
         self.messages.extend(self.study.poll(ctx));
         self.messages.extend(self.gpu.as_ref().and_then(|g| g.gpu.take_fault()).map(|e| e.to_string()));
         if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
@@ -172,9 +164,8 @@ impl App {
             let gpu = self.gpu.as_ref().map(|g| &g.gpu);
             self.slots.reload(ctx, gpu, Some(&stale));
         }
-        if self.settings.auto_loss && !self.slots.predictions().is_empty() {
-            self.loss.keep_up(ctx, &self.slots, &self.loss_params());
-        }
+        self.loss.follow(ctx, &self.slots, &self.loss_request(), self.settings.auto_loss);
+        self.messages.extend(self.loss.poll(ctx));
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
@@ -238,9 +229,8 @@ impl App {
             egui::CollapsingHeader::new(name).default_open(true).show_unindented(ui, |ui| add(ui));
         };
         let scene = ScenePanel { state: &self.state, highlight_follows: self.settings.highlight_follows };
-        let params = self.loss_params();
         let loss = LossPanel {
-            params: &params,
+            settings: &self.settings.loss,
             auto: self.settings.auto_loss,
             run: &self.loss,
             slots: &self.slots,
@@ -290,11 +280,10 @@ impl App {
     }
 
     fn study_window(&self, ctx: &egui::Context) -> Vec<Command> {
-        let LossParams { near, distant, sampler, texels, convention, .. } = self.loss_params();
         let window = StudyWindow {
             run: &self.study,
-            shown: self.study.shown(&self.slots, self.state.prediction, &convention),
-            current: Setting { near, distant, sampler, texels },
+            shown: self.study.shown(&self.slots, self.state.prediction, &self.state.convention()),
+            current: Setting::of(&self.settings.loss),
         };
         window.ui(ctx)
     }

@@ -52,8 +52,8 @@ impl App {
             Command::Browse { folder } => self.browsing = Some(browse(ctx, folder)),
             Command::SetWatch(on) => self.settings.watch = on,
             Command::ComputeLoss => {
-                let params = self.loss_params();
-                self.loss.start(ctx, &self.slots, &params);
+                let request = self.loss_request();
+                self.loss.start(ctx, &self.slots, &request);
             }
             Command::CancelLoss => self.loss.cancel(),
             Command::ShowStudy(on) => {
@@ -71,7 +71,12 @@ impl App {
             }
             Command::CancelStudy => self.study.cancel(),
             Command::ChooseSetting(setting) => {
-                (self.settings.near, self.settings.distant) = (setting.near, setting.distant);
+                self.settings.loss = setting.put_into(&self.settings.loss);
+            }
+            Command::CopyLoss => {
+                if let Some((shown, _)) = self.loss.shown() {
+                    ctx.copy_text(shown.report.text());
+                }
             }
             Command::SaveView(path) => self.saving = Some(save::start(ctx, &self.slots, &self.state, path)),
             other => return Some(other),
@@ -150,9 +155,7 @@ impl App {
         match command {
             Command::ToggleHighlightFollows => settings.highlight_follows = !settings.highlight_follows,
             Command::SetAutoLoss(on) => settings.auto_loss = on,
-            Command::SetScenes { near, distant, seed } => {
-                (settings.near, settings.distant, settings.seed) = (near, distant, seed);
-            }
+            Command::SetLoss(loss) => settings.loss = loss,
             Command::SetDark(on) => settings.dark = on,
             Command::ToggleSidePanel => settings.side_panel = !settings.side_panel,
             Command::SwapSides => self.swapped = !self.swapped,

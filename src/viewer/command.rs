@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::loss_request::LossSettings;
 use super::panels::study::Setting;
 use super::state::{End, Layout};
 use crate::material::read::ReadOptions;
@@ -78,11 +79,8 @@ pub enum Command {
     ComputeLoss,
     CancelLoss,
     SetAutoLoss(bool),
-    SetScenes {
-        near: usize,
-        distant: usize,
-        seed: u64,
-    },
+    SetLoss(LossSettings),
+    CopyLoss,
 
     ShowStudy(bool),
     StartStudy,

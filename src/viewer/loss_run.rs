@@ -1,114 +1,255 @@
-//! The loss in the window: computed on a worker, for the materials and parameters of now.
+//! The loss in the window: computed on a worker, for the materials and parameters of now, and shown as it tightens.
 
-use std::sync::Arc;
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use eframe::egui;
 
+use super::loss_request::LossRequest;
 use super::slots::{Loaded, Slots};
 use super::worker::Job;
-use crate::loss::{self, Loss, LossParams};
+use crate::loss::adaptive::{Goal, Reached};
+use crate::loss::{Estimate, Loss};
 use crate::material::Material;
+use crate::report::Report;
 
-/// What a loss depends on: the ids of the materials, the ground truth first, and the parameters.
+/// What takes less is not announced: it would only flicker.
+const SOON: Duration = Duration::from_millis(100);
+
+/// What a loss depends on: the ids of the materials, the ground truth first, and what is asked for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Key {
+struct Key {
     ids: Vec<u64>,
-    params: LossParams,
+    request: LossRequest,
 }
 
-/// A loss that is being computed: the losses and the time they took.
-type LossJob = Job<(Vec<Loss>, Duration)>;
+/// What a run has reached so far.
+#[derive(Debug)]
+struct Update {
+    report: Report,
+    differences: Vec<Vec<Estimate>>,
+    elapsed: Duration,
+}
 
-/// A loss that was computed.
-#[derive(Clone, Debug)]
-pub struct Done {
+/// A loss that is being computed. The worker replaces `latest`; the window takes it.
+#[derive(Debug)]
+struct Running {
     key: Key,
-    pub losses: Vec<Loss>,
-    pub params: LossParams,
-    pub elapsed: Duration,
+    job: Job<()>,
+    latest: Arc<Mutex<Option<Update>>>,
+    /// Scenes of the latest update; 0 before the first.
+    scenes: usize,
 }
 
-/// The loss that is being computed and the one that was.
+impl Running {
+    /// Whether its first numbers may come in a moment. It is let to them, even if something else is asked for by now:
+    /// else there would be none while a slider moves.
+    fn is_young(&self) -> bool {
+        self.scenes == 0 && self.job.elapsed() < SOON
+    }
+}
+
+/// How the run ended whose result is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    NotYet,
+    Finished,
+    /// By a person, or by an error.
+    Cancelled,
+}
+
+/// The losses that are shown.
+#[derive(Debug)]
+pub struct Shown {
+    key: Key,
+    pub report: Report,
+    /// `differences[a][b]`: how much larger the loss of prediction b is than that of a, on the same scenes.
+    pub differences: Vec<Vec<Estimate>>,
+    /// How long the run took until it had them.
+    pub elapsed: Duration,
+    pub end: End,
+}
+
+impl Shown {
+    /// What it was computed for.
+    pub fn request(&self) -> &LossRequest {
+        &self.key.request
+    }
+
+    /// The largest half of a 95% interval, as a share of its loss.
+    pub fn relative_error(&self) -> f64 {
+        worst(&self.report.losses)
+    }
+}
+
+/// The loss that is being computed and the one that is shown.
 #[derive(Debug, Default)]
 pub struct LossRun {
-    running: Option<(Key, LossJob)>,
-    done: Option<Done>,
+    running: Option<Running>,
+    shown: Option<Shown>,
     /// The key that a person cancelled or that failed: not tried again by itself.
     given_up: Option<Key>,
+    /// Since when something else is asked for than what is shown.
+    behind: Option<Instant>,
 }
 
 impl LossRun {
-    /// The latest result, and whether it still holds for `params` and `slots`.
-    pub fn done(&self, slots: &Slots, params: &LossParams) -> Option<(&Done, bool)> {
-        self.done.as_ref().map(|done| (done, done.key == key(slots, params)))
+    /// The latest losses, and whether they are of what is asked for.
+    pub fn shown(&self) -> Option<(&Shown, bool)> {
+        self.shown.as_ref().map(|shown| (shown, self.behind.is_none()))
     }
 
-    /// The running job, for its progress.
-    pub fn job(&self) -> Option<&LossJob> {
-        self.running.as_ref().map(|(_, job)| job)
+    /// Whether what is shown has been out of date for longer than a person takes for at once.
+    pub fn stale(&self) -> bool {
+        self.behind.is_some_and(|since| self.running.is_none() || since.elapsed() > SOON)
     }
 
-    /// Takes over a finished loss; returns its error, for the user.
+    /// The losses, if they are complete and hold for `request` and `slots`.
+    pub fn finished(&self, slots: &Slots, request: &LossRequest) -> Option<&[Loss]> {
+        let shown = self.shown.as_ref()?;
+        let holds = shown.end == End::Finished && shown.key == key(slots, request);
+        holds.then_some(shown.report.losses.as_slice())
+    }
+
+    /// How far the running loss is: its share in [0, 1], its time, and whether anything was reached yet.
+    /// `None` without one, and for the first moment of one.
+    pub fn busy(&self) -> Option<(f32, Duration, bool)> {
+        let running = self.running.as_ref()?;
+        let elapsed = running.job.elapsed();
+        let LossRequest { params, goal } = &running.key.request;
+        let fraction = match goal {
+            Some(Goal::Time(time)) if running.scenes > 0 => elapsed.as_secs_f32() / time.as_secs_f32(),
+            None if running.scenes > 0 => running.scenes as f32 / (params.near + params.distant) as f32,
+            _ => running.job.fraction(),
+        };
+        (elapsed > SOON).then_some((fraction.min(1.0), elapsed, running.scenes > 0))
+    }
+
+    /// Takes over what the worker has reached; returns its error, for the user.
     pub fn poll(&mut self, ctx: &egui::Context) -> Option<String> {
-        let result = self.running.as_ref().and_then(|(_, job)| job.poll(ctx))?;
-        let (key, _) = self.running.take()?;
+        let running = self.running.as_mut()?;
+        // A worker that has ended has left its last update before.
+        let ended = running.job.poll(ctx);
+        if let Some(update) = running.latest.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            let Update { report, differences, elapsed } = update;
+            running.scenes = report.scenes.len();
+            self.behind = None;
+            self.shown =
+                Some(Shown { key: running.key.clone(), report, differences, elapsed, end: End::NotYet });
+        }
+        let result = ended?;
+        // Something else may be asked for by now.
+        ctx.request_repaint();
+        let running = self.running.take()?;
         match result {
-            Ok((losses, elapsed)) => {
-                self.done = Some(Done { params: key.params.clone(), key, losses, elapsed });
+            Ok(()) => {
+                self.end_with(&running, End::Finished);
                 None
             }
             Err(error) => {
-                self.given_up = Some(key);
+                self.end_with(&running, End::Cancelled);
+                self.given_up = Some(running.key);
                 Some(error.to_string())
             }
         }
     }
 
-    /// Starts the loss unless the one that is asked for runs, is done or was given up.
-    pub fn keep_up(&mut self, ctx: &egui::Context, slots: &Slots, params: &LossParams) {
-        let key = key(slots, params);
-        let known = [
-            self.running.as_ref().map(|(k, _)| k),
-            self.done.as_ref().map(|d| &d.key),
-            self.given_up.as_ref(),
-        ];
-        if !known.contains(&Some(&key)) {
-            self.start(ctx, slots, params);
+    /// Notices whether what is shown is what is asked for. With `auto` it computes what is asked for, unless that is done
+    /// or was given up; a run for something else is given up for it.
+    pub fn follow(&mut self, ctx: &egui::Context, slots: &Slots, request: &LossRequest, auto: bool) {
+        if slots.predictions().is_empty() {
+            *self = Self::default();
+            return;
+        }
+        let key = key(slots, request);
+        if self.shown.as_ref().is_none_or(|shown| shown.key == key) {
+            self.behind = None;
+        } else {
+            self.behind.get_or_insert_with(Instant::now);
+        }
+        if !auto || self.given_up.as_ref() == Some(&key) {
+            return;
+        }
+        let done = self.finished(slots, request).is_some();
+        match &self.running {
+            Some(running) if running.key == key => {}
+            _ if done => self.running = None,
+            Some(running) if running.is_young() => {}
+            _ => self.start(ctx, slots, request),
         }
     }
 
     /// Starts the loss of the predictions in `slots`; a running one is given up for it.
-    pub fn start(&mut self, ctx: &egui::Context, slots: &Slots, params: &LossParams) {
+    pub fn start(&mut self, ctx: &egui::Context, slots: &Slots, request: &LossRequest) {
         self.running = None;
         self.given_up = None;
         if slots.predictions().is_empty() {
-            self.done = None;
             return;
         }
-        let key = key(slots, params);
+        let key = key(slots, request);
         let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|s| s.loaded.clone()).collect();
-        let params = params.clone();
+        let request = request.clone();
+        let latest = Arc::new(Mutex::new(None));
+        let (left, seen) = (latest.clone(), ctx.clone());
         let job = Job::start(ctx, move |progress| {
-            let scenes = params.scenes()?;
             let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
-            let start = std::time::Instant::now();
+            let start = Instant::now();
             let (ground_truth, predictions) = (materials[0], &materials[1..]);
-            let losses = loss::losses_f32(ground_truth, predictions, &scenes, &params.convention, progress)?;
-            Ok((losses, start.elapsed()))
+            request.run(ground_truth, predictions, progress, |reached| {
+                let elapsed = start.elapsed();
+                let report = report(&request, ground_truth, reached);
+                let update = Update { differences: differences(&report), report, elapsed };
+                *left.lock().unwrap_or_else(PoisonError::into_inner) = Some(update);
+                seen.request_repaint();
+            })
         });
-        self.running = Some((key, job));
+        self.running = Some(Running { key, job, latest, scenes: 0 });
     }
 
-    /// Stops the running loss and does not start it again by itself.
+    /// Stops the running loss and does not start it again by itself. What it has reached stays.
     pub fn cancel(&mut self) {
-        if let Some((key, job)) = self.running.take() {
-            job.cancel();
-            self.given_up = Some(key);
+        if let Some(running) = self.running.take() {
+            running.job.cancel();
+            self.end_with(&running, End::Cancelled);
+            self.given_up = Some(running.key);
+        }
+    }
+
+    /// Says how `running` ended, if what is shown is its.
+    fn end_with(&mut self, running: &Running, end: End) {
+        if let Some(shown) = self.shown.as_mut().filter(|_| running.scenes > 0) {
+            shown.end = end;
         }
     }
 }
 
-fn key(slots: &Slots, params: &LossParams) -> Key {
-    Key { ids: slots.slots.iter().map(|s| s.id).collect(), params: params.clone() }
+fn key(slots: &Slots, request: &LossRequest) -> Key {
+    Key { ids: slots.slots.iter().map(|s| s.id).collect(), request: request.clone() }
+}
+
+fn report(request: &LossRequest, ground_truth: &Material<f32>, reached: Reached) -> Report {
+    let Reached { draw, scenes, losses } = reached;
+    Report {
+        convention: request.params.convention,
+        ground_truth: ground_truth.name().to_owned(),
+        size: ground_truth.size(),
+        seed: Some(request.params.seed),
+        sampler: Some(draw.sampler),
+        texels: draw.texels,
+        precision: "f32",
+        backend: "cpu",
+        scenes,
+        losses,
+    }
+}
+
+/// For each prediction how much larger the losses of all are.
+fn differences(report: &Report) -> Vec<Vec<Estimate>> {
+    let to = |less| report.losses.iter().map(|loss| report.difference(loss, less)).collect();
+    report.losses.iter().map(to).collect()
+}
+
+/// The largest relative error of any of the losses.
+fn worst(losses: &[Loss]) -> f64 {
+    losses.iter().map(|loss| loss.estimate.relative_error95()).fold(0.0, f64::max)
 }

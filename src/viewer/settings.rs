@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use super::loss_request::LossSettings;
 use crate::material::read::ReadOptions;
 
 /// Under this key the settings are stored.
@@ -21,9 +22,7 @@ pub struct Settings {
     pub highlight_follows: bool,
     /// Whether the loss is computed again whenever something that it depends on changes.
     pub auto_loss: bool,
-    pub near: usize,
-    pub distant: usize,
-    pub seed: u64,
+    pub loss: LossSettings,
     /// Whether files that change on the disk are read again.
     pub watch: bool,
     /// How materials are read that are opened next.
@@ -39,9 +38,7 @@ impl Default for Settings {
             side_panel: true,
             highlight_follows: false,
             auto_loss: true,
-            near: 6,
-            distant: 3,
-            seed: 0,
+            loss: LossSettings::default(),
             watch: false,
             read: ReadOptions::default(),
             recent: Vec::new(),

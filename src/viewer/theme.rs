@@ -35,6 +35,8 @@ pub fn install(ctx: &egui::Context) {
     ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(8.0, 5.0);
         style.spacing.button_padding = egui::vec2(7.0, 3.0);
+        // Scroll bars cover no numbers.
+        style.spacing.scroll.floating_allocated_width = style.spacing.scroll.bar_width;
         style.interaction.selectable_labels = true;
         style.text_styles.insert(egui::TextStyle::Small, egui::FontId::proportional(11.0));
     });

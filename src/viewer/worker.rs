@@ -29,6 +29,7 @@ impl<T: Send + 'static> Job<T> {
         let progress = Arc::new(Progress::default());
         let (sender, result) = mpsc::channel();
         let (ctx, seen) = (ctx.clone(), progress.clone());
+        ctx.request_repaint_after(LOOK_AGAIN);
         std::thread::spawn(move || {
             // The window may have dropped this job: then nobody wants the result.
             let _ = sender.send(work(&seen));

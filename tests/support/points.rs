@@ -13,18 +13,28 @@ pub type Point = (Texel<f32>, [f32; 3], [f32; 3]);
 
 /// `count` points whose parts are now random, now at an edge of the domain, in every combination.
 pub fn points(seed: u64, count: usize) -> Vec<Point> {
-    let mut generator = Generator(ChaCha8Rng::seed_from_u64(seed));
+    let mut generator = Generator::new(seed, 0);
     (0..count).map(|_| generator.point()).collect()
 }
 
-struct Generator(ChaCha8Rng);
+/// Random parts of points, now and then at an edge of the domain.
+pub struct Generator(ChaCha8Rng);
 
 impl Generator {
-    fn uniform(&mut self) -> f64 {
+    /// Stream `stream` of `seed`.
+    pub fn new(seed: u64, stream: u64) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(stream);
+        Self(random)
+    }
+
+    /// A number in [0, 1].
+    pub fn uniform(&mut self) -> f64 {
         f64::from(self.0.next_u32()) / f64::from(u32::MAX)
     }
 
-    fn pick(&mut self, choices: usize) -> usize {
+    /// A whole number below `choices`.
+    pub fn pick(&mut self, choices: usize) -> usize {
         self.0.next_u32() as usize % choices
     }
 
@@ -39,7 +49,7 @@ impl Generator {
     }
 
     /// A unit direction: anywhere above the plane, at the zenith, grazing, or below the plane.
-    fn direction(&mut self) -> Vec3<f64> {
+    pub fn direction(&mut self) -> Vec3<f64> {
         let z = match self.pick(8) {
             0 => 1.0,
             1 => self.one_of([1e-6, 1e-5, 1e-4, 1e-3, 0.01]),
@@ -50,7 +60,7 @@ impl Generator {
     }
 
     /// Mostly out of the plane; now and then exactly along z, or nearly in the plane.
-    fn normal(&mut self) -> Vec3<f64> {
+    pub fn normal(&mut self) -> Vec3<f64> {
         let z = match self.pick(4) {
             0 => 1.0,
             1 => self.uniform(),
@@ -59,19 +69,20 @@ impl Generator {
         self.azimuth(z)
     }
 
-    fn albedo(&mut self) -> f32 {
+    /// An albedo in [0, 1]: any, 0 or 1.
+    pub fn albedo(&mut self) -> f32 {
         let value = self.uniform();
         self.one_of([0.0, 1.0, value, value]) as f32
     }
 
-    fn roughness(&mut self) -> f32 {
+    pub fn roughness(&mut self) -> f32 {
         let (value, square) = (self.uniform(), self.uniform().powi(4));
         self.one_of([0.0, 1e-5, 1e-4, 1e-3, 1.0 / 255.0, 0.01, 0.1, 0.5, 1.0, value, value, square]) as f32
     }
 
     /// A direction for a light along `l`: any, its mirror image on `n`, `l` itself, or its opposite, the last
     /// three a little off.
-    fn partner(&mut self, n: Vec3<f64>, l: Vec3<f64>) -> Vec3<f64> {
+    pub fn partner(&mut self, n: Vec3<f64>, l: Vec3<f64>) -> Vec3<f64> {
         let exact = match self.pick(6) {
             0 | 1 => n * (2.0 * n.dot(l)) - l,
             2 => l,

@@ -1,11 +1,31 @@
-//! The loss panel.
+//! The loss panel: the numbers of one go, and what belongs to them.
 
-use svbrdf::loss::{self, LossParams};
+mod differences;
+mod on_the_way;
+
+use svbrdf::loss::{self, Loss, LossParams};
 use svbrdf::material::Material;
 use svbrdf::progress::Progress;
 use svbrdf::samples;
 
 use super::*;
+
+/// What the core gives for the built-in predictions.
+fn expected(params: &LossParams) -> Vec<Loss> {
+    let samples = samples::load::<f32>().unwrap();
+    let predictions: Vec<&Material<f32>> = samples.predictions.iter().map(|r| &r.material).collect();
+    let (ground_truth, scenes) = (&samples.ground_truth.material, params.scenes().unwrap());
+    loss::losses_f32(ground_truth, &predictions, &scenes, &params.convention, &Progress::default()).unwrap()
+}
+
+/// Types `text` into the number called `name`.
+fn enter(window: &mut Window<'_>, name: &str, text: &str) {
+    let number = egui::accesskit::Role::SpinButton;
+    window.get_by_role_and_label(number, name).click();
+    window.run_steps(2);
+    window.get_by_role_and_label(number, name).type_text(text);
+    press(window, egui::Key::Enter);
+}
 
 #[test]
 fn the_loss_button_yields_the_number_that_the_core_gives() {
@@ -13,32 +33,30 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     window.get_by_label("Auto").click();
     window.run_steps(3);
     press(&mut window, egui::Key::Escape);
-    window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Seed").click();
-    window.run_steps(2);
-    window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Seed").type_text("7");
-    press(&mut window, egui::Key::Enter);
-    assert_eq!(window.state().settings.seed, 7);
+    enter(&mut window, "Seed", "7");
+    assert_eq!(window.state().settings.loss.seed, 7);
     assert_eq!(window.state().losses(), None, "the loss of another seed is no loss of this one");
     window.get_by_label("Compute loss").click();
     window.run_steps(2);
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    let samples = samples::load::<f32>().unwrap();
-    let predictions: Vec<&Material<f32>> = samples.predictions.iter().map(|r| &r.material).collect();
-    let params = LossParams { seed: 7, ..LossParams::default() };
-    let expected = loss::losses_f32(
-        &samples.ground_truth.material,
-        &predictions,
-        &params.scenes().unwrap(),
-        &params.convention,
-        &Progress::default(),
-    )
-    .unwrap();
+    let expected = expected(&LossParams { seed: 7, ..LossParams::default() });
     assert_eq!(window.state().losses().unwrap(), expected);
     for loss in &expected {
         let [mean, error, interval] = loss.estimate.texts();
         window.get_by_label(&format!("{mean} +- {error}"));
         window.get_by_label(&interval);
     }
+}
+
+#[test]
+fn many_scenes_end_with_the_bits_of_one_go() {
+    let Some(mut window) = built_in() else { return };
+    enter(&mut window, "Near-field scenes", "60");
+    enter(&mut window, "Distant scenes", "31");
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    let expected = expected(&LossParams { near: 60, distant: 31, ..LossParams::default() });
+    assert_eq!(window.state().losses().unwrap(), expected);
+    window.get_by_label_contains("from 60 + 31 scenes in");
 }
 
 #[test]
@@ -53,4 +71,23 @@ fn auto_computes_again_when_the_convention_changes() {
     assert_eq!(window.state().state.convention, "guided-2020");
     wait(&mut window, "the second loss", |app| app.losses().is_some());
     assert!(window.state().losses().unwrap()[0].estimate.mean > before);
+}
+
+#[test]
+fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
+    let Some(mut window) = built_in() else { return };
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    window.get_by_label("Copy").click();
+    let mut copied = String::new();
+    for _ in 0..4 {
+        window.step();
+        for command in &window.output().platform_output.commands {
+            if let egui::OutputCommand::CopyText(text) = command {
+                copied.clone_from(text);
+            }
+        }
+    }
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_svbrdf")).arg("loss").output().unwrap();
+    assert_eq!(copied, String::from_utf8(output.stdout).unwrap());
+    assert!(copied.contains("wrong roughness less blurred normals"), "{copied}");
 }

@@ -1,5 +1,8 @@
 //! The study window.
 
+use svbrdf::loss::Texels;
+use svbrdf::sampler::Sampler;
+
 use super::*;
 use crate::support::pictures::packed;
 
@@ -26,12 +29,16 @@ fn a_click_on_a_point_of_the_study_sets_the_loss_to_it() {
     window.get_by_label("Study: time against error...").click();
     window.run_steps(3);
     wait(&mut window, "the first points", |app| app.study().is_some_and(|(study, _)| study.points.len() > 4));
-    assert_eq!((window.state().settings.near, window.state().settings.distant), (6, 3));
     let options = window.state().study().unwrap().0.points[2].choice.options();
     assert_eq!(options, "--sampler sobol --near 64 --distant 32 --texels 128");
     window.get_by_label(&options).click();
     window.run_steps(3);
-    assert_eq!((window.state().settings.near, window.state().settings.distant), (64, 32));
+    let loss = &window.state().settings.loss;
+    assert_eq!((loss.near, loss.distant, loss.sampler), (64, 32, Sampler::Sobol));
+    assert_eq!(loss.texels, Texels::Sampled(128));
+    wait(&mut window, "the loss of that setting", |app| {
+        app.losses().is_some_and(|l| l[0].per_scene.len() == 96)
+    });
 
     window.get_by_label("Cancel study").click();
     window.run_steps(3);

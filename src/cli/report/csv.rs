@@ -1,9 +1,8 @@
 //! One table for spreadsheets (RFC 4180, with a heading); an unknown value is an empty cell.
 
 use svbrdf::loss::Loss;
+use svbrdf::report::Report;
 use svbrdf::scene::Kind;
-
-use super::Report;
 
 const HEADING: &str = "prediction,loss,standard_error,interval95_low,interval95_high,\
     convention,epsilon,width,height,near,distant,seed,sampler,texels,precision,backend\n";

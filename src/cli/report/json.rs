@@ -4,10 +4,9 @@ use std::io;
 
 use serde::Serialize;
 use svbrdf::loss::{Estimate, Loss, Texels};
+use svbrdf::report::Report;
 use svbrdf::sampler::Sampler;
 use svbrdf::scene::{Kind, Scene};
-
-use super::Report;
 
 #[derive(Serialize)]
 struct Object<'a> {

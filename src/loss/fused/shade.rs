@@ -133,13 +133,13 @@ fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
     let splat = |c| V::<S>::splat(simd, c);
     let n = terms.normal.each_ref().map(|p| p.load(simd, i));
     let a = terms.a.load(simd, i);
-    let (n_dot_l, n_dot_v) = (dot(n, ray.light), dot(n, ray.view));
-    let n_dot_q = n_dot_l + n_dot_v;
-    let n_dot_v = n_dot_v.max(splat(0.0));
-    let n_dot_l = n_dot_l.max(splat(0.0));
+    let q = sum(ray.light, ray.view);
+    let n_dot_l = dot(n, ray.light).max(splat(0.0));
+    let n_dot_v = dot(n, ray.view).max(splat(0.0));
+    // Not the sum of the two: where light and view are nearly opposite, that rounds far above the short q.
+    let n_dot_q = dot(n, q);
     let e = n_dot_l * ray.boost;
 
-    let q = sum(ray.light, ray.view);
     let across: [V<S>; 3] = std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], q[c]));
     let along = a * n_dot_q;
     // In this order only three additions wait for `across`.

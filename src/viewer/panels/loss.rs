@@ -1,19 +1,31 @@
 //! The sampled rendering loss: what is asked for, how far it is, what came out.
 
-use eframe::egui::{self, RichText};
+use std::time::Duration;
 
-use crate::loss::{Loss, LossParams};
+use eframe::egui::{self, RichText, Slider};
+
+use super::loss_results::{self, seconds};
+use crate::loss::Texels;
+use crate::loss::adaptive::Goal;
+use crate::sampler::Sampler;
+use crate::scene::Kind;
 use crate::viewer::command::Command;
-use crate::viewer::loss_run::{Done, LossRun};
+use crate::viewer::loss_request::{Ask, LossSettings};
+use crate::viewer::loss_run::{End, LossRun, Shown};
 use crate::viewer::slots::Slots;
+use crate::viewer::theme;
 
 /// Most scenes of one kind that the panel lets a person ask for.
 const MOST: usize = 100_000;
+/// The accuracies that it lets a person ask for, in percent of the loss.
+const PERCENT: std::ops::RangeInclusive<f64> = 0.1..=20.0;
+/// The times that it lets a person ask for, in milliseconds.
+const MILLISECONDS: std::ops::RangeInclusive<u64> = 16..=10_000;
 
 /// What the section shows.
 #[derive(Debug)]
 pub struct LossPanel<'a> {
-    pub params: &'a LossParams,
+    pub settings: &'a LossSettings,
     pub auto: bool,
     pub run: &'a LossRun,
     pub slots: &'a Slots,
@@ -23,55 +35,37 @@ pub struct LossPanel<'a> {
 impl LossPanel<'_> {
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
-        self.parameters(ui, &mut commands);
+        let mut settings = self.settings.clone();
+        request(ui, &mut settings);
+        if settings != *self.settings {
+            commands.push(Command::SetLoss(settings));
+        }
         self.controls(ui, &mut commands);
         if self.slots.predictions().is_empty() {
             ui.label("Open a prediction to compare with the ground truth.");
             return commands;
         }
-        match self.run.done(self.slots, self.params) {
-            Some((done, current)) => self.results(ui, done, current, &mut commands),
-            None if self.run.job().is_none() => {
-                ui.label("Not computed yet.");
-            }
-            None => {}
+        self.state(ui);
+        if let Some((shown, _)) = self.run.shown() {
+            ui.scope(|ui| {
+                if self.run.stale() {
+                    ui.set_opacity(0.5);
+                }
+                commands.extend(loss_results::ui(ui, shown, self.chosen));
+            });
         }
         commands
     }
 
-    fn parameters(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let default = LossParams::default();
-        let (mut near, mut distant, mut seed) = (self.params.near, self.params.distant, self.params.seed);
-        egui::Grid::new("loss parameters").num_columns(2).show(ui, |ui| {
-            ui.label("Near-field scenes");
-            super::number(ui, "Near-field scenes", &mut near, default.near, |d| d.speed(0.2).range(0..=MOST));
-            ui.end_row();
-            ui.label("Distant scenes");
-            super::number(ui, "Distant scenes", &mut distant, default.distant, |d| {
-                d.speed(0.2).range(0..=MOST)
-            });
-            ui.end_row();
-            ui.label("Seed");
-            super::number(ui, "Seed", &mut seed, default.seed, |d| d.speed(0.2))
-                .on_hover_text("Names the scenes: the same seed draws the same ones");
-            ui.end_row();
-        });
-        if (near, distant, seed) != (self.params.near, self.params.distant, self.params.seed) {
-            commands.push(Command::SetScenes { near, distant, seed });
-        }
-    }
-
     fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        ui.horizontal(|ui| {
-            if let Some(job) = self.run.job() {
-                if ui.button("Cancel loss").on_hover_text("Esc").clicked() {
+        ui.horizontal_wrapped(|ui| {
+            if self.run.busy().is_some() {
+                if ui.add(button("Cancel loss")).on_hover_text("Keep what is reached (Esc)").clicked() {
                     commands.push(Command::CancelLoss);
                 }
-                let text = format!("{:.0} s", job.elapsed().as_secs_f32());
-                ui.add(egui::ProgressBar::new(job.fraction()).text(text).desired_width(110.0));
             } else {
                 let enabled = !self.slots.predictions().is_empty();
-                let compute = ui.add_enabled(enabled, egui::Button::new("Compute loss"));
+                let compute = ui.add_enabled(enabled, button("Compute loss"));
                 if compute.on_hover_text("Enter").clicked() {
                     commands.push(Command::ComputeLoss);
                 }
@@ -81,55 +75,162 @@ impl LossPanel<'_> {
             if auto != self.auto {
                 commands.push(Command::SetAutoLoss(auto));
             }
+            let copy = ui.add_enabled(self.run.shown().is_some(), egui::Button::new("Copy"));
+            if copy.on_hover_text("As text, as `svbrdf loss` prints it").clicked() {
+                commands.push(Command::CopyLoss);
+            }
         });
     }
 
-    fn results(&self, ui: &mut egui::Ui, done: &Done, current: bool, commands: &mut Vec<Command>) {
-        if !current {
-            ui.label(RichText::new("Out of date: materials or parameters have changed.").weak());
+    /// One line, always there, so that nothing below it jumps: how far the loss is, or what it took.
+    fn state(&self, ui: &mut egui::Ui) {
+        if let Some((fraction, elapsed, reached)) = self.run.busy() {
+            let doing = if reached { "refining" } else { "first scenes" };
+            let text = format!("{doing}, {} s", elapsed.as_secs());
+            let height = ui.spacing().interact_size.y;
+            ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
+            return;
         }
-        ui.scope(|ui| {
-            if !current {
-                ui.set_opacity(0.5);
+        let text = match self.run.shown() {
+            None => RichText::new("Not computed yet."),
+            Some((_, false)) if self.run.stale() => {
+                RichText::new("Out of date: materials or parameters have changed.")
             }
-            for (index, loss) in done.losses.iter().enumerate() {
-                if result(ui, index, loss, index == self.chosen).clicked() {
-                    commands.push(Command::ChoosePrediction(index));
-                }
-            }
-            ui.label(RichText::new(summary(done)).weak().small());
-        });
+            Some((shown, _)) => outcome(shown, ui.visuals()),
+        };
+        ui.horizontal_wrapped(|ui| ui.label(text.small()));
     }
 }
 
-/// One prediction's loss.
-fn result(ui: &mut egui::Ui, index: usize, loss: &Loss, chosen: bool) -> egui::Response {
-    let name = format!("{}  {}", index + 1, loss.prediction);
-    let response =
-        ui.add(egui::Button::selectable(chosen, name).truncate()).on_hover_text("Click to compare this one");
-    let [mean, error, interval] = loss.estimate.texts();
-    egui::Grid::new(("loss result", index)).num_columns(2).show(ui, |ui| {
-        ui.label("    loss");
-        ui.label(RichText::new(format!("{mean} +- {error}")).monospace().strong()).on_hover_text(
-            "Mean over the scenes +- its standard error, which is due to the choice of scenes",
-        );
-        ui.end_row();
-        ui.label("    95%");
-        ui.label(RichText::new(interval).monospace());
-        ui.end_row();
-    });
-    response
+/// What accuracy took how much, and whether that is what was asked for.
+fn outcome(shown: &Shown, visuals: &egui::Visuals) -> RichText {
+    let (near, distant) = (shown.report.count(Kind::Near), shown.report.count(Kind::Distant));
+    let (error, elapsed) = (shown.relative_error(), shown.elapsed);
+    let took =
+        format!("{} from {near} + {distant} scenes in {}", loss_results::accuracy(error), seconds(elapsed));
+    match (shown.end, missed(shown.request().goal, error, elapsed)) {
+        (End::Cancelled, _) => RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color),
+        (End::Finished, Some(missed)) => {
+            RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
+        }
+        _ => RichText::new(took),
+    }
 }
 
-fn summary(done: &Done) -> String {
-    let params = &done.params;
-    format!(
-        "convention {} (epsilon {}), {} near + {} distant scenes, seed {}, f32, {:.1} ms",
-        params.convention.name,
-        params.convention.epsilon,
-        params.near,
-        params.distant,
-        params.seed,
-        done.elapsed.as_secs_f64() * 1e3
-    )
+/// Says so where the accuracy or the time that was asked for was not kept.
+fn missed(goal: Option<Goal>, relative_error: f64, elapsed: Duration) -> Option<String> {
+    match goal? {
+        Goal::RelativeError(target) if relative_error > target => {
+            Some(format!("Not within {}", loss_results::accuracy(target)))
+        }
+        Goal::Time(time) if elapsed > time => Some(format!("Not within {}", seconds(time))),
+        _ => None,
+    }
+}
+
+/// Buttons that take each other's place have one width.
+fn button(text: &str) -> egui::Button<'_> {
+    egui::Button::new(text).min_size(egui::vec2(90.0, 0.0))
+}
+
+/// What is asked for: how first, then the fields that matter for it.
+fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (ask, name, meaning) in [
+            (Ask::Scenes, "Scenes", "A number of scenes, such as the 6 + 3 of the papers"),
+            (Ask::Accuracy, "Accuracy", "As many scenes as it takes to know every loss this well"),
+            (Ask::Time, "Time", "As many scenes as fit into this time"),
+        ] {
+            ui.selectable_value(&mut settings.ask, ask, name).on_hover_text(meaning);
+        }
+    });
+    match settings.ask {
+        Ask::Scenes => scenes(ui, settings),
+        Ask::Accuracy => accuracy(ui, &mut settings.target_percent),
+        Ask::Time => time(ui, &mut settings.time_ms),
+    }
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Seed");
+        super::number(ui, "Seed", &mut settings.seed, 0, |d| d.speed(0.2))
+            .on_hover_text("Names the scenes: the same seed draws the same ones");
+        if settings.ask == Ask::Scenes {
+            ui.selectable_value(&mut settings.sampler, Sampler::Random, "random")
+                .on_hover_text("Independent scenes, as the papers draw them");
+            ui.selectable_value(&mut settings.sampler, Sampler::Sobol, "Sobol")
+                .on_hover_text("Scrambled Sobol sequences: less error from as many scenes");
+        }
+    });
+}
+
+fn scenes(ui: &mut egui::Ui, settings: &mut LossSettings) {
+    let default = LossSettings::default();
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Near");
+        super::number(ui, "Near-field scenes", &mut settings.near, default.near, |d| {
+            d.speed(0.2).range(0..=MOST)
+        });
+        ui.label("Distant");
+        super::number(ui, "Distant scenes", &mut settings.distant, default.distant, |d| {
+            d.speed(0.2).range(0..=MOST)
+        });
+        texels(ui, &mut settings.texels);
+    });
+}
+
+/// How many texels of each scene are compared; 0 stands for all.
+fn texels(ui: &mut egui::Ui, texels: &mut Texels) {
+    let mut count = match *texels {
+        Texels::All => 0,
+        Texels::Sampled(count) => count,
+    };
+    let text = |count: f64, _| if count < 1.0 { "all".to_owned() } else { format!("{count:.0}") };
+    let parsed = |text: &str| if text.trim() == "all" { Some(0.0) } else { text.trim().parse().ok() };
+    ui.label("Texels");
+    super::number(ui, "Texels of each scene", &mut count, 0, |d| {
+        d.speed(1.0).range(0..=MOST).custom_formatter(text).custom_parser(parsed)
+    })
+    .on_hover_text("Compared in each scene, other ones in every scene; 0 or all: every texel of the map");
+    *texels = if count == 0 { Texels::All } else { Texels::Sampled(count) };
+}
+
+fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
+    let default = LossSettings::default().target_percent;
+    ui.horizontal_wrapped(|ui| {
+        slider(ui, "Accuracy slider", Slider::new(target, PERCENT).max_decimals(2));
+        super::number(ui, "Accuracy", target, default, |d| {
+            d.speed(0.01).range(PERCENT).max_decimals(2).prefix("+-").suffix("%")
+        });
+        ui.label("at 95%").on_hover_text("Half of the 95% interval of every loss, as a share of it");
+    });
+}
+
+fn time(ui: &mut egui::Ui, milliseconds: &mut u64) {
+    let default = LossSettings::default().time_ms;
+    ui.horizontal_wrapped(|ui| {
+        slider(ui, "Time slider", Slider::new(milliseconds, MILLISECONDS));
+        super::number(ui, "Time", milliseconds, default, |d| d.range(MILLISECONDS).suffix(" ms"));
+    });
+}
+
+/// A slider without its number, over a range of many sizes.
+fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) {
+    ui.spacing_mut().slider_width = 80.0;
+    let response = ui.add(slider.logarithmic(true).show_value(false));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, name));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_promise_that_was_not_kept_is_said_so() {
+        let of = |goal| missed(goal, 0.02, Duration::from_millis(50));
+        assert_eq!(of(Some(Goal::RelativeError(0.01))), Some("Not within +-1.00%".to_owned()));
+        assert_eq!(of(Some(Goal::Time(Duration::from_millis(16)))), Some("Not within 16 ms".to_owned()));
+        assert_eq!(of(Some(Goal::RelativeError(0.03))), None);
+        assert_eq!(of(Some(Goal::Time(Duration::from_millis(60)))), None);
+        assert_eq!(of(None), None);
+    }
 }

@@ -2,6 +2,7 @@
 
 pub mod help;
 pub mod loss;
+mod loss_results;
 pub mod materials;
 pub mod messages;
 pub mod open;

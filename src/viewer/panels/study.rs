@@ -9,6 +9,7 @@ use crate::sampler::Sampler;
 use crate::study::text::{percent, time};
 use crate::study::{Choice, Family, Point, Study};
 use crate::viewer::command::Command;
+use crate::viewer::loss_request::{Ask, LossSettings};
 use crate::viewer::study::StudyRun;
 
 /// How far from its middle a point is felt, in pixels.
@@ -20,7 +21,8 @@ pub struct StudyWindow<'a> {
     pub run: &'a StudyRun,
     /// What has been measured, and whether it is about the materials of now.
     pub shown: Option<(&'a Study, bool)>,
-    pub current: Setting,
+    /// `None` where the loss is asked for by an accuracy or a time.
+    pub current: Option<Setting>,
 }
 
 /// The part of a choice that the window's loss can be set to.
@@ -30,6 +32,20 @@ pub struct Setting {
     pub distant: usize,
     pub sampler: Sampler,
     pub texels: Texels,
+}
+
+impl Setting {
+    /// What the loss is set to, unless it chooses by itself.
+    pub fn of(settings: &LossSettings) -> Option<Self> {
+        let LossSettings { near, distant, sampler, texels, .. } = *settings;
+        (settings.ask == Ask::Scenes).then_some(Self { near, distant, sampler, texels })
+    }
+
+    /// The settings of the loss with this one in them.
+    pub fn put_into(self, settings: &LossSettings) -> LossSettings {
+        let Self { near, distant, sampler, texels } = self;
+        LossSettings { ask: Ask::Scenes, near, distant, sampler, texels, ..settings.clone() }
+    }
 }
 
 impl From<&Choice> for Setting {
@@ -106,7 +122,7 @@ impl StudyWindow<'_> {
         });
         let below = [
             vec![
-                "Click a point to give the loss its numbers of scenes. The ring is the current setting."
+                "Click a point to set the loss to its scenes and texels. The ring is the current setting."
                     .to_owned(),
             ],
             study.variants(),
@@ -131,7 +147,7 @@ impl StudyWindow<'_> {
         };
         let setting = Setting::from(&point.choice);
         let text = format!("{}: {}", percent(target), time(point.seconds));
-        let button = ui.add(egui::Button::new(text).selected(setting == self.current));
+        let button = ui.add(egui::Button::new(text).selected(Some(setting) == self.current));
         if button.on_hover_text(description(point)).clicked() {
             commands.push(Command::ChooseSetting(setting));
         }
@@ -169,7 +185,7 @@ impl StudyWindow<'_> {
                         plot.points(markers(family, places, dark));
                     }
                 }
-                if let Some(at) = current(study, self.current) {
+                if let Some(at) = self.current.and_then(|setting| place_of(study, setting)) {
                     let ring = Points::new("current setting", vec![at]).shape(MarkerShape::Circle);
                     plot.points(ring.radius(10.0).filled(false).color(ink).allow_hover(false));
                 }
@@ -227,7 +243,7 @@ fn place(point: &Point) -> [f64; 2] {
 }
 
 /// Where a setting lies: on its point, or between the two points that have less and more scenes drawn in its way.
-fn current(study: &Study, setting: Setting) -> Option<[f64; 2]> {
+fn place_of(study: &Study, setting: Setting) -> Option<[f64; 2]> {
     let Setting { near, distant, sampler, texels } = setting;
     let scenes = near + distant;
     let drawn = |scenes| Choice { scenes, sampler, texels, ..Choice::default() };

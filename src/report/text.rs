@@ -1,10 +1,9 @@
 //! A table for people.
 
-use svbrdf::loss::{Loss, Texels};
-use svbrdf::sampler::Sampler;
-use svbrdf::scene::Kind;
-
 use super::Report;
+use crate::loss::{Loss, Texels};
+use crate::sampler::Sampler;
+use crate::scene::Kind;
 
 const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interval"];
 

@@ -1,0 +1,52 @@
+//! Losses with everything that gives them a meaning: what the command line prints and the window copies.
+
+mod text;
+
+use crate::convention::Convention;
+use crate::loss::{Estimate, Loss, Texels};
+use crate::sampler::Sampler;
+use crate::scene::{Kind, Scene};
+
+/// Losses with everything that gives them a meaning.
+#[derive(Clone, Debug)]
+pub struct Report {
+    pub convention: Convention,
+    /// The name of the ground truth.
+    pub ground_truth: String,
+    /// Width and height in texels.
+    pub size: [usize; 2],
+    /// `None` where the scenes come from a file.
+    pub seed: Option<u64>,
+    /// `None` where the scenes come from a file.
+    pub sampler: Option<Sampler>,
+    pub texels: Texels,
+    pub precision: &'static str,
+    /// What computed it: cpu or gpu.
+    pub backend: &'static str,
+    pub scenes: Vec<Scene>,
+    pub losses: Vec<Loss>,
+}
+
+impl Report {
+    /// A table for people, with its last line break.
+    pub fn text(&self) -> String {
+        text::write(self)
+    }
+
+    /// How much larger each further loss is than the first, on the same scenes.
+    pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
+        let Some((first, others)) = self.losses.split_first() else { return Vec::new() };
+        others.iter().map(|loss| (loss, self.difference(loss, first))).collect()
+    }
+
+    /// How much larger one loss of this report is than another: negative where it is closer to the ground truth.
+    pub fn difference(&self, loss: &Loss, less: &Loss) -> Estimate {
+        let sampler = self.sampler.unwrap_or_default();
+        Estimate::of_difference(sampler, &self.scenes, &loss.per_scene, &less.per_scene)
+    }
+
+    /// The number of scenes of a kind.
+    pub fn count(&self, kind: Kind) -> usize {
+        self.scenes.iter().filter(|scene| scene.kind == kind).count()
+    }
+}

@@ -1,0 +1,229 @@
+//! The cases: a table of values for each axis, and random ones.
+
+use exr::prelude::f16;
+use svbrdf::brdf::Texel;
+use svbrdf::convention::{self, Convention};
+use svbrdf::material::{Material, Planes};
+use svbrdf::vec3::Vec3;
+
+use crate::support::points::Generator;
+
+pub const ROUGHNESS: [f64; 9] = [0.0, 1e-5, 1e-4, 1e-3, 1.0 / 255.0, 0.01, 0.1, 0.5, 1.0];
+/// NoH as far as the format of the normal can hold it.
+pub const N_DOT_H: [f64; 4] = [1.0, 1.0 - 1.0 / (1 << 24) as f64, 1.0 - 1.0 / (1 << 12) as f64, 0.0];
+/// Heights of the unit vector to the light above the plane; the last is below it.
+pub const LIGHT_Z: [f64; 6] = [1.0, 0.5, 0.1, 1e-3, 1e-6, -0.5];
+/// Where the view is: at a height, or as the light is.
+pub const VIEWS: [View; 9] = [
+    View::Height(1.0),
+    View::Height(0.5),
+    View::Height(1e-3),
+    View::Height(1e-6),
+    View::Height(-0.5),
+    View::Mirror,
+    View::AlmostMirror,
+    View::Light,
+    View::Opposite,
+];
+/// Specular and diffuse albedo.
+pub const ALBEDO: [f64; 4] = [0.0, 1.0 / (1 << 24) as f64, 0.5, 1.0];
+/// Distances of light and view from the texel.
+pub const DISTANCE: [f64; 5] = [1e-4, 1e-2, 1.0, 1e3, 1e6];
+/// What the maps are stored as.
+pub const FORMATS: [Format; 3] = [Format::Bits8, Format::Half, Format::Float];
+
+#[derive(Clone, Copy, Debug)]
+pub enum View {
+    Height(f64),
+    /// The light's mirror image at the plane's normal.
+    Mirror,
+    /// v = l.
+    Light,
+    /// A thousandth of a radian off it.
+    AlmostMirror,
+    /// v = -l.
+    Opposite,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub enum Format {
+    Bits8,
+    Half,
+    Float,
+}
+
+impl Format {
+    /// The value in [0, 1] that a map of this format holds for `x`.
+    fn value(self, x: f64) -> f32 {
+        match self {
+            Self::Bits8 => ((x * 255.0).round() / 255.0) as f32,
+            Self::Half => f16::from_f64(x).to_f32(),
+            Self::Float => x as f32,
+        }
+    }
+
+    fn normal(self, n: Vec3<f64>) -> Vec3<f32> {
+        let component = |x: f64| match self {
+            Self::Bits8 => 2.0 * self.value(0.5 + 0.5 * x) - 1.0,
+            _ => self.value(x),
+        };
+        n.to_array().map(component).into()
+    }
+}
+
+/// Texels that share a convention, a light and a view.
+pub struct Batch {
+    pub convention: Convention,
+    /// Whether the fused kernel sees light and view at their distances, over materials of one texel each. Else it sees
+    /// them infinitely far, over all texels at once.
+    pub near: bool,
+    /// A row of texels.
+    pub material: Material<f32>,
+    /// From the texels to the light and to the viewer, of any length.
+    pub w_l: Vec3<f32>,
+    pub w_v: Vec3<f32>,
+}
+
+impl Batch {
+    pub fn len(&self) -> usize {
+        self.material.width()
+    }
+
+    pub fn texels(&self) -> impl Iterator<Item = Texel<f32>> + '_ {
+        (0..self.len()).map(|i| self.material.texel(i))
+    }
+}
+
+/// A material of one row, whose normals are normalized again.
+pub fn row(texels: &[Texel<f32>]) -> Material<f32> {
+    let plane = |value: &dyn Fn(&Texel<f32>) -> f32| texels.iter().map(value).collect::<Vec<_>>();
+    let planes = Planes {
+        normal: [0, 1, 2].map(|c| plane(&|t| t.normal.to_array()[c])),
+        diffuse: [0, 1, 2].map(|c| plane(&|t| t.diffuse[c])),
+        specular: [0, 1, 2].map(|c| plane(&|t| t.specular[c])),
+        roughness: plane(&|t| t.roughness),
+    };
+    Material::new("cases", texels.len(), 1, planes).unwrap()
+}
+
+/// `axis` turned by `angle` towards the side that `azimuth` names. Both in radians.
+pub fn turned(axis: Vec3<f64>, angle: f64, azimuth: f64) -> Vec3<f64> {
+    let other = if axis.x.abs() < 0.5 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 1.0, 0.0) };
+    let x = axis.cross(other).normalize();
+    let side = x * azimuth.cos() + axis.cross(x) * azimuth.sin();
+    axis * angle.cos() + side * angle.sin()
+}
+
+/// The half vector, or z where light and view are opposite.
+fn half_way(l: Vec3<f64>, v: Vec3<f64>) -> Vec3<f64> {
+    let sum = l + v;
+    if sum.length() > 1e-9 { sum.normalize() } else { Vec3::new(0.0, 0.0, 1.0) }
+}
+
+/// The values of a case, as indices into the axes, in this order: roughness, NoH, light, view, diffuse, specular,
+/// distance of the light, distance of the view, format, convention.
+pub type Indices = [usize; 10];
+/// How many values each axis has.
+pub const SIZES: Indices = [
+    ROUGHNESS.len(),
+    N_DOT_H.len(),
+    LIGHT_Z.len(),
+    VIEWS.len(),
+    ALBEDO.len(),
+    ALBEDO.len(),
+    DISTANCE.len(),
+    DISTANCE.len(),
+    FORMATS.len(),
+    convention::ALL.len(),
+];
+
+/// What each batch of the table holds: every roughness, NoH and pair of albedos for a light and a view. Distances,
+/// formats and sides to which normals are turned alternate.
+pub fn table() -> impl Iterator<Item = (Batch, Vec<[Indices; 3]>)> {
+    let rounds = LIGHT_Z.len() * VIEWS.len() * DISTANCE.len();
+    (0..rounds * convention::ALL.len()).map(move |i| batch_of_table(i / rounds, i % rounds))
+}
+
+fn batch_of_table(convention: usize, i: usize) -> (Batch, Vec<[Indices; 3]>) {
+    /// Three pairs of albedos fit a texel: six texels hold the 16 pairs, two of them twice.
+    const ALBEDO_TEXELS: usize = 6;
+    let (light, view, round) = (i % 6, i / 6 % 9, i / 54);
+    let (light_distance, view_distance) = (round, (2 * round + light + view + convention) % 5);
+    let (l, v) = directions(LIGHT_Z[light], VIEWS[view], 0.7 * i as f64);
+    let h = half_way(l, v);
+    let (mut texels, mut places) = (Vec::new(), Vec::new());
+    for j in 0..ROUGHNESS.len() * N_DOT_H.len() * ALBEDO_TEXELS {
+        let (r, n_dot_h, albedo) = (j % 9, j / 9 % 4, j / 36);
+        let pairs = [0, 1, 2].map(|c| (3 * albedo + c) % 16);
+        let format = (r + n_dot_h + albedo + light + view + round + convention) % 3;
+        let side = (r + albedo + round) % 3;
+        let cosine = N_DOT_H[n_dot_h];
+        let angle = ((1.0 - cosine) * (1.0 + cosine)).sqrt().atan2(cosine);
+        let n = turned(h, angle, 0.1 + std::f64::consts::TAU / 3.0 * side as f64);
+        texels.push(Texel {
+            normal: FORMATS[format].normal(n),
+            diffuse: pairs.map(|pair| FORMATS[format].value(ALBEDO[pair / 4])),
+            specular: pairs.map(|pair| FORMATS[format].value(ALBEDO[pair % 4])),
+            roughness: FORMATS[format].value(ROUGHNESS[r]),
+        });
+        places.push(pairs.map(|pair| {
+            let (diffuse, specular) = (pair / 4, pair % 4);
+            [r, n_dot_h, light, view, diffuse, specular, light_distance, view_distance, format, convention]
+        }));
+    }
+    let [w_l, w_v] = [l * DISTANCE[light_distance], v * DISTANCE[view_distance]].map(Vec3::cast);
+    let near = (light + view + round).is_multiple_of(4);
+    (Batch { convention: convention::ALL[convention], near, material: row(&texels), w_l, w_v }, places)
+}
+
+/// Unit vectors to a light at height `z` on the side `azimuth`, and to the view.
+fn directions(z: f64, view: View, azimuth: f64) -> (Vec3<f64>, Vec3<f64>) {
+    let at = |z: f64, azimuth: f64| {
+        let rho = ((1.0 - z) * (1.0 + z)).sqrt();
+        Vec3::new(rho * azimuth.cos(), rho * azimuth.sin(), z)
+    };
+    let l = at(z, azimuth);
+    let mirrored = Vec3::new(-l.x, -l.y, l.z);
+    let v = match view {
+        View::Height(z) => at(z, 2.0 * azimuth),
+        View::Mirror => mirrored,
+        View::AlmostMirror => turned(mirrored, 1e-3, 1.0),
+        View::Light => l,
+        View::Opposite => l * -1.0,
+    };
+    (l, v)
+}
+
+/// Texels of a random batch.
+pub const RANDOM_TEXELS: usize = 64;
+
+/// The random batch number `index`: normals, directions and roughnesses from anywhere, but mostly near the mirror
+/// direction, the horizon, 0 and 1.
+pub fn random(index: u64) -> Batch {
+    let mut g = Generator::new(4, index);
+    let (l, around) = (g.direction(), g.normal());
+    let v = g.partner(around, l);
+    let h = half_way(l, v);
+    let texels: Vec<_> = (0..RANDOM_TEXELS).map(|_| texel(&mut g, h)).collect();
+    let mut distance = || 10f64.powf(10.0 * g.uniform() - 4.0);
+    let [w_l, w_v] = [l, v].map(|w| (w * distance()).cast());
+    let convention = convention::ALL[index as usize % 4];
+    Batch { convention, near: (index / 4).is_multiple_of(8), material: row(&texels), w_l, w_v }
+}
+
+fn texel(g: &mut Generator, h: Vec3<f64>) -> Texel<f32> {
+    let [log_angle, azimuth] = [g.uniform(), g.uniform()];
+    let normal = match g.pick(4) {
+        0 => g.normal(),
+        _ => turned(h, 10f64.powf(8.0 * log_angle - 8.0), std::f64::consts::TAU * azimuth),
+    };
+    let roughness = if g.pick(2) == 0 { g.roughness().into() } else { 10f64.powf(-5.0 * g.uniform()) };
+    let format = FORMATS[[0, 1, 2, 2][g.pick(4)]];
+    let mut albedo = || [(); 3].map(|()| format.value(g.albedo().into()));
+    Texel {
+        normal: format.normal(normal),
+        diffuse: albedo(),
+        specular: albedo(),
+        roughness: format.value(roughness),
+    }
+}

@@ -1,0 +1,230 @@
+//! What a case should give, how well it is conditioned, and the region that it is reported in.
+
+use svbrdf::brdf::{self, Model, Texel};
+use svbrdf::vec3::Vec3;
+
+use super::cases::Batch;
+use crate::support::points::error_bound;
+use crate::support::tolerance::{FUSED_ULPS, POINT_ULPS};
+
+/// One ulp of f32 relative to a number just above a power of two.
+const ULP: f64 = f32::EPSILON as f64;
+/// Where one ulp of an input changes the result by more, relative to it, no f32 can be right to 1e-3.
+pub const ILL_CONDITIONED: f64 = 1e-4;
+
+/// The rows of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Region {
+    Rough,
+    Satin,
+    GlossyBeside,
+    GlossyHighlight,
+    MirrorBeside,
+    MirrorHighlight,
+    Grazing,
+    Opposite,
+    IllHighlight,
+    IllHorizon,
+    IllOpposite,
+    Dark,
+}
+
+impl Region {
+    pub const ALL: [Self; 12] = [
+        Self::Rough,
+        Self::Satin,
+        Self::GlossyBeside,
+        Self::GlossyHighlight,
+        Self::MirrorBeside,
+        Self::MirrorHighlight,
+        Self::Grazing,
+        Self::Opposite,
+        Self::IllHighlight,
+        Self::IllHorizon,
+        Self::IllOpposite,
+        Self::Dark,
+    ];
+
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Rough => "r >= 0.5",
+            Self::Satin => "0.1 <= r < 0.5",
+            Self::GlossyBeside => "0.01 <= r < 0.1, beside the highlight",
+            Self::GlossyHighlight => "0.01 <= r < 0.1, in the highlight",
+            Self::MirrorBeside => "r < 0.01, beside the highlight",
+            Self::MirrorHighlight => "r < 0.01, in the highlight",
+            Self::Grazing => "light or view grazing",
+            Self::Opposite => "light nearly opposite the view",
+            Self::IllHighlight => "ill-conditioned: in the highlight",
+            Self::IllHorizon => "ill-conditioned: light on the horizon of the texel",
+            Self::IllOpposite => "ill-conditioned: light nearly opposite the view",
+            Self::Dark => "no light: R = 0",
+        }
+    }
+
+    pub fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// What f64 says of one texel, for each channel.
+pub struct Truth {
+    pub expected: [f64; 3],
+    /// Relative change of the result where one number of the input is moved by one ulp of f32: the largest. Or by four
+    /// ulps, a fourth of the change: a result that is only just steady is not.
+    pub one_ulp: [f64; 3],
+    pub region: [Region; 3],
+    /// How far f32 may be off, and the fused kernel: `error_bound`.
+    pub bound: [f64; 3],
+    pub fused_bound: [f64; 3],
+    /// How far f64 may be off.
+    pub f64_bound: [f64; 3],
+    pub place: Place,
+}
+
+/// Where a case lies.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// The roughness, at least its floor.
+    pub rough: f64,
+    /// Sine of the angle between n and h.
+    pub sine: f64,
+    pub n_dot_l: f64,
+    pub n_dot_v: f64,
+    pub l_z: f64,
+    pub v_z: f64,
+    /// |l + v|.
+    pub sum: f64,
+}
+
+impl Place {
+    fn of(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> Self {
+        let n = texel.normal;
+        Self {
+            rough: texel.roughness.max(model.roughness_floor),
+            sine: n.cross(brdf::half_vector(n, l, v)).length(),
+            n_dot_l: n.dot(l),
+            n_dot_v: n.dot(v),
+            l_z: l.z,
+            v_z: v.z,
+            sum: (l + v).length(),
+        }
+    }
+}
+
+/// The texel in f64, its normal brought to length 1.
+pub fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
+    Texel {
+        normal: texel.normal.cast().normalize(),
+        diffuse: texel.diffuse.map(f64::from),
+        specular: texel.specular.map(f64::from),
+        roughness: texel.roughness.into(),
+    }
+}
+
+/// `brdf::render` behind its normalization: `l` and `v` may be a little off length 1.
+fn shade(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> [f64; 3] {
+    let n_dot_l = texel.normal.dot(l);
+    if n_dot_l <= 0.0 || l.z <= 0.0 {
+        return [0.0; 3];
+    }
+    let e = brdf::irradiance(model, n_dot_l, l.z);
+    brdf::reflectance(model, texel, l, v).map(|f| f * e)
+}
+
+/// See [`Truth::one_ulp`]. The numbers are the components of n, l and v, once l and v have length 1, the roughness, and
+/// the albedos. Rounding a component of l and v changes their length too, which turns h where they are opposite; where
+/// l + v is no longer than a few ulps, h is all rounding.
+fn one_ulp(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> [f64; 3] {
+    let from = shade(model, texel, l, v);
+    if from != [0.0; 3] && (l + v).length() < 4.0 * ULP {
+        return [f64::INFINITY; 3];
+    }
+    let mut most = [0.0f64; 3];
+    for ulps in [1.0, -1.0, 4.0, -4.0f64] {
+        let step = 1.0 + ulps * ULP;
+        let mut moved = |texel: &Texel<f64>, l, v| {
+            for ((most, from), to) in most.iter_mut().zip(from).zip(shade(model, texel, l, v)) {
+                let change = if from == to { 0.0 } else { (to - from).abs() / (ulps.abs() * from) };
+                *most = most.max(change);
+            }
+        };
+        let turned = |w: Vec3<f64>, axis: usize| {
+            let mut w = w.to_array();
+            w[axis] *= step;
+            Vec3::from(w)
+        };
+        for axis in 0..3 {
+            moved(&Texel { normal: turned(texel.normal, axis), ..*texel }, l, v);
+            moved(texel, turned(l, axis), v);
+            moved(texel, l, turned(v, axis));
+        }
+        moved(&Texel { roughness: texel.roughness * step, ..*texel }, l, v);
+        let scaled = |albedo: [f64; 3]| albedo.map(|x| x * step);
+        moved(&Texel { diffuse: scaled(texel.diffuse), ..*texel }, l, v);
+        moved(&Texel { specular: scaled(texel.specular), ..*texel }, l, v);
+    }
+    most
+}
+
+impl Truth {
+    pub fn of(batch: &Batch) -> Vec<Self> {
+        let model = Model::from(&batch.convention);
+        let [l, v] = [batch.w_l, batch.w_v].map(|w| w.cast::<f64>().normalize());
+        batch.texels().map(|texel| Self::of_texel(&model, &in_f64(&texel), l, v)).collect()
+    }
+
+    fn of_texel(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> Self {
+        /// An operation of f64 is off by this share of what one of f32 is off by.
+        const F64_BY_F32: f64 = f64::EPSILON / f32::EPSILON as f64;
+        let expected = brdf::render(model, texel, l, v);
+        let one_ulp = one_ulp(model, texel, l, v);
+        let place = Place::of(model, texel, l, v);
+        let region = [0, 1, 2].map(|c| place.region(expected[c], one_ulp[c]));
+        let bound = |ulps| error_bound(model, texel, l, v, ulps).map(|b| b + f64::from(f32::MIN_POSITIVE));
+        let (bound, fused_bound) = (bound(POINT_ULPS), bound(FUSED_ULPS));
+        let exactly_opposite = (l + v).length() < 4.0 * f64::EPSILON;
+        let f64_bound = if exactly_opposite {
+            [f64::INFINITY; 3]
+        } else {
+            error_bound(model, texel, l, v, POINT_ULPS * F64_BY_F32)
+        };
+        Self { expected, one_ulp, region, bound, fused_bound, f64_bound, place }
+    }
+}
+
+impl Place {
+    /// The region of a channel that should give `expected`.
+    fn region(&self, expected: f64, one_ulp: f64) -> Region {
+        /// Sine of the angle, 5.7 degrees, within which of a horizon a light or a view is grazing.
+        const GRAZING: f64 = 0.1;
+        /// |l + v| below which they are nearly opposite: they are 174 degrees apart.
+        const OPPOSITE: f64 = 0.1;
+        /// A highlight reaches this many GGX widths from the mirror direction: there D is 1/4000 of its peak.
+        const WIDTHS: f64 = 8.0;
+        let in_highlight = self.sine < WIDTHS * self.rough * self.rough;
+        let opposite = self.sum < OPPOSITE;
+        if expected == 0.0 && one_ulp == 0.0 {
+            Region::Dark
+        } else if one_ulp > ILL_CONDITIONED {
+            match opposite {
+                true => Region::IllOpposite,
+                false if self.n_dot_l.abs() < 1e-3 => Region::IllHorizon,
+                false => Region::IllHighlight,
+            }
+        } else if opposite {
+            Region::Opposite
+        } else if [self.n_dot_l, self.n_dot_v, self.l_z, self.v_z].iter().any(|c| c.abs() < GRAZING) {
+            Region::Grazing
+        } else {
+            match (self.rough, in_highlight) {
+                (0.5.., _) => Region::Rough,
+                (0.1.., _) => Region::Satin,
+                (0.01.., false) => Region::GlossyBeside,
+                (0.01.., true) => Region::GlossyHighlight,
+                (_, false) => Region::MirrorBeside,
+                (_, true) => Region::MirrorHighlight,
+            }
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! What is asked for, and what is seen before it is there.
+
+use super::*;
+
+/// Runs frames until a label that contains `text` is there.
+fn see(window: &mut Window<'_>, text: &str) {
+    for _ in 0..600 {
+        window.step();
+        if window.query_by_label_contains(text).is_some() {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    panic!("waited in vain to see {text:?}");
+}
+
+/// Asks for far more scenes than a test can wait for, and waits for the first numbers.
+fn start_a_long_one(window: &mut Window<'_>) {
+    wait(window, "the first loss", |app| app.losses().is_some());
+    enter(window, "Distant scenes", "50000");
+    enter(window, "Near-field scenes", "100000");
+    see(window, "refining, ");
+}
+
+/// The losses that the window shows, as it shows them.
+fn shown(window: &Window<'_>) -> Vec<String> {
+    let labels = window.query_all_by_label_contains(" +- ");
+    labels.filter_map(|node| node.value()).collect()
+}
+
+#[test]
+fn an_accuracy_is_asked_for_and_kept() {
+    let Some(mut window) = built_in() else { return };
+    wait(&mut window, "the first loss", |app| app.losses().is_some());
+    window.get_by_label("Accuracy").click();
+    window.run_steps(3);
+    assert!(window.query_by_label("Distant scenes").is_none(), "no field that does not matter");
+    enter(&mut window, "Accuracy", "6");
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    for loss in window.state().losses().unwrap() {
+        let [low, high] = loss.estimate.interval95.unwrap();
+        let share = 0.5 * (high - low) / loss.estimate.mean;
+        assert!(share <= 0.06, "{} is known to {share} only", loss.prediction);
+        assert!(loss.per_scene.len() > 9, "+-6% of these takes more than 9 scenes");
+    }
+    assert!(window.query_by_label_contains("Not within").is_none());
+}
+
+#[test]
+fn a_time_gives_a_loss_with_its_interval() {
+    let Some(mut window) = built_in() else { return };
+    window.get_by_label("Time").click();
+    window.run_steps(3);
+    enter(&mut window, "Time", "20");
+    assert_eq!(window.state().settings.loss.time_ms, 20);
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    assert!(window.state().losses().unwrap()[0].estimate.interval95.is_some());
+}
+
+#[test]
+fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
+    let Some(mut window) = built_in() else { return };
+    start_a_long_one(&mut window);
+    let error = |window: &Window<'_>| {
+        let first = window.query_all_by_label_contains("%").find_map(|node| node.value()).unwrap();
+        first.trim_start_matches("+-").trim_end_matches('%').parse::<f64>().unwrap()
+    };
+    let mut errors = Vec::new();
+    for _ in 0..600 {
+        errors.push(error(&window));
+        if errors.last() < Some(&5.0) {
+            break;
+        }
+        window.step();
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    errors.dedup();
+    assert!(errors.len() > 1 && errors.last() < Some(&5.0), "the error in percent was {errors:?}");
+    window.get_by_label("Cancel loss").click();
+    window.run_steps(3);
+    window.get_by_label_contains("Cancelled: +-");
+    assert_eq!(window.state().losses(), None, "a cancelled loss is not the one that was asked for");
+    let kept = shown(&window);
+    assert_eq!(kept.len(), 3, "two losses and their difference");
+    for _ in 0..5 {
+        window.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert_eq!(shown(&window), kept, "nothing goes on after the end");
+}
+
+#[test]
+fn escape_cancels_and_a_change_starts_again() {
+    let Some(mut window) = built_in() else { return };
+    start_a_long_one(&mut window);
+    press(&mut window, egui::Key::Escape);
+    window.get_by_label_contains("Cancelled: +-");
+    window.run_steps(3);
+    window.get_by_label("Auto").click();
+    window.run_steps(3);
+    enter(&mut window, "Near-field scenes", "12");
+    enter(&mut window, "Distant scenes", "3");
+    window.get_by_label_contains("Out of date");
+    window.get_by_label("Auto").click();
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    assert_eq!(window.state().losses().unwrap()[0].per_scene.len(), 15);
+    assert!(window.query_by_label_contains("Cancelled").is_none());
+}
+
+#[test]
+fn a_newer_request_supersedes_a_running_one() {
+    let Some(mut window) = built_in() else { return };
+    start_a_long_one(&mut window);
+    enter(&mut window, "Near-field scenes", "7");
+    enter(&mut window, "Distant scenes", "3");
+    wait(&mut window, "the newer loss", |app| app.losses().is_some());
+    let expected = expected(&LossParams { near: 7, ..LossParams::default() });
+    assert_eq!(window.state().losses().unwrap(), expected);
+}
+
+#[test]
+fn going_back_to_what_is_shown_stops_what_was_asked_for_in_between() {
+    let Some(mut window) = built_in() else { return };
+    wait(&mut window, "the first loss", |app| app.losses().is_some());
+    let first = shown(&window);
+    let was = window.state().settings.loss.clone();
+    let loss = &mut window.state_mut().settings.loss;
+    (loss.near, loss.distant, loss.seed) = (100_000, 50_000, 1);
+    window.step();
+    window.state_mut().settings.loss = was;
+    for _ in 0..20 {
+        window.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        assert_eq!(shown(&window), first);
+    }
+}
+
+#[test]
+fn the_old_numbers_stay_until_the_new_ones_are_there() {
+    let Some(mut window) = built_in() else { return };
+    wait(&mut window, "the first loss", |app| app.losses().is_some());
+    assert_eq!(shown(&window).len(), 3);
+    for seed in 1..20 {
+        window.state_mut().settings.loss.seed = seed;
+        window.step();
+        assert_eq!(shown(&window).len(), 3, "at seed {seed}");
+    }
+    wait(&mut window, "the last loss", |app| app.losses().is_some());
+    let expected = expected(&LossParams { seed: 19, ..LossParams::default() });
+    assert_eq!(window.state().losses().unwrap(), expected);
+}
