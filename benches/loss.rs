@@ -10,10 +10,11 @@ use divan::counter::ItemsCount;
 use fearless_simd::{Simd, dispatch, prelude::*};
 use svbrdf::convention::PRINTED;
 use svbrdf::loss::fused::{Level, losses_at};
-use svbrdf::loss::{LossParams, losses, losses_f32};
+use svbrdf::loss::{Draw, LossParams, Texels, losses, losses_f32, losses_of_f32};
 use svbrdf::material::{Material, Planes};
 use svbrdf::progress::Progress;
 use svbrdf::render::{Image, render, render_f32};
+use svbrdf::sampler::Sampler;
 use svbrdf::samples;
 use svbrdf::scene::Scene;
 
@@ -50,17 +51,17 @@ fn main() {
     on(1, rendering_rows);
     on(threads, rendering_rows);
     loading_row();
+    on(threads, sampled_rows);
     sizes(threads);
     println!();
     divan::main();
 }
 
-/// Rendering of whole images, which may take no longer than the default loss per texel.
+/// Rendering of whole images, which may take no longer per texel than the loss in the same scene.
 #[expect(clippy::expect_used, reason = "a benchmark may panic")]
 fn rendering_rows() {
     let job = Job::new(1024, 6, 3);
     let texels = (job.size * job.size) as f64;
-    let loss = fastest(|| job.assert(job.fused(Level::best())));
     for (what, scene) in [("near-field", job.scenes[0]), ("distant", job.scenes[6])] {
         let image = |plain: bool| {
             let render = if plain { render::<f32> } else { render_f32 };
@@ -69,8 +70,12 @@ fn rendering_rows() {
         let sum = |image: Image<f32>| image.pixels.iter().flatten().map(|x| f64::from(*x)).sum::<f64>();
         let (got, want) = (sum(image(false)), sum(image(true)));
         assert!((got - want).abs() <= TOLERANCE * want, "{got}, not {want}");
+        let [gt, prediction] = &job.materials;
+        let loss = || mean(losses_f32(gt, &[prediction], &[scene], &PRINTED, &Progress::default()));
+        let first = loss();
+        let loss = fastest(|| assert_eq!(loss(), first));
         println!(
-            "rendering {}^2, {what}, {} threads: {:.2} ns/texel (plain {:.1}; the loss of 9 scenes {:.2})",
+            "rendering {}^2, {what}, {} threads: {:.2} ns/texel (plain {:.1}; the loss in this scene {:.2})",
             job.size,
             rayon::current_num_threads(),
             1e9 * fastest(|| drop(image(false))) / texels,
@@ -86,6 +91,25 @@ fn loading_row() {
     let load = || samples::load::<f32>().expect("built in");
     assert_eq!(load().predictions.len(), 2);
     println!("loading the built-in materials (3 of 256^2): {:.1} ms", 1e3 * fastest(|| drop(load())));
+}
+
+/// Losses of many scenes on few texels of their own, whose time should not depend on the size of the maps.
+fn sampled_rows() {
+    let draw = Draw { sampler: Sampler::Sobol, seed: 0, texels: Texels::Sampled(128) };
+    let scenes = draw.sampler.scenes(draw.seed, 512, 256, &PRINTED);
+    for size in [256, 1024, 4096] {
+        let [gt, prediction] = [1, 2].map(|seed| material(seed, size));
+        let loss = || {
+            let (scenes, progress) = (&scenes, Progress::default());
+            mean(draw.losses(losses_of_f32, &gt, &[&prediction], scenes, &PRINTED, &progress))
+        };
+        let first = loss();
+        println!(
+            "512 + 256 scenes, each on 128 texels of its own, of {size}^2, {} threads: {:.2} ms",
+            rayon::current_num_threads(),
+            1e3 * fastest(|| assert_eq!(loss(), first)),
+        );
+    }
 }
 
 /// Whether time is linear in texels, and memory what the planes need: the most the process had after each size.
