@@ -8,9 +8,9 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
-use super::hushed::hushed;
 use super::{Decoded, Layer, Place};
 use crate::error::Error;
+use crate::material::read::hushed::hushed;
 use crate::material::read::raster::{Raster, Samples};
 
 /// The channels of one layer: name in capitals, samples.

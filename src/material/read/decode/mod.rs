@@ -4,7 +4,6 @@
 
 mod exr;
 mod head;
-mod hushed;
 mod numpy;
 mod picture;
 mod tiff;
