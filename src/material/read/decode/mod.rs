@@ -2,6 +2,7 @@
 //!
 //! What a file is, is told by how it begins, not by its name.
 
+mod dwa;
 mod exr;
 mod head;
 mod numpy;
