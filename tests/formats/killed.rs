@@ -34,6 +34,12 @@ fn a_kill_at_any_moment_leaves_the_whole_old_file_or_the_whole_new_one() {
         std::fs::read(&out).unwrap()
     });
     assert!(old != new);
+    // Whether it is the new file; `None` for neither.
+    let which = |found: &[u8]| if found == old { Some(false) } else { (found == new).then_some(true) };
+    assert_eq!(
+        [&old[..], &new, &new[..new.len() / 2], &[]].map(which),
+        [Some(false), Some(true), None, None]
+    );
     let started = Instant::now();
     assert!(convert(folder.path(), "new.png").status().unwrap().success());
     let whole = started.elapsed();
@@ -52,11 +58,10 @@ fn a_kill_at_any_moment_leaves_the_whole_old_file_or_the_whole_new_one() {
         child.kill().unwrap();
         child.wait().unwrap();
         let found = std::fs::read(&out).unwrap();
-        assert!(found == old || found == new, "{} bytes that are neither file", found.len());
-        if found == old {
-            kept += 1
-        } else {
-            replaced += 1
+        match which(&found) {
+            Some(false) => kept += 1,
+            Some(true) => replaced += 1,
+            None => panic!("{} bytes that are neither file", found.len()),
         }
         for entry in std::fs::read_dir(folder.path()).unwrap() {
             let entry = entry.unwrap();

@@ -12,6 +12,7 @@ use gltf::{Document, Gltf, Texture};
 use super::assumption::{Assumption, Certainty, What};
 use super::decode;
 use super::found::{Found, Pictures, Source};
+use super::hushed::hushed;
 use super::names::Role;
 use super::options::{Albedo, NormalY, ReadOptions, Roughness};
 use super::raster::{Raster, Samples};
@@ -32,7 +33,11 @@ struct Scene {
 /// As `read`.
 pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
-    let gltf = Gltf::from_slice(&bytes).map_err(|e| bad(path, format!("expected valid glTF, found: {e}")))?;
+    let invalid = |found: &str| bad(path, format!("expected valid glTF, found: {found}"));
+    // The library panics at some lengths that a damaged glb claims.
+    let gltf = hushed(|| Gltf::from_slice(&bytes))
+        .map_err(|_| invalid("a contradiction in its lengths"))?
+        .map_err(|e| invalid(&e.to_string()))?;
     // The library panics at images that lead nowhere.
     let leads = |i: &gltf::json::Image| i.uri.is_some() || (i.buffer_view.is_some() && i.mime_type.is_some());
     if !gltf.document.as_json().images.iter().all(leads) {

@@ -15,6 +15,7 @@ mod folder;
 mod found;
 mod gltf;
 mod grid;
+mod hushed;
 mod layers;
 mod mtlx;
 mod names;

@@ -80,7 +80,7 @@ impl FromStr for Order {
             role(letter).is_some() && (letter == b'i' || times == 1)
         };
         let has = |letter| word.as_bytes().contains(&letter);
-        let usable = word.len() <= MOST && word.as_bytes().iter().all(|b| once(b)) && has(b'r');
+        let usable = word.len() <= MOST && word.as_bytes().iter().all(once) && has(b'r');
         if usable && (has(b'd') || has(b'b')) {
             return Ok(Self::of(word.as_bytes()));
         }

@@ -71,6 +71,9 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         choice(ui, (name, "normal code"), normal_code, &NormalCode::ALL, found(What::NormalCode));
         choice(ui, (name, "roughness"), roughness, &Roughness::ALL, found(What::Roughness));
         choice(ui, (name, "energy"), energy, &Energy::ALL, found(What::Energy));
+        let exemplar = format!("exemplar of {name}");
+        number(ui, &exemplar, &mut options.exemplar, 0, |drag| drag.range(0..=999).prefix("exemplar "))
+            .on_hover_text("Which row of a packed picture, or which material of a file, from 0");
         let mut replace = options.non_finite == NonFinite::Replace;
         ui.checkbox(&mut replace, "replace NaN").on_hover_text("NaN and infinity: else they are an error");
         options.non_finite = if replace { NonFinite::Replace } else { NonFinite::Refuse };

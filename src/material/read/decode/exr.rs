@@ -8,10 +8,13 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
-use super::hushed::hushed;
-use super::{Decoded, Layer, Place};
+use super::{Decoded, Layer, Place, dwa};
 use crate::error::Error;
+use crate::material::read::hushed::hushed;
 use crate::material::read::raster::{Raster, Samples};
+
+/// Blocks of DWA may take so many bytes more than their samples: they are padded to 8 x 8.
+const SMALL: u64 = 1 << 20;
 
 /// The channels of one layer: name in capitals, samples.
 type Channels = Vec<(String, Samples)>;
@@ -22,8 +25,11 @@ pub(super) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
         other => place.invalid("EXR", other),
     };
     let meta = MetaData::read_from_buffered(&mut reader, false).map_err(invalid)?;
-    check(&meta, place)?;
+    let bytes = check(&meta, place)?;
     reader.seek(SeekFrom::Start(0)).map_err(|e| Error::unreadable(place.path, e))?;
+    hushed(|| dwa::check(&mut reader, &meta, bytes + SMALL))
+        .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?
+        .map_err(invalid)?;
     let reading = || {
         let reading = read().no_deep_data().largest_resolution_level().all_channels().all_layers();
         reading.all_attributes().non_parallel().from_buffered(reader)
@@ -36,7 +42,8 @@ pub(super) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     layers(image, place)
 }
 
-fn check(meta: &MetaData, place: Place<'_>) -> Result<(), Error> {
+/// Refuses what cannot be read; returns how many bytes all samples take, in 32 bits each.
+fn check(meta: &MetaData, place: Place<'_>) -> Result<u64, Error> {
     let mut bytes = 0_u64;
     for header in &meta.headers {
         if header.deep {
@@ -51,7 +58,7 @@ fn check(meta: &MetaData, place: Place<'_>) -> Result<(), Error> {
         bytes = bytes.saturating_add(samples.saturating_mul(4));
         place.check_size(width, height, bytes)?;
     }
-    Ok(())
+    Ok(bytes)
 }
 
 fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {

@@ -2,9 +2,9 @@
 //!
 //! What a file is, is told by how it begins, not by its name.
 
+mod dwa;
 mod exr;
 mod head;
-mod hushed;
 mod numpy;
 mod picture;
 mod tiff;

@@ -1,4 +1,4 @@
-//! Panics of a library that become errors, without a word on stderr.
+//! Panics of libraries at damaged files that become errors, without a word on stderr.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -9,7 +9,7 @@ thread_local! {
 }
 
 /// What `work` returns, or an error where it panics.
-pub(super) fn hushed<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
+pub fn hushed<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let usual = panic::take_hook();
