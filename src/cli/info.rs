@@ -76,7 +76,7 @@ pub fn run(args: &InfoArgs) -> Result<(), Error> {
 fn text(info: &Info<'_>) -> String {
     let mut text = format!("{}, {} x {} texels\n\nAs stored:\n", info.name, info.size[0], info.size[1]);
     for map in info.maps {
-        let _ = writeln!(text, "{}", line(map));
+        let _ = writeln!(text, "  {map}");
     }
     text += "\nAssumed:\n";
     for assumption in info.assumptions {
@@ -89,36 +89,4 @@ fn text(info: &Info<'_>) -> String {
         let _ = writeln!(text, "  {note}");
     }
     text
-}
-
-fn line(map: &MapReport) -> String {
-    let part = if map.part.is_empty() { String::new() } else { format!(", {}", map.part) };
-    let channels =
-        if map.channels == 1 { "1 channel".to_owned() } else { format!("{} channels", map.channels) };
-    let mut line = format!(
-        "  {:<12} {}{part}: {} x {}, {}, {channels}, {:.4} to {:.4}",
-        map.map,
-        map.file.display(),
-        map.size[0],
-        map.size[1],
-        map.depth,
-        map.range[0],
-        map.range[1]
-    );
-    if map.constant {
-        line += ", constant";
-    }
-    if map.clipped > 0.0 {
-        let _ = write!(line, ", {:.1} % at 1", 100.0 * map.clipped);
-    }
-    if let Some(share) = map.non_unit {
-        let _ = write!(line, ", {:.1} % no unit vectors", 100.0 * share);
-    }
-    if let Some(curl) = map.curl {
-        let _ = write!(line, ", curl correlation {curl:+.2}");
-    }
-    if let Some(median) = map.specular_median {
-        let _ = write!(line, ", median {median:.3}");
-    }
-    line
 }

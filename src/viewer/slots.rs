@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::gpu::{Gpu, MaterialTextures};
 use crate::loss;
 use crate::material::Material;
-use crate::material::read::{self, Assumption, Read, ReadOptions};
+use crate::material::read::{self, Assumption, MapReport, Read, ReadOptions};
 use crate::progress::Progress;
 use crate::samples;
 
@@ -31,6 +31,8 @@ pub struct Loaded {
     /// What was assumed in reading, for the user.
     pub notes: Vec<String>,
     pub assumptions: Vec<Assumption>,
+    /// What each map looks like as stored.
+    pub maps: Vec<MapReport>,
     /// The files that were read, each with the time at which it was last changed.
     pub files: Vec<(PathBuf, Option<SystemTime>)>,
     /// `None` without an adapter; an error where the adapter cannot hold the material.
@@ -248,8 +250,8 @@ fn load(
 fn loaded(origin: Origin, options: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
     let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
     let files = read.files.into_iter().map(|path| (changed(&path), path)).map(|(t, p)| (p, t)).collect();
-    let Read { material, assumptions, notes, .. } = read;
-    Loaded { origin, read: options, material, notes, assumptions, files, textures }
+    let Read { material, assumptions, notes, maps, .. } = read;
+    Loaded { origin, read: options, material, notes, assumptions, maps, files, textures }
 }
 
 /// When a file was last changed; `None` where that cannot be told.

@@ -111,6 +111,18 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
 }
 
 #[test]
+fn what_the_maps_hold_is_listed_on_a_click() {
+    let (_folder, paths) = two_strips();
+    let Some(mut window) = on_two_strips(paths) else { return };
+    let normal = "256 x 256, 8-bit, 3 channels";
+    assert_eq!(window.query_all_by_label_contains(normal).count(), 0);
+    window.query_all_by_label("As stored").next().unwrap().click();
+    window.run_steps(12);
+    assert_eq!(window.query_all_by_label_contains(normal).count(), 4);
+    assert_eq!(window.query_all_by_label_contains("curl correlation").count(), 1);
+}
+
+#[test]
 fn nobody_is_said_to_have_said_what_is_built_in() {
     let Some(window) = built_in() else { return };
     assert!(window.query_all_by_label_contains("as you said").next().is_none());

@@ -1,5 +1,6 @@
 //! What maps look like as stored: for the doctor.
 
+use std::fmt;
 use std::path::PathBuf;
 
 use serde::Serialize;
@@ -32,6 +33,39 @@ pub struct MapReport {
     pub curl: Option<f64>,
     /// Median of the least channel; only of specular maps.
     pub specular_median: Option<f64>,
+}
+
+impl fmt::Display for MapReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [width, height] = self.size;
+        let [low, high] = self.range;
+        write!(f, "{:<12} {}", self.map, self.file.display())?;
+        if !self.part.is_empty() {
+            write!(f, ", {}", self.part)?;
+        }
+        let channels = if self.channels == 1 { "channel" } else { "channels" };
+        write!(
+            f,
+            ": {width} x {height}, {}, {} {channels}, {low:.4} to {high:.4}",
+            self.depth, self.channels
+        )?;
+        if self.constant {
+            write!(f, ", constant")?;
+        }
+        if self.clipped > 0.0 {
+            write!(f, ", {:.1} % at 1", 100.0 * self.clipped)?;
+        }
+        if let Some(share) = self.non_unit {
+            write!(f, ", {:.1} % no unit vectors", 100.0 * share)?;
+        }
+        if let Some(curl) = self.curl {
+            write!(f, ", curl correlation {curl:+.2}")?;
+        }
+        if let Some(median) = self.specular_median {
+            write!(f, ", median {median:.3}")?;
+        }
+        Ok(())
+    }
 }
 
 pub(super) fn maps(found: &Found) -> Vec<MapReport> {

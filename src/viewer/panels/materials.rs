@@ -84,4 +84,9 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
     for note in &loaded.notes {
         ui.label(RichText::new(note).small());
     }
+    ui.collapsing("As stored", |ui| {
+        for map in &loaded.maps {
+            ui.label(RichText::new(map.to_string()).small());
+        }
+    });
 }
