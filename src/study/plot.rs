@@ -166,7 +166,7 @@ fn chart<B: DrawingBackend>(
     )?;
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
+        .position(SeriesLabelPosition::LowerLeft)
         .background_style(WHITE)
         .border_style(GRID)
         .label_font((FONT, 17).into_font().color(&INK))

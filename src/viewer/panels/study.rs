@@ -1,7 +1,9 @@
 //! Time against error: what each setting of the loss costs, the current one, and a click to take another.
 
 use eframe::egui::{self, Color32, Pos2, Rect, RichText, Sense, Vec2, vec2};
-use egui_plot::{GridInput, GridMark, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points};
+use egui_plot::{
+    Corner, GridInput, GridMark, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points,
+};
 
 use crate::loss::Texels;
 use crate::material::write::Depth;
@@ -158,7 +160,7 @@ impl StudyWindow<'_> {
         let (ink, dark) = (ui.visuals().text_color(), ui.visuals().dark_mode);
         let response = Plot::new("study")
             .height(height)
-            .legend(Legend::default().follow_insertion_order(true))
+            .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true))
             .show_background(false)
             .grid_color(ink.gamma_multiply(0.25))
             .allow_zoom(false)
