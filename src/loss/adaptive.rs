@@ -2,14 +2,14 @@
 //! its own.
 //!
 //! Stopping where the error looks small favours draws whose error looks smaller than it is. So the scenes that decide
-//! how many are needed are not those that give the loss: a run of one size predicts the size of the next, whose
-//! scenes are independent of it (Stein 1945, with fresh samples in place of his pilot). The first run of a predicted
-//! size gives a loss without bias and an interval of a fixed size. Only where this still misses the accuracy
-//! does it predict another; the prediction is generous, so that this is rare.
+//! how many are needed are not among those that give the loss: a pilot predicts the size of a run whose scenes are
+//! independent of it (Stein 1945, with fresh samples in place of his pilot). This run gives a loss without bias and an
+//! interval of a fixed size. Only where it still misses the accuracy do more scenes join it; the prediction is
+//! generous, so that this is rare, and none are ever dropped for their error.
 
 use std::time::{Duration, Instant};
 
-use super::{Draw, Loss, Losses, Texels};
+use super::{Draw, Estimate, Loss, Losses, Texels};
 use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
@@ -50,7 +50,7 @@ impl Default for Goal {
 /// What an adaptive run has reached.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reached {
-    /// How the scenes and their texels were drawn.
+    /// How the scenes and their texels were drawn; the first of them, where several runs were joined.
     pub draw: Draw,
     pub scenes: Vec<Scene>,
     pub losses: Vec<Loss>,
@@ -87,14 +87,20 @@ pub fn losses<T: Real>(
             Draw { sampler: Sampler::Sobol, seed: stage_seed(seed, stage), texels: Texels::Sampled(TEXELS) };
         let scenes = draw.sampler.scenes(draw.seed, NEAR_PER_DISTANT * distant, distant, convention);
         let losses = draw.losses(kernel, ground_truth, predictions, &scenes, convention, progress);
-        let losses = match (losses, best.take()) {
+        let (losses, earlier) = match (losses, best.take()) {
             (Err(Error::Cancelled), Some(reached)) => return Ok(reached),
-            (losses, _) => losses?,
+            (losses, earlier) => (losses?, earlier),
         };
-        let reached = Reached { draw, scenes, losses };
+        let run = Reached { draw, scenes, losses };
+        let reached = match (goal, earlier) {
+            // The pilot decides, and does not count.
+            (Goal::RelativeError(_), Some(_)) if stage == 1 => run,
+            (_, Some(earlier)) => earlier.joined_by(run),
+            (_, None) => run,
+        };
         update(&reached);
         let next = match goal {
-            Goal::RelativeError(target) => next_size(size, target, stage, &reached.losses),
+            Goal::RelativeError(target) => next_size(reached.size(), target, stage, &reached.losses),
             // A run of twice the size takes twice as long.
             Goal::Time(time) => (start.elapsed() + 2 * run_start.elapsed() <= time).then_some(2 * size),
         };
@@ -107,7 +113,24 @@ pub fn losses<T: Real>(
     best.ok_or(Error::Cancelled)
 }
 
-/// The size of the next run; `None` where this one does. The first is a pilot and never does.
+impl Reached {
+    /// Distant scenes of each scrambling.
+    fn size(&self) -> usize {
+        self.scenes.len() / (REPLICATES * (1 + NEAR_PER_DISTANT))
+    }
+
+    /// Both together. Each has as many scenes of every scrambling, so that they still come in turns.
+    fn joined_by(mut self, other: Self) -> Self {
+        self.scenes.extend(other.scenes);
+        for (loss, more) in self.losses.iter_mut().zip(other.losses) {
+            loss.per_scene.extend(more.per_scene);
+            loss.estimate = Estimate::of_sampled(self.draw.sampler, &self.scenes, &loss.per_scene);
+        }
+        self
+    }
+}
+
+/// The size of the next run after a total of `size`; `None` where that does. The first is a pilot and never does.
 fn next_size(size: usize, target: f64, stage: u64, losses: &[Loss]) -> Option<usize> {
     let error = losses.iter().map(|loss| loss.estimate.relative_error95()).fold(0.0, f64::max);
     if stage > 0 && error <= target {
@@ -119,7 +142,7 @@ fn next_size(size: usize, target: f64, stage: u64, losses: &[Loss]) -> Option<us
         Some(wanted)
     } else {
         // The size that was enough by its prediction was not.
-        (size < MOST).then(|| wanted.max(2 * size).min(MOST))
+        (size < MOST).then(|| rounded(wanted.saturating_sub(size).max(size / 2)).clamp(1, MOST))
     }
 }
 
