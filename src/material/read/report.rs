@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::evidence;
 use super::found::{Found, Source};
+use super::raster::Raster;
 
 /// One map as stored.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -26,6 +27,8 @@ pub struct MapReport {
     pub clipped: f64,
     /// Whether every texel is the same.
     pub constant: bool,
+    /// Share of the texels, in [0, 1], that are the same as their right neighbour.
+    pub flat: f64,
     /// Share of the texels that are no unit vectors; only of normal maps.
     pub non_unit: Option<f64>,
     /// The curl correlation, near 1 where green points up and near -1 where it points down; only of normal maps that
@@ -51,6 +54,8 @@ impl fmt::Display for MapReport {
         )?;
         if self.constant {
             write!(f, ", constant")?;
+        } else if self.flat > 0.0 {
+            write!(f, ", {:.1} % flat", 100.0 * self.flat)?;
         }
         if self.clipped > 0.0 {
             write!(f, ", {:.1} % at 1", 100.0 * self.clipped)?;
@@ -101,8 +106,33 @@ fn report(map: &'static str, source: &Source) -> MapReport {
         range: [low, high].map(|x| if x.is_finite() { x } else { 0.0 }),
         clipped: f64::from(clipped as u32) / f64::from(count.max(1) as u32),
         constant,
+        flat: flat(raster),
         non_unit: (map == "normal").then_some(1.0 - unit),
         curl: (map == "normal").then(curl).flatten(),
         specular_median: (map == "specular").then(|| evidence::specular_median(raster)),
+    }
+}
+
+/// Share of the texels that are the same as their right neighbour.
+fn flat(raster: &Raster) -> f64 {
+    let inside = raster.sampled().filter(|i| i % raster.width + 1 < raster.width);
+    let same = |i: usize| raster.channels.iter().all(|channel| channel.at(i) == channel.at(i + 1));
+    let (count, flat) = inside.fold((0u32, 0u32), |(count, flat), i| (count + 1, flat + u32::from(same(i))));
+    f64::from(flat) / f64::from(count.max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::read::raster::Samples;
+
+    #[test]
+    fn flat_texels_equal_their_right_neighbour_in_every_channel() {
+        let raster = |values: &[f32]| {
+            let channels = vec![Samples::Floats(values.to_vec())];
+            Raster { width: 4, height: 2, channels, ..Raster::constant("test", &[0.0]) }
+        };
+        assert_eq!(flat(&raster(&[1.0; 8])), 1.0);
+        assert_eq!(flat(&raster(&[1.0, 1.0, 2.0, 3.0, 3.0, 2.0, 2.0, 2.0])), 0.5);
     }
 }
