@@ -178,40 +178,66 @@ fn an_adaptive_loss_keeps_its_promise() {
     assert!(seen.bias.abs() < 4.0 * seen.bias_error, "{seen:?}");
 }
 
-#[test]
-#[ignore = "minutes: the whole table of coverages, see above"]
-fn coverage_of_all_pairs_and_numbers_of_scenes() {
-    let mut bad = Vec::new();
-    let mut note = |pair: &Pair, what: String, seen: Seen| {
-        println!("{what}: {seen:.3?}");
+/// What has been seen, and what of it is wrong.
+#[derive(Default)]
+struct Table(Vec<String>);
+
+impl Table {
+    fn note(&mut self, pair: &Pair, what: &str, seen: Seen) {
+        let line = format!("{}, {what}: {seen:.3?}", pair.prediction.name());
+        println!("{line}");
         if !ALLOWED.contains(&seen.coverage) || seen.bias.abs() > 4.0 * seen.bias_error {
-            bad.push(format!("{}, {what}: {seen:.3?}", pair.prediction.name()));
+            self.0.push(line);
         }
-    };
+    }
+
+    fn check(&self) {
+        assert!(self.0.is_empty(), "{}", self.0.join("\n"));
+    }
+}
+
+#[test]
+#[ignore = "a minute: a table of coverages, see above"]
+fn coverage_of_all_texels() {
+    let mut table = Table::default();
     for pair in built_in(16, 13).into_iter().chain(golden(16, 13)) {
-        println!("{} against {}, 16 x 16", pair.prediction.name(), pair.ground_truth.name());
         for sampler in [Sampler::Random, Sampler::Sobol] {
             for count in [9, 27, 90, 900] {
-                let what = format!("{sampler} {count}");
                 // Where that is quick, more seeds than are asked for: the coverage itself is then known to 0.2%.
                 let seeds = if count < 90 { 10_000 } else { 2_000 };
-                note(&pair, what, pair.seen(seeds, pair.fixed(sampler, Texels::All, count)));
+                let seen = pair.seen(seeds, pair.fixed(sampler, Texels::All, count));
+                table.note(&pair, &format!("{sampler} {count}, 16 x 16"), seen);
             }
         }
     }
+    table.check();
+}
+
+#[test]
+#[ignore = "minutes: a table of coverages, see above"]
+fn coverage_of_some_texels() {
+    let mut table = Table::default();
     for pair in built_in(1, 11).into_iter().chain(golden(1, 11)) {
-        println!("{} against {}, 256 x 256", pair.prediction.name(), pair.ground_truth.name());
         for sampler in [Sampler::Random, Sampler::Sobol] {
             let texels = Texels::Sampled(adaptive::TEXELS);
             for count in [27, 90, 900] {
-                let what = format!("{sampler} {count}, {texels} texels");
-                note(&pair, what, pair.seen(2_000, pair.fixed(sampler, texels, count)));
+                let seen = pair.seen(2_000, pair.fixed(sampler, texels, count));
+                table.note(&pair, &format!("{sampler} {count}, {texels} texels of 256 x 256"), seen);
             }
         }
+    }
+    table.check();
+}
+
+#[test]
+#[ignore = "minutes: a table of coverages, see above"]
+fn coverage_of_adaptive_losses() {
+    let mut table = Table::default();
+    for pair in built_in(1, 11).into_iter().chain(golden(1, 11)) {
         for target in [0.03, 0.01] {
             let goal = Goal::RelativeError(target);
-            note(&pair, format!("{goal:?}"), pair.seen(2_000, pair.adaptive(goal)));
+            table.note(&pair, &format!("{goal:?}"), pair.seen(2_000, pair.adaptive(goal)));
         }
     }
-    assert!(bad.is_empty(), "{}", bad.join("\n"));
+    table.check();
 }
