@@ -3,6 +3,7 @@
 //! The whole table, over the built-in pairs and those of `../shared`:
 //! `cargo test --release --no-default-features -- --ignored coverage --nocapture`
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use svbrdf::convention::PRINTED;
@@ -15,7 +16,9 @@ use svbrdf::sampler::Sampler;
 use svbrdf::samples;
 
 /// Coverage in percent that 2,000 seeds may show.
-const ALLOWED: std::ops::RangeInclusive<f64> = 93.5..=96.5;
+const ALLOWED: RangeInclusive<f64> = 93.5..=96.5;
+/// The same where an accuracy was promised: to hold it more often breaks no promise.
+const PROMISED: RangeInclusive<f64> = 93.5..=98.0;
 
 struct Pair {
     ground_truth: Material<f32>,
@@ -183,10 +186,10 @@ fn an_adaptive_loss_keeps_its_promise() {
 struct Table(Vec<String>);
 
 impl Table {
-    fn note(&mut self, pair: &Pair, what: &str, seen: Seen) {
+    fn note(&mut self, pair: &Pair, what: &str, allowed: RangeInclusive<f64>, seen: Seen) {
         let line = format!("{}, {what}: {seen:.3?}", pair.prediction.name());
         println!("{line}");
-        if !ALLOWED.contains(&seen.coverage) || seen.bias.abs() > 4.0 * seen.bias_error {
+        if !allowed.contains(&seen.coverage) || seen.bias.abs() > 4.0 * seen.bias_error {
             self.0.push(line);
         }
     }
@@ -206,7 +209,7 @@ fn coverage_of_all_texels() {
                 // Where that is quick, more seeds than are asked for: the coverage itself is then known to 0.2%.
                 let seeds = if count < 90 { 10_000 } else { 2_000 };
                 let seen = pair.seen(seeds, pair.fixed(sampler, Texels::All, count));
-                table.note(&pair, &format!("{sampler} {count}, 16 x 16"), seen);
+                table.note(&pair, &format!("{sampler} {count}, 16 x 16"), ALLOWED, seen);
             }
         }
     }
@@ -222,7 +225,8 @@ fn coverage_of_some_texels() {
             let texels = Texels::Sampled(adaptive::TEXELS);
             for count in [27, 90, 900] {
                 let seen = pair.seen(2_000, pair.fixed(sampler, texels, count));
-                table.note(&pair, &format!("{sampler} {count}, {texels} texels of 256 x 256"), seen);
+                let what = format!("{sampler} {count}, {texels} texels of 256 x 256");
+                table.note(&pair, &what, ALLOWED, seen);
             }
         }
     }
@@ -236,7 +240,8 @@ fn coverage_of_adaptive_losses() {
     for pair in built_in(1, 11).into_iter().chain(golden(1, 11)) {
         for target in [0.03, 0.01] {
             let goal = Goal::RelativeError(target);
-            table.note(&pair, &format!("{goal:?}"), pair.seen(2_000, pair.adaptive(goal)));
+            let seen = pair.seen(2_000, pair.adaptive(goal));
+            table.note(&pair, &format!("{goal:?}"), PROMISED, seen);
         }
     }
     table.check();
