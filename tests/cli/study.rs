@@ -63,8 +63,8 @@ fn a_png_shows_points() {
     study(folder.path(), "gt.png b.png --plot study.png");
     let picture = image::open(folder.path().join("study.png")).unwrap().to_rgb8();
     let is = |colour: [u8; 3]| picture.pixels().filter(|pixel| pixel.0 == colour).count();
-    // The paper, the blue points and the orange triangles, with the samples beside their names.
-    assert!(is([255; 3]) > 500_000 && is([0, 114, 178]) > 60 && is([213, 94, 0]) > 30);
+    // The paper; a blue point and an orange triangle at least, which others may cover, beside those of the legend.
+    assert!(is([255; 3]) > 500_000 && is([0, 114, 178]) > 2 * 60 && is([213, 94, 0]) > 2 * 30);
 }
 
 #[test]
