@@ -30,7 +30,8 @@ pub(super) trait Lanes: Simd {
         V::<Self>::splat(self, 1.0) / x.sqrt()
     }
 
-    /// Asks for the cache lines of `values` before they are needed.
+    /// Asks for the cache lines of `values` before they are needed, into the second cache: in the first one, planes that
+    /// lie at like places of their pages push each other out.
     #[inline(always)]
     fn prefetch(self, _values: &[f32; TEXELS]) {}
 }
@@ -75,9 +76,9 @@ macro_rules! estimate {
                 fearless_simd::kernel!(
                     #[inline(always)]
                     fn prefetch(_token: $token, values: &[f32; TEXELS]) {
-                        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+                        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
                         for line in values.as_chunks::<FLOATS_PER_LINE>().0 {
-                            _mm_prefetch::<_MM_HINT_T0>(line.as_ptr().cast());
+                            _mm_prefetch::<_MM_HINT_T1>(line.as_ptr().cast());
                         }
                     }
                 );

@@ -7,7 +7,7 @@ use super::TEXELS_PER_BLOCK;
 use super::geometry::{Rays, Source};
 use super::lanes::{Lanes, Level, dispatch};
 use super::shade::{Model, Radiance};
-use super::tile::{self, At, Axes, Places, TEXELS, Terms, prefetch};
+use super::tile::{self, AHEAD, At, Axes, Places, TEXELS, Terms, prefetch};
 use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::{Material, Planes};
@@ -68,7 +68,7 @@ impl<'a> View<'a> {
     fn block<S: Lanes>(&self, simd: S, tile: &mut Tile, start: usize, pixels: &mut [[f32; 3]]) {
         for (i, pixels) in pixels.chunks_mut(TEXELS).enumerate() {
             let at = start + i * TEXELS;
-            prefetch(simd, &self.planes, at + TEXELS);
+            prefetch(simd, &self.planes, at + AHEAD);
             tile.render(simd, self, &At::Run(at..at + pixels.len()));
             tile.copy_to(pixels);
         }

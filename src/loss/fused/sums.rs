@@ -9,7 +9,7 @@ use super::geometry::Source;
 use super::lanes::{Lanes, Level, dispatch};
 use super::pass::Tile;
 use super::shade::Model;
-use super::tile::{self, At, Axes, TEXELS, prefetch};
+use super::tile::{self, AHEAD, At, Axes, TEXELS, prefetch};
 use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
@@ -110,7 +110,7 @@ impl<'a> Job<'a> {
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
             tile.fill(self, &self.at(start..end.min(start + TEXELS)));
             for (i, sums) in sums.chunks_mut(self.predictions.len()).enumerate() {
-                self.prefetch_part(simd, start + TEXELS, i, sources.len());
+                self.prefetch_part(simd, start + AHEAD, i, sources.len());
                 tile.add(simd, &self.model, &sources[i], distant[i], sums);
             }
         }

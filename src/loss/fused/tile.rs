@@ -9,6 +9,10 @@ use crate::material::{Grid, Planes};
 /// every instruction set.
 pub(super) const TEXELS: usize = 128;
 
+/// How many texels before they are needed memory is asked for: what the last scene of a tile asks of the very next one
+/// comes too late.
+pub(super) const AHEAD: usize = 2 * TEXELS;
+
 /// One number for each texel of a tile, aligned so that no vector straddles two cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
