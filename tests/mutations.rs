@@ -17,7 +17,7 @@ use svbrdf::material::read::{
 use svbrdf::progress::Progress;
 use tempfile::tempdir;
 
-use crate::scene_files::{GLTF_PBR, STANDARD_SURFACE, glb, gltf_text, textures};
+use crate::scene_files::{GLTF_PBR, STANDARD_SURFACE, glb, gltf_text, mtl};
 use crate::support::pictures::{SIDE, compressed, layered, multi_part, npy, npz, packed, stored};
 use crate::support::png::{self, Png, crc32};
 
@@ -192,11 +192,12 @@ fn damaged_numpy_files_never_panic() {
 
 #[test]
 fn damaged_files_that_name_textures_never_panic() {
-    let folder = textures();
+    let (folder, _) = mtl::wall("");
     for (name, whole) in [
         ("damaged.gltf", gltf_text()),
         ("damaged.glb", glb(folder.path())),
         ("damaged.mtlx", GLTF_PBR.as_bytes().to_vec()),
+        ("damaged.mtl", mtl::PBR.as_bytes().to_vec()),
         ("damaged2.mtlx", STANDARD_SURFACE.as_bytes().to_vec()),
     ] {
         let path = folder.path().join(name);

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use super::assumption::{Assumption, Certainty, What};
 use super::names::Role;
 use super::options::{Albedo, NormalY, ReadOptions, Roughness, Workflow};
-use super::raster::Raster;
+use super::raster::{Raster, Samples};
+use super::transfer::{encoded, linear};
 use crate::error::Error;
 
 /// A map as stored.
@@ -18,6 +19,27 @@ pub struct Source {
 }
 
 impl Source {
+    /// A map of one value that the file `path` says.
+    pub fn constant(path: &Path, values: &[f32]) -> Self {
+        let raster = Raster::constant("value", values);
+        Self { raster, file: path.to_owned(), part: "value".to_owned() }
+    }
+
+    /// Colours stored as `space` times linear factors, stored likewise.
+    pub fn times(self, factor: [f32; 3], space: Albedo) -> Self {
+        if factor == [1.0; 3] {
+            return self;
+        }
+        let last = self.raster.channels.len() - 1;
+        let times = |c: usize| {
+            let plane = &self.raster.channels[last.min(c)];
+            let value = |i| encoded(linear(plane.at(i), space) * f64::from(factor[c]), space) as f32;
+            Samples::Floats((0..plane.len()).map(value).collect())
+        };
+        let channels = [0, 1, 2].map(times).into();
+        Self { raster: Raster { channels, ..self.raster.without_samples() }, ..self }
+    }
+
     /// Takes the samples out, so that they can be let go; size and names stay.
     pub fn take(&mut self) -> Self {
         let left = self.raster.without_samples();

@@ -1,6 +1,6 @@
 //! Reading a material from files.
 //!
-//! `packed`, `folder`, `layers`, `gltf` and `mtlx` find the maps, `decode` turns a file into the samples that it stores,
+//! `packed`, `folder`, `layers`, `gltf`, `mtl` and `mtlx` find the maps, `decode` turns a file into the samples that it stores,
 //! `encoding` and `normals` turn samples into linear values. What opens is listed in `docs/formats.md`.
 //!
 //! Colour chunks are ignored. What the values mean is said by [`ReadOptions`]; what these leave open is found out from
@@ -17,6 +17,7 @@ mod gltf;
 mod grid;
 mod hushed;
 mod layers;
+mod mtl;
 mod mtlx;
 mod names;
 mod normals;
@@ -53,7 +54,7 @@ use found::{Found, Source};
 use names::Role;
 
 /// Extensions of files that name their textures.
-const NAMING: [&str; 3] = ["gltf", "glb", "mtlx"];
+const NAMING: [&str; 4] = ["gltf", "glb", "mtl", "mtlx"];
 
 /// A material, and how it came to be.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,6 +141,7 @@ fn find(
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let found = match extension.as_str() {
         "gltf" | "glb" => gltf::open(path, options, progress),
+        "mtl" => mtl::open(path, options, progress),
         "mtlx" => mtlx::open(path, options, progress),
         _ => find_in_picture(path, options, progress),
     };
