@@ -74,7 +74,7 @@ fn rows_can_be_said_to_run_upwards() {
         if x / SIDE == 0 { [r, 1.0 - g, b] } else { [r, g, b] }
     });
     let (_folder, path) = saved(&upwards);
-    let read = open_as(&path, &ReadOptions { flip_v: true, ..ReadOptions::AUTO });
+    let read = open_as(&path, &ReadOptions { flip_v: Some(true), ..ReadOptions::AUTO });
     assert_same(&read, EIGHT_BITS);
     assert!(worst(&open(&path).material) > 0.1, "without the option it is another material");
     assert!(read.said().any(|line| line.contains("Row 0 is taken as the lowest, as you said")));

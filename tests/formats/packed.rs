@@ -46,7 +46,7 @@ fn of_several_exemplars_one_is_chosen() {
         }
     }
     let path = save(folder.path(), "two.png", &image.into(), ImageFormat::Png);
-    let second = open_as(&path, &ReadOptions { exemplar: 1, ..ReadOptions::default() });
+    let second = open_as(&path, &ReadOptions { exemplar: Some(1), ..ReadOptions::default() });
     assert_same(&open(&path), EIGHT_BITS);
     assert!((second.material.texel(5).diffuse[0] - 0.2).abs() < 1e-12);
     assert!(second.notes.iter().any(|note| note.contains("holds 2 materials")));

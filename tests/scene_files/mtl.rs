@@ -58,7 +58,7 @@ fn other_ways_to_say_it_in_mtl_are_the_same_material() {
     ] {
         let (_folder, path) =
             wall(&format!("newmtl other\nKd 1 1 1\nnewmtl wall\nmap_Kd base colour.png\n{text}\n"));
-        let options = ReadOptions { exemplar: 1, ..ReadOptions::AUTO };
+        let options = ReadOptions { exemplar: Some(1), ..ReadOptions::AUTO };
         let read = read::<f64>(&path, &options, &Progress::default()).unwrap();
         println!("{what}: {:#?} {:#?}", read.assumptions, read.notes);
         assert_is_of_textures(&read, 1.0);

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::assumption::{Assumption, Certainty, What};
+use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
 use super::evidence;
 use super::found::{Found, Hint, Source};
 use super::normals;
@@ -69,9 +69,9 @@ pub fn planes<T: Real>(found: &mut Found, options: &ReadOptions) -> Result<(Plan
         undo_energy(&mut diffuse, &specular, found);
     }
     let mut planes = Planes { normal, diffuse, specular, roughness };
-    if options.flip_v {
+    if options.flip_v == Some(true) {
         mirror(&mut planes, size[0]);
-        found.notes.push("Row 0 is taken as the lowest, as you said: the material is mirrored.".to_owned());
+        found.notes.push(format!("Row 0 is taken as the lowest, {AS_YOU_SAID}: the material is mirrored."));
     }
     Ok((planes, size))
 }

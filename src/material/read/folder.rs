@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::assumption::{Assumption, Certainty, What};
+use super::binding;
 use super::decode;
 use super::evidence::{NORMAL_AT_LEAST, normal_score};
 use super::found::{Found, Hints, Pictures, Source};
@@ -137,7 +138,7 @@ impl Assembly<'_> {
             pictures.add(label.role, Source { raster, file: folder.join(file), part: String::new() });
         }
         for (role, source) in bound {
-            notes.push(format!("The {} map is {}, as you said.", role.name(), source.file.display()));
+            notes.push(binding::note(role, &source.file));
             floats &= source.raster.is_float() || !is_colour(role);
             pictures.replace(role, source);
         }

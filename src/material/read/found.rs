@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::assumption::{Assumption, Certainty, What};
+use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
 use super::names::Role;
 use super::options::{Albedo, NormalY, ReadOptions, Roughness, Workflow};
 use super::raster::{Raster, Samples};
@@ -191,7 +191,7 @@ impl Pictures {
             Some(given) => Assumption::new(
                 What::Workflow,
                 given,
-                "as you said, but there is no metallic map",
+                format!("{AS_YOU_SAID}, but there is no metallic map"),
                 Certainty::Given,
             ),
             None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),

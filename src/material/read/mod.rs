@@ -16,6 +16,7 @@ mod found;
 mod gltf;
 mod grid;
 mod hushed;
+mod kept;
 mod layers;
 mod mtl;
 mod mtlx;
@@ -38,6 +39,7 @@ use std::path::{Path, PathBuf};
 pub use assumption::{Assumption, Certainty, What};
 pub use binding::Binding;
 pub use grid::Grid;
+pub use kept::Kept;
 pub use options::{
     Albedo, Energy, NonFinite, NormalCode, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
 };
@@ -68,6 +70,10 @@ pub struct Read<T> {
     pub files: Vec<PathBuf>,
     /// What each map looks like as stored.
     pub maps: Vec<MapReport>,
+    /// What it was read with: what the caller said and, where that was to be asked, what is kept with the material.
+    pub options: ReadOptions,
+    /// What is kept with the material.
+    pub kept: ReadOptions,
 }
 
 impl<T> Read<T> {
@@ -105,9 +111,34 @@ pub fn read_bound<T: Real>(
     options: &ReadOptions,
     progress: &Progress,
 ) -> Result<Read<T>, Error> {
-    let options = &options.with_preset();
-    let bound = bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
-    finish(find(path, bound, options, progress)?, options)
+    let kept = Kept::of(path)?;
+    let said = kept.clone().under(options, bindings);
+    read_said(path, &kept, &said, progress)
+}
+
+/// As [`read`], but `options` stand alone: nothing of them is taken from what is [`Kept`] with the material.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_as<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
+    let kept = Kept::of(path)?;
+    let said = Kept { options: *options, ..kept.clone() };
+    read_said(path, &kept, &said, progress)
+}
+
+fn read_said<T: Real>(path: &Path, kept: &Kept, said: &Kept, progress: &Progress) -> Result<Read<T>, Error> {
+    let options = &said.options.with_preset();
+    let still = said.bindings.iter().filter(|binding| kept.bindings.contains(binding));
+    Kept { bindings: still.cloned().collect(), ..Kept::default() }.check_maps(path)?;
+    let bound = said.bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
+    let mut read = finish(find(&kept::material_of(path)?, bound, options, progress)?, options)?;
+    (read.options, read.kept) = (said.options, kept.options);
+    if *kept != Kept::default() {
+        let place = Kept::place(path);
+        kept.credit(&place, &said.options, &mut read.assumptions, &mut read.notes);
+        read.files.push(place);
+    }
+    Ok(read)
 }
 
 /// Reads a packed or layered image that lies in memory; `name` is the name of the material.
@@ -154,7 +185,7 @@ fn find(
         found => found?,
     };
     for (role, source) in bound {
-        found.notes.push(format!("The {} map is {}, as you said.", role.name(), source.file.display()));
+        found.notes.push(binding::note(role, &source.file));
         found.replace(role, source);
     }
     Ok(found)
@@ -191,5 +222,13 @@ fn finish<T: Real>(mut found: Found, options: &ReadOptions) -> Result<Read<T>, E
     found.notes.extend(noted);
     let (planes, [width, height]) = encoding::planes(&mut found, options)?;
     let material = Material::new(found.name, width, height, planes)?;
-    Ok(Read { material, assumptions: found.assumptions, notes: found.notes, files: found.files, maps })
+    Ok(Read {
+        material,
+        assumptions: found.assumptions,
+        notes: found.notes,
+        files: found.files,
+        maps,
+        options: *options,
+        kept: ReadOptions::AUTO,
+    })
 }

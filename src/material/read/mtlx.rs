@@ -39,7 +39,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     })?;
     let is_surface = |n: &Node<'_, '_>| matches!(n.tag_name().name(), "standard_surface" | "gltf_pbr");
     let surfaces: Vec<_> = document.descendants().filter(is_surface).collect();
-    let chosen = surfaces.get(options.exemplar.min(surfaces.len().saturating_sub(1)));
+    let chosen = surfaces.get(options.exemplar.unwrap_or(0).min(surfaces.len().saturating_sub(1)));
     let surface = *chosen.ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
         expected: "a standard_surface or a gltf_pbr".to_owned(),

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use super::assumption::{Assumption, Certainty, What};
+use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
 use super::evidence::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
 use super::found::{Found, Pictures, Source};
 use super::grid::Grid;
@@ -99,7 +99,7 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
     let grids = grids(image, options);
     if let Some(order) = options.order {
         let grid = *grids.iter().find(|g| g.count() >= order.len())?;
-        return Some(placed(grid, order, options, "as you said".to_owned(), Certainty::Given));
+        return Some(placed(grid, order, options, AS_YOU_SAID.to_owned(), Certainty::Given));
     }
     if let Some(choice) = grids.iter().find_map(|&grid| recognized(image, grid, options)) {
         return Some(choice);
@@ -130,7 +130,7 @@ fn is_stack(grid: Grid, count: usize) -> bool {
 /// `order` in `grid`: in a strip at its end, after the photos; in a stack in the row that the user chose.
 fn placed(grid: Grid, order: Order, options: &ReadOptions, why: String, certainty: Certainty) -> Choice {
     let end = if is_stack(grid, order.len()) {
-        (options.exemplar.min(grid.rows - 1) + 1) * grid.columns
+        (options.exemplar.unwrap_or(0).min(grid.rows - 1) + 1) * grid.columns
     } else {
         grid.count()
     };
@@ -151,7 +151,7 @@ fn scores(image: &Raster, grid: Grid, tiles: Range<usize>) -> Vec<f64> {
 /// The order by the one tile that looks like normals; `None` where none or several do.
 fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choice> {
     let (start, count) = if is_stack(grid, 0) {
-        (options.exemplar.min(grid.rows - 1) * grid.columns, grid.columns)
+        (options.exemplar.unwrap_or(0).min(grid.rows - 1) * grid.columns, grid.columns)
     } else {
         (0, grid.count())
     };

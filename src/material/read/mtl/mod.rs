@@ -26,7 +26,7 @@ const BUMPS: [&str; 2] = ["map_bump", "bump"];
 pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let all = entries(&String::from_utf8_lossy(&bytes));
-    let index = options.exemplar.min(all.len().saturating_sub(1));
+    let index = options.exemplar.unwrap_or(0).min(all.len().saturating_sub(1));
     let entry = all.get(index).ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
         expected: "a material (newmtl NAME)".to_owned(),
