@@ -27,8 +27,9 @@ fn presets_read_what_their_sources_write() {
         if map == 1 { [0, 1, 2].map(|c| value[c] * (1.0 - s[c])) } else { value }
     };
     type Write = fn(usize, [f64; 3]) -> [f64; 3];
-    let table: [(Preset, &str, bool, Write); 6] = [
+    let table: [(Preset, &str, bool, Write); 7] = [
         (Preset::Deschaintre, "NDRS", false, |_, v| v),
+        (Preset::Deschaintre18, "NDRS", false, |_, v| v),
         (Preset::SurfaceNet, "NDRS", false, |_, v| v),
         (Preset::Gao, "NDRS", true, |map, v| if map == 1 { v.map(gamma) } else { v }),
         (Preset::MaterialGan, "DNRS", false, |_, v| v.map(gamma)),

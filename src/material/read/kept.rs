@@ -140,7 +140,9 @@ impl Kept {
         let is_kept =
             |key: &str| kept.get(key).is_some_and(|value| !value.is_null() && used.get(key) == Some(value));
         for assumption in assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
-            if keys_of(assumption.what).iter().any(|key| is_kept(key)) {
+            let mut keys = keys_of(assumption.what).iter();
+            if keys.find(|key| used.get(**key).is_some_and(|v| !v.is_null())).is_some_and(|key| is_kept(key))
+            {
                 assumption.why = assumption.why.replacen(AS_YOU_SAID, &says, 1);
             }
         }
@@ -157,14 +159,14 @@ impl Kept {
     }
 }
 
-/// The keys that say what an assumption says.
+/// The keys that say what an assumption says, the plainest first.
 fn keys_of(what: What) -> &'static [&'static str] {
     match what {
         What::Layout => &["order", "grid"],
         What::Workflow => &["workflow"],
         What::Albedo => &["albedo"],
         What::Specular => &["specular-albedo", "albedo"],
-        What::NormalY => &["normal-y"],
+        What::NormalY => &["normal-y", "preset"],
         What::NormalCode => &["normal-code"],
         What::Roughness => &["roughness"],
         What::Energy => &["energy"],

@@ -29,9 +29,11 @@ mod preset;
 mod raster;
 mod report;
 pub(crate) mod resize;
+mod role;
 mod set;
 pub(crate) mod transfer;
 mod values;
+mod workflow;
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -201,10 +203,10 @@ fn find_in_picture(path: &Path, options: &ReadOptions, progress: &Progress) -> R
 
 /// The material within one file: a packed picture, or one of named layers.
 fn within(path: &Path, decoded: Decoded, options: &ReadOptions) -> Result<Found, Error> {
-    let Decoded { mut layers, mut notes, native } = decoded;
+    let Decoded { mut layers, mut notes, native, meaning } = decoded;
     let mut found = match layers.pop() {
         Some(only) if layers.is_empty() && !layers::is_named(&only) => {
-            packed::unpack(path, &only.raster, options)?
+            packed::unpack(path, &only.raster, meaning.as_deref(), options)?
         }
         last => layers::assemble(path, layers.into_iter().chain(last).collect(), native, options)?,
     };

@@ -257,14 +257,13 @@ impl ReadOptions {
         )
     }
 
-    /// With what the preset says wherever nothing else is said.
+    /// With what the preset says wherever nothing else is said; not about y of normals, of which names know more.
     pub(super) fn with_preset(self) -> Self {
         let Some(preset) = self.preset else { return self };
         let usual = preset.options();
         Self {
             albedo: self.albedo.or(usual.albedo),
             specular: self.specular.or(self.albedo).or(usual.specular),
-            normal_y: self.normal_y.or(usual.normal_y),
             normal_code: self.normal_code.or(usual.normal_code),
             roughness: self.roughness.or(usual.roughness),
             workflow: self.workflow.or(usual.workflow),

@@ -72,7 +72,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     let layout = Assumption::new(What::Layout, "MTL", "the file names its textures", Certainty::Sure);
     found.assumptions.insert(0, layout);
     found.assumptions.extend(assumptions);
-    found.notes = notes;
+    found.notes.splice(0..0, notes);
     if all.len() > 1 {
         let count = all.len();
         found.notes.push(format!(
