@@ -19,6 +19,11 @@ pub enum Error {
     #[error("{} is not a material: expected {expected}, found {found}; {remedy}", path.display())]
     NotAMaterial { path: PathBuf, expected: String, found: String, remedy: String },
 
+    /// What is kept with a material cannot be understood.
+    #[error("{} does not say how a material is read: {problem}; expected an object such as \
+        {{\"albedo\": \"srgb\", \"maps\": {{\"roughness\": \"orm.png:g\"}}}}, of the keys {keys}", path.display())]
+    BadKept { path: PathBuf, problem: String, keys: String },
+
     /// Something had to be guessed where the user wants no guesses.
     #[error("{} is ambiguous: {guesses}; say how it is meant, or leave out --strict", path.display())]
     Guessed { path: PathBuf, guesses: String },

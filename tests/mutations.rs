@@ -17,7 +17,7 @@ use svbrdf::material::read::{
 use svbrdf::progress::Progress;
 use tempfile::tempdir;
 
-use crate::scene_files::{GLTF_PBR, STANDARD_SURFACE, glb, gltf_text, textures};
+use crate::scene_files::{GLTF_PBR, STANDARD_SURFACE, glb, gltf_text, mtl};
 use crate::support::pictures::{SIDE, compressed, layered, multi_part, npy, npz, packed, stored};
 use crate::support::png::{self, Png, crc32};
 
@@ -71,7 +71,7 @@ fn damaged(bytes: &[u8], random: &mut ChaCha8Rng) -> Vec<u8> {
     bytes
 }
 
-const OPTIONS: ReadOptions = ReadOptions { non_finite: NonFinite::Replace, ..ReadOptions::AUTO };
+const OPTIONS: ReadOptions = ReadOptions { non_finite: Some(NonFinite::Replace), ..ReadOptions::AUTO };
 
 fn in_memory(bytes: &[u8]) -> Result<Read<f32>, Error> {
     read_bytes("damaged", bytes, &OPTIONS)
@@ -192,11 +192,12 @@ fn damaged_numpy_files_never_panic() {
 
 #[test]
 fn damaged_files_that_name_textures_never_panic() {
-    let folder = textures();
+    let (folder, _) = mtl::wall("");
     for (name, whole) in [
         ("damaged.gltf", gltf_text()),
         ("damaged.glb", glb(folder.path())),
         ("damaged.mtlx", GLTF_PBR.as_bytes().to_vec()),
+        ("damaged.mtl", mtl::PBR.as_bytes().to_vec()),
         ("damaged2.mtlx", STANDARD_SURFACE.as_bytes().to_vec()),
     ] {
         let path = folder.path().join(name);
@@ -205,6 +206,22 @@ fn damaged_files_that_name_textures_never_panic() {
             read(&path, &OPTIONS, &Progress::default())
         });
     }
+}
+
+#[test]
+fn damaged_files_that_are_kept_with_a_material_never_panic() {
+    let folder = tempdir().unwrap();
+    let image = packed("NDRS", 4, |_, v| v);
+    image.save_with_format(folder.path().join("damaged.png"), ImageFormat::Png).unwrap();
+    let gray = packed("R", 1, |_, v| v);
+    gray.save_with_format(folder.path().join("r.png"), ImageFormat::Png).unwrap();
+    let path = folder.path().join("damaged.svbrdf.json");
+    let whole = br#"{"albedo": "srgb", "dielectric-f0": 0.05, "grid": "4x1", "order": "ndrs", "flip-v": true,
+        "exemplar": 0, "maps": {"roughness": "r.png:g"}, "preset": "gao"}"#;
+    try_all("kept", whole, damaged, |bytes| {
+        std::fs::write(&path, bytes).unwrap();
+        read(&path, &ReadOptions::AUTO, &Progress::default())
+    });
 }
 
 #[test]

@@ -1,4 +1,6 @@
-//! Materials of files that name their textures: glTF and MaterialX.
+//! Materials of files that name their textures: glTF, MTL and MaterialX.
+
+pub mod mtl;
 
 use std::path::Path;
 

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde::Serialize;
 use svbrdf::error::Error;
-use svbrdf::material::read::{Assumption, Binding, MapReport, Read};
+use svbrdf::material::read::{Assumption, Binding, Kept, MapReport, Read};
 
 use super::exit;
 use super::materials::{ReadingArgs, read_one};
@@ -28,6 +28,13 @@ pub struct InfoArgs {
     /// takes the place of what MATERIAL has.
     #[arg(long = "map", value_name = "MAP=FILE[:PART]")]
     bindings: Vec<Binding>,
+
+    /// Keeps what the options say with the material, for whenever it is opened
+    ///
+    /// It is written into svbrdf.json in a folder, or into NAME.svbrdf.json beside a file NAME.png or the files of a prefix
+    /// NAME_, and holds where nothing else is said.
+    #[arg(long)]
+    keep: bool,
 
     #[command(flatten)]
     reading: ReadingArgs,
@@ -53,10 +60,14 @@ struct Info<'a> {
 /// Reads the material and prints.
 ///
 /// # Errors
-/// Those of the reader; [`Error::Guessed`] with `--strict`.
+/// Those of the reader; [`Error::Guessed`] with `--strict`; [`Error::Unwritable`] with `--keep`.
 pub fn run(args: &InfoArgs) -> Result<(), Error> {
     let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading.options())?;
     args.reading.check(&args.material, &read)?;
+    if args.keep {
+        let kept = Kept::of(&args.material)?.under(&args.reading.options(), &args.bindings);
+        exit::tell(&format!("note: kept in {}", kept.write(&args.material)?.display()));
+    }
     let info = Info {
         name: read.material.name(),
         size: read.material.size(),

@@ -97,16 +97,17 @@ pub struct ReadingArgs {
     grid: Option<Grid>,
 
     /// Row 0 of every picture is the lowest one
-    #[arg(long, requires = "ground_truth")]
-    flip_v: bool,
+    #[arg(long, value_name = "true|false", requires = "ground_truth")]
+    #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "true")]
+    flip_v: Option<bool>,
 
-    /// Which row of a packed image of several materials, from 0
-    #[arg(long, value_name = "K", requires = "ground_truth", default_value_t = 0)]
-    exemplar: usize,
+    /// Which row of a packed image, or which material of a file of several, from 0 [default: 0]
+    #[arg(long, value_name = "K", requires = "ground_truth")]
+    exemplar: Option<usize>,
 
-    /// What becomes of NaN and infinity
-    #[arg(long, value_name = "refuse|replace", requires = "ground_truth", default_value_t)]
-    non_finite: NonFinite,
+    /// What becomes of NaN and infinity [default: refuse]
+    #[arg(long, value_name = "refuse|replace", requires = "ground_truth")]
+    non_finite: Option<NonFinite>,
 
     /// Fails where something could only be guessed
     #[arg(long, requires = "ground_truth")]

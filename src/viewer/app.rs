@@ -136,6 +136,11 @@ impl App {
         self.slots.slots.iter().map(|slot| &slot.loaded.material)
     }
 
+    /// Whether a material is being read.
+    pub fn is_reading(&self) -> bool {
+        !self.slots.openings.is_empty()
+    }
+
     /// What the window tells the person: errors and what was done.
     pub fn messages(&self) -> &[String] {
         &self.messages

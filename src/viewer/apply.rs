@@ -47,6 +47,10 @@ impl App {
             Command::OpenBuiltIn => self.slots.open_built_in(ctx, gpu),
             Command::Reload => self.slots.reload(ctx, gpu, None),
             Command::ReadAs { slot, read } => self.slots.read_as(ctx, gpu, slot, read),
+            Command::Keep { slot } => {
+                let kept = self.slots.keep(ctx, gpu, slot);
+                self.messages.extend(kept.err().map(|error| error.to_string()));
+            }
             Command::ClosePrediction(index) => self.slots.close(index),
             Command::MakeGroundTruth(index) => self.slots.make_ground_truth(index),
             Command::Browse { folder } => self.browsing = Some(browse(ctx, folder)),

@@ -30,6 +30,10 @@ pub enum Command {
         slot: usize,
         read: ReadOptions,
     },
+    /// Keep what is said about material `slot` in a file beside it.
+    Keep {
+        slot: usize,
+    },
     ClosePrediction(usize),
     MakeGroundTruth(usize),
     SetWatch(bool),

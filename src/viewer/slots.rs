@@ -11,8 +11,7 @@ use crate::error::Error;
 use crate::gpu::{Gpu, MaterialTextures};
 use crate::loss;
 use crate::material::Material;
-use crate::material::read::{self, Assumption, MapReport, Read, ReadOptions};
-use crate::progress::Progress;
+use crate::material::read::{self, Assumption, Kept, MapReport, Read, ReadOptions};
 use crate::samples;
 
 /// Where a material came from.
@@ -26,7 +25,12 @@ pub enum Origin {
 #[derive(Debug)]
 pub struct Loaded {
     pub origin: Origin,
+    /// What was said when it was opened.
+    asked: ReadOptions,
+    /// What it was read with: what was said, or is kept with it, or chosen since.
     pub read: ReadOptions,
+    /// What is kept with it.
+    pub kept: ReadOptions,
     pub material: Material<f32>,
     /// What was assumed in reading, for the user.
     pub notes: Vec<String>,
@@ -104,10 +108,11 @@ impl Slots {
         let gpu = gpu.cloned();
         let what = sources.iter().map(|(p, _)| file_name(p)).collect::<Vec<_>>().join(", ");
         let job = Job::start(ctx, move |progress| {
-            Ok(sources
-                .into_iter()
-                .map(|(path, options)| load(path, options, gpu.as_ref(), progress))
-                .collect())
+            let one = |(path, options): (PathBuf, ReadOptions)| {
+                let read = read::read::<f32>(&path, &options, progress)?;
+                Ok(loaded(Origin::Path(path), options, read, gpu.as_ref()))
+            };
+            Ok(sources.into_iter().map(one).collect())
         });
         self.openings.push(Opening { what, target, job });
     }
@@ -207,19 +212,52 @@ impl Slots {
     pub fn reload(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, only: Option<&[usize]>) {
         for index in 0..self.slots.len() {
             if only.is_none_or(|only| only.contains(&index)) {
-                let read = self.slots[index].loaded.read;
-                self.read_as(ctx, gpu, index, read);
+                let Loaded { asked, read, kept, .. } = *self.slots[index].loaded;
+                if read == asked.over(kept) {
+                    self.open_again(ctx, gpu, index, asked);
+                } else {
+                    self.read_as(ctx, gpu, index, read);
+                }
             }
         }
     }
 
-    /// Reads the material at `index` again under other options.
+    /// Opens the material at `index` again, as if for the first time.
+    fn open_again(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, options: ReadOptions) {
+        let Some((path, target)) = self.again(index) else { return };
+        self.open(ctx, gpu, vec![(path, options)], target);
+    }
+
+    /// Reads the material at `index` again under other options, which now stand alone.
     pub fn read_as(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, options: ReadOptions) {
-        let Some(slot) = self.slots.get(index) else { return };
-        let Origin::Path(path) = &slot.loaded.origin else { return };
+        let Some((path, target)) = self.again(index) else { return };
+        let (asked, gpu, what) = (self.slots[index].loaded.asked, gpu.cloned(), file_name(&path));
+        let job = Job::start(ctx, move |progress| {
+            let read = read::read_as::<f32>(&path, &options, progress);
+            Ok(vec![read.map(|read| loaded(Origin::Path(path), asked, read, gpu.as_ref()))])
+        });
+        self.openings.push(Opening { what, target, job });
+    }
+
+    /// Where the material at `index` came from, and its place; it is not read twice at once.
+    fn again(&mut self, index: usize) -> Option<(PathBuf, Target)> {
+        let slot = self.slots.get(index)?;
+        let Origin::Path(path) = &slot.loaded.origin else { return None };
         let (path, target) = (path.clone(), Target::Again(slot.id));
         self.openings.retain(|o| o.target != target);
-        self.open(ctx, gpu, vec![(path, options)], target);
+        Some((path, target))
+    }
+
+    /// Keeps what is said about the material at `index` in a file beside it, and opens it again.
+    ///
+    /// # Errors
+    /// Those of [`Kept`].
+    pub fn keep(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize) -> Result<(), Error> {
+        let Some(slot) = self.slots.get(index) else { return Ok(()) };
+        let Origin::Path(path) = &slot.loaded.origin else { return Ok(()) };
+        Kept { options: slot.loaded.read, ..Kept::of(path)? }.write(path)?;
+        self.open_again(ctx, gpu, index, ReadOptions::AUTO);
+        Ok(())
     }
 
     /// Closes the prediction in slot `index`.
@@ -237,21 +275,11 @@ impl Slots {
     }
 }
 
-fn load(
-    path: PathBuf,
-    options: ReadOptions,
-    gpu: Option<&Gpu>,
-    progress: &Progress,
-) -> Result<Loaded, Error> {
-    let read = read::read::<f32>(&path, &options, progress)?;
-    Ok(loaded(Origin::Path(path), options, read, gpu))
-}
-
-fn loaded(origin: Origin, options: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
+fn loaded(origin: Origin, asked: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
     let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
     let files = read.files.into_iter().map(|path| (changed(&path), path)).map(|(t, p)| (p, t)).collect();
-    let Read { material, assumptions, notes, maps, .. } = read;
-    Loaded { origin, read: options, material, notes, assumptions, maps, files, textures }
+    let Read { material, assumptions, notes, maps, options, kept, .. } = read;
+    Loaded { origin, asked, read: options, kept, material, notes, assumptions, maps, files, textures }
 }
 
 /// When a file was last changed; `None` where that cannot be told.

@@ -27,8 +27,9 @@ fn presets_read_what_their_sources_write() {
         if map == 1 { [0, 1, 2].map(|c| value[c] * (1.0 - s[c])) } else { value }
     };
     type Write = fn(usize, [f64; 3]) -> [f64; 3];
-    let table: [(Preset, &str, bool, Write); 6] = [
+    let table: [(Preset, &str, bool, Write); 7] = [
         (Preset::Deschaintre, "NDRS", false, |_, v| v),
+        (Preset::Deschaintre18, "NDRS", false, |_, v| v),
         (Preset::SurfaceNet, "NDRS", false, |_, v| v),
         (Preset::Gao, "NDRS", true, |map, v| if map == 1 { v.map(gamma) } else { v }),
         (Preset::MaterialGan, "DNRS", false, |_, v| v.map(gamma)),
@@ -74,7 +75,7 @@ fn rows_can_be_said_to_run_upwards() {
         if x / SIDE == 0 { [r, 1.0 - g, b] } else { [r, g, b] }
     });
     let (_folder, path) = saved(&upwards);
-    let read = open_as(&path, &ReadOptions { flip_v: true, ..ReadOptions::AUTO });
+    let read = open_as(&path, &ReadOptions { flip_v: Some(true), ..ReadOptions::AUTO });
     assert_same(&read, EIGHT_BITS);
     assert!(worst(&open(&path).material) > 0.1, "without the option it is another material");
     assert!(read.said().any(|line| line.contains("Row 0 is taken as the lowest, as you said")));

@@ -5,7 +5,7 @@ use super::*;
 #[test]
 fn every_packed_layout_is_found_by_its_normal_tile() {
     type Encode = fn(char, f64) -> f64;
-    let table: [(&str, usize, Encode, &str); 9] = [
+    let table: [(&str, usize, Encode, &str); 10] = [
         ("NDRS", 4, linear, "ndrs in 4 x 1"),
         ("NDRS", 1, linear, "ndrs in 1 x 4"),
         ("INDRS", 5, linear, "ndrs in 5 x 1"),
@@ -15,6 +15,7 @@ fn every_packed_layout_is_found_by_its_normal_tile() {
         ("NDSR", 2, |_, v| gamma(v), "ndsr in 2 x 2"),
         ("DSRN", 2, colours, "dsrn in 2 x 2"),
         ("NDRSNDRS", 4, linear, "ndrs in 4 x 2"),
+        ("INDRSINDRS", 5, linear, "ndrs in 5 x 2"),
     ];
     let folder = tempdir().unwrap();
     for (order, columns, encode, layout) in table {
@@ -46,7 +47,7 @@ fn of_several_exemplars_one_is_chosen() {
         }
     }
     let path = save(folder.path(), "two.png", &image.into(), ImageFormat::Png);
-    let second = open_as(&path, &ReadOptions { exemplar: 1, ..ReadOptions::default() });
+    let second = open_as(&path, &ReadOptions { exemplar: Some(1), ..ReadOptions::default() });
     assert_same(&open(&path), EIGHT_BITS);
     assert!((second.material.texel(5).diffuse[0] - 0.2).abs() < 1e-12);
     assert!(second.notes.iter().any(|note| note.contains("holds 2 materials")));
@@ -94,4 +95,16 @@ fn a_wide_map_of_normals_is_no_strip() {
     let image = packed("NNNN", 4, linear);
     let message = refusal(&save(folder.path(), "wide.png", &image, ImageFormat::Png));
     assert!(message.contains("64 x 16 pixels without one"), "{message}");
+}
+
+#[test]
+fn a_folder_of_one_packed_picture_is_its_material_and_of_several_it_lists_them() {
+    let folder = tempdir().unwrap();
+    save(folder.path(), "brick.png", &packed("NDRS", 4, linear), ImageFormat::Png);
+    let read = open(folder.path());
+    assert_same(&read, EIGHT_BITS);
+    assert_eq!(read.material.name(), "brick");
+    save(folder.path(), "wood.png", &packed("NDRS", 4, linear), ImageFormat::Png);
+    let message = refusal(folder.path());
+    assert!(message.contains("say no map: brick.png, wood.png; open one of them"), "{message}");
 }

@@ -40,8 +40,10 @@ fn nan_and_infinity_are_counted_located_and_replaced_only_on_request() {
     {
         assert!(message.contains(words), "`{words}` is not in {message}");
     }
-    let replaced =
-        open_as(folder.path(), &ReadOptions { non_finite: NonFinite::Replace, ..ReadOptions::default() });
+    let replaced = open_as(
+        folder.path(),
+        &ReadOptions { non_finite: Some(NonFinite::Replace), ..ReadOptions::default() },
+    );
     assert_eq!(replaced.material.texel(35).diffuse, [0.0; 3]);
     assert!(replaced.said().any(|line| line.contains("6 samples of the diffuse map")));
 }

@@ -111,6 +111,68 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
 }
 
 #[test]
+fn a_click_on_another_workflow_changes_the_material() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |name: &str, value: u8| {
+        image::RgbImage::from_pixel(32, 32, [value; 3].into()).save(folder.path().join(name)).unwrap();
+    };
+    put("diffuse.png", 188);
+    put("metallic.png", 255);
+    put("roughness.png", 128);
+    put("specular.png", 99);
+    let options = ViewerOptions { ground_truth: Some(folder.path().to_owned()), ..ViewerOptions::default() };
+    let Some(mut window) = window(options) else { return };
+    window.set_size(vec2(1200.0, 2000.0));
+    window.run_steps(3);
+    let name = window.state().names()[0].clone();
+    let diffuse = |app: &App| app.materials().next().unwrap().planes().diffuse[0][0];
+    assert!(diffuse(window.state()) > 0.4);
+    for (choice, metallic) in
+        [("workflow metallic", true), ("workflow specular", false), ("auto: find out workflow", false)]
+    {
+        window.get_by_role_and_label(Role::ComboBox, &format!("workflow of {name}")).click();
+        window.run_steps(4);
+        window.get_by_label(choice).click();
+        window.run_steps(2);
+        wait(&mut window, choice, |app| !app.is_reading() && (diffuse(app) == 0.0) == metallic);
+    }
+    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+}
+
+#[test]
+fn what_is_chosen_is_kept_with_the_material_by_a_click() {
+    let (folder, paths) = two_strips();
+    let kept = folder.path().join("guess.svbrdf.json");
+    let Some(mut window) = on_two_strips(paths.clone()) else { return };
+    let before = material(window.state(), 1);
+    assert!(window.query_by_label("Keep with guess").is_none(), "there is nothing to keep");
+    choose(&mut window, "roughness of guess", "roughness gloss");
+    wait(&mut window, "the material to be read again", |app| *app.materials().nth(1).unwrap() != before);
+    let gloss = material(window.state(), 1);
+    assert!(!kept.exists());
+    window.get_by_label("Keep with guess").click();
+    window.run_steps(2);
+    wait(&mut window, "the material to be opened again", |app| !app.is_reading());
+    let text = std::fs::read_to_string(&kept).unwrap();
+    assert_eq!(
+        serde_json::from_str::<serde_json::Value>(&text).unwrap(),
+        serde_json::json!({"roughness": "gloss"})
+    );
+    window.get_by_label("roughness: gloss: as guess.svbrdf.json says");
+    assert!(window.query_by_label("Keep with guess").is_none(), "it is kept");
+
+    // A new window opens it so; a drop-down wins over it, also over what it says.
+    let Some(mut window) = on_two_strips(paths) else { return };
+    assert!(material(window.state(), 1) == gloss);
+    choose(&mut window, "roughness of guess", "auto: find out roughness");
+    wait(&mut window, "auto", |app| *app.materials().nth(1).unwrap() == before);
+    window.get_by_label("Keep with guess").click();
+    wait(&mut window, "the material to be opened again", |app| !app.is_reading());
+    assert_eq!(std::fs::read_to_string(&kept).unwrap(), "{}\n");
+    assert!(material(window.state(), 1) == before);
+}
+
+#[test]
 fn what_the_maps_hold_is_listed_on_a_click() {
     let (_folder, paths) = two_strips();
     let Some(mut window) = on_two_strips(paths) else { return };

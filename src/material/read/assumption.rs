@@ -4,6 +4,9 @@ use std::fmt;
 
 use serde::Serialize;
 
+/// Why what the user says is assumed.
+pub(super) const AS_YOU_SAID: &str = "as you said";
+
 /// What an assumption is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -81,7 +84,7 @@ impl Assumption {
 
     /// An assumption that the user made.
     pub fn given(what: What, chosen: impl fmt::Display) -> Self {
-        Self::new(what, chosen, "as you said", Certainty::Given)
+        Self::new(what, chosen, AS_YOU_SAID, Certainty::Given)
     }
 }
 

@@ -1,8 +1,9 @@
 //! Maps that the user names one by one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use super::assumption::AS_YOU_SAID;
 use super::decode::{self, Layer};
 use super::found::Source;
 use super::layers;
@@ -54,7 +55,41 @@ impl FromStr for Binding {
     }
 }
 
+/// What is said of a map that was named.
+pub(super) fn note(role: Role, file: &Path) -> String {
+    format!("The {} map is {}, {AS_YOU_SAID}.", role.name(), file.display())
+}
+
 impl Binding {
+    pub(super) fn role(&self) -> Role {
+        self.role
+    }
+
+    pub(super) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    pub(super) fn note(&self) -> String {
+        note(self.role, &self.file)
+    }
+
+    /// The same with a file that is beside others in `folder`, where it has no path of its own.
+    pub(super) fn within(self, folder: &Path) -> Self {
+        Self { file: folder.join(self.file), ..self }
+    }
+
+    /// The name of the map, and `FILE` or `FILE:PART` as seen from `folder`.
+    pub(super) fn said_within(&self, folder: &Path) -> (&'static str, String) {
+        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        // The folder of a file that was named without one.
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let file = absolute(&self.file);
+        let file = file.strip_prefix(absolute(folder)).unwrap_or(&file).display();
+        let name = ROLES.iter().find(|(_, role)| *role == self.role).map_or("", |(name, _)| name);
+        let part = self.part.as_ref().map(|part| format!(":{part}")).unwrap_or_default();
+        (name, format!("{file}{part}"))
+    }
+
     /// Reads the map.
     ///
     /// # Errors

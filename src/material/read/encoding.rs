@@ -2,18 +2,22 @@
 
 use rayon::prelude::*;
 
-use super::assumption::{Assumption, Certainty, What};
+use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
 use super::evidence;
 use super::found::{Found, Hint, Source};
 use super::normals;
-use super::options::{Albedo, Energy, ReadOptions, Reflectance, Roughness};
+use super::options::{Albedo, ReadOptions, Roughness};
 use super::raster::Samples;
 use super::resize::{self, Filter};
 use super::transfer::{self, linear};
 use super::values::{self, Clamped, finite};
+use super::workflow;
 use crate::error::Error;
 use crate::material::Planes;
 use crate::real::Real;
+
+/// Channels of a gray map that differ by less were gray before they were rounded.
+const ROUNDING: f64 = 2.0 / 255.0;
 
 /// The planes that the maps of `found` stand for, and their (width, height); each map is let go once it is decoded.
 ///
@@ -44,70 +48,43 @@ pub fn planes<T: Real>(found: &mut Found, options: &ReadOptions) -> Result<(Plan
     let specular = found.specular.take().map(|source| colour(source, specular_space, "specular"));
     let roughness =
         roughness_plane(found.roughness.take(), roughness_code, size, &mut clamped, &mut found.notes);
-    let metallic = found.metallic.take().map(|source| {
-        let plane = source.raster.channels[0].decoded(|v| clamped.unit(finite(v, 0.0), "metallic"));
-        resize::plane::<T>(plane, source.raster.size(), size, Filter::Value)
+    let metallic = found
+        .metallic
+        .take()
+        .map(|source| gray::<T>(source, "metallic", size, &mut clamped, &mut found.notes));
+    let level = found.level.take().map(|source| {
+        found.assumptions.push(workflow::level_assumed(&source));
+        gray::<T>(source, "specular level", size, &mut clamped, &mut found.notes)
     });
     clamped.say(found);
-    let dielectric = options.dielectric.unwrap_or(Reflectance::DIELECTRIC);
-    let (mut diffuse, specular) = match (metallic, specular) {
-        (Some(metallic), _) => from_base(diffuse, &metallic, dielectric),
-        (None, Some(specular)) => (diffuse, specular),
-        (None, None) => {
-            let chosen = format!("specular {dielectric}");
-            found.assumptions.push(match options.dielectric {
-                Some(_) => Assumption::given(What::Missing, chosen),
-                None => {
-                    let why = "there is no specular map; it is that of most that is no metal";
-                    Assumption::new(What::Missing, chosen, why, Certainty::Likely)
-                }
-            });
-            (diffuse, [0; 3].map(|_| vec![T::of(dielectric.value()); size[0] * size[1]]))
-        }
-    };
-    if options.energy == Some(Energy::Plain) {
-        undo_energy(&mut diffuse, &specular, found);
-    }
+    let maps = workflow::Maps { colour: diffuse, specular, metallic, level };
+    let (mut diffuse, specular) = maps.separated(size, found, options);
+    workflow::undo_energy(&mut diffuse, &specular, found, options);
     let mut planes = Planes { normal, diffuse, specular, roughness };
-    if options.flip_v {
+    if options.flip_v == Some(true) {
         mirror(&mut planes, size[0]);
-        found.notes.push("Row 0 is taken as the lowest, as you said: the material is mirrored.".to_owned());
+        found.notes.push(format!("Row 0 is taken as the lowest, {AS_YOU_SAID}: the material is mirrored."));
     }
     Ok((planes, size))
 }
 
-/// d = b (1 - m) and s = f (1 - m) + b m.
-fn from_base<T: Real>(
-    mut base: [Vec<T>; 3],
-    metallic: &[T],
-    dielectric: Reflectance,
-) -> ([Vec<T>; 3], [Vec<T>; 3]) {
-    let specular = base.each_mut().map(|plane| {
-        let pairs = plane.par_iter_mut().zip(metallic);
-        pairs
-            .map(|(value, &m)| {
-                let (b, m) = (value.f64(), m.f64());
-                *value = T::of(b * (1.0 - m));
-                T::of(dielectric.value() * (1.0 - m) + b * m)
-            })
-            .collect()
-    });
-    (base, specular)
-}
-
-/// d / (1 - s), at most 1: our renderer takes d (1 - s), that of these maps took d.
-fn undo_energy<T: Real>(diffuse: &mut [Vec<T>; 3], specular: &[Vec<T>; 3], found: &mut Found) {
-    let mut clamped = 0;
-    for (d, s) in diffuse.iter_mut().flatten().zip(specular.iter().flatten()) {
-        let (value, left) = (d.f64(), 1.0 - s.f64());
-        clamped += usize::from(value > left);
-        *d = if value >= left { T::of(f64::from(value > 0.0)) } else { T::of(value / left) };
+/// The red channel of a map of one value; said where the others differ by more than rounding makes them.
+fn gray<T: Real>(
+    source: Source,
+    name: &'static str,
+    size: [usize; 2],
+    clamped: &mut Clamped,
+    notes: &mut Vec<String>,
+) -> Vec<T> {
+    let raster = &source.raster;
+    let spread = channel_spread(&raster.channels);
+    if spread > ROUNDING {
+        notes.push(format!(
+            "The red, green and blue of the {name} map differ by up to {spread:.4}; red is used."
+        ));
     }
-    found.assumptions.push(Assumption::given(What::Energy, "plain, d / (1 - s)"));
-    if clamped > 0 {
-        let why = format!("{clamped} samples reflect more than all light with their specular");
-        found.assumptions.push(Assumption::new(What::Values, "diffuse 1", why, Certainty::Unsure));
-    }
+    let plane = raster.channels[0].decoded(|v| clamped.unit(finite(v, 0.0), name));
+    resize::plane(plane, raster.size(), size, Filter::Value)
 }
 
 /// Top and bottom exchanged, and the normals with them.
@@ -174,8 +151,14 @@ fn specular_space(found: &mut Found, options: &ReadOptions, albedo: Albedo) -> A
     let contradicts =
         (says == Albedo::Linear) != (chosen == Albedo::Linear) && certainty == Certainty::Likely;
     let assumption = if options.specular.or(options.albedo).is_some() {
+        if contradicts && !source.raster.is_float() {
+            found.notes.push(format!("Specular is taken as {chosen}, {AS_YOU_SAID}, but {why}: look at it."));
+        }
         Assumption::given(What::Specular, chosen)
-    } else if contradicts && !source.raster.is_float() {
+    } else if contradicts
+        && !source.raster.is_float()
+        && hint.as_ref().is_none_or(|(.., certainty)| *certainty != Certainty::Sure)
+    {
         Assumption::new(
             What::Specular,
             chosen,

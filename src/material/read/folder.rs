@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::assumption::{Assumption, Certainty, What};
+use super::binding;
 use super::decode;
 use super::evidence::{NORMAL_AT_LEAST, normal_score};
 use super::found::{Found, Hints, Pictures, Source};
@@ -46,6 +47,20 @@ pub fn open(
     }
     let roles: Vec<_> = bound.iter().map(|(role, _)| *role).collect();
     let set = set::choose(path, &names, None, &roles)?;
+    if set.files.is_empty() && bound.is_empty() {
+        match set.riddles.as_slice() {
+            [] => {}
+            [only] => return super::find_in_picture(&folder.join(only), options, progress),
+            several => {
+                return Err(Error::NotAMaterial {
+                    path: path.to_owned(),
+                    expected: "the maps of one material, named so".to_owned(),
+                    found: format!("several pictures whose names say no map: {}", listing(several)),
+                    remedy: "open one of them if each is a material, or rename them".to_owned(),
+                });
+            }
+        }
+    }
     let name = material_name(path, prefix);
     Assembly { path, folder, name, set, bound, names: &names, options }.read(progress)
 }
@@ -137,7 +152,7 @@ impl Assembly<'_> {
             pictures.add(label.role, Source { raster, file: folder.join(file), part: String::new() });
         }
         for (role, source) in bound {
-            notes.push(format!("The {} map is {}, as you said.", role.name(), source.file.display()));
+            notes.push(binding::note(role, &source.file));
             floats &= source.raster.is_float() || !is_colour(role);
             pictures.replace(role, source);
         }
@@ -161,6 +176,7 @@ impl Assembly<'_> {
             found.hints.normal_y = Some((NormalY::Down, why.to_owned(), Certainty::Unsure));
         }
         notes.extend(set.notes);
+        notes.append(&mut found.notes);
         found.notes = notes;
         Ok(found)
     }

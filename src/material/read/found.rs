@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::assumption::{Assumption, Certainty, What};
+use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
 use super::names::Role;
-use super::options::{Albedo, NormalY, ReadOptions, Roughness, Workflow};
-use super::raster::Raster;
+use super::options::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow};
+use super::preset::Preset;
+use super::raster::{Raster, Samples};
+use super::transfer::{encoded, linear};
 use crate::error::Error;
 
 /// A map as stored.
@@ -18,6 +20,33 @@ pub struct Source {
 }
 
 impl Source {
+    /// That there is no use for the map in a workflow.
+    fn unused(&self, workflow: Workflow) -> String {
+        let part = if self.part.is_empty() { String::new() } else { format!(", {}", self.part) };
+        format!("{}{part} is not used: the workflow is {workflow}.", self.file.display())
+    }
+
+    /// A map of one value that the file `path` says.
+    pub fn constant(path: &Path, values: &[f32]) -> Self {
+        let raster = Raster::constant("value", values);
+        Self { raster, file: path.to_owned(), part: "value".to_owned() }
+    }
+
+    /// Colours stored as `space` times linear factors, stored likewise.
+    pub fn times(self, factor: [f32; 3], space: Albedo) -> Self {
+        if factor == [1.0; 3] {
+            return self;
+        }
+        let last = self.raster.channels.len() - 1;
+        let times = |c: usize| {
+            let plane = &self.raster.channels[last.min(c)];
+            let value = |i| encoded(linear(plane.at(i), space) * f64::from(factor[c]), space) as f32;
+            Samples::Floats((0..plane.len()).map(value).collect())
+        };
+        let channels = [0, 1, 2].map(times).into();
+        Self { raster: Raster { channels, ..self.raster.without_samples() }, ..self }
+    }
+
     /// Takes the samples out, so that they can be let go; size and names stay.
     pub fn take(&mut self) -> Self {
         let left = self.raster.without_samples();
@@ -36,6 +65,7 @@ pub struct Hints {
     pub specular: Hint<Albedo>,
     pub roughness: Hint<Roughness>,
     pub normal_y: Hint<NormalY>,
+    pub energy: Hint<Energy>,
 }
 
 /// A choice, why, and how surely.
@@ -49,6 +79,8 @@ pub struct Found {
     /// Diffuse, or the base colour where there is `metallic`.
     pub colour: Source,
     pub specular: Option<Source>,
+    /// How reflective what is no metal is.
+    pub level: Option<Source>,
     pub roughness: Source,
     pub metallic: Option<Source>,
     pub hints: Hints,
@@ -144,23 +176,30 @@ impl Pictures {
         let normal = self.take(Role::Normal);
         let roughness = self.roughness();
         let metallic = self.metallic();
-        let specular = self.take(Role::Specular);
+        let (specular, level) = (self.take(Role::Specular), self.take(Role::SpecularLevel));
         let (base, diffuse) = (self.take(Role::Base), self.take(Role::Diffuse));
         let use_metallic = match options.workflow {
             Some(workflow) => workflow == Workflow::Metallic && metallic.is_some(),
             None => metallic.is_some() && (base.is_some() || specular.is_none()),
         };
-        let specular = specular.filter(|_| options.workflow != Some(Workflow::Metallic));
-        let colour = if use_metallic { base.or(diffuse) } else { diffuse.or(base) };
+        let (first, second) = if use_metallic { (base, diffuse) } else { (diffuse, base) };
+        let (colour, mut unused) = if first.is_some() { (first, vec![second]) } else { (second, Vec::new()) };
+        let no_specular = use_metallic || options.workflow == Some(Workflow::Metallic);
+        let (specular, other) = if no_specular { (None, specular) } else { (specular, None) };
+        let (level, coloured) = if specular.is_some() { (None, level) } else { (level, None) };
+        let (metallic, plain) = if use_metallic { (metallic, None) } else { (None, metallic) };
+        unused.extend([other, coloured, plain]);
         if normal.is_none() && colour.is_none() && roughness.is_none() {
             return Err(missing(Role::Normal));
         }
         let colour = colour.ok_or_else(|| missing(Role::Diffuse))?;
         let roughness = roughness.ok_or_else(|| missing(Role::Roughness))?;
         let (chosen, why) = match (use_metallic, specular.is_some()) {
-            (true, _) => {
-                (Workflow::Metallic, "there is a metallic map: d = b (1 - m), s = 0.04 (1 - m) + b m")
-            }
+            (true, _) if options.preset == Some(Preset::MatFusion) => (
+                Workflow::Metallic,
+                "there is a metallic map: d = b (1 - m), s = f + b m as MatFusion has it",
+            ),
+            (true, _) => (Workflow::Metallic, "there is a metallic map: d = b (1 - m), s = f (1 - m) + b m"),
             (false, true) => (Workflow::Specular, "there is a specular map"),
             (false, false) => (Workflow::Specular, "there is neither a specular nor a metallic map"),
         };
@@ -169,7 +208,7 @@ impl Pictures {
             Some(given) => Assumption::new(
                 What::Workflow,
                 given,
-                "as you said, but there is no metallic map",
+                format!("{AS_YOU_SAID}, but there is no metallic map"),
                 Certainty::Given,
             ),
             None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
@@ -178,12 +217,13 @@ impl Pictures {
             name,
             normal,
             colour,
-            specular: if use_metallic { None } else { specular },
+            specular,
+            level,
             roughness,
-            metallic: if use_metallic { metallic } else { None },
+            metallic,
             hints: Hints::default(),
             assumptions,
-            notes: Vec::new(),
+            notes: unused.into_iter().flatten().map(|source| source.unused(chosen)).collect(),
             files,
         })
     }
@@ -207,7 +247,12 @@ impl Found {
     /// Every map with its name.
     pub fn sources(&self) -> Vec<(&'static str, &Source)> {
         let colour = if self.metallic.is_some() { "base colour" } else { "diffuse" };
-        let optional = [("normal", &self.normal), ("specular", &self.specular), ("metallic", &self.metallic)];
+        let optional = [
+            ("normal", &self.normal),
+            ("specular", &self.specular),
+            ("specular level", &self.level),
+            ("metallic", &self.metallic),
+        ];
         let always = [(colour, &self.colour), ("roughness", &self.roughness)];
         let there = optional.into_iter().filter_map(|(name, source)| source.as_ref().map(|s| (name, s)));
         there.chain(always).collect()

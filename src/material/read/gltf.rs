@@ -15,8 +15,7 @@ use super::found::{Found, Pictures, Source};
 use super::hushed::hushed;
 use super::names::Role;
 use super::options::{Albedo, NormalY, ReadOptions, Roughness};
-use super::raster::{Raster, Samples};
-use super::transfer::{encoded, linear};
+use super::raster::Raster;
 use crate::error::Error;
 use crate::progress::Progress;
 
@@ -45,7 +44,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     }
     let scene = Scene { path: path.to_owned(), document: gltf.document, blob: gltf.blob };
     let count = scene.document.materials().len();
-    let index = options.exemplar.min(count.saturating_sub(1));
+    let index = options.exemplar.unwrap_or(0).min(count.saturating_sub(1));
     let material = scene.document.materials().nth(index).ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
         expected: "a material in the glTF".to_owned(),
@@ -125,7 +124,7 @@ impl Scene {
         let textured = colour.is_some() || orm.is_some();
         let channel = |number: usize, factor: f32| match &orm {
             Some(orm) => Source { raster: orm.raster.channel(number).scaled(&[factor]), ..orm.clone() },
-            None => self.constant(&[factor]),
+            None => Source::constant(&self.path, &[factor]),
         };
         let [r, g, b, _] = pbr.base_color_factor();
         pictures.add(Role::Roughness, channel(1, pbr.roughness_factor()));
@@ -164,21 +163,7 @@ impl Scene {
 
     /// The sRGB picture of a colour times a linear factor, in sRGB.
     fn colour(&self, source: Option<Source>, factor: [f32; 3]) -> Source {
-        let srgb = |value: f64| encoded(value, Albedo::Srgb) as f32;
-        let Some(source) = source else {
-            return self.constant(&factor.map(|value| srgb(value.into())));
-        };
-        if factor == [1.0; 3] {
-            return source;
-        }
-        let last = source.raster.channels.len() - 1;
-        let times = |c: usize| {
-            let plane = &source.raster.channels[last.min(c)];
-            let value = |i| srgb(linear(plane.at(i), Albedo::Srgb) * f64::from(factor[c]));
-            Samples::Floats((0..plane.len()).map(value).collect())
-        };
-        let channels = [0, 1, 2].map(times).into();
-        Source { raster: Raster { channels, ..source.raster.without_samples() }, ..source }
+        source.unwrap_or_else(|| Source::constant(&self.path, &[1.0; 3])).times(factor, Albedo::Srgb)
     }
 
     /// The picture of a texture.
@@ -249,11 +234,5 @@ impl Scene {
         let encoded = uri.split_once("base64,").map(|(_, encoded)| encoded);
         let data = encoded.and_then(|encoded| STANDARD.decode(encoded).ok());
         data.ok_or_else(|| bad(&self.path, "expected a data URI in base64, found another".to_owned()))
-    }
-
-    /// A map of one value: a factor without a texture.
-    fn constant(&self, values: &[f32]) -> Source {
-        let raster = Raster::constant("factor", values);
-        Source { raster, file: self.path.clone(), part: "factor".to_owned() }
     }
 }

@@ -9,6 +9,7 @@ use crate::error::Error;
 
 /// Columns and rows of equal tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Grid {
     pub columns: usize,
     pub rows: usize,
@@ -38,6 +39,21 @@ impl Grid {
 impl fmt::Display for Grid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} x {}", self.columns, self.rows)
+    }
+}
+
+impl From<Grid> for String {
+    /// As on the command line.
+    fn from(Grid { columns, rows }: Grid) -> Self {
+        format!("{columns}x{rows}")
+    }
+}
+
+impl TryFrom<String> for Grid {
+    type Error = Error;
+
+    fn try_from(text: String) -> Result<Self, Error> {
+        text.parse()
     }
 }
 

@@ -60,6 +60,7 @@ pub fn assemble(
     let layout =
         Assumption::new(What::Layout, "layers", "the names of the layers say the maps", Certainty::Sure);
     found.assumptions.insert(0, layout);
+    notes.append(&mut found.notes);
     found.notes = notes;
     if floats {
         let (why, certainty) = if native {

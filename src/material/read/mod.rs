@@ -1,6 +1,6 @@
 //! Reading a material from files.
 //!
-//! `packed`, `folder`, `layers`, `gltf` and `mtlx` find the maps, `decode` turns a file into the samples that it stores,
+//! `packed`, `folder`, `layers`, `gltf`, `mtl` and `mtlx` find the maps, `decode` turns a file into the samples that it stores,
 //! `encoding` and `normals` turn samples into linear values. What opens is listed in `docs/formats.md`.
 //!
 //! Colour chunks are ignored. What the values mean is said by [`ReadOptions`]; what these leave open is found out from
@@ -16,7 +16,9 @@ mod found;
 mod gltf;
 mod grid;
 mod hushed;
+mod kept;
 mod layers;
+mod mtl;
 mod mtlx;
 mod names;
 mod normals;
@@ -27,9 +29,11 @@ mod preset;
 mod raster;
 mod report;
 pub(crate) mod resize;
+mod role;
 mod set;
 pub(crate) mod transfer;
 mod values;
+mod workflow;
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -37,6 +41,7 @@ use std::path::{Path, PathBuf};
 pub use assumption::{Assumption, Certainty, What};
 pub use binding::Binding;
 pub use grid::Grid;
+pub use kept::Kept;
 pub use options::{
     Albedo, Energy, NonFinite, NormalCode, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
 };
@@ -53,7 +58,7 @@ use found::{Found, Source};
 use names::Role;
 
 /// Extensions of files that name their textures.
-const NAMING: [&str; 3] = ["gltf", "glb", "mtlx"];
+const NAMING: [&str; 4] = ["gltf", "glb", "mtl", "mtlx"];
 
 /// A material, and how it came to be.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +72,10 @@ pub struct Read<T> {
     pub files: Vec<PathBuf>,
     /// What each map looks like as stored.
     pub maps: Vec<MapReport>,
+    /// What it was read with: what the caller said and, where that was to be asked, what is kept with the material.
+    pub options: ReadOptions,
+    /// What is kept with the material.
+    pub kept: ReadOptions,
 }
 
 impl<T> Read<T> {
@@ -104,9 +113,34 @@ pub fn read_bound<T: Real>(
     options: &ReadOptions,
     progress: &Progress,
 ) -> Result<Read<T>, Error> {
-    let options = &options.with_preset();
-    let bound = bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
-    finish(find(path, bound, options, progress)?, options)
+    let kept = Kept::of(path)?;
+    let said = kept.clone().under(options, bindings);
+    read_said(path, &kept, &said, progress)
+}
+
+/// As [`read`], but `options` stand alone: nothing of them is taken from what is [`Kept`] with the material.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_as<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
+    let kept = Kept::of(path)?;
+    let said = Kept { options: *options, ..kept.clone() };
+    read_said(path, &kept, &said, progress)
+}
+
+fn read_said<T: Real>(path: &Path, kept: &Kept, said: &Kept, progress: &Progress) -> Result<Read<T>, Error> {
+    let options = &said.options.with_preset();
+    let still = said.bindings.iter().filter(|binding| kept.bindings.contains(binding));
+    Kept { bindings: still.cloned().collect(), ..Kept::default() }.check_maps(path)?;
+    let bound = said.bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
+    let mut read = finish(find(&kept::material_of(path)?, bound, options, progress)?, options)?;
+    (read.options, read.kept) = (said.options, kept.options);
+    if *kept != Kept::default() {
+        let place = Kept::place(path);
+        kept.credit(&place, &said.options, &mut read.assumptions, &mut read.notes);
+        read.files.push(place);
+    }
+    Ok(read)
 }
 
 /// Reads a packed or layered image that lies in memory; `name` is the name of the material.
@@ -140,6 +174,7 @@ fn find(
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let found = match extension.as_str() {
         "gltf" | "glb" => gltf::open(path, options, progress),
+        "mtl" => mtl::open(path, options, progress),
         "mtlx" => mtlx::open(path, options, progress),
         _ => find_in_picture(path, options, progress),
     };
@@ -152,7 +187,7 @@ fn find(
         found => found?,
     };
     for (role, source) in bound {
-        found.notes.push(format!("The {} map is {}, as you said.", role.name(), source.file.display()));
+        found.notes.push(binding::note(role, &source.file));
         found.replace(role, source);
     }
     Ok(found)
@@ -168,10 +203,10 @@ fn find_in_picture(path: &Path, options: &ReadOptions, progress: &Progress) -> R
 
 /// The material within one file: a packed picture, or one of named layers.
 fn within(path: &Path, decoded: Decoded, options: &ReadOptions) -> Result<Found, Error> {
-    let Decoded { mut layers, mut notes, native } = decoded;
+    let Decoded { mut layers, mut notes, native, meaning } = decoded;
     let mut found = match layers.pop() {
         Some(only) if layers.is_empty() && !layers::is_named(&only) => {
-            packed::unpack(path, &only.raster, options)?
+            packed::unpack(path, &only.raster, meaning.as_deref(), options)?
         }
         last => layers::assemble(path, layers.into_iter().chain(last).collect(), native, options)?,
     };
@@ -189,5 +224,13 @@ fn finish<T: Real>(mut found: Found, options: &ReadOptions) -> Result<Read<T>, E
     found.notes.extend(noted);
     let (planes, [width, height]) = encoding::planes(&mut found, options)?;
     let material = Material::new(found.name, width, height, planes)?;
-    Ok(Read { material, assumptions: found.assumptions, notes: found.notes, files: found.files, maps })
+    Ok(Read {
+        material,
+        assumptions: found.assumptions,
+        notes: found.notes,
+        files: found.files,
+        maps,
+        options: *options,
+        kept: ReadOptions::AUTO,
+    })
 }

@@ -10,7 +10,6 @@ use super::decode;
 use super::found::{Found, Hint, Pictures, Source};
 use super::names::Role;
 use super::options::{Albedo, NormalY, ReadOptions};
-use super::raster::Raster;
 use crate::error::Error;
 use crate::progress::Progress;
 
@@ -40,7 +39,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     })?;
     let is_surface = |n: &Node<'_, '_>| matches!(n.tag_name().name(), "standard_surface" | "gltf_pbr");
     let surfaces: Vec<_> = document.descendants().filter(is_surface).collect();
-    let chosen = surfaces.get(options.exemplar.min(surfaces.len().saturating_sub(1)));
+    let chosen = surfaces.get(options.exemplar.unwrap_or(0).min(surfaces.len().saturating_sub(1)));
     let surface = *chosen.ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
         expected: "a standard_surface or a gltf_pbr".to_owned(),
@@ -62,7 +61,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         progress.step()?;
         let Some(bound) = bound(surface, name) else {
             if role != Role::Normal && role != Role::Ignored {
-                pictures.add(role, constant(path, &[usual]));
+                pictures.add(role, Source::constant(path, &[usual]));
             }
             continue;
         };
@@ -70,7 +69,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
             continue;
         }
         let (source, space) = match bound {
-            Bound::Values(values) => (constant(path, &values), Some("lin_rec709".to_owned())),
+            Bound::Values(values) => (Source::constant(path, &values), Some("lin_rec709".to_owned())),
             Bound::File { file, space, channel } => {
                 let whole = decode::decode_one(&resolved(path, &file), &format!("{} map", role.name()))?.0;
                 let raster = channel.map_or(whole.clone(), |c| whole.channel(c));
@@ -186,8 +185,4 @@ fn colour_space(space: &str) -> (Albedo, String, Certainty) {
 fn resolved(path: &Path, file: &str) -> PathBuf {
     let prefix = path.parent().unwrap_or(Path::new(""));
     prefix.join(file)
-}
-
-fn constant(path: &Path, values: &[f32]) -> Source {
-    Source { raster: Raster::constant("value", values), file: path.to_owned(), part: "value".to_owned() }
 }

@@ -134,14 +134,17 @@ fn normal_y(raster: &Raster, code: Code, found: &mut Found, options: &ReadOption
         format!("the curl correlation is {c:+.2}")
     });
     let hint = found.hints.normal_y.take();
-    if let (None, Some((y, why, _)), Some(curl)) = (options.normal_y, &hint, curl)
+    let named = hint.as_ref().is_some_and(|(.., certainty)| *certainty == Certainty::Sure);
+    let of_preset = options.preset.and_then(|preset| preset.options().normal_y).filter(|_| !named);
+    let given = options.normal_y.or(of_preset);
+    if let (None, Some((y, why, _)), Some(curl)) = (given, &hint, curl)
         && ((*y == NormalY::Up && curl < DOWN) || (*y == NormalY::Down && curl > -DOWN))
     {
         let why = format!("{why}, but {measured}: look at it");
         found.assumptions.push(Assumption::new(What::NormalY, *y, why, Certainty::Unsure));
         return *y;
     }
-    decide(&mut found.assumptions, What::NormalY, options.normal_y, hint, || match curl {
+    decide(&mut found.assumptions, What::NormalY, given, hint, || match curl {
         Some(c) if c <= DOWN => {
             (NormalY::Down, format!("{measured}: no surface with y up has it"), Certainty::Unsure)
         }

@@ -135,6 +135,7 @@ choices! {
 
 /// Reflectance at normal incidence, in [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "f64", into = "f64")]
 pub struct Reflectance(f64);
 
 impl Reflectance {
@@ -143,6 +144,20 @@ impl Reflectance {
 
     pub fn value(self) -> f64 {
         self.0
+    }
+}
+
+impl From<Reflectance> for f64 {
+    fn from(reflectance: Reflectance) -> Self {
+        reflectance.0
+    }
+}
+
+impl TryFrom<f64> for Reflectance {
+    type Error = Error;
+
+    fn try_from(value: f64) -> Result<Self, Error> {
+        value.to_string().parse()
     }
 }
 
@@ -165,21 +180,24 @@ impl fmt::Display for Reflectance {
     }
 }
 
-/// What the user says about the files of a material. `None` is found out from the files, and said.
+/// What the user says about the files of a material. `None` is found out from the files, and said; of what cannot be
+/// found out it is the usual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
+#[serde(default, rename_all = "kebab-case")]
 pub struct ReadOptions {
     /// What a source of materials does, for all that is not said here.
     pub preset: Option<Preset>,
     /// Colour space of diffuse, base colour and, unless `specular` says otherwise, specular.
     pub albedo: Option<Albedo>,
     /// Colour space of specular where it is another one.
+    #[serde(rename = "specular-albedo")]
     pub specular: Option<Albedo>,
     pub normal_y: Option<NormalY>,
     pub normal_code: Option<NormalCode>,
     pub roughness: Option<Roughness>,
     pub workflow: Option<Workflow>,
     /// Reflectance of what is no metal, where no map says it.
+    #[serde(rename = "dielectric-f0")]
     pub dielectric: Option<Reflectance>,
     pub energy: Option<Energy>,
     /// Order of the tiles of a packed image.
@@ -187,10 +205,10 @@ pub struct ReadOptions {
     /// How a packed image is divided; needed where its tiles are not square.
     pub grid: Option<Grid>,
     /// Which of several materials, or rows of a packed image, from 0.
-    pub exemplar: usize,
+    pub exemplar: Option<usize>,
     /// Whether row 0 is the lowest: then the material is mirrored, normals with it.
-    pub flip_v: bool,
-    pub non_finite: NonFinite,
+    pub flip_v: Option<bool>,
+    pub non_finite: Option<NonFinite>,
 }
 
 impl ReadOptions {
@@ -207,19 +225,45 @@ impl ReadOptions {
         energy: None,
         order: None,
         grid: None,
-        exemplar: 0,
-        flip_v: false,
-        non_finite: NonFinite::Refuse,
+        exemplar: None,
+        flip_v: None,
+        non_finite: None,
     };
 
-    /// With what the preset says wherever nothing else is said.
+    /// With what `kept` says wherever nothing else is said, also not by a preset.
+    #[must_use]
+    pub(crate) fn over(self, kept: Self) -> Self {
+        let preset = self.preset.map(Preset::options).unwrap_or_default();
+        macro_rules! either {
+            ($($field:ident),+) => {
+                Self { $($field: self.$field.or(if preset.$field.is_some() { None } else { kept.$field })),+ }
+            };
+        }
+        either!(
+            preset,
+            albedo,
+            specular,
+            normal_y,
+            normal_code,
+            roughness,
+            workflow,
+            dielectric,
+            energy,
+            order,
+            grid,
+            exemplar,
+            flip_v,
+            non_finite
+        )
+    }
+
+    /// With what the preset says wherever nothing else is said; not about y of normals, of which names know more.
     pub(super) fn with_preset(self) -> Self {
         let Some(preset) = self.preset else { return self };
         let usual = preset.options();
         Self {
             albedo: self.albedo.or(usual.albedo),
             specular: self.specular.or(self.albedo).or(usual.specular),
-            normal_y: self.normal_y.or(usual.normal_y),
             normal_code: self.normal_code.or(usual.normal_code),
             roughness: self.roughness.or(usual.roughness),
             workflow: self.workflow.or(usual.workflow),

@@ -34,8 +34,12 @@ impl Order {
     /// The strip of svbrdf-evaluation (Gauthier 2025), which has no normals.
     pub const IBRM: Self = Self::of(b"ibrm");
 
+    /// A picture that is all diffuse.
+    pub const D: Self = Self::of(b"d");
+
     /// Those that are known to be in use; any other can be said as well.
-    pub const ALL: [Self; 6] = [Self::NDRS, Self::DNRS, Self::DNR, Self::DSRN, Self::NDSR, Self::IBRM];
+    pub const ALL: [Self; 7] =
+        [Self::NDRS, Self::DNRS, Self::DNR, Self::DSRN, Self::NDSR, Self::IBRM, Self::D];
 
     const fn of(word: &[u8]) -> Self {
         let mut letters = [0; MOST];
@@ -80,7 +84,7 @@ impl FromStr for Order {
             role(letter).is_some() && (letter == b'i' || times == 1)
         };
         let has = |letter| word.as_bytes().contains(&letter);
-        let usable = word.len() <= MOST && word.as_bytes().iter().all(once) && has(b'r');
+        let usable = word.len() <= MOST && word.as_bytes().iter().all(once) && (has(b'r') || word == "d");
         if usable && (has(b'd') || has(b'b')) {
             return Ok(Self::of(word.as_bytes()));
         }

@@ -3,15 +3,19 @@
 use std::ops::Range;
 use std::path::Path;
 
-use super::assumption::{Assumption, Certainty, What};
+use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
 use super::evidence::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
-use super::found::{Found, Pictures, Source};
+use super::found::{Found, Hint, Pictures, Source};
 use super::grid::Grid;
-use super::options::{Albedo, NormalY, ReadOptions, Roughness};
+use super::names::Role;
+use super::options::{Albedo, Energy, NormalY, ReadOptions, Roughness};
 use super::order::Order;
 use super::preset::Preset;
 use super::raster::Raster;
 use crate::error::Error;
+
+/// Of a picture of diffuse alone.
+const ROUGHNESS: f32 = 0.5;
 
 /// Where the tiles of one material are: the order, and the number of the first tile.
 #[derive(Clone, Debug)]
@@ -27,9 +31,17 @@ struct Choice {
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where it has not the shape of one, or no tile looks like normals in a shape that needs it.
-pub fn unpack(path: &Path, image: &Raster, options: &ReadOptions) -> Result<Found, Error> {
+pub fn unpack(
+    path: &Path,
+    image: &Raster,
+    meaning: Option<&str>,
+    options: &ReadOptions,
+) -> Result<Found, Error> {
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let chosen = choose(image, &name, options);
+    let own = meaning
+        .and_then(|text| Own::of(text, image))
+        .filter(|_| options.order.is_none() && options.grid.is_none());
+    let chosen = own.as_ref().map(Own::choice).or_else(|| choose(image, &name, options));
     let refused = || refusal(path, image, options);
     let Choice { grid, order, first, why, certainty } = chosen.ok_or_else(refused)?;
     let tile = grid.tile(image.size()).ok_or_else(refused)?;
@@ -39,8 +51,19 @@ pub fn unpack(path: &Path, image: &Raster, options: &ReadOptions) -> Result<Foun
         let raster = image.crop(grid.corner(number, tile), tile);
         pictures.add(role, Source { raster, file: path.to_owned(), part: format!("tile {}", number + 1) });
     }
+    if !pictures.has(Role::Roughness) {
+        pictures.add(Role::Roughness, Source::constant(path, &[ROUGHNESS]));
+    }
     let mut found = pictures.into_found(path, name, "", options)?;
-    hint(&mut found, order, image);
+    if order == Order::D {
+        let why = "a picture of diffuse alone says nothing of it";
+        let chosen = format!("roughness {ROUGHNESS}");
+        found.assumptions.push(Assumption::new(What::Missing, chosen, why, Certainty::Unsure));
+    }
+    match own {
+        Some(own) => own.hint(&mut found),
+        None => hint(&mut found, order, image),
+    }
     let chosen = format!("{order} in {grid} tiles of {} x {}", tile[0], tile[1]);
     found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
     let photos = if grid.rows == 1 || grid.columns == 1 { first } else { 0 };
@@ -56,6 +79,52 @@ pub fn unpack(path: &Path, image: &Raster, options: &ReadOptions) -> Result<Foun
         ));
     }
     Ok(found)
+}
+
+/// What this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy plain`.
+struct Own {
+    order: Order,
+    diffuse: Albedo,
+    specular: Albedo,
+    roughness: Roughness,
+    normal_y: NormalY,
+    energy: Energy,
+}
+
+impl Own {
+    const WHY: &str = "svbrdf wrote the file, which says so";
+
+    /// `None` where the text or the shape of the picture is none that this program writes.
+    fn of(text: &str, image: &Raster) -> Option<Self> {
+        let mut parts = text.split(", ");
+        let order: Order = parts.next()?.parse().ok()?;
+        let mut next = |key: &str| parts.next()?.strip_prefix(key)?.strip_prefix(' ').map(str::to_owned);
+        let own = Self {
+            order,
+            diffuse: next("diffuse")?.parse().ok()?,
+            specular: next("specular")?.parse().ok()?,
+            roughness: next("roughness")?.parse().ok()?,
+            normal_y: next("normal y")?.parse().ok()?,
+            energy: next("energy")?.parse().ok()?,
+        };
+        (image.width == order.len() * (image.width / order.len())).then_some(own)
+    }
+
+    fn choice(&self) -> Choice {
+        let grid = Grid { columns: self.order.len(), rows: 1 };
+        Choice { grid, order: self.order, first: 0, why: Self::WHY.to_owned(), certainty: Certainty::Sure }
+    }
+
+    fn hint(&self, found: &mut Found) {
+        fn sure<T>(value: T) -> Hint<T> {
+            Some((value, Own::WHY.to_owned(), Certainty::Sure))
+        }
+        found.hints.albedo = sure(self.diffuse);
+        found.hints.specular = sure(self.specular);
+        found.hints.roughness = sure(self.roughness);
+        found.hints.normal_y = sure(self.normal_y);
+        found.hints.energy = sure(self.energy);
+    }
 }
 
 /// What goes with an order, by those who use it. Nothing where none is known to.
@@ -90,16 +159,22 @@ fn grids(image: &Raster, options: &ReadOptions) -> Vec<Grid> {
     };
     let strip = (w % h == 0).then(|| w / h).filter(|k| (3..=64).contains(k)).and_then(|k| grid(k, 1));
     let upright = (h % w == 0).then(|| h / w).filter(|k| (3..=64).contains(k)).and_then(|k| grid(1, k));
-    let stack =
-        (w % 4 == 0 && w >= 4).then(|| grid(4, (h / (w / 4)).max(1))).flatten().filter(|g| g.rows > 1);
-    [strip, stack, upright, grid(2, 2)].into_iter().flatten().collect()
+    let stack = |columns: usize| {
+        let rows = (w >= columns).then(|| h / (w / columns))?;
+        grid(columns, rows.max(1)).filter(|g| g.rows > 1)
+    };
+    [strip, stack(4), stack(5), upright, grid(2, 2)].into_iter().flatten().collect()
 }
 
 fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
     let grids = grids(image, options);
     if let Some(order) = options.order {
+        if order.len() == 1 && options.grid.is_none() {
+            let grid = Grid { columns: 1, rows: 1 };
+            return Some(placed(grid, order, options, AS_YOU_SAID.to_owned(), Certainty::Given));
+        }
         let grid = *grids.iter().find(|g| g.count() >= order.len())?;
-        return Some(placed(grid, order, options, "as you said".to_owned(), Certainty::Given));
+        return Some(placed(grid, order, options, AS_YOU_SAID.to_owned(), Certainty::Given));
     }
     if let Some(choice) = grids.iter().find_map(|&grid| recognized(image, grid, options)) {
         return Some(choice);
@@ -130,7 +205,7 @@ fn is_stack(grid: Grid, count: usize) -> bool {
 /// `order` in `grid`: in a strip at its end, after the photos; in a stack in the row that the user chose.
 fn placed(grid: Grid, order: Order, options: &ReadOptions, why: String, certainty: Certainty) -> Choice {
     let end = if is_stack(grid, order.len()) {
-        (options.exemplar.min(grid.rows - 1) + 1) * grid.columns
+        (options.exemplar.unwrap_or(0).min(grid.rows - 1) + 1) * grid.columns
     } else {
         grid.count()
     };
@@ -151,7 +226,7 @@ fn scores(image: &Raster, grid: Grid, tiles: Range<usize>) -> Vec<f64> {
 /// The order by the one tile that looks like normals; `None` where none or several do.
 fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choice> {
     let (start, count) = if is_stack(grid, 0) {
-        (options.exemplar.min(grid.rows - 1) * grid.columns, grid.columns)
+        (options.exemplar.unwrap_or(0).min(grid.rows - 1) * grid.columns, grid.columns)
     } else {
         (0, grid.count())
     };
@@ -194,7 +269,8 @@ fn refusal(path: &Path, image: &Raster, options: &ReadOptions) -> Error {
             4 or more times as wide as high, or another grid in which one tile looks like normals"
                 .to_owned(),
             found + " without one",
-            "correct the strip, say its --order or its --grid, or give a folder or prefix of one file a map",
+            "correct the strip, say its --order or its --grid (--order d takes all of it as diffuse), or give a folder \
+             or prefix of one file a map",
         ),
     };
     Error::NotAMaterial { path: path.to_owned(), expected, found, remedy: remedy.to_owned() }

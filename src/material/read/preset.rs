@@ -8,15 +8,17 @@ use super::order::Order;
 choices! {
     /// A source of materials: a research code, a data set, a library or a tool.
     Preset, "preset":
-    /// Deschaintre et al. 2018-2020, mworchel: N D R S, all linear. What 2018 does otherwise is about photos only.
+    /// Deschaintre et al. 2019-2020, mworchel: N D R S, all linear.
     Deschaintre = "deschaintre",
+    /// Deschaintre et al. 2018: the same; only their photos, which are ignored here, are linear, too.
+    Deschaintre18 = "deschaintre18",
     /// Gao et al. 2019: N D R S, only D with gamma 2.2.
     Gao = "gao",
     /// MaterialGAN and svbrdf-diff-renderer: D, S and R with gamma 2.2.
     MaterialGan = "materialgan",
     /// Zhou & Kalantari 2022: D N R S, D and S with gamma 2.2, R as it is.
     LookAhead = "lookahead",
-    /// MatFusion: D S R N, D and S with gamma 2.2.
+    /// MatFusion: D S R N, D and S with gamma 2.2; of base colour and metallic s = 0.04 + b m.
     MatFusion = "matfusion",
     /// SurfaceNet and MatFuse: files of raw values.
     SurfaceNet = "surfacenet",
@@ -38,7 +40,7 @@ impl Preset {
     /// The order in which it packs maps, where it does.
     pub(crate) fn order(self) -> Option<Order> {
         match self {
-            Self::Deschaintre | Self::Gao => Some(Order::NDRS),
+            Self::Deschaintre | Self::Deschaintre18 | Self::Gao => Some(Order::NDRS),
             Self::MaterialGan | Self::LookAhead => Some(Order::DNRS),
             Self::MatFusion => Some(Order::DSRN),
             _ => None,
@@ -55,7 +57,9 @@ impl Preset {
         let metallic = Some(Workflow::Metallic);
         let specular = Some(Workflow::Specular);
         let ((albedo, of_specular), roughness, normal_y, workflow, energy) = match self {
-            Self::Deschaintre | Self::SurfaceNet => (linear, Roughness::R, up, specular, same),
+            Self::Deschaintre | Self::Deschaintre18 | Self::SurfaceNet => {
+                (linear, Roughness::R, up, specular, same)
+            }
             Self::Gao => ((Albedo::Gamma22, Albedo::Linear), Roughness::R, up, specular, plain),
             Self::MaterialGan => (gamma, Roughness::Gamma22, up, specular, same),
             Self::LookAhead => (gamma, Roughness::R, up, specular, same),

@@ -16,7 +16,7 @@ pub fn check(found: &mut Found, options: &ReadOptions) -> Result<(), Error> {
         let count = NotFinite::of(source);
         let Some((index, value)) = count.first else { continue };
         let NotFinite { nans, infinities, .. } = count;
-        match options.non_finite {
+        match options.non_finite.unwrap_or_default() {
             NonFinite::Refuse => {
                 return Err(Error::OutOfRange {
                     whose: source.file.display().to_string(),
@@ -29,7 +29,7 @@ pub fn check(found: &mut Found, options: &ReadOptions) -> Result<(), Error> {
             }
             NonFinite::Replace => {
                 let why = format!("{} samples of the {map} map are NaN or infinite", nans + infinities);
-                said.push(Assumption::new(What::Values, options.non_finite, why, Certainty::Given));
+                said.push(Assumption::new(What::Values, NonFinite::Replace, why, Certainty::Given));
             }
         }
     }

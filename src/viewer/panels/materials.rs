@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::material::read::Certainty;
+use crate::material::read::{Certainty, Kept};
 use crate::viewer::command::Command;
 use crate::viewer::slots::{Origin, Slot, Slots};
 use crate::viewer::theme;
@@ -45,6 +45,25 @@ impl MaterialsPanel<'_> {
     }
 }
 
+/// The button that keeps what is chosen; without anything new there is nothing to keep.
+fn keep(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
+    let (Origin::Path(path), loaded) = (&slot.loaded.origin, &slot.loaded) else { return };
+    if loaded.read == loaded.kept {
+        return;
+    }
+    let button = ui.small_button("Keep with the material");
+    let name = format!("Keep with {}", slot.name());
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    let place = Kept::place(path);
+    let why = format!(
+        "Write what is chosen here into {}: it then holds whenever the material is opened",
+        place.display()
+    );
+    if button.on_hover_text(why).clicked() {
+        commands.push(Command::Keep { slot: index });
+    }
+}
+
 fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
     let loaded = &slot.loaded;
     let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
@@ -75,6 +94,7 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
         if read != loaded.read {
             commands.push(Command::ReadAs { slot: index, read });
         }
+        keep(ui, index, slot, commands);
     }
     for assumption in &loaded.assumptions {
         let text = RichText::new(assumption.to_string()).small();

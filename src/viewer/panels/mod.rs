@@ -72,13 +72,16 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         choice(ui, (name, "roughness"), roughness, &Roughness::ALL, found(What::Roughness));
         choice(ui, (name, "energy"), energy, &Energy::ALL, found(What::Energy));
         let exemplar = format!("exemplar of {name}");
-        number(ui, &exemplar, &mut options.exemplar, 0, |drag| drag.range(0..=999).prefix("exemplar "))
+        let mut number_of = options.exemplar.unwrap_or(0);
+        number(ui, &exemplar, &mut number_of, 0, |drag| drag.range(0..=999).prefix("exemplar "))
             .on_hover_text("Which row of a packed picture, or which material of a file, from 0");
-        let mut replace = options.non_finite == NonFinite::Replace;
+        options.exemplar = (number_of > 0).then_some(number_of);
+        let mut replace = options.non_finite == Some(NonFinite::Replace);
         ui.checkbox(&mut replace, "replace NaN").on_hover_text("NaN and infinity: else they are an error");
-        options.non_finite = if replace { NonFinite::Replace } else { NonFinite::Refuse };
-        ui.checkbox(&mut options.flip_v, "flip rows")
-            .on_hover_text("Row 0 of every picture is the lowest one");
+        options.non_finite = replace.then_some(NonFinite::Replace);
+        let mut flip = options.flip_v == Some(true);
+        ui.checkbox(&mut flip, "flip rows").on_hover_text("Row 0 of every picture is the lowest one");
+        options.flip_v = flip.then_some(true);
     });
 }
 

@@ -21,23 +21,43 @@ pub(super) fn jpeg_components(mut reader: impl Read + Seek) -> io::Result<Option
     }
 }
 
-/// Whether a PNG says in a gAMA chunk, without an sRGB one, that its values are linear.
-pub(super) fn png_is_linear(mut reader: impl Read + Seek) -> io::Result<bool> {
-    let mut linear = false;
+/// What a PNG says before its pixels.
+#[derive(Debug, Default)]
+pub(super) struct PngHead {
+    /// Whether it says in a gAMA chunk, without an sRGB one, that its values are linear.
+    pub linear: bool,
+    /// The text that this program writes into packed pictures: their order and encoding.
+    pub meaning: Option<String>,
+}
+
+/// Longest text that is looked at.
+const LONGEST: u32 = 1 << 10;
+
+pub(super) fn png(mut reader: impl Read + Seek) -> io::Result<PngHead> {
+    const KEYWORD: &[u8] = b"svbrdf\0packed ";
+    let (mut gamma_is_one, mut srgb, mut meaning) = (false, false, None);
     reader.seek(SeekFrom::Current(8))?;
     loop {
         let (mut length, mut name) = ([0; 4], [0; 4]);
         reader.read_exact(&mut length)?;
         reader.read_exact(&mut name)?;
-        let mut left = i64::from(u32::from_be_bytes(length)) + 4;
+        let length = u32::from_be_bytes(length);
+        let mut left = i64::from(length) + 4;
         match &name {
-            b"IDAT" => return Ok(linear),
-            b"sRGB" => return Ok(false),
+            b"IDAT" => return Ok(PngHead { linear: gamma_is_one && !srgb, meaning }),
+            b"sRGB" => srgb = true,
+            b"tEXt" if length <= LONGEST => {
+                let mut text = vec![0; length as usize];
+                reader.read_exact(&mut text)?;
+                left -= i64::from(length);
+                let said = text.strip_prefix(KEYWORD).map(|said| String::from_utf8_lossy(said).into_owned());
+                meaning = said.or(meaning);
+            }
             b"gAMA" => {
                 let mut gamma = [0; 4];
                 reader.read_exact(&mut gamma)?;
                 left -= 4;
-                linear = u32::from_be_bytes(gamma).abs_diff(100_000) < 1000;
+                gamma_is_one = u32::from_be_bytes(gamma).abs_diff(100_000) < 1000;
             }
             _ => (),
         }

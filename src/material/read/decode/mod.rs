@@ -40,6 +40,8 @@ pub struct Decoded {
     pub layers: Vec<Layer>,
     /// Whether this program wrote the file: then it means what this program means.
     pub native: bool,
+    /// What this program wrote into a packed picture: its order and encoding.
+    pub meaning: Option<String>,
     /// What the user may want to know, one sentence each.
     pub notes: Vec<String>,
 }

@@ -9,6 +9,7 @@ use image::error::{ImageError, LimitErrorKind};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
+use super::head::PngHead;
 use super::{Decoded, FORMATS, MAX_BYTES, Place, alone, head, planes};
 use crate::error::Error;
 use crate::material::read::raster::{Raster, Samples};
@@ -18,7 +19,7 @@ pub(super) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     let head = reader.fill_buf().map_err(unreadable)?;
     match image::guess_format(head) {
         Ok(ImageFormat::Png) => {
-            let linear = head::png_is_linear(&mut reader).unwrap_or(false);
+            let PngHead { linear, meaning } = head::png(&mut reader).unwrap_or_default();
             reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
             let decoder = PngDecoder::with_limits(reader, limits()).map_err(|e| explain(&e, "PNG", place))?;
             let mut decoded = decode_with(decoder, "PNG", place)?;
@@ -28,7 +29,7 @@ pub(super) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
                     place.what
                 ));
             }
-            Ok(decoded)
+            Ok(Decoded { meaning, ..decoded })
         }
         Ok(ImageFormat::Jpeg) => {
             let components = head::jpeg_components(&mut reader).unwrap_or(None);

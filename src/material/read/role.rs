@@ -1,0 +1,134 @@
+//! The maps of a material, and the words of file names that stand for them.
+
+/// What a picture of a material is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Role {
+    Normal,
+    /// Base colour of the metallic workflow; also what is called albedo or colour.
+    Base,
+    Diffuse,
+    Specular,
+    /// Reflectance of what is no metal: 0.08 where it is 1.
+    SpecularLevel,
+    Roughness,
+    Metallic,
+    /// Red occlusion, green roughness, blue metallic.
+    OcclusionRoughnessMetallic,
+    /// Red roughness, green metallic, blue occlusion.
+    RoughnessMetallicOcclusion,
+    /// Red metallic, green roughness, blue occlusion.
+    MetallicRoughnessOcclusion,
+    /// Red metallic, alpha smoothness: Unity.
+    MetallicSmoothness,
+    /// Of no use here, but no riddle either.
+    Ignored,
+}
+
+impl Role {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Normal => "normal",
+            Self::Base => "base colour",
+            Self::Diffuse => "diffuse",
+            Self::Specular => "specular",
+            Self::SpecularLevel => "specular level",
+            Self::Roughness => "roughness",
+            Self::Metallic => "metallic",
+            Self::OcclusionRoughnessMetallic
+            | Self::RoughnessMetallicOcclusion
+            | Self::MetallicRoughnessOcclusion
+            | Self::MetallicSmoothness => "packed roughness and metallic",
+            Self::Ignored => "unused",
+        }
+    }
+
+    /// The words that stand for this map, the plainest first. Words of one or two letters count only beside others.
+    pub fn words(self) -> &'static [&'static str] {
+        match self {
+            Self::Normal => &["normal", "normals", "nor", "nrm", "nrml", "norm", "nom", "nmap", "n"],
+            Self::Base => &["basecolor", "basecolour", "albedo", "color", "colour", "col", "alb", "bc", "kd"],
+            Self::Diffuse => &["diffuse", "diff", "dif", "d", "pd"],
+            Self::Specular => &["specular", "spec", "spe", "spc", "specularity", "s", "ps"],
+            Self::SpecularLevel => &["specularlevel"],
+            Self::Roughness => {
+                &["roughness", "rough", "rgh", "r", "glossiness", "gloss", "glossy", "smoothness", "axay"]
+            }
+            Self::Metallic => &["metallic", "metalness", "metal", "met", "mtl", "m"],
+            Self::OcclusionRoughnessMetallic => &[
+                "occlusionroughnessmetallic",
+                "occlusionroughmetal",
+                "metallicroughness",
+                "roughnessmetallic",
+                "orm",
+                "arm",
+                "ks",
+            ],
+            Self::RoughnessMetallicOcclusion => &["rmo", "rma", "roughnessmetallicocclusion"],
+            Self::MetallicRoughnessOcclusion => &["mra"],
+            Self::MetallicSmoothness => &["metallicsmoothness", "maskmap"],
+            Self::Ignored => &[
+                "ao",
+                "ambientocclusion",
+                "occlusion",
+                "occ",
+                "displacement",
+                "displace",
+                "disp",
+                "dsp",
+                "height",
+                "heightmap",
+                "h",
+                "bump",
+                "bmp",
+                "opacity",
+                "alpha",
+                "mask",
+                "emission",
+                "emissive",
+                "emit",
+                "tangent",
+                "pos",
+                "render",
+                "rendering",
+                "rendered",
+                "input",
+                "inputs",
+                "preview",
+                "thumb",
+                "flow",
+                "depth",
+            ],
+        }
+    }
+
+    pub const ALL: [Self; 12] = [
+        Self::Normal,
+        Self::Base,
+        Self::Diffuse,
+        Self::Specular,
+        Self::SpecularLevel,
+        Self::Roughness,
+        Self::Metallic,
+        Self::OcclusionRoughnessMetallic,
+        Self::RoughnessMetallicOcclusion,
+        Self::MetallicRoughnessOcclusion,
+        Self::MetallicSmoothness,
+        Self::Ignored,
+    ];
+
+    /// The channels of roughness and of metallic where both are in one picture; 3 is alpha.
+    pub fn packing(self) -> Option<[usize; 2]> {
+        match self {
+            Self::OcclusionRoughnessMetallic => Some([1, 2]),
+            Self::RoughnessMetallicOcclusion => Some([0, 1]),
+            Self::MetallicRoughnessOcclusion => Some([1, 0]),
+            Self::MetallicSmoothness => Some([3, 0]),
+            _ => None,
+        }
+    }
+
+    /// The map that a word stands for.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|role| role.words().contains(&word))
+    }
+}

@@ -1,0 +1,136 @@
+//! What is kept with a material, in a file beside it.
+
+use svbrdf::material::read::{Binding, Kept, read_as, read_bound};
+
+use super::*;
+
+/// The strip N D R S with roughness as gloss, as `a.png` in a folder.
+fn glossy() -> (tempfile::TempDir, std::path::PathBuf) {
+    let folder = tempdir().unwrap();
+    let image = packed("NDRS", 4, |letter, v| if letter == 'R' { 1.0 - v } else { v });
+    let path = save(folder.path(), "a.png", &image, ImageFormat::Png);
+    (folder, path)
+}
+
+fn why<T>(read: &Read<T>, what: What) -> &str {
+    read.assumptions.iter().find(|a| a.what == what).map_or("", |a| &a.why)
+}
+
+#[test]
+fn what_is_kept_beside_a_file_holds_until_something_else_is_said() {
+    let (folder, path) = glossy();
+    std::fs::write(folder.path().join("a.svbrdf.json"), r#"{"roughness": "gloss"}"#).unwrap();
+    for opened in [path.clone(), folder.path().join("a.svbrdf.json")] {
+        let read = open(&opened);
+        assert_same(&read, EIGHT_BITS);
+        assert_eq!(read.material.name(), "a");
+        assert_eq!(certainty(&read, What::Roughness), Some(Certainty::Given));
+        assert_eq!(why(&read, What::Roughness), "as a.svbrdf.json says");
+        assert!(read.files.iter().any(|file| file.ends_with("a.svbrdf.json")), "{:?}", read.files);
+    }
+    let other = open_as(&path, &ReadOptions { roughness: Some(Roughness::R), ..ReadOptions::AUTO });
+    assert!(worst(&other.material) > 0.1);
+    assert_eq!(why(&other, What::Roughness), "as you said");
+    // A preset says it, too.
+    let other = open_as(&path, &ReadOptions { preset: Some(Preset::Deschaintre), ..ReadOptions::AUTO });
+    assert_eq!((chosen(&other, What::Roughness), why(&other, What::Roughness)), ("r", "as you said"));
+    let alone = read_as::<f64>(&path, &ReadOptions::AUTO, &Progress::default()).unwrap();
+    assert!(worst(&alone.material) > 0.1);
+    assert_eq!(alone.kept.roughness, Some(Roughness::Gloss));
+}
+
+#[test]
+fn everything_that_can_be_said_can_be_kept() {
+    let (folder, path) = glossy();
+    let options = ReadOptions {
+        preset: Some(Preset::Gao),
+        albedo: Some(Albedo::Linear),
+        specular: Some(Albedo::Gamma22),
+        normal_y: Some(NormalY::Down),
+        normal_code: Some("xy".parse().unwrap()),
+        roughness: Some(Roughness::Gloss),
+        workflow: Some("specular".parse().unwrap()),
+        dielectric: Some("0.05".parse().unwrap()),
+        energy: Some("plain".parse().unwrap()),
+        order: Some(Order::NDRS),
+        grid: Some("4x1".parse().unwrap()),
+        exemplar: Some(1),
+        flip_v: Some(true),
+        non_finite: Some(NonFinite::Replace),
+    };
+    let text = |name: &str| format!("{name}={}", folder.path().join("a b.png").display());
+    let bindings: Vec<Binding> = ["normal", "specular"].map(|map| (text(map) + ":r").parse().unwrap()).into();
+    let kept = Kept { options, bindings };
+    let place = kept.write(&path).unwrap();
+    assert_eq!(Kept::of(&path).unwrap(), kept);
+    let written = std::fs::read_to_string(place).unwrap();
+    for line in
+        [r#""dielectric-f0": 0.05"#, r#""grid": "4x1""#, r#""normal": "a b.png:r""#, r#""flip-v": true"#]
+    {
+        assert!(written.contains(line), "{line} is missing in {written}");
+    }
+    Kept::default().write(&path).unwrap();
+    assert_eq!(std::fs::read_to_string(Kept::place(&path)).unwrap(), "{}\n");
+    assert_eq!(Kept::of(&path).unwrap(), Kept::default());
+}
+
+#[test]
+fn maps_can_be_kept_in_a_folder() {
+    let folder = tempdir().unwrap();
+    folder_of(["normal.png", "diffuse.png", "other.png", "specular.png"], folder.path(), |_, v| v);
+    let kept = r#"{"albedo": "linear", "maps": {"roughness": "other.png:r"}}"#;
+    std::fs::write(folder.path().join("svbrdf.json"), kept).unwrap();
+    for opened in ["", "svbrdf.json", "normal.png"] {
+        let read = open(&folder.path().join(opened));
+        assert_same(&read, EIGHT_BITS);
+        let note = "other.png, as svbrdf.json says";
+        assert!(read.notes.iter().any(|n| n.contains(note)), "{opened}: {:?}", read.notes);
+    }
+    let said = format!("roughness={}", folder.path().join("normal.png").display()).parse().unwrap();
+    let read = read_bound::<f64>(folder.path(), &[said], &ReadOptions::AUTO, &Progress::default()).unwrap();
+    assert!(read.notes.iter().any(|n| n.contains("normal.png, as you said")), "{:?}", read.notes);
+}
+
+#[test]
+fn what_is_kept_for_a_prefix_is_beside_its_files() {
+    let folder = tempdir().unwrap();
+    folder_of(["w_normal.png", "w_diffuse.png", "w_gloss.png", "w_specular.png"], folder.path(), |_, v| v);
+    std::fs::write(folder.path().join("w.svbrdf.json"), r#"{"roughness": "r", "albedo": "linear"}"#).unwrap();
+    for opened in ["w", "w_", "w.svbrdf.json"] {
+        let read = open(&folder.path().join(opened));
+        assert_same(&read, EIGHT_BITS);
+        assert_eq!(why(&read, What::Roughness), "as w.svbrdf.json says", "{opened}");
+    }
+}
+
+#[test]
+fn what_is_kept_wrongly_is_refused_with_its_place() {
+    let (folder, path) = glossy();
+    let place = folder.path().join("a.svbrdf.json");
+    for (text, expected) in [
+        ("", "EOF while parsing"),
+        ("[]", "expected a map"),
+        (r#"{"roughnes": "r"}"#, "unknown key `roughnes`"),
+        (r#"{"roughness": "shiny"}"#, "roughness: unknown variant `shiny`, expected one of `r`, `gloss`"),
+        (r#"{"exemplar": -1}"#, "exemplar: invalid value"),
+        (r#"{"dielectric-f0": 4}"#, "dielectric-f0: unknown reflectance `4`"),
+        (r#"{"grid": "4"}"#, "grid: unknown grid of tiles `4`"),
+        (r#"{"maps": 3}"#, "expected an object after maps, found 3"),
+        (r#"{"maps": {"bumps": "a.png"}}"#, "unknown map `bumps=a.png`"),
+        (r#"{"maps": {"normal": 3}}"#, "normal: expected FILE or FILE:PART, found 3"),
+    ] {
+        std::fs::write(&place, text).unwrap();
+        let message = refusal(&path);
+        assert!(
+            message.contains("a.svbrdf.json does not say how") && message.contains(expected),
+            "{message}"
+        );
+        assert!(message.contains("dielectric-f0, energy"), "the known keys: {message}");
+    }
+    std::fs::write(&place, r#"{"maps": {"normal": "none.png"}}"#).unwrap();
+    assert!(refusal(&path).contains("the normal map") && refusal(&path).contains("none.png is not there"));
+    std::fs::write(&place, "{}").unwrap();
+    save(folder.path(), "a.jpg", &packed("NDRS", 4, linear), ImageFormat::Jpeg);
+    assert!(refusal(&place).contains("expected one material beside it"), "{}", refusal(&place));
+    assert!(refusal(&folder.path().join("b.svbrdf.json")).contains("cannot read"));
+}
