@@ -139,16 +139,21 @@ impl ReadingArgs {
     /// # Errors
     /// [`Error::Guessed`].
     pub fn check<T>(&self, path: &Path, read: &Read<T>) -> Result<(), Error> {
-        match read.unsure().map(ToString::to_string).collect::<Vec<_>>() {
-            guesses if self.strict && !guesses.is_empty() => {
-                Err(Error::Guessed { path: path.to_owned(), guesses: guesses.join("; ") })
-            }
-            _ => Ok(()),
-        }
+        if self.strict { read.refuse_guesses(path) } else { Ok(()) }
     }
 }
 
 impl Reading {
+    /// Whether guesses are errors.
+    pub fn is_strict(&self) -> bool {
+        self.both.strict
+    }
+
+    /// The size that all are brought to; `None`: each keeps its own.
+    pub fn resize_to(&self) -> Option<ResizeTo> {
+        self.resize_to
+    }
+
     pub fn of_ground_truth(&self) -> ReadOptions {
         self.with_albedo(self.gt_albedo)
     }

@@ -3,7 +3,7 @@
 use svbrdf::error::Error;
 
 use super::exit::tell;
-use super::materials::MaterialArgs;
+use super::materials::{MaterialArgs, ResizeTo};
 
 #[derive(Debug, clap::Args)]
 pub struct ViewArgs {
@@ -25,7 +25,20 @@ pub fn run(args: ViewArgs) -> Result<(), Error> {
 
 #[cfg(feature = "viewer")]
 fn open_window(materials: MaterialArgs) -> Result<(), Error> {
+    let fit = match materials.reading.resize_to() {
+        None => false,
+        Some(ResizeTo::GroundTruth) => true,
+        Some(_) => {
+            return Err(Error::Usage(
+                "the window brings predictions to the size of the ground truth only (--resize-to gt); \
+                 `svbrdf convert` writes a material of any size"
+                    .to_owned(),
+            ));
+        }
+    };
     svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
+        strict: materials.reading.is_strict(),
+        fit,
         ground_truth_read: materials.reading.of_ground_truth(),
         prediction_read: materials.reading.of_predictions(),
         ground_truth: materials.ground_truth,

@@ -10,24 +10,19 @@ use super::command::Command;
 use super::gpu_view::GpuView;
 use super::loss_request::LossRequest;
 use super::loss_run::LossRun;
-use super::panels::loss::LossPanel;
-use super::panels::materials::MaterialsPanel;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
-use super::panels::scene::ScenePanel;
-use super::panels::status::StatusBar;
-use super::panels::study::{self, Setting, StudyWindow};
-use super::panels::top::TopBar;
 use super::settings::{self, Settings};
-use super::slots::{Slots, Target};
+use super::slots::{Rules, Slots, Target};
 use super::state::ViewState;
 use super::study::StudyRun;
-use super::viewport::{Scenery, Viewport};
+use super::viewport::Viewport;
 use super::watch::Watch;
 use super::worker::Job;
-use super::{ViewerOptions, keys, panels, theme};
+use super::{ViewerOptions, keys, theme};
 use crate::loss::Loss;
 use crate::material::Material;
+use crate::material::read::ReadOptions;
 use crate::study::Study;
 
 /// The viewer. What it shows is public for tests; what changes it are [`Command`]s.
@@ -51,9 +46,11 @@ pub struct App {
     pub(super) save_window: Option<SaveWindow>,
     pub(super) help: bool,
     pub(super) swapped: bool,
-    /// What went wrong or was done, until a person has read it.
-    pub(super) messages: Vec<String>,
-    frame_ms: f32,
+    /// How materials were read that were opened last, which the open window offers again.
+    pub(super) read: ReadOptions,
+    /// What went wrong or was done, the latest last, until a person has read it.
+    messages: Vec<String>,
+    pub(super) frame_ms: f32,
 }
 
 impl App {
@@ -90,6 +87,7 @@ impl App {
             save_window: None,
             help: false,
             swapped: false,
+            read: ReadOptions::AUTO,
             messages,
             frame_ms: 0.0,
         };
@@ -99,13 +97,13 @@ impl App {
 
     fn open_first(&mut self, ctx: &egui::Context, options: ViewerOptions) {
         let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+        self.slots.rules = Rules { strict: options.strict, fit: options.fit };
         let Some(ground_truth) = options.ground_truth else {
             return self.slots.open_built_in(ctx, gpu);
         };
         let predictions = options.predictions.into_iter().map(|p| (p, options.prediction_read));
         let sources: Vec<_> =
             std::iter::once((ground_truth, options.ground_truth_read)).chain(predictions).collect();
-        sources.iter().rev().for_each(|(path, _)| self.settings.remember(path));
         self.slots.open(ctx, gpu, sources, Target::Everything);
     }
 
@@ -146,17 +144,35 @@ impl App {
         &self.messages
     }
 
+    /// Tells the person something; what has been said before moves to the end.
+    pub(super) fn say(&mut self, messages: impl IntoIterator<Item = String>) {
+        for message in messages {
+            self.messages.retain(|said| *said != message);
+            self.messages.push(message);
+        }
+    }
+
+    /// Takes what was said off the window.
+    pub(super) fn dismiss(&mut self) {
+        self.messages.clear();
+    }
+
     /// Takes over what the workers have finished.
     fn poll(&mut self, ctx: &egui::Context) {
-        self.messages.extend(self.slots.poll(ctx));
-        self.messages.extend(self.study.poll(ctx));
-        self.messages.extend(self.gpu.as_ref().and_then(|g| g.gpu.take_fault()).map(|e| e.to_string()));
+        let errors = self.slots.poll(ctx);
+        self.say(errors);
+        let opened = std::mem::take(&mut self.slots.opened);
+        opened.iter().rev().for_each(|path| self.settings.remember(path));
+        let error = self.study.poll(ctx);
+        self.say(error);
+        let fault = self.gpu.as_ref().and_then(|g| g.gpu.take_fault());
+        self.say(fault.map(|error| error.to_string()));
         if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
             self.saving = None;
-            self.messages.push(match result {
-                Ok(path) => format!("Saved {}", path.display()),
+            self.say([match result {
+                Ok(path) => format!("Saved {}", std::path::absolute(&path).unwrap_or(path).display()),
                 Err(error) => error.to_string(),
-            });
+            }]);
         }
         if let Some(result) = self.browsing.as_ref().and_then(|job| job.poll(ctx)) {
             self.browsing = None;
@@ -170,7 +186,7 @@ impl App {
             self.slots.reload(ctx, gpu, Some(&stale));
         }
         self.loss.follow(ctx, &self.slots, &self.loss_request(), self.settings.auto_loss);
-        self.messages.extend(self.loss.poll(ctx));
+        self.loss.poll(ctx);
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
@@ -183,114 +199,6 @@ impl App {
         };
         let now = keys::Context { enter_is_free: ctx.memory(|m| m.focused()).is_none(), escape: &escape };
         keys::commands(ctx, now)
-    }
-
-    /// Draws everything; what a person does in it is returned.
-    fn show(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        egui::Panel::top("top").show(ui, |ui| commands.extend(self.top(ui)));
-        egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
-        if !self.messages.is_empty() {
-            egui::Panel::bottom("messages")
-                .show(ui, |ui| commands.extend(panels::messages::ui(ui, &self.messages)));
-        }
-        let mut side_panel = self.settings.side_panel;
-        egui::Panel::right("side")
-            .default_size(320.0)
-            .size_range(240.0..=(0.4 * ui.available_width()).max(240.0))
-            .show_collapsible(ui, &mut side_panel, |ui| commands.extend(self.side(ui)));
-        if side_panel != self.settings.side_panel {
-            commands.push(Command::ToggleSidePanel);
-        }
-        egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
-        commands.extend(self.windows(ui.ctx()));
-        commands
-    }
-
-    fn top(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let bar = TopBar {
-            state: &self.state,
-            dark: self.settings.dark,
-            side_panel: self.settings.side_panel,
-            swapped: self.swapped,
-        };
-        bar.ui(ui)
-    }
-
-    fn status(&self, ui: &mut egui::Ui) {
-        let bar = StatusBar {
-            state: &self.state,
-            slots: &self.slots.slots,
-            hovered: self.viewport.hovered,
-            adapter: self.gpu.as_ref().map(|g| &g.gpu.report),
-            frame_ms: self.frame_ms,
-        };
-        bar.ui(ui);
-    }
-
-    fn side(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        let section = |ui: &mut egui::Ui, name: &str, add: &mut dyn FnMut(&mut egui::Ui)| {
-            egui::CollapsingHeader::new(name).default_open(true).show_unindented(ui, |ui| add(ui));
-        };
-        let scene = ScenePanel { state: &self.state, highlight_follows: self.settings.highlight_follows };
-        let loss = LossPanel {
-            settings: &self.settings.loss,
-            auto: self.settings.auto_loss,
-            run: &self.loss,
-            slots: &self.slots,
-            chosen: self.state.prediction,
-        };
-        let materials = MaterialsPanel { slots: &self.slots, watch: self.settings.watch };
-        egui::ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-            section(ui, "Scene", &mut |ui| commands.extend(scene.ui(ui)));
-            section(ui, "Rendering loss", &mut |ui| {
-                commands.extend(loss.ui(ui));
-                commands.extend(study::button(ui, !self.slots.predictions().is_empty()));
-            });
-            section(ui, "Materials", &mut |ui| commands.extend(materials.ui(ui)));
-        });
-        commands
-    }
-
-    fn panes(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
-        let peek = ui.input(|i| i.key_down(egui::Key::G)) && !ui.ctx().text_edit_focused();
-        let scenery = Scenery {
-            slots: &self.slots.slots,
-            state: &self.state,
-            dark: self.settings.dark,
-            highlight_follows: self.settings.highlight_follows,
-            peek,
-            swapped: self.swapped,
-            reading: !self.slots.openings.is_empty(),
-        };
-        self.viewport.ui(ui, &scenery, self.gpu.as_mut())
-    }
-
-    fn windows(&mut self, ctx: &egui::Context) -> Vec<Command> {
-        let mut commands = Vec::new();
-        if self.help {
-            commands.extend(panels::help::ui(ctx));
-        }
-        if self.study_window {
-            commands.extend(self.study_window(ctx));
-        }
-        if let Some(window) = &mut self.open_window {
-            commands.extend(window.ui(ctx, &self.settings.recent));
-        }
-        if let Some(window) = &mut self.save_window {
-            commands.extend(window.ui(ctx));
-        }
-        commands
-    }
-
-    fn study_window(&self, ctx: &egui::Context) -> Vec<Command> {
-        let window = StudyWindow {
-            run: &self.study,
-            shown: self.study.shown(&self.slots, self.state.prediction, &self.state.convention()),
-            current: Setting::of(&self.settings.loss),
-        };
-        window.ui(ctx)
     }
 
     /// Stores changed settings at once, not only at the end: programs are killed, too.
@@ -310,7 +218,7 @@ impl App {
         let paths: Vec<PathBuf> =
             ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
         let replace = self.slots.only_built_in();
-        (!paths.is_empty()).then_some(Command::Open { paths, replace, read: self.settings.read })
+        (!paths.is_empty()).then_some(Command::Open { paths, replace, read: ReadOptions::AUTO })
     }
 }
 

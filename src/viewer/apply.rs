@@ -39,8 +39,7 @@ impl App {
         let gpu = self.gpu.as_ref().map(|g| &g.gpu);
         match command {
             Command::Open { paths, replace, read } => {
-                paths.iter().rev().for_each(|path| self.settings.remember(path));
-                self.settings.read = read;
+                self.read = read;
                 let target = if replace { Target::Everything } else { Target::Predictions };
                 self.slots.open(ctx, gpu, paths.into_iter().map(|p| (p, read)).collect(), target);
             }
@@ -49,12 +48,13 @@ impl App {
             Command::ReadAs { slot, read } => self.slots.read_as(ctx, gpu, slot, read),
             Command::Keep { slot } => {
                 let kept = self.slots.keep(ctx, gpu, slot);
-                self.messages.extend(kept.err().map(|error| error.to_string()));
+                self.say(kept.err().map(|error| error.to_string()));
             }
-            Command::ClosePrediction(index) => self.slots.close(index),
+            Command::ClosePrediction(index) => self.close_prediction(index),
             Command::MakeGroundTruth(index) => self.slots.make_ground_truth(index),
             Command::Browse { folder } => self.browsing = Some(browse(ctx, folder)),
             Command::SetWatch(on) => self.settings.watch = on,
+            Command::SetFit(on) => self.slots.rules.fit = on,
             Command::ComputeLoss => {
                 let request = self.loss_request();
                 self.loss.start(ctx, &self.slots, &request);
@@ -101,7 +101,7 @@ impl App {
             Command::CopyScene => ctx.copy_text(scene_text(*scene)),
             Command::PasteScene(text) => match pasted_scene(&text) {
                 Ok(pasted) => *scene = pasted,
-                Err(problem) => self.messages.push(problem),
+                Err(problem) => self.say([problem]),
             },
             other => return Some(other),
         }
@@ -165,14 +165,24 @@ impl App {
             Command::SwapSides => self.swapped = !self.swapped,
             Command::SetHelp(on) => self.help = on,
             Command::ShowOpen(on) => {
-                self.open_window = on.then(|| OpenWindow::from(self.settings.read));
+                self.open_window = on.then(|| OpenWindow::from(self.read));
             }
             Command::ShowSave(on) => self.save_window = on.then(Default::default),
-            Command::DismissMessage => self.messages.clear(),
+            Command::DismissMessage => self.dismiss(),
             // Everything else was carried out before.
             _ => {}
         }
         ctx.request_repaint();
+    }
+
+    /// Closes the material in slot `index`; the prediction that is looked at stays the same.
+    fn close_prediction(&mut self, index: usize) {
+        self.slots.close(index);
+        let state = &mut self.state;
+        if index <= state.prediction {
+            state.prediction = state.prediction.saturating_sub(1);
+        }
+        state.prediction = state.prediction.min(self.slots.predictions().len().saturating_sub(1));
     }
 
     fn one_to_one(&mut self) {

@@ -9,8 +9,12 @@ pub const TITLE: f32 = 24.0;
 /// Room between two panes.
 const GAP: f32 = 6.0;
 
-/// Splits `area` into `count` cells, in as many columns as leave the material largest.
-pub fn cells(area: Rect, count: usize, grid: Grid) -> Vec<Rect> {
+/// Splits `area` into `count` cells, in as many columns as leave the material largest. All have one size, in whole pixels
+/// of which a point has `scale`: only then are the pictures in them the same, pixel by pixel.
+pub fn cells(area: Rect, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
+    let whole = |v: Vec2| (v * scale).floor() / scale;
+    let area =
+        Rect::from_min_max((whole(area.min.to_vec2() + Vec2::splat(0.99 / scale))).to_pos2(), area.max);
     let [half_width, half_height] = grid.half_extent();
     let size = |columns: usize| {
         let rows = count.div_ceil(columns);
@@ -18,11 +22,12 @@ pub fn cells(area: Rect, count: usize, grid: Grid) -> Vec<Rect> {
         ((cell.x) / half_width).min((cell.y - TITLE) / half_height)
     };
     let columns = (1..=count.max(1)).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(1);
-    let cell = cell_size(area, columns, count.div_ceil(columns));
+    let cell = whole(cell_size(area, columns, count.div_ceil(columns)));
+    let step = cell + whole(Vec2::splat(GAP));
     (0..count)
         .map(|i| {
             let place = vec2((i % columns) as f32, (i / columns) as f32);
-            Rect::from_min_size(area.min + place * (cell + Vec2::splat(GAP)), cell)
+            Rect::from_min_size(area.min + place * step, cell)
         })
         .collect()
 }
@@ -55,7 +60,10 @@ mod tests {
             [(1, (800.0, 600.0)), (3, (1000.0, 300.0)), (5, (700.0, 900.0)), (9, (640.0, 480.0))]
         {
             let area = area(size.0, size.1);
-            let cells = cells(area, count, SQUARE);
+            let cells = cells(area, count, SQUARE, 1.5);
+            assert!(cells.iter().all(|cell| cell.size() == cells[0].size()), "{cells:?}");
+            let pixels = cells.iter().flat_map(|cell| [cell.min, cell.max]).map(|p| p.to_vec2() * 1.5);
+            assert!(pixels.clone().all(|p| (p - p.round()).length() < 1e-3), "{cells:?}");
             assert_eq!(cells.len(), count);
             for (i, cell) in cells.iter().enumerate() {
                 assert!(area.expand(0.1).contains_rect(*cell), "{count} cells: {cell:?} in {area:?}");
@@ -66,7 +74,7 @@ mod tests {
 
     #[test]
     fn a_wide_area_has_its_panes_in_a_row_and_a_high_one_in_a_column() {
-        assert!(cells(area(1200.0, 400.0), 3, SQUARE).iter().all(|c| c.top() == 20.0));
-        assert!(cells(area(300.0, 1200.0), 3, SQUARE).iter().all(|c| c.left() == 10.0));
+        assert!(cells(area(1200.0, 400.0), 3, SQUARE, 1.0).iter().all(|c| c.top() == 20.0));
+        assert!(cells(area(300.0, 1200.0), 3, SQUARE, 1.0).iter().all(|c| c.left() == 10.0));
     }
 }

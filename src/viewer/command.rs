@@ -37,6 +37,8 @@ pub enum Command {
     ClosePrediction(usize),
     MakeGroundTruth(usize),
     SetWatch(bool),
+    /// Resize predictions that are opened from now on to the ground truth.
+    SetFit(bool),
 
     SetScene(Scene),
     SetFoot(End, [f64; 2]),

@@ -87,8 +87,8 @@ impl Shown {
 pub struct LossRun {
     running: Option<Running>,
     shown: Option<Shown>,
-    /// The key that a person cancelled or that failed: not tried again by itself.
-    given_up: Option<Key>,
+    /// What a person cancelled or what failed, and why it did: not tried again by itself.
+    given_up: Option<(Key, Option<String>)>,
     /// Since when something else is asked for than what is shown.
     behind: Option<Instant>,
 }
@@ -125,9 +125,14 @@ impl LossRun {
         (elapsed > SOON).then_some((fraction.min(1.0), elapsed, running.scenes > 0))
     }
 
-    /// Takes over what the worker has reached; returns its error, for the user.
-    pub fn poll(&mut self, ctx: &egui::Context) -> Option<String> {
-        let running = self.running.as_mut()?;
+    /// Why what is asked for could not be computed.
+    pub fn problem(&self) -> Option<&str> {
+        self.given_up.as_ref()?.1.as_deref()
+    }
+
+    /// Takes over what the worker has reached.
+    pub fn poll(&mut self, ctx: &egui::Context) {
+        let Some(running) = self.running.as_mut() else { return };
         // A worker that has ended has left its last update before.
         let ended = running.job.poll(ctx);
         if let Some(update) = running.latest.lock().unwrap_or_else(PoisonError::into_inner).take() {
@@ -137,19 +142,15 @@ impl LossRun {
             self.shown =
                 Some(Shown { key: running.key.clone(), report, differences, elapsed, end: End::NotYet });
         }
-        let result = ended?;
+        let Some(result) = ended else { return };
         // Something else may be asked for by now.
         ctx.request_repaint();
-        let running = self.running.take()?;
+        let Some(running) = self.running.take() else { return };
         match result {
-            Ok(()) => {
-                self.end_with(&running, End::Finished);
-                None
-            }
+            Ok(()) => self.end_with(&running, End::Finished),
             Err(error) => {
                 self.end_with(&running, End::Cancelled);
-                self.given_up = Some(running.key);
-                Some(error.to_string())
+                self.given_up = Some((running.key, Some(error.to_string())));
             }
         }
     }
@@ -167,7 +168,8 @@ impl LossRun {
         } else {
             self.behind.get_or_insert_with(Instant::now);
         }
-        if !auto || self.given_up.as_ref() == Some(&key) {
+        self.given_up.take_if(|(given_up, _)| *given_up != key);
+        if !auto || self.given_up.is_some() {
             return;
         }
         let done = self.finished(slots, request).is_some();
@@ -211,7 +213,7 @@ impl LossRun {
         if let Some(running) = self.running.take() {
             running.job.cancel();
             self.end_with(&running, End::Cancelled);
-            self.given_up = Some(running.key);
+            self.given_up = Some((running.key, None));
         }
     }
 

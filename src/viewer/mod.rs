@@ -17,6 +17,7 @@ mod panels;
 mod prefix;
 mod save;
 mod settings;
+mod show;
 mod slots;
 pub mod state;
 mod study;
@@ -45,6 +46,10 @@ pub struct ViewerOptions {
     pub predictions: Vec<PathBuf>,
     pub ground_truth_read: ReadOptions,
     pub prediction_read: ReadOptions,
+    /// Guesses about materials are errors.
+    pub strict: bool,
+    /// Predictions of another size are resized to the ground truth.
+    pub fit: bool,
 }
 
 /// Opens the window and returns when it is closed.

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::loss_request::LossSettings;
-use crate::material::read::ReadOptions;
 
 /// Under this key the settings are stored.
 pub const KEY: &str = "settings";
@@ -25,8 +24,6 @@ pub struct Settings {
     pub loss: LossSettings,
     /// Whether files that change on the disk are read again.
     pub watch: bool,
-    /// How materials are read that are opened next.
-    pub read: ReadOptions,
     /// Materials opened before, the latest first.
     pub recent: Vec<PathBuf>,
 }
@@ -40,17 +37,17 @@ impl Default for Settings {
             auto_loss: true,
             loss: LossSettings::default(),
             watch: false,
-            read: ReadOptions::default(),
             recent: Vec::new(),
         }
     }
 }
 
 impl Settings {
-    /// Puts `path` first among the recent ones.
+    /// Puts `path` first among the recent ones, in a form that holds wherever the program is started next.
     pub fn remember(&mut self, path: &Path) {
-        self.recent.retain(|p| p != path);
-        self.recent.insert(0, path.to_owned());
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.recent.retain(|p| *p != path);
+        self.recent.insert(0, path);
         self.recent.truncate(RECENT);
     }
 }

@@ -1,6 +1,6 @@
 //! The materials in the window: read on a worker, kept whole, replaced only by what has been read.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
@@ -75,11 +75,48 @@ pub struct Opening {
     pub job: Job<Vec<Result<Loaded, Error>>>,
 }
 
+/// What is asked of every material that is opened.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rules {
+    /// A guess is an error.
+    pub strict: bool,
+    /// A prediction of another size is resized to the ground truth.
+    pub fit: bool,
+}
+
+/// Reads materials on a worker.
+struct Reader {
+    gpu: Option<Gpu>,
+    rules: Rules,
+    /// The ground truth's size, once that is known.
+    size: Option<[usize; 2]>,
+}
+
+impl Reader {
+    /// The material at `path` as the window keeps it; the first one read sets the size where there is none yet.
+    fn take(&mut self, path: PathBuf, asked: ReadOptions, mut read: Read<f32>) -> Result<Loaded, Error> {
+        if self.rules.strict {
+            read.refuse_guesses(&path)?;
+        }
+        let from = read.material.size();
+        let size = *self.size.get_or_insert(from);
+        if self.rules.fit && from != size {
+            read.material = read.material.resized(size)?;
+            let [[w, h], [to_w, to_h]] = [from, size];
+            read.notes.push(format!("Resized from {w} x {h} to the {to_w} x {to_h} of the ground truth."));
+        }
+        Ok(loaded(Origin::Path(path), asked, read, self.gpu.as_ref()))
+    }
+}
+
 /// The ground truth first, then the predictions; and what is still being read.
 #[derive(Debug, Default)]
 pub struct Slots {
     pub slots: Vec<Slot>,
     pub openings: Vec<Opening>,
+    pub rules: Rules,
+    /// What has been opened by a path since this was last taken.
+    pub opened: Vec<PathBuf>,
     next_id: u64,
 }
 
@@ -105,16 +142,27 @@ impl Slots {
         sources: Vec<(PathBuf, ReadOptions)>,
         target: Target,
     ) {
-        let gpu = gpu.cloned();
+        let mut reader = self.reader(gpu, &target);
         let what = sources.iter().map(|(p, _)| file_name(p)).collect::<Vec<_>>().join(", ");
         let job = Job::start(ctx, move |progress| {
             let one = |(path, options): (PathBuf, ReadOptions)| {
                 let read = read::read::<f32>(&path, &options, progress)?;
-                Ok(loaded(Origin::Path(path), options, read, gpu.as_ref()))
+                reader.take(path, options, read)
             };
             Ok(sources.into_iter().map(one).collect())
         });
         self.openings.push(Opening { what, target, job });
+    }
+
+    /// A reader of what goes to `target`.
+    fn reader(&self, gpu: Option<&Gpu>, target: &Target) -> Reader {
+        let ground_truth = self.ground_truth().filter(|ground_truth| match target {
+            Target::Everything => false,
+            Target::Predictions => true,
+            Target::Again(id) => *id != ground_truth.id,
+        });
+        let size = ground_truth.map(|slot| slot.loaded.material.size());
+        Reader { gpu: gpu.cloned(), rules: self.rules, size }
     }
 
     /// Starts to read the built-in pair.
@@ -149,7 +197,7 @@ impl Slots {
     }
 
     fn place(&mut self, target: Target, all: Vec<Result<Loaded, Error>>, errors: &mut Vec<String>) {
-        let mut loaded = Vec::new();
+        let mut loaded: Vec<Loaded> = Vec::new();
         let failed_first = matches!(all.first(), Some(Err(_)));
         for result in all {
             match result {
@@ -160,7 +208,12 @@ impl Slots {
         }
         match target {
             // Without its ground truth a prediction is no prediction: keep what was there.
-            Target::Everything if failed_first || loaded.is_empty() => {}
+            Target::Everything if failed_first || loaded.is_empty() => {
+                let left = loaded.iter().map(|one| one.material.name()).collect::<Vec<_>>().join(", ");
+                if !left.is_empty() {
+                    errors.push(format!("without its ground truth this was not opened either: {left}"));
+                }
+            }
             Target::Everything => {
                 self.slots.clear();
                 loaded.into_iter().for_each(|one| self.add(one, errors));
@@ -171,10 +224,11 @@ impl Slots {
     }
 
     fn add(&mut self, loaded: Loaded, errors: &mut Vec<String>) {
-        if let Some(ground_truth) = self.ground_truth()
-            && let Err(e) = loss::check_same_size(&ground_truth.loaded.material, &loaded.material)
-        {
-            return errors.push(e.to_string());
+        if let Some(misfit) = self.ground_truth().and_then(|ground_truth| misfit(ground_truth, &loaded)) {
+            return errors.push(misfit);
+        }
+        if let Origin::Path(path) = &loaded.origin {
+            self.opened.push(path.clone());
         }
         let id = self.new_id();
         self.slots.push(Slot { id, loaded: Arc::new(loaded) });
@@ -185,20 +239,11 @@ impl Slots {
         let Some(index) = self.slots.iter().position(|s| s.id == id) else { return };
         let new = Slot { id: self.new_id(), loaded: Arc::new(loaded) };
         if index == 0 {
-            let material = &new.loaded.material;
-            let fits =
-                |s: &Slot| loss::check_same_size(material, &s.loaded.material).map_err(|e| e.to_string());
-            let misfits = self.predictions().iter().filter_map(|s| fits(s).err());
-            errors.extend(misfits.map(|e| format!("a prediction was closed: {e}")));
-            let mut position = 0;
-            self.slots.retain(|s| {
-                position += 1;
-                position == 1 || fits(s).is_ok()
-            });
-        } else if let Some(ground_truth) = self.ground_truth()
-            && let Err(e) = loss::check_same_size(&ground_truth.loaded.material, &new.loaded.material)
-        {
-            return errors.push(e.to_string());
+            let misfits = self.predictions().iter().filter_map(|s| misfit(&new, &s.loaded));
+            errors.extend(misfits.map(|text| format!("a prediction was closed: {text}")));
+            self.slots.retain(|s| s.id == id || misfit(&new, &s.loaded).is_none());
+        } else if let Some(text) = self.ground_truth().and_then(|gt| misfit(gt, &new.loaded)) {
+            return errors.push(text);
         }
         self.slots[index] = new;
     }
@@ -231,10 +276,11 @@ impl Slots {
     /// Reads the material at `index` again under other options, which now stand alone.
     pub fn read_as(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, options: ReadOptions) {
         let Some((path, target)) = self.again(index) else { return };
-        let (asked, gpu, what) = (self.slots[index].loaded.asked, gpu.cloned(), file_name(&path));
+        let (asked, what) = (self.slots[index].loaded.asked, file_name(&path));
+        let mut reader = self.reader(gpu, &target);
         let job = Job::start(ctx, move |progress| {
             let read = read::read_as::<f32>(&path, &options, progress);
-            Ok(vec![read.map(|read| loaded(Origin::Path(path), asked, read, gpu.as_ref()))])
+            Ok(vec![read.and_then(|read| reader.take(path, asked, read))])
         });
         self.openings.push(Opening { what, target, job });
     }
@@ -275,6 +321,18 @@ impl Slots {
     }
 }
 
+/// Why `prediction` cannot stand beside the ground truth, for the user.
+fn misfit(ground_truth: &Slot, prediction: &Loaded) -> Option<String> {
+    let [a, b] = [&ground_truth.loaded.material, &prediction.material];
+    loss::check_same_size(a, b).err()?;
+    let [[w, h], [gt_w, gt_h]] = [b.size(), a.size()];
+    Some(format!(
+        "{} is {w} x {h}, the ground truth {} is {gt_w} x {gt_h}: tick \"Fit sizes\" under Materials, and open it again",
+        b.name(),
+        a.name()
+    ))
+}
+
 fn loaded(origin: Origin, asked: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
     let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
     let files = read.files.into_iter().map(|path| (changed(&path), path)).map(|(t, p)| (p, t)).collect();
@@ -283,11 +341,11 @@ fn loaded(origin: Origin, asked: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>
 }
 
 /// When a file was last changed; `None` where that cannot be told.
-pub fn changed(path: &std::path::Path) -> Option<SystemTime> {
+pub fn changed(path: &Path) -> Option<SystemTime> {
     std::fs::metadata(path).and_then(|m| m.modified()).ok()
 }
 
 /// The last part of a path, for people.
-pub fn file_name(path: &std::path::Path) -> String {
+pub fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned())
 }

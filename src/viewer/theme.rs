@@ -12,6 +12,9 @@ pub const SUN: Color32 = Color32::from_rgb(0xff, 0xd2, 0x4a);
 pub const EYE: Color32 = Color32::from_rgb(0xf5, 0xf5, 0xf5);
 const PROBLEM: Color32 = Color32::from_rgb(0xef, 0x7f, 0x71);
 const DARK_PROBLEM: Color32 = Color32::from_rgb(0xa3, 0x1d, 0x10);
+/// What is unsure, as text on dark and on light gray.
+const UNSURE: Color32 = Color32::from_rgb(0xff, 0x9f, 0x43);
+const DARK_UNSURE: Color32 = Color32::from_rgb(0x8f, 0x40, 0x00);
 
 /// The accent colour, readable on the theme's grays.
 pub fn accent(visuals: &Visuals) -> Color32 {
@@ -58,6 +61,7 @@ fn visuals(mut visuals: Visuals, [panel, widget, hovered]: [u8; 3], text: u8) ->
     visuals.widgets.hovered.bg_fill = gray(hovered);
     visuals.selection.bg_fill = ACCENT.gamma_multiply(0.55);
     visuals.selection.stroke = Stroke::new(1.0, gray(text));
-    visuals.hyperlink_color = ACCENT;
+    visuals.hyperlink_color = accent(&visuals);
+    visuals.warn_fg_color = if visuals.dark_mode { UNSURE } else { DARK_UNSURE };
     visuals
 }

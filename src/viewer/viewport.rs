@@ -127,7 +127,8 @@ impl Viewport {
             return Vec::new();
         }
         let contents = scenery.contents();
-        let cells = cells(area, contents.len(), scenery.slots[0].loaded.material.grid());
+        let grid = scenery.slots[0].loaded.material.grid();
+        let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
         let mut commands = Vec::new();
         for (i, (content, cell)) in contents.into_iter().zip(cells).enumerate() {
             commands.extend(self.pane(ui, scenery, gpu, i, content, cell));

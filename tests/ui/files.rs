@@ -71,3 +71,101 @@ fn the_saved_view_is_written_and_said_so() {
     let picture = image::open(&path).unwrap();
     assert_eq!((picture.width(), picture.height()), (3 * 256 + 2 * 4, 256));
 }
+
+#[test]
+fn what_was_said_already_is_not_said_twice() {
+    let Some(mut window) = built_in() else { return };
+    for _ in 0..2 {
+        window.input_mut().dropped_files =
+            vec![std::sync::Arc::new(Dropped("no/such/brick.png".into())) as _];
+        window.run_steps(2);
+        wait(&mut window, "the end of reading", |app| !app.is_reading());
+    }
+    let messages = window.state().messages();
+    assert_eq!(messages.len(), 1, "{messages:?}");
+}
+
+#[test]
+fn a_file_is_replaced_only_by_a_person_who_knows() {
+    let Some(mut window) = built_in() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("view.png");
+    std::fs::write(&path, "precious").unwrap();
+    window.get_by_label("Save").click();
+    window.run_steps(4);
+    // The field has the focus when the window opens.
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.run_steps(2);
+    window.event(egui::Event::Text(path.display().to_string()));
+    window.run_steps(2);
+    window.key_press(egui::Key::Enter);
+    window.run_steps(4);
+    assert_eq!(std::fs::read(&path).unwrap(), b"precious");
+    window.get_by_label("Replace it").click();
+    wait(&mut window, "the file", |app| !app.messages().is_empty());
+    assert!(image::open(&path).is_ok());
+}
+
+/// Two strips of the built-in ground truth, the second one a half as large.
+fn two_sizes(folder: &std::path::Path) -> [std::path::PathBuf; 2] {
+    let side = svbrdf::samples::generate::SIDE as u32;
+    let pixels = svbrdf::samples::generate::pack(&svbrdf::samples::generate::ground_truth());
+    let large = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
+    let small = image::imageops::thumbnail(&large, 2 * side, side / 2);
+    [("large.png", large), ("small.png", small)].map(|(name, picture)| {
+        let path = folder.join(name);
+        picture.save(&path).unwrap();
+        path
+    })
+}
+
+#[test]
+fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let [large, small] = two_sizes(folder.path());
+    for fit in [false, true] {
+        let options = ViewerOptions {
+            ground_truth: Some(large.clone()),
+            predictions: vec![small.clone()],
+            fit,
+            ..ViewerOptions::default()
+        };
+        let Some(mut window) = window(options) else { return };
+        window.set_size(vec2(1200.0, 2000.0));
+        wait(&mut window, "the end of reading", |app| !app.is_reading());
+        if fit {
+            assert_eq!(window.state().names(), ["large", "small"]);
+            window.get_by_label("Resized from 128 x 128 to the 256 x 256 of the ground truth.");
+            wait(&mut window, "the loss", |app| app.losses().is_some());
+        } else {
+            assert_eq!(window.state().names(), ["large"]);
+            assert!(
+                window.state().messages()[0].contains("tick \"Fit sizes\""),
+                "{:?}",
+                window.state().messages()
+            );
+        }
+    }
+}
+
+#[test]
+fn guesses_are_refused_where_the_window_was_told_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let [large, _] = two_sizes(folder.path());
+    let strip = image::open(large).unwrap();
+    let side = strip.height();
+    for map in 0..4 {
+        // Numbers for names: that these are N, D, R and S is a guess.
+        let path = folder.path().join(format!("map_{map}.png"));
+        strip.crop_imm(map * side, 0, side, side).save(path).unwrap();
+    }
+    for strict in [false, true] {
+        let ground_truth = Some(folder.path().join("map"));
+        let Some(window) = window(ViewerOptions { ground_truth, strict, ..ViewerOptions::default() }) else {
+            return;
+        };
+        assert_eq!(window.state().names().len(), usize::from(!strict));
+        let refused = window.state().messages().iter().any(|text| text.contains("ambiguous"));
+        assert_eq!(refused, strict, "{:?}", window.state().messages());
+    }
+}

@@ -16,3 +16,63 @@ fn a_double_click_on_a_number_puts_back_its_default() {
     window.run_steps(6);
     assert_eq!(window.state().state.exposure_ev, 0.0);
 }
+
+#[test]
+fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
+    let Some(mut window) = built_in() else { return };
+    window.set_size(vec2(1200.0, 2000.0));
+    window.run_steps(4);
+    press(&mut window, egui::Key::Num2);
+    assert_eq!(window.state().state.prediction, 1);
+    window.get_all_by_label("Close").next().unwrap().click();
+    window.run_steps(4);
+    assert_eq!(window.state().names(), ["worn tiles", "wrong roughness"]);
+    assert_eq!(window.state().state.prediction, 0);
+    window.get_all_by_label("Close").next().unwrap().click();
+    window.run_steps(4);
+    assert_eq!((window.state().names().len(), window.state().state.prediction), (1, 0));
+}
+
+#[test]
+fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
+    let Some(mut window) = built_in() else { return };
+    for name in ["Near-field scenes", "Distant scenes"] {
+        let number = egui::accesskit::Role::SpinButton;
+        window.get_by_role_and_label(number, name).click();
+        window.run_steps(2);
+        window.get_by_role_and_label(number, name).type_text("0");
+        press(&mut window, egui::Key::Enter);
+    }
+    window.run_steps(30);
+    window.get_by_label_contains("at least one scene");
+    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+    window.get_by_label("Undo");
+    let number = egui::accesskit::Role::SpinButton;
+    window.get_by_role_and_label(number, "Near-field scenes").click();
+    window.run_steps(2);
+    window.get_by_role_and_label(number, "Near-field scenes").type_text("3");
+    press(&mut window, egui::Key::Enter);
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    assert_eq!(window.query_all_by_label_contains("at least one scene").count(), 0);
+}
+
+#[test]
+fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
+    let Some(mut window) = built_in() else { return };
+    window.set_size(vec2(900.0, 600.0));
+    let path =
+        |i| format!("/runs/of/a/very/long/name/that/does/not/fit/into/one/line/of/the/window/epoch_{i:04}");
+    window.state_mut().settings.recent = (0..12).map(|i| path(i).into()).collect();
+    window.get_by_label("Open").click();
+    window.run_steps(6);
+    let button = window.get_by_label("Open these").rect();
+    assert!(button.bottom() < 600.0 && button.top() > 0.0, "{button:?}");
+    let end = window.get_by_label_contains("epoch_0001").rect();
+    assert!(end.right() < 700.0, "{end:?}");
+    window.get_by_label_contains("epoch_0001").click();
+    window.run_steps(3);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Enter);
+    wait(&mut window, "the error", |app| !app.messages().is_empty());
+    assert!(window.state().messages()[0].contains(&path(1)), "{:?}", window.state().messages());
+    assert_eq!(window.state().settings.recent.len(), 12, "what could not be opened is not remembered");
+}

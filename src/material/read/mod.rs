@@ -88,6 +88,17 @@ impl<T> Read<T> {
     pub fn unsure(&self) -> impl Iterator<Item = &Assumption> {
         self.assumptions.iter().filter(|a| a.certainty == Certainty::Unsure)
     }
+
+    /// Takes no guesses; `path` is what was read.
+    ///
+    /// # Errors
+    /// [`Error::Guessed`].
+    pub fn refuse_guesses(&self, path: &Path) -> Result<(), Error> {
+        match self.unsure().map(ToString::to_string).collect::<Vec<_>>() {
+            guesses if guesses.is_empty() => Ok(()),
+            guesses => Err(Error::Guessed { path: path.to_owned(), guesses: guesses.join("; ") }),
+        }
+    }
 }
 
 /// Reads the material that `path` names: a packed or layered image, a folder, the common prefix of files, or one of them.

@@ -42,7 +42,11 @@ impl LossPanel<'_> {
         }
         self.controls(ui, &mut commands);
         if self.slots.predictions().is_empty() {
-            ui.label("Open a prediction to compare with the ground truth.");
+            let missing = match self.slots.ground_truth() {
+                Some(_) => "Open a prediction to compare with the ground truth.",
+                None => "Open a ground truth and predictions of it.",
+            };
+            ui.label(missing);
             return commands;
         }
         self.state(ui);
@@ -89,6 +93,10 @@ impl LossPanel<'_> {
             let text = format!("{doing}, {} s", elapsed.as_secs());
             let height = ui.spacing().interact_size.y;
             ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
+            return;
+        }
+        if let Some(problem) = self.run.problem() {
+            ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
             return;
         }
         let text = match self.run.shown() {

@@ -26,6 +26,12 @@ impl MaterialsPanel<'_> {
             if watch != self.watch {
                 commands.push(Command::SetWatch(watch));
             }
+            let mut fit = self.slots.rules.fit;
+            ui.checkbox(&mut fit, "Fit sizes")
+                .on_hover_text("Resize predictions that are opened from now on to the ground truth");
+            if fit != self.slots.rules.fit {
+                commands.push(Command::SetFit(fit));
+            }
             if ui.button("Built-in pair").clicked() {
                 commands.push(Command::OpenBuiltIn);
             }

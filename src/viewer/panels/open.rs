@@ -18,6 +18,24 @@ pub struct OpenWindow {
     focused: bool,
 }
 
+/// Height of what is below the materials that were opened before, and least height of these.
+const BELOW_RECENT: f32 = 230.0;
+const LEAST_RECENT: f32 = 60.0;
+
+/// The end of a path that fits into a line: there paths of one run differ.
+fn ending(ui: &egui::Ui, path: &str) -> String {
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let room = ui.available_width() - 2.0 * ui.spacing().button_padding.x - 8.0;
+    let width = |text: &str| {
+        ui.ctx().fonts_mut(|f| f.layout_no_wrap(text.to_owned(), font.clone(), egui::Color32::WHITE).size().x)
+    };
+    if width(path) <= room {
+        return path.to_owned();
+    }
+    let starts = path.char_indices().map(|(at, _)| format!("...{}", &path[at..]));
+    starts.skip(1).find(|end| width(end) <= room).unwrap_or_else(|| path.to_owned())
+}
+
 impl From<ReadOptions> for OpenWindow {
     fn from(read: ReadOptions) -> Self {
         Self { read, ..Self::default() }
@@ -32,10 +50,14 @@ impl OpenWindow {
             .open(&mut open)
             .collapsible(false)
             .default_width(460.0)
-            .anchor(egui::Align2::CENTER_TOP, [0.0, 60.0])
+            .anchor(egui::Align2::CENTER_TOP, [0.0, 40.0])
             .show(ctx, |ui| {
                 self.paths(ui, &mut commands);
-                self.recent(ui, recent);
+                // What opens them stays in sight, however many there were before.
+                let rest = ui.ctx().content_rect().bottom() - ui.cursor().top() - BELOW_RECENT;
+                egui::ScrollArea::vertical()
+                    .max_height(rest.max(LEAST_RECENT))
+                    .show(ui, |ui| self.recent(ui, recent));
                 ui.separator();
                 self.choices(ui, &mut commands);
             });
@@ -72,7 +94,8 @@ impl OpenWindow {
         ui.label(RichText::new("Opened before").weak());
         for path in recent {
             let path = path.display().to_string();
-            if ui.add(egui::Button::selectable(false, &path).truncate()).clicked() {
+            let shown = ending(ui, &path);
+            if ui.selectable_label(false, shown).on_hover_text(&path).clicked() {
                 self.add(&path);
             }
         }
@@ -97,7 +120,8 @@ impl OpenWindow {
         let paths: Vec<PathBuf> =
             self.text.lines().map(str::trim).filter(|l| !l.is_empty()).map(PathBuf::from).collect();
         let button = ui.add_enabled(!paths.is_empty(), egui::Button::new("Open these"));
-        if button.clicked() {
+        let entered = ui.input_mut(|i| i.consume_key(egui::Modifiers::COMMAND, egui::Key::Enter));
+        if button.on_hover_text("Ctrl+Enter").clicked() || (entered && !paths.is_empty()) {
             commands.push(Command::Open { paths, replace: !self.as_predictions, read: self.read });
             commands.push(Command::ShowOpen(false));
         }

@@ -5,16 +5,21 @@ use std::path::PathBuf;
 use eframe::egui::{self, RichText};
 
 use crate::viewer::command::Command;
+use crate::viewer::theme;
 
 /// The path typed so far.
 #[derive(Debug)]
 pub struct SaveWindow {
     pub path: String,
+    /// The path of a file that is there already, once a person has been told so.
+    replaces: Option<String>,
+    /// Whether the path field has had the focus that it gets when the window opens.
+    focused: bool,
 }
 
 impl Default for SaveWindow {
     fn default() -> Self {
-        Self { path: "svbrdf-view.png".to_owned() }
+        Self { path: "svbrdf-view.png".to_owned(), replaces: None, focused: false }
     }
 }
 
@@ -29,8 +34,12 @@ impl SaveWindow {
             .anchor(egui::Align2::CENTER_TOP, [0.0, 60.0])
             .show(ctx, |ui| {
                 let label = ui.label("To file (.png as displayed, .exr as linear floats):");
-                ui.add(egui::TextEdit::singleline(&mut self.path).desired_width(f32::INFINITY))
-                    .labelled_by(label.id);
+                let field = egui::TextEdit::singleline(&mut self.path).desired_width(f32::INFINITY);
+                let field = ui.add(field).labelled_by(label.id);
+                if !std::mem::replace(&mut self.focused, true) {
+                    field.request_focus();
+                }
+                let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
                 ui.label(
                     RichText::new(
                         "Ground truth and predictions side by side, a pixel a texel, with light, view, exposure \
@@ -39,14 +48,28 @@ impl SaveWindow {
                     .small()
                     .weak(),
                 );
-                if ui.button("Save picture").clicked() {
-                    commands.push(Command::SaveView(PathBuf::from(self.path.trim())));
-                    commands.push(Command::ShowSave(false));
+                let told = self.replaces.as_deref() == Some(self.path.trim());
+                if told {
+                    ui.colored_label(theme::problem(ui.visuals()), "This file exists already.");
+                }
+                if ui.button(if told { "Replace it" } else { "Save picture" }).clicked() || entered {
+                    self.save(&mut commands);
                 }
             });
         if !open {
             commands.push(Command::ShowSave(false));
         }
         commands
+    }
+
+    /// Saves, unless that would replace a file and nobody has been told yet.
+    fn save(&mut self, commands: &mut Vec<Command>) {
+        let path = PathBuf::from(self.path.trim());
+        if path.exists() && self.replaces.as_deref() != Some(self.path.trim()) {
+            self.replaces = Some(self.path.trim().to_owned());
+            return;
+        }
+        commands.push(Command::SaveView(path));
+        commands.push(Command::ShowSave(false));
     }
 }

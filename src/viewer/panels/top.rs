@@ -48,11 +48,13 @@ impl TopBar<'_> {
         if shown != self.state.shown {
             commands.push(Command::SetShown(shown));
         }
-        let text = match self.state.projection {
-            Projection::Flat => "Flat",
-            Projection::Perspective => "Perspective",
-        };
-        button(ui, text, "Flat texture or perspective (P)", commands, Command::ToggleProjection);
+        let perspective = self.state.projection == Projection::Perspective;
+        let toggle = ui
+            .selectable_label(perspective, "Perspective")
+            .on_hover_text("The plane as seen from the view's position, or the flat texture (P)");
+        if toggle.clicked() {
+            commands.push(Command::ToggleProjection);
+        }
         let swap = ui.selectable_label(self.swapped, "Swap").on_hover_text(
             "Prediction and ground truth change places (X); hold G to peek at the ground truth",
         );
@@ -93,8 +95,10 @@ impl TopBar<'_> {
     }
 
     fn window(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let theme = if self.dark { "Light theme" } else { "Dark theme" };
-        button(ui, theme, "Darker or lighter window", commands, Command::SetDark(!self.dark));
+        let light = ui.selectable_label(!self.dark, "Light").on_hover_text("Light or dark window");
+        if light.clicked() {
+            commands.push(Command::SetDark(!self.dark));
+        }
         let panel = ui.selectable_label(self.side_panel, "Panel").on_hover_text("Side panel (B)");
         if panel.clicked() {
             commands.push(Command::ToggleSidePanel);
