@@ -34,7 +34,7 @@
 //! | [`render`] | Algorithm 3 over a whole material |
 //! | [`loss`] | Algorithm 1: plain and generic, and fused for f32; standard errors |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
-//! | [`display`], [`export`] | what a screen shows; renderings as PNG and EXR files |
+//! | [`display`], [`colour_map`], [`export`] | what a screen shows, of radiance and of differences; pictures as PNG and EXR files |
 //! | [`camera`], [`view`] | where in a pane the material is seen, and what of it |
 //! | [`report`] | losses with what gives them a meaning, as text |
 //! | [`progress`], [`error`] | long work watched and cancelled; one error variant a cause |
@@ -52,6 +52,7 @@
 
 pub mod brdf;
 pub mod camera;
+pub mod colour_map;
 pub mod convention;
 pub mod display;
 pub mod error;

@@ -60,6 +60,14 @@ pub fn render_f32(
     fused::render_at(fused::Level::best(), material, scene, convention, progress)
 }
 
+/// |ln(a + epsilon) - ln(b + epsilon)| of every number of two pictures of one size: what the loss is the mean of.
+pub fn log_difference(a: &Image<f32>, b: &Image<f32>, epsilon: f32) -> Image<f32> {
+    let one = |a: f32, b: f32| ((a + epsilon).ln() - (b + epsilon).ln()).abs();
+    let pairs = a.pixels.par_iter().zip(&b.pixels);
+    let pixels = pairs.map(|(a, b)| std::array::from_fn(|c| one(a[c], b[c]))).collect();
+    Image { width: a.width, height: a.height, pixels }
+}
+
 /// Renders the texel in column `column` of row `row`.
 pub fn render_texel<T: Real>(
     material: &Material<T>,

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use svbrdf::convention::Convention;
 use svbrdf::error::Error;
-use svbrdf::export::{Destination, Provenance};
+use svbrdf::export::{Destination, Provenance, Shows};
+use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
 use svbrdf::render::{self, Image};
 use svbrdf::scene::{Kind, Scene};
@@ -44,6 +45,10 @@ pub struct RenderArgs {
     #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
     exposure: f32,
 
+    /// Instead of radiance how far each prediction is from GT: |ln(PRED + epsilon) - ln(GT + epsilon)|, in a PNG as colours
+    #[arg(long)]
+    difference: bool,
+
     /// Renders on the graphics adapter instead of the CPU
     #[arg(long)]
     gpu: bool,
@@ -61,8 +66,14 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
     let scene = scene(args);
     scene.check().map_err(|problem| Error::UnusableScene { problem })?;
     let materials = materials::open::<f32>(&args.materials)?.into_all();
+    if let (true, [ground_truth, predictions @ ..]) = (args.difference, materials.as_slice()) {
+        predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
+    }
     check_heights(&materials)?;
-    let (panes, renderer) = panes(args, &materials, &scene)?;
+    let (mut panes, renderer) = panes(args, &materials, &scene)?;
+    if args.difference {
+        panes = differences(&panes, args.convention.epsilon as f32)?;
+    }
     destination.write(&panes, &provenance(args, &materials, scene, renderer))
 }
 
@@ -73,11 +84,22 @@ fn scene(args: &RenderArgs) -> Scene {
 
 fn provenance(args: &RenderArgs, materials: &[Material<f32>], scene: Scene, renderer: String) -> Provenance {
     Provenance {
+        shows: if args.difference { Shows::LogDifference } else { Shows::Radiance },
         scene,
         convention: args.convention,
         exposure_ev: args.exposure,
         sources: materials.iter().map(|m| m.name().to_owned()).collect(),
         renderer,
+    }
+}
+
+/// Of every picture but the first the difference to that.
+fn differences(panes: &[Image<f32>], epsilon: f32) -> Result<Vec<Image<f32>>, Error> {
+    match panes {
+        [ground_truth, predictions @ ..] if !predictions.is_empty() => {
+            Ok(predictions.iter().map(|p| render::log_difference(p, ground_truth, epsilon)).collect())
+        }
+        _ => Err(Error::Usage("--difference compares predictions with a ground truth: name both".to_owned())),
     }
 }
 

@@ -8,8 +8,9 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-pub use provenance::Provenance;
+pub use provenance::{Provenance, Shows};
 
+use crate::colour_map::difference_to_display;
 use crate::display::to_display;
 use crate::error::Error;
 use crate::render::Image;
@@ -58,7 +59,7 @@ impl Destination {
                 self.replace(|file| exr::write(file, picture, provenance))
             }
             Format::Png => {
-                let shown: Vec<_> = panes.iter().map(|p| displayed(p, provenance.exposure_ev)).collect();
+                let shown: Vec<_> = panes.iter().map(|p| displayed(p, provenance)).collect();
                 let picture = side_by_side(&shown, MID_GRAY);
                 self.replace(|file| png::write(file, &picture, provenance))
             }
@@ -156,8 +157,12 @@ fn side_by_side<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
     Image { width, height, pixels }
 }
 
-fn displayed(image: &Image<f32>, exposure_ev: f32) -> Image<u8> {
-    let pixels = image.pixels.iter().map(|&rgb| to_display(rgb, exposure_ev)).collect();
+fn displayed(image: &Image<f32>, provenance: &Provenance) -> Image<u8> {
+    let colour = match provenance.shows {
+        Shows::Radiance => to_display,
+        Shows::LogDifference => difference_to_display,
+    };
+    let pixels = image.pixels.iter().map(|&rgb| colour(rgb, provenance.exposure_ev)).collect();
     Image { width: image.width, height: image.height, pixels }
 }
 

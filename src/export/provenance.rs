@@ -1,16 +1,28 @@
 //! Where a picture comes from: what it takes to make it again.
 
+use crate::colour_map::FULL_DIFFERENCE;
 use crate::convention::Convention;
 use crate::scene::{Kind, Scene};
+
+/// What the numbers of a picture are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shows {
+    /// Linear radiance.
+    #[default]
+    Radiance,
+    /// How far the logarithms of predictions are from those of the ground truth; a PNG has them as colours.
+    LogDifference,
+}
 
 /// What a picture shows, and how.
 #[derive(Clone, Debug)]
 pub struct Provenance {
+    pub shows: Shows,
     pub scene: Scene,
     pub convention: Convention,
     /// Stops by which a PNG is brightened; an EXR keeps the radiance as it is.
     pub exposure_ev: f32,
-    /// The names of the materials, from left to right.
+    /// The names of the materials, from left to right; of differences the ground truth first.
     pub sources: Vec<String>,
     /// What rendered it: the CPU or the name of an adapter.
     pub renderer: String,
@@ -27,7 +39,17 @@ impl Provenance {
             Kind::Near => "near",
             Kind::Distant => "distant",
         };
+        let shows = match self.shows {
+            Shows::Radiance => "radiance".to_owned(),
+            Shows::LogDifference => {
+                let epsilon = self.convention.epsilon;
+                format!(
+                    "|ln(prediction + {epsilon}) - ln(ground truth + {epsilon})|, {FULL_DIFFERENCE} the last colour at 0 EV"
+                )
+            }
+        };
         vec![
+            ("svbrdf:shows", shows),
             ("svbrdf:sources", self.sources.join(" | ")),
             ("svbrdf:convention", self.convention.name.to_owned()),
             ("svbrdf:kind", kind.to_owned()),

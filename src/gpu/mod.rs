@@ -11,7 +11,6 @@
 //! panic: they are an [`Error::Gpu`](crate::error::Error::Gpu) or wait in [`Gpu::take_fault`].
 
 mod adapter;
-mod colour_map;
 mod context;
 mod display;
 mod fault;
@@ -25,7 +24,6 @@ mod textures;
 pub mod uniforms;
 
 pub use adapter::AdapterReport;
-pub use colour_map::heat;
 pub use context::Gpu;
 pub use display::{Display, DisplayMode, DisplayParams, Encoding, Pane};
 pub use loss::Losses;

@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Color32, FontId, Painter, Rect, Stroke, StrokeKind, pos2, vec2};
 
 use super::state::ViewState;
-use crate::gpu::heat;
+use crate::colour_map::{FULL_DIFFERENCE, heat};
 use crate::view::Shown;
 
 /// Colours in the bar.
@@ -13,7 +13,7 @@ const STEPS: usize = 64;
 ///
 /// Of renderings it is one of natural logarithms, and the exposure makes small ones visible; of maps it is plain.
 pub fn largest(state: &ViewState) -> f32 {
-    if state.shown == Shown::Rendering { 2.0 * (-state.exposure_ev).exp2() } else { 1.0 }
+    if state.shown == Shown::Rendering { FULL_DIFFERENCE * (-state.exposure_ev).exp2() } else { 1.0 }
 }
 
 /// Paints the bar into the lower left corner of a pane.

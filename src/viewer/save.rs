@@ -6,15 +6,24 @@ use std::sync::Arc;
 use eframe::egui;
 
 use super::slots::{Loaded, Slots};
-use super::state::ViewState;
+use super::state::{Layout, ViewState};
 use super::worker::Job;
-use crate::export::{Destination, Provenance};
+use crate::export::{Destination, Provenance, Shows};
 use crate::render;
 
-/// Starts to render all materials and to write them side by side to `path`.
+/// What a layout is saved as.
+pub fn shows(layout: Layout) -> Shows {
+    match layout {
+        Layout::Difference => Shows::LogDifference,
+        Layout::SideBySide | Layout::Wipe | Layout::Single => Shows::Radiance,
+    }
+}
+
+/// Starts to render all materials and to write them, or the differences of the predictions, side by side to `path`.
 pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBuf) -> Job<PathBuf> {
     let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|s| s.loaded.clone()).collect();
     let provenance = Provenance {
+        shows: if materials.len() > 1 { shows(state.layout) } else { Shows::Radiance },
         scene: state.scene,
         convention: state.convention(),
         exposure_ev: state.exposure_ev,
@@ -26,7 +35,12 @@ pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBu
         let render = |loaded: &Arc<Loaded>| {
             render::render_f32(&loaded.material, &provenance.scene, &provenance.convention, progress)
         };
-        let panes = materials.iter().map(render).collect::<Result<Vec<_>, _>>()?;
+        let mut panes = materials.iter().map(render).collect::<Result<Vec<_>, _>>()?;
+        if provenance.shows == Shows::LogDifference {
+            let ground_truth = panes.remove(0);
+            let epsilon = provenance.convention.epsilon as f32;
+            panes = panes.iter().map(|p| render::log_difference(p, &ground_truth, epsilon)).collect();
+        }
         destination.write(&panes, &provenance)?;
         Ok(path)
     })

@@ -11,6 +11,7 @@ use super::panels::scene::ScenePanel;
 use super::panels::status::StatusBar;
 use super::panels::study::{self, Setting, StudyWindow};
 use super::panels::top::TopBar;
+use super::save;
 use super::viewport::Scenery;
 
 impl App {
@@ -108,7 +109,7 @@ impl App {
             commands.extend(window.ui(ctx, &self.settings.recent));
         }
         if let Some(window) = &mut self.save_window {
-            commands.extend(window.ui(ctx));
+            commands.extend(window.ui(ctx, save::shows(self.state.layout)));
         }
         commands
     }

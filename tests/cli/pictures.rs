@@ -2,15 +2,17 @@
 
 use std::path::Path;
 
+use svbrdf::colour_map::difference_to_display;
 use svbrdf::convention::PRINTED;
 use svbrdf::display::to_display;
 use svbrdf::export::GAP;
+use svbrdf::loss::losses_f32;
 use svbrdf::progress::Progress;
 use svbrdf::render::{Image, render_f32};
 use svbrdf::samples;
 use svbrdf::scene::{Kind, Scene};
 
-use super::{folder, succeed};
+use super::{fail, folder, succeed};
 
 /// The built-in materials as `render` shows them: side by side.
 fn panes(scene: &Scene) -> Vec<Image<f32>> {
@@ -96,4 +98,55 @@ fn a_png_shows_the_rendering_and_says_where_it_comes_from() {
     assert_eq!(said("svbrdf:exposure"), Some("-1 EV"));
     assert_eq!(said("svbrdf:convention"), Some("printed"));
     assert!(said("svbrdf:sources").is_some() && said("Software").is_some());
+}
+
+/// The loss of each built-in prediction in one scene, as the core computes it.
+fn losses_in(scene: Scene) -> Vec<f64> {
+    let built_in = samples::load::<f32>().unwrap();
+    let predictions: Vec<_> = built_in.predictions.iter().map(|read| &read.material).collect();
+    let ground_truth = &built_in.ground_truth.material;
+    let losses = losses_f32(ground_truth, &predictions, &[scene], &PRINTED, &Progress::default()).unwrap();
+    losses.into_iter().map(|loss| loss.estimate.mean).collect()
+}
+
+#[test]
+fn the_mean_of_a_difference_is_the_loss_in_that_scene() {
+    let folder = folder();
+    succeed(folder.path(), "render --difference -o out.exr --view 0.2,-0.3,2 --light -1,0.5,0.8");
+    let scene = Scene { kind: Kind::Near, view: [0.2, -0.3, 2.0], light: [-1.0, 0.5, 0.8] };
+    let expected = losses_in(scene);
+    let picture = image_of_exr(&folder.path().join("out.exr"));
+    let side = picture.height;
+    assert_eq!(picture.width, expected.len() * (side + GAP) - GAP);
+    for (i, loss) in expected.iter().enumerate() {
+        let of_row = |y: usize| &picture.pixels[y * picture.width + i * (side + GAP)..][..side];
+        let sum: f64 = (0..side).flat_map(of_row).flatten().map(|x| f64::from(*x)).sum();
+        let mean = sum / (3 * side * side) as f64;
+        assert!((mean / loss - 1.0).abs() < 1e-5, "{mean}, not {loss}");
+        assert!((mean / losses_in(Scene { light: [-1.0, 0.5, 0.81], ..scene })[i] - 1.0).abs() > 1e-5);
+    }
+}
+
+#[test]
+fn a_png_of_a_difference_has_the_colours_of_the_map_and_says_so() {
+    let folder = folder();
+    succeed(folder.path(), "render --difference -o out.exr");
+    succeed(folder.path(), "render --difference -o out.png --exposure 1");
+    let floats = image_of_exr(&folder.path().join("out.exr"));
+    let (width, side) = (floats.width, floats.height);
+    let shown = image::open(folder.path().join("out.png")).unwrap().into_rgb8();
+    for (x, y, pixel) in shown.enumerate_pixels().filter(|(x, ..)| (*x as usize) < side) {
+        let logarithms = floats.pixels[y as usize * width + x as usize];
+        assert_eq!(pixel.0, difference_to_display(logarithms, 1.0), "{x}, {y}");
+    }
+    let bytes = std::fs::read(folder.path().join("out.png")).unwrap();
+    let text = b"|ln(prediction + 0.01) - ln(ground truth + 0.01)|";
+    assert!(bytes.windows(text.len()).any(|window| window == text));
+}
+
+#[test]
+fn a_difference_needs_two_materials_of_one_size() {
+    let folder = folder();
+    fail(folder.path(), "render gt.png --difference -o out.png", 64);
+    fail(folder.path(), "render gt.png big.png --difference -o out.png", 1);
 }

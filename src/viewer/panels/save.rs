@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
+use crate::export::Shows;
 use crate::viewer::command::Command;
 use crate::viewer::theme;
 
@@ -24,7 +25,8 @@ impl Default for SaveWindow {
 }
 
 impl SaveWindow {
-    pub fn ui(&mut self, ctx: &egui::Context) -> Vec<Command> {
+    /// `shows` is what will be in the file.
+    pub fn ui(&mut self, ctx: &egui::Context, shows: Shows) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut open = true;
         egui::Window::new("Save view")
@@ -40,14 +42,15 @@ impl SaveWindow {
                     field.request_focus();
                 }
                 let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-                ui.label(
-                    RichText::new(
-                        "Ground truth and predictions side by side, a pixel a texel, with light, view, exposure \
-                         and convention in the file: what `svbrdf render` writes for the same numbers.",
-                    )
-                    .small()
-                    .weak(),
+                let what = match shows {
+                    Shows::Radiance => "Renderings of ground truth and predictions",
+                    Shows::LogDifference => "The log difference of every prediction",
+                };
+                let text = format!(
+                    "{what}, side by side, a pixel a texel, with light, view, exposure and convention in the file: \
+                     what `svbrdf render` writes for the same numbers."
                 );
+                ui.label(RichText::new(text).small().weak());
                 let told = self.replaces.as_deref() == Some(self.path.trim());
                 if told {
                     ui.colored_label(theme::problem(ui.visuals()), "This file exists already.");

@@ -1,0 +1,52 @@
+//! The colour map of differences: for legends, and the twin of `shaders/colour_map.wgsl`.
+
+/// Coefficients of rising powers: the polynomial fit of matplotlib's `inferno` that Matt Zucker placed under CC0.
+const COEFFICIENTS: [[f32; 3]; 7] = [
+    [0.000_218_940_37, 0.001_651_004_6, -0.019_480_899],
+    [0.106_513_42, 0.563_956_44, 3.932_712_4],
+    [11.602_493, -3.972_854, -15.942_394],
+    [-41.703_995, 17.436_4, 44.354_145],
+    [77.162_93, -33.402_36, -81.807_31],
+    [-71.319_43, 32.626_064, 73.209_52],
+    [25.131_126, -12.242_669, -23.070_325],
+];
+
+/// The difference of logarithms that takes the last colour at exposure 0.
+pub const FULL_DIFFERENCE: f32 = 2.0;
+
+/// The colour of a texel whose channels differ by these logarithms, in 8 bits: of their mean, brightened by
+/// `exposure_ev` stops.
+pub fn difference_to_display(logarithms: [f32; 3], exposure_ev: f32) -> [u8; 3] {
+    let mean = logarithms.iter().sum::<f32>() / 3.0;
+    heat(mean * exposure_ev.exp2() / FULL_DIFFERENCE).map(|c| (c * 255.0 + 0.5).floor() as u8)
+}
+
+/// The colour, encoded for the screen, of an amount from 0 (black) to 1 (light yellow); what lies beyond is clamped.
+pub fn heat(amount: f32) -> [f32; 3] {
+    let t = amount.clamp(0.0, 1.0);
+    let polynomial = |c: usize| COEFFICIENTS.iter().rev().fold(0.0, |sum, row| sum * t + row[c]);
+    [0, 1, 2].map(|c| polynomial(c).clamp(0.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_grows_brighter_all_the_way() {
+        let luminance = |t: f32| {
+            let [r, g, b] = heat(t).map(|c| f64::from(c).powf(2.2));
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let steps: Vec<f64> = (0..=64_u8).map(|i| luminance(f32::from(i) / 64.0)).collect();
+        assert!(steps.is_sorted(), "{steps:?}");
+        assert!(steps[0] < 0.001 && steps[64] > 0.7);
+    }
+
+    #[test]
+    fn a_stop_halves_the_difference_that_has_a_colour() {
+        assert_eq!(difference_to_display([0.2, 0.4, 0.6], 1.0), difference_to_display([0.8; 3], 0.0));
+        assert_ne!(difference_to_display([0.4; 3], 0.0), difference_to_display([0.8; 3], 0.0));
+        assert_eq!(difference_to_display([9.0; 3], 0.0), difference_to_display([FULL_DIFFERENCE; 3], 0.0));
+    }
+}
