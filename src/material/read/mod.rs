@@ -9,6 +9,7 @@
 mod assumption;
 mod binding;
 mod decode;
+mod directory;
 mod encoding;
 mod evidence;
 mod folder;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::folder::listing;
+use super::directory::listing;
 use super::names::{Label, Role, words};
 use crate::error::Error;
 
@@ -90,7 +90,8 @@ pub fn choose(
     Ok(set)
 }
 
-fn is_picture(name: &str) -> bool {
+/// Whether a file of this name counts as a picture.
+pub fn is_picture(name: &str) -> bool {
     let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_lowercase();
     EXTENSIONS.contains(&extension.as_str())
 }
