@@ -51,7 +51,7 @@ pub fn open(
     }
     let roles: Vec<_> = bound.iter().map(|(role, _)| *role).collect();
     let set = set::choose(path, &names, None, &roles)?;
-    if set.files.is_empty() && bound.is_empty() && !set.riddles.is_empty() {
+    if prefix.is_empty() && set.files.is_empty() && bound.is_empty() && !set.riddles.is_empty() {
         match open_packed(path, folder, &set.riddles, options, progress) {
             Err(Error::NotAMaterial { .. }) if set.riddles.len() == 1 => {}
             found => return found,
