@@ -214,10 +214,10 @@ fn damaged_files_that_are_kept_with_a_material_never_panic() {
     let image = packed("NDRS", 4, |_, v| v);
     image.save_with_format(folder.path().join("damaged.png"), ImageFormat::Png).unwrap();
     let gray = packed("R", 1, |_, v| v);
-    gray.save_with_format(folder.path().join("r.png"), ImageFormat::Png).unwrap();
+    gray.save_with_format(folder.path().join("damaged_r.png"), ImageFormat::Png).unwrap();
     let path = folder.path().join("damaged.svbrdf.json");
     let whole = br#"{"albedo": "srgb", "dielectric-f0": 0.05, "grid": "4x1", "order": "ndrs", "flip-v": true,
-        "exemplar": 0, "maps": {"roughness": "r.png:g"}, "preset": "gao"}"#;
+        "exemplar": 0, "maps": {"roughness": "damaged_r.png:g"}, "preset": "gao"}"#;
     try_all("kept", whole, damaged, |bytes| {
         std::fs::write(&path, bytes).unwrap();
         read(&path, &ReadOptions::AUTO, &Progress::default())

@@ -37,7 +37,7 @@ Exit codes:
 /// Shows SVBRDF materials under a light that you drag, and computes the rendering loss between them.
 ///
 /// A material is a packed image (photos, then normal | diffuse | roughness | specular, or another order), a layered
-/// EXR or npz, or a folder or name prefix with one file a map. Without a subcommand: `view`.
+/// EXR or npz, a glTF, MaterialX or MTL file, or a folder or name prefix with one file a map. Without a subcommand: `view`.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 pub struct Cli {

@@ -12,6 +12,7 @@ use super::state::{self, Layout, ViewState};
 use super::worker::Job;
 use crate::brdf::Model;
 use crate::material::Material;
+use crate::material::read::EXTENSIONS;
 use crate::render::render_texel;
 use crate::scene::{Scene, SceneFile};
 use crate::view::Shown;
@@ -251,7 +252,7 @@ fn browse(ctx: &egui::Context, folder: bool) -> Job<Vec<std::path::PathBuf>> {
         let chosen = if folder {
             pollster::block_on(dialog.pick_folders())
         } else {
-            pollster::block_on(dialog.add_filter("images", &["png"]).pick_files())
+            pollster::block_on(dialog.add_filter("materials", &EXTENSIONS).pick_files())
         };
         Ok(chosen.unwrap_or_default().iter().map(|handle| handle.path().to_owned()).collect())
     })

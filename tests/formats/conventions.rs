@@ -3,6 +3,7 @@
 use svbrdf::material::read::Workflow;
 
 use super::*;
+use crate::support::pictures::layered_with_more;
 
 /// Writes a picture of one value, the same in all channels.
 fn plain(folder: &Path, name: &str, value: f64) {
@@ -52,6 +53,18 @@ fn maps_of_the_other_workflow_are_said_to_be_unused() {
     assert_eq!(unused(&open(folder.path())), ["diffuse.png", "specular.png"]);
     let options = ReadOptions { workflow: Some(Workflow::Specular), ..ReadOptions::AUTO };
     assert_eq!(unused(&open_as(folder.path(), &options)), ["basecolor.png", "metallic.png"]);
+}
+
+#[test]
+fn layers_of_no_use_are_said_to_be_unused() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("a.exr");
+    layered_with_more(&path);
+    let read = open(&path);
+    assert_same(&read, HALF);
+    for layer in ["opacity", "height"] {
+        assert!(read.notes.contains(&format!("Layer {layer} is not used.")), "{:?}", read.notes);
+    }
 }
 
 #[test]

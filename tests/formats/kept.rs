@@ -69,6 +69,9 @@ fn everything_that_can_be_said_can_be_kept() {
     {
         assert!(written.contains(line), "{line} is missing in {written}");
     }
+    // The name of a map alone does not make it one.
+    std::fs::copy(&path, folder.path().join("metal.png")).unwrap();
+    assert!(Kept::place(&folder.path().join("metal.png")).ends_with("metal.svbrdf.json"));
     Kept::default().write(&path).unwrap();
     assert_eq!(std::fs::read_to_string(Kept::place(&path)).unwrap(), "{}\n");
     assert_eq!(Kept::of(&path).unwrap(), Kept::default());
@@ -86,6 +89,8 @@ fn maps_can_be_kept_in_a_folder() {
         let note = "other.png, as svbrdf.json says";
         assert!(read.notes.iter().any(|n| n.contains(note)), "{opened}: {:?}", read.notes);
     }
+    assert_eq!(Kept::place(&folder.path().join("normal.png")), folder.path().join("svbrdf.json"));
+    assert_eq!(Kept::place(&folder.path().join("other.png")), folder.path().join("other.svbrdf.json"));
     let said = format!("roughness={}", folder.path().join("normal.png").display()).parse().unwrap();
     let read = read_bound::<f64>(folder.path(), &[said], &ReadOptions::AUTO, &Progress::default()).unwrap();
     assert!(read.notes.iter().any(|n| n.contains("normal.png, as you said")), "{:?}", read.notes);

@@ -202,6 +202,27 @@ fn maps_can_be_named_one_by_one() {
 }
 
 #[test]
+fn named_maps_of_specular_and_diffuse_take_the_place_of_a_metallic_workflow() {
+    let folder = tempdir().unwrap();
+    let plain = |name: &str, value: f64| {
+        let image = picture(SIDE, SIDE, |_, _| [value; 3]);
+        save(folder.path(), name, &image, ImageFormat::Png)
+    };
+    plain("basecolor.png", 0.1);
+    plain("orm.png", 1.0);
+    let [d, s] = [("one.png", 0.5), ("two.png", 0.25)].map(|(name, value)| plain(name, srgb(value)));
+    let bindings = [format!("diffuse={}", d.display()), format!("specular={}", s.display())];
+    let read = bound(folder.path(), &bindings).unwrap();
+    let got = read.material.texel(0);
+    assert!(
+        (got.diffuse[0] - 0.5).abs() < EIGHT_BITS && (got.specular[0] - 0.25).abs() < EIGHT_BITS,
+        "{got:?}"
+    );
+    let got = bound(folder.path(), &bindings[..1]).unwrap().material.texel(0);
+    assert!(got.diffuse[0] == 0.0 && (got.specular[0] - 0.5).abs() < EIGHT_BITS, "{got:?}");
+}
+
+#[test]
 fn a_named_map_takes_the_place_of_one_in_a_strip_and_in_a_folder() {
     let folder = tempdir().unwrap();
     let gray = picture(SIDE, SIDE, |_, _| [0.2; 3]);

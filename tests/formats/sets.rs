@@ -252,3 +252,32 @@ fn packings_of_engines_are_taken_apart() {
         assert_eq!(doubts, unsure, "{name}: {:#?}", read.assumptions);
     }
 }
+
+#[test]
+fn of_two_files_for_a_map_the_better_is_taken_and_it_is_said() {
+    let folder = tempdir().unwrap();
+    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], folder.path(), |_, v| v);
+    put(folder.path(), "roughness", 1, |v| v);
+    map_exr(&folder.path().join("roughness.exr"), 2, |_, v| v);
+    let read = open(folder.path());
+    assert_same(&read, EIGHT_BITS);
+    let note = "roughness.png is not used: roughness.exr is taken before it";
+    assert!(read.notes.iter().any(|n| n.contains(note)), "{:?}", read.notes);
+}
+
+#[test]
+fn maps_in_the_only_folder_within_open_and_several_folders_are_listed() {
+    let folder = tempdir().unwrap();
+    let within = folder.path().join("textures");
+    std::fs::create_dir(&within).unwrap();
+    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], &within, |_, v| v);
+    let read = open(folder.path());
+    assert_same(&read, EIGHT_BITS);
+    assert!(read.notes.iter().any(|n| n.contains("in the folder textures within")), "{:?}", read.notes);
+    std::fs::create_dir(folder.path().join("other")).unwrap();
+    assert!(
+        refusal(folder.path()).contains("none, but the folders other, textures"),
+        "{}",
+        refusal(folder.path())
+    );
+}

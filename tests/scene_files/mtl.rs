@@ -39,7 +39,7 @@ fn mtl_with_roughness_and_metallic_opens() {
     assert_eq!(read.files.len(), 4);
     assert!(says(&read, "workflow: metallic"), "{:#?}", read.assumptions);
     assert!(says(&read, "map_d -clamp on alpha.png is not used"), "{:?}", read.notes);
-    assert!(says(&read, "Of the .mtl is not used: ka 1 1 1."), "{:?}", read.notes);
+    assert!(says(&read, "Of the .mtl is not used: ka 1 1 1, pr 1."), "{:?}", read.notes);
 }
 
 #[test]
@@ -72,14 +72,37 @@ fn factors_of_mtl_multiply_and_are_doubted() {
         "newmtl wall\nmap_Kd base colour.png\nKd 0.5 0.5 0.5\nmap_Pr old rough.png\nPr 0.5\nnorm n.png\n",
     );
     let read = open(&path);
-    assert_is_of_textures(&read, 0.5);
+    let got = read.material.texel(77);
+    assert!((got.diffuse[0] - 0.5 * BASE[0]).abs() < BOUND, "{got:?}");
+    assert!(
+        (got.roughness - texel(2, 77 % SIDE, 77 / SIDE)[0]).abs() < BOUND,
+        "a picture of roughness stands alone"
+    );
     let doubts: Vec<_> = read.unsure().map(|a| a.chosen.as_str()).collect();
-    assert_eq!(doubts, ["diffuse times [0.5, 0.5, 0.5]", "roughness times [0.5, 0.5, 0.5]"]);
+    assert_eq!(doubts, ["diffuse times [0.5, 0.5, 0.5]"]);
+    assert!(says(&read, "not used: pr 0.5"), "{:?}", read.notes);
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, format!("# Blender 4.2.0 MTL File: 'a.blend'\n{text}")).unwrap();
+    assert_is_of_textures(&open(&path), 1.0);
+    assert!(says(&open(&path), "kd [0.5, 0.5, 0.5] is not used: Blender"), "{:?}", open(&path).notes);
     let (_folder, path) =
         wall("newmtl wall\nmap_Kd base colour.png\nKd 0 0 0\nmap_Pr old rough.png\nnorm n.png\n");
     let read = open(&path);
     assert_is_of_textures(&read, 1.0);
     assert!(says(&read, "kd 0 is not used"), "{:?}", read.notes);
+}
+
+#[test]
+fn the_name_of_a_normal_map_tells_its_y_in_mtl() {
+    let (folder, path) = wall("newmtl wall\nmap_Kd base colour.png\nmap_Pr old rough.png\nnorm n_dx.png\n");
+    let turned = picture(SIDE, SIDE, |x, y| {
+        let [r, g, b] = stored(0, x, y, |v| v);
+        [r, 1.0 - g, b]
+    });
+    save(folder.path(), "n_dx.png", &turned, ImageFormat::Png);
+    let read = open(&path);
+    assert_is_of_textures(&read, 1.0);
+    assert_eq!(certainty(&read, What::NormalY), Some(Certainty::Sure));
 }
 
 #[test]

@@ -126,6 +126,13 @@ pub fn layered(path: &Path, preview: bool) {
     exr(path, vec![(None, all)]);
 }
 
+/// A material in one part with layers, two of them of no use here.
+pub fn layered_with_more(path: &Path) {
+    let mut all: Vec<_> = (0..4).flat_map(|map| channels(map, &format!("{}.", NAMES[map]))).collect();
+    all.extend(["opacity", "height"].into_iter().flat_map(|name| channels(2, &format!("{name}."))));
+    exr(path, vec![(None, all)]);
+}
+
 /// A material in one part with layers, four times as wide and high, compressed in one of the ways of EXR.
 pub fn compressed(path: &Path, compression: Compression) {
     const SCALE: usize = 4;

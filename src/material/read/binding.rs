@@ -115,7 +115,7 @@ impl Binding {
         let names: Vec<_> = all.iter().map(layers::name).collect();
         let raster = raster.ok_or_else(|| Error::BadImage {
             path: self.file.clone(),
-            problem: format!("{what}: expected the part {part}, found {}", super::folder::listing(&names)),
+            problem: format!("{what}: expected the part {part}, found {}", super::directory::listing(&names)),
             remedy: "name a channel (r, g, b, a) that it has, or one of its layers".to_owned(),
         })?;
         Ok((self.role, Source { raster, file: self.file.clone(), part: part.clone() }))

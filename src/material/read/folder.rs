@@ -1,24 +1,22 @@
 //! One file a map: in a folder, behind a common prefix, or around one of the files.
 
-use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use rayon::prelude::*;
 
 use super::assumption::{Assumption, Certainty, What};
 use super::binding;
 use super::decode;
+use super::directory::{self, list, listing, material_name};
 use super::evidence::{NORMAL_AT_LEAST, normal_score};
 use super::found::{Found, Hints, Pictures, Source};
-use super::names::{Label, Role, words};
-use super::options::{Albedo, NormalY, ReadOptions, Reflectance, Roughness};
+use super::names::{Label, Role};
+use super::options::{Albedo, NormalY, ReadOptions, Reflectance, Roughness, Workflow};
 use super::set::{self, Named, Set};
 use crate::error::Error;
 use crate::progress::Progress;
 
-/// Most file names that a message lists.
-const MOST_LISTED: usize = 12;
 /// A picture whose name says nothing is the normal map where this share of its pixels looks like normals.
 const NORMAL_ALL_OVER: f64 = 0.95;
 
@@ -35,6 +33,12 @@ pub fn open(
     progress: &Progress,
 ) -> Result<Found, Error> {
     let mut names = list(path, folder, prefix)?;
+    if prefix.is_empty() && !names.iter().any(|name| set::is_picture(name)) {
+        let folders = directory::folders(folder)?;
+        if !folders.is_empty() {
+            return open_within(path, folder, &folders, bound, options, progress);
+        }
+    }
     if names.is_empty() && !prefix.is_empty() {
         let absent = io::Error::new(io::ErrorKind::NotFound, "no file, folder or prefix of files is there");
         return Err(Error::unreadable(path, absent));
@@ -47,22 +51,56 @@ pub fn open(
     }
     let roles: Vec<_> = bound.iter().map(|(role, _)| *role).collect();
     let set = set::choose(path, &names, None, &roles)?;
-    if set.files.is_empty() && bound.is_empty() {
-        match set.riddles.as_slice() {
-            [] => {}
-            [only] => return super::find_in_picture(&folder.join(only), options, progress),
-            several => {
-                return Err(Error::NotAMaterial {
-                    path: path.to_owned(),
-                    expected: "the maps of one material, named so".to_owned(),
-                    found: format!("several pictures whose names say no map: {}", listing(several)),
-                    remedy: "open one of them if each is a material, or rename them".to_owned(),
-                });
-            }
+    if prefix.is_empty() && set.files.is_empty() && bound.is_empty() && !set.riddles.is_empty() {
+        match open_packed(path, folder, &set.riddles, options, progress) {
+            Err(Error::NotAMaterial { .. }) if set.riddles.len() == 1 => {}
+            found => return found,
         }
     }
     let name = material_name(path, prefix);
     Assembly { path, folder, name, set, bound, names: &names, options }.read(progress)
+}
+
+/// Reads the material of the only one of `folders` within a folder without pictures.
+fn open_within(
+    path: &Path,
+    folder: &Path,
+    folders: &[String],
+    bound: Vec<(Role, Source)>,
+    options: &ReadOptions,
+    progress: &Progress,
+) -> Result<Found, Error> {
+    let [only] = folders else {
+        return Err(Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: "pictures".to_owned(),
+            found: format!("none, but the folders {}", listing(folders)),
+            remedy: "open one of them".to_owned(),
+        });
+    };
+    let within = folder.join(only);
+    let mut found = open(&within, &within, "", bound, options, progress)?;
+    found.notes.insert(0, format!("The maps are in the folder {only} within."));
+    Ok(Found { name: material_name(path, ""), ..found })
+}
+
+/// Reads the only one of `pictures`, whose names say no map.
+fn open_packed(
+    path: &Path,
+    folder: &Path,
+    pictures: &[String],
+    options: &ReadOptions,
+    progress: &Progress,
+) -> Result<Found, Error> {
+    let [only] = pictures else {
+        return Err(Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: "the maps of one material, named so".to_owned(),
+            found: format!("several pictures whose names say no map: {}", listing(pictures)),
+            remedy: "open one of them if each is a material, or rename them".to_owned(),
+        });
+    };
+    super::find_in_picture(&folder.join(only), options, progress)
 }
 
 /// Reads the set of maps that the file `path` belongs to by its name; `None` where its name says nothing.
@@ -86,25 +124,6 @@ pub fn open_around(
         Assembly { path, folder, name, set, bound, names: &names, options }.read(progress)
     };
     Some(read())
-}
-
-/// The names of the visible files in `folder` that begin with `prefix` and whose next word begins there, sorted.
-///
-/// Where there is no such folder, the error names `path`, which the user gave.
-fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Error> {
-    let unreadable = |source| Error::unreadable(if folder.is_dir() { folder } else { path }, source);
-    let prefix_words = words(prefix);
-    let mut names = Vec::new();
-    for entry in fs::read_dir(folder).map_err(unreadable)? {
-        let entry = entry.map_err(unreadable)?;
-        let name = entry.file_name().to_string_lossy().into_owned();
-        let begins = name.starts_with(prefix) && words(&name).starts_with(&prefix_words);
-        if begins && !name.starts_with('.') && !entry.path().is_dir() {
-            names.push(name);
-        }
-    }
-    names.sort();
-    Ok(names)
 }
 
 /// The files of a material, chosen.
@@ -151,6 +170,12 @@ impl Assembly<'_> {
             }
             pictures.add(label.role, Source { raster, file: folder.join(file), part: String::new() });
         }
+        // Who names a map of specular wants it to be used.
+        let named = bound.iter().any(|(role, _)| *role == Role::Specular) && options.workflow.is_none();
+        let options = &ReadOptions {
+            workflow: if named { Some(Workflow::Specular) } else { options.workflow },
+            ..*options
+        };
         for (role, source) in bound {
             notes.push(binding::note(role, &source.file));
             floats &= source.raster.is_float() || !is_colour(role);
@@ -251,26 +276,4 @@ fn hints(folder: &Path, files: &[Named], floats: bool) -> Hints {
     hints.albedo = choice.map(|(albedo, why, certainty)| (albedo, why.to_owned(), certainty));
     hints.specular = hints.albedo.clone();
     hints
-}
-
-/// The file names for a message, no matter how many they are.
-pub fn listing(names: &[String]) -> String {
-    match names.len() {
-        0 => "no files".to_owned(),
-        count if count > MOST_LISTED => {
-            format!("{} and {} more", names[..MOST_LISTED].join(", "), count - MOST_LISTED)
-        }
-        _ => names.join(", "),
-    }
-}
-
-/// The prefix without separators at its end, or else the name of the folder.
-fn material_name(path: &Path, prefix: &str) -> String {
-    let prefix = prefix.trim_end_matches(|c: char| !c.is_alphanumeric());
-    if !prefix.is_empty() {
-        return prefix.to_owned();
-    }
-    // A folder such as `..` has a name only once it is resolved.
-    let resolved: PathBuf = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    resolved.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

@@ -106,9 +106,10 @@ impl Pictures {
         self.all.iter().any(|(r, _)| *r == role)
     }
 
-    /// Puts `source` in the place of what there is for its role.
+    /// Puts `source` in the place of what there is for its role; there is one colour, diffuse or base.
     pub fn replace(&mut self, role: Role, source: Source) {
-        self.all.retain(|(r, _)| *r != role);
+        let colours = [Role::Base, Role::Diffuse];
+        self.all.retain(|(r, _)| *r != role && !(colours.contains(r) && colours.contains(&role)));
         self.all.push((role, source));
     }
 
@@ -157,7 +158,7 @@ impl Pictures {
                 role.words()[..3].join(", ")
             ),
             found: listed.to_owned(),
-            remedy: "add or rename the file".to_owned(),
+            remedy: "add or rename the file, or open a packed one by itself".to_owned(),
         };
         let mut assumptions = Vec::new();
         let mut files: Vec<_> = self.all.iter().map(|(_, source)| source.file.clone()).collect();

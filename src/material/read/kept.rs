@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
+use super::EXTENSIONS;
 use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
 use super::binding::Binding;
 use super::names::Label;
 use super::options::ReadOptions;
-use super::{NAMING, set};
 use crate::error::Error;
 use crate::export;
 
@@ -30,7 +30,8 @@ pub struct Kept {
 
 impl Kept {
     /// Where it is kept for the material `path`: `svbrdf.json` in a folder, `NAME.svbrdf.json` beside a file `NAME.png`
-    /// or the files of a prefix `NAME_`. Of a file whose name is that of a map it is that of its folder.
+    /// or the files of a prefix `NAME_`. Of a file whose name is that of a map, it is that of its folder if this is there
+    /// and no other.
     pub fn place(path: &Path) -> PathBuf {
         if is_kept(path) {
             return path.to_owned();
@@ -45,7 +46,8 @@ impl Kept {
         }
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let is_map = Label::of(&name).is_some_and(|label| label.stem.is_empty() && !label.is_short());
-        path.with_file_name(if is_map { IN_FOLDER.to_owned() } else { name + BESIDE })
+        let [own, common] = [name + BESIDE, IN_FOLDER.to_owned()].map(|name| path.with_file_name(name));
+        if is_map && !own.exists() && common.exists() { common } else { own }
     }
 
     /// What is kept for the material `path`: nothing where there is no such file.
@@ -209,10 +211,8 @@ pub fn material_of(path: &Path) -> Result<PathBuf, Error> {
         let entry = entry.map_err(|source| Error::unreadable(path, source))?;
         let other = path.with_file_name(entry.file_name());
         let extension = other.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let opens = set::EXTENSIONS.contains(&extension.as_str()) || NAMING.contains(&extension.as_str());
-        if other.file_stem().is_some_and(|stem| stem.to_string_lossy() == name)
-            && (opens || extension == "npz")
-        {
+        let opens = EXTENSIONS.contains(&extension.as_str()) && extension != "json";
+        if opens && other.file_stem().is_some_and(|stem| stem.to_string_lossy() == name) {
             beside.push(other);
         }
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::assumption::{Assumption, Certainty, What};
 use super::decode::Layer;
 use super::found::{Found, Pictures, Source};
-use super::names::Label;
+use super::names::{Label, Role};
 use super::options::{Albedo, NormalY, ReadOptions, Roughness};
 use crate::error::Error;
 
@@ -30,12 +30,13 @@ pub fn assemble(
     options: &ReadOptions,
 ) -> Result<Found, Error> {
     let names: Vec<String> = layers.iter().map(name).collect();
-    let listed = format!("the layers {}", super::folder::listing(&names));
+    let listed = format!("the layers {}", super::directory::listing(&names));
     let mut pictures = Pictures::default();
     let mut notes = Vec::new();
     let mut floats = true;
     for Layer { name, raster } in layers {
         match Label::of(&name) {
+            Some(label) if label.role == Role::Ignored => notes.push(format!("Layer {name} is not used.")),
             Some(label) if pictures.has(label.role) => {
                 return Err(Error::NotAMaterial {
                     path: path.to_owned(),

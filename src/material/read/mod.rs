@@ -9,6 +9,7 @@
 mod assumption;
 mod binding;
 mod decode;
+mod directory;
 mod encoding;
 mod evidence;
 mod folder;
@@ -57,6 +58,9 @@ use decode::Decoded;
 use found::{Found, Source};
 use names::Role;
 
+/// Extensions of the files that open as a material or as a map of one.
+pub const EXTENSIONS: [&str; 14] =
+    ["png", "tif", "tiff", "jpg", "jpeg", "hdr", "exr", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json"];
 /// Extensions of files that name their textures.
 const NAMING: [&str; 4] = ["gltf", "glb", "mtl", "mtlx"];
 

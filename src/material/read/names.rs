@@ -145,7 +145,7 @@ mod tests {
             ("pd_texture", Role::Diffuse),
             ("ax_ay_texture", Role::Roughness),
             ("Rock_MaskMap", Role::MetallicSmoothness),
-            ("Rock_SpecularLevel", Role::Ignored),
+            ("Rock_SpecularLevel", Role::SpecularLevel),
         ] {
             assert_eq!(role(name), Some(expected), "{name}");
         }

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::folder::listing;
+use super::directory::listing;
 use super::names::{Label, Role, words};
 use crate::error::Error;
 
 /// Extensions of the pictures that count, the better one of two last.
-pub const EXTENSIONS: [&str; 8] = ["jpg", "jpeg", "hdr", "png", "tif", "tiff", "npy", "exr"];
+const EXTENSIONS: [&str; 8] = ["jpg", "jpeg", "hdr", "png", "tif", "tiff", "npy", "exr"];
 /// The word of files that are maps by their numbers alone.
 pub const NUMBERED: &str = "0 to 3";
 
@@ -90,7 +90,8 @@ pub fn choose(
     Ok(set)
 }
 
-fn is_picture(name: &str) -> bool {
+/// Whether a file of this name counts as a picture.
+pub fn is_picture(name: &str) -> bool {
     let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_lowercase();
     EXTENSIONS.contains(&extension.as_str())
 }

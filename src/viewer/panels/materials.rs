@@ -57,7 +57,7 @@ fn keep(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command
     if loaded.read == loaded.kept {
         return;
     }
-    let button = ui.small_button("Keep with the material");
+    let button = ui.button("Keep with the material");
     let name = format!("Keep with {}", slot.name());
     button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
     let place = Kept::place(path);

@@ -3,14 +3,14 @@
 mod statement;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::assumption::{Assumption, Certainty, What};
 use super::decode;
 use super::evidence::{NORMAL_AT_LEAST, normal_score};
-use super::found::{Found, Pictures, Source};
+use super::found::{Found, Hint, Pictures, Source};
 use super::names::{Label, Role};
-use super::options::{Albedo, ReadOptions};
+use super::options::{Albedo, NormalY, ReadOptions};
 use crate::error::Error;
 use crate::progress::Progress;
 use statement::{Entry, Texture, entries, is_picture};
@@ -25,7 +25,8 @@ const BUMPS: [&str; 2] = ["map_bump", "bump"];
 /// As `read`.
 pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
-    let all = entries(&String::from_utf8_lossy(&bytes));
+    let text = String::from_utf8_lossy(&bytes);
+    let all = entries(&text);
     let index = options.exemplar.unwrap_or(0).min(all.len().saturating_sub(1));
     let entry = all.get(index).ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
@@ -46,6 +47,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         path,
         entry,
         progress,
+        of_blender: text.starts_with("# Blender"),
         used: Vec::new(),
         spaces: Vec::new(),
         assumptions: Vec::new(),
@@ -69,6 +71,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     };
     found.hints.albedo = space("diffuse").map(hint);
     found.hints.specular = space("specular").map(hint);
+    found.hints.normal_y = found.normal.as_ref().and_then(|source| named_y(&source.file));
     let layout = Assumption::new(What::Layout, "MTL", "the file names its textures", Certainty::Sure);
     found.assumptions.insert(0, layout);
     found.assumptions.extend(assumptions);
@@ -82,11 +85,19 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     Ok(found)
 }
 
+/// What the name of a normal map says of its y.
+fn named_y(file: &Path) -> Hint<NormalY> {
+    let name = file.file_name()?.to_string_lossy();
+    let y = Label::of(&file.file_stem()?.to_string_lossy())?.normal_y?;
+    Some((y, format!("{name} is called so"), Certainty::Sure))
+}
+
 /// The material `entry` while it is read.
 struct Reading<'a> {
     path: &'a Path,
     entry: &'a Entry,
     progress: &'a Progress,
+    of_blender: bool,
     /// Keywords that have been made use of.
     used: Vec<&'a str>,
     /// How each map of colours is stored.
@@ -174,12 +185,19 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// A factor beside the picture of `map`: what multiplies it, said.
+    /// The factor beside a picture of colours, said.
     fn beside(&mut self, key: &str, what: &str) -> Result<[f32; 3], Error> {
-        let Some(factor) = self.factor(key)?.filter(|f| *f != [1.0; 3]) else { return Ok([1.0; 3]) };
+        const ALONE: [f32; 3] = [1.0; 3];
+        let Some(factor) = self.factor(key)?.filter(|f| *f != ALONE) else { return Ok(ALONE) };
         if factor == [0.0; 3] {
             self.notes.push(format!("{key} 0 is not used: nothing would be left of the {what} map."));
-            return Ok([1.0; 3]);
+            return Ok(ALONE);
+        }
+        if self.of_blender {
+            self.notes.push(format!(
+                "{key} {factor:?} is not used: Blender, which wrote it, takes the picture alone."
+            ));
+            return Ok(ALONE);
         }
         let chosen = format!("{what} times {factor:?}");
         let why = format!(
@@ -204,9 +222,10 @@ impl<'a> Reading<'a> {
         }
     }
 
+    /// A picture, or a value where there is none.
     fn value(&mut self, map: &str, key: &str, what: &str) -> Result<Option<Source>, Error> {
         match self.load(&[map], what)? {
-            Some(source) => Ok(Some(source.times(self.beside(key, what)?, Albedo::Linear))),
+            Some(source) => Ok(Some(source)),
             None => Ok(self.factor(key)?.map(|factor| Source::constant(self.path, &factor[..1]))),
         }
     }
@@ -239,8 +258,12 @@ impl<'a> Reading<'a> {
     fn load(&mut self, keys: &[&str], what: &str) -> Result<Option<Source>, Error> {
         self.progress.step()?;
         let Some(rest) = self.line(keys) else { return Ok(None) };
-        let Texture { file, channel, unused } = Texture::of(rest);
-        let file = self.resolved(&file);
+        let texture = Texture::of(rest);
+        let file = texture.path(self.path);
+        let Texture { file: said, channel, unused } = texture;
+        if file != self.path.with_file_name(&said) {
+            self.notes.push(format!("{said} is not there; {} is taken.", file.display()));
+        }
         let (mut raster, notes) = decode::decode_one(&file, &format!("{what} map"))?;
         self.notes.push(format!("The {what} map is {}.", file.display()));
         self.notes.extend(notes);
@@ -255,25 +278,6 @@ impl<'a> Reading<'a> {
             None => {}
         }
         Ok(Some(Source { raster, file, part: String::new() }))
-    }
-
-    /// A file beside the .mtl, or a path of its own; of one of another machine its name, if that is beside the .mtl.
-    fn resolved(&mut self, file: &str) -> PathBuf {
-        let folder = self.path.parent().unwrap_or(Path::new(""));
-        let slashed = file.replace('\\', "/");
-        let named = folder.join(file);
-        let last = slashed.rsplit('/').next().unwrap_or_default();
-        let others = [folder.join(&slashed), folder.join(last)];
-        if named.exists() {
-            return named;
-        }
-        match others.into_iter().find(|other| other.is_file()) {
-            Some(other) => {
-                self.notes.push(format!("{file} is not there; {} is taken.", other.display()));
-                other
-            }
-            None => named,
-        }
     }
 
     fn say_unused(&mut self) {

@@ -1,5 +1,7 @@
 //! The statements of an `.mtl`, taken apart.
 
+use std::path::{Path, PathBuf};
+
 /// Statements that name pictures although they do not begin with `map_`.
 const PICTURES: [&str; 5] = ["norm", "bump", "disp", "decal", "refl"];
 
@@ -67,6 +69,17 @@ impl Texture {
         }
         texture.file = rest.trim().to_owned();
         texture
+    }
+
+    /// The file beside that of the material, or of a path of its own; of a path of another machine the file of the same
+    /// name, if that is there.
+    pub fn path(&self, mtl: &Path) -> PathBuf {
+        let folder = mtl.parent().unwrap_or(Path::new(""));
+        let slashed = self.file.replace('\\', "/");
+        let last = slashed.rsplit('/').next().unwrap_or_default();
+        let named = folder.join(&self.file);
+        let others = [folder.join(&slashed), folder.join(last)];
+        if named.exists() { named } else { others.into_iter().find(|other| other.is_file()).unwrap_or(named) }
     }
 }
 

@@ -1,0 +1,67 @@
+//! What is in a folder, and how it is called.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::names::words;
+use crate::error::Error;
+
+/// Most file names that a message lists.
+const MOST_LISTED: usize = 12;
+
+/// The names of the visible folders in `folder`, sorted.
+pub fn folders(folder: &Path) -> Result<Vec<String>, Error> {
+    let unreadable = |source| Error::unreadable(folder, source);
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        // A link may lead back here.
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) && !name.starts_with('.') {
+            names.push(name);
+        }
+    }
+    names.sort();
+    Ok(names)
+}
+
+/// The names of the visible files in `folder` that begin with `prefix` and whose next word begins there, sorted.
+///
+/// Where there is no such folder, the error names `path`, which the user gave.
+pub fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Error> {
+    let unreadable = |source| Error::unreadable(if folder.is_dir() { folder } else { path }, source);
+    let prefix_words = words(prefix);
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let entry = entry.map_err(unreadable)?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let begins = name.starts_with(prefix) && words(&name).starts_with(&prefix_words);
+        if begins && !name.starts_with('.') && !entry.path().is_dir() {
+            names.push(name);
+        }
+    }
+    names.sort();
+    Ok(names)
+}
+
+/// The file names for a message, no matter how many they are.
+pub fn listing(names: &[String]) -> String {
+    match names.len() {
+        0 => "no files".to_owned(),
+        count if count > MOST_LISTED => {
+            format!("{} and {} more", names[..MOST_LISTED].join(", "), count - MOST_LISTED)
+        }
+        _ => names.join(", "),
+    }
+}
+
+/// The prefix without separators at its end, or else the name of the folder.
+pub fn material_name(path: &Path, prefix: &str) -> String {
+    let prefix = prefix.trim_end_matches(|c: char| !c.is_alphanumeric());
+    if !prefix.is_empty() {
+        return prefix.to_owned();
+    }
+    // A folder such as `..` has a name only once it is resolved.
+    let resolved: PathBuf = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    resolved.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
