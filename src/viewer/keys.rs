@@ -15,7 +15,7 @@ pub const HELP: &[(&str, &str)] = &[
     ("H", "highlight follows the pointer, on / off"),
     ("wheel", "zoom at the pointer"),
     ("middle-drag, Space + left-drag", "pan"),
-    ("F / 0 / R", "fit / one texel per pixel / reset light, view and display"),
+    ("F / 0 / R", "fit / one texel per pixel / reset light, view, zoom, exposure and clipping marks"),
     ("G (hold)", "peek at the ground truth in every pane"),
     ("X", "swap prediction and ground truth"),
     ("1 .. 9", "choose the prediction"),
