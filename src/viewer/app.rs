@@ -8,12 +8,13 @@ use eframe::egui::util::undoer::{self, Undoer};
 
 use super::command::Command;
 use super::gpu_view::GpuView;
+use super::loaded::Rules;
 use super::loss_request::LossRequest;
 use super::loss_run::LossRun;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
 use super::settings::{self, Settings};
-use super::slots::{Rules, Slots, Target};
+use super::slots::{Slots, Target};
 use super::state::ViewState;
 use super::study::StudyRun;
 use super::viewport::Viewport;

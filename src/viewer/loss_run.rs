@@ -5,8 +5,9 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
+use super::loaded::Loaded;
 use super::loss_request::LossRequest;
-use super::slots::{Loaded, Slots};
+use super::slots::Slots;
 use super::worker::Job;
 use crate::loss::adaptive::{Goal, Reached};
 use crate::loss::{Estimate, Loss};

@@ -11,6 +11,7 @@ mod gpu_view;
 mod handles;
 pub mod keys;
 pub mod legend;
+mod loaded;
 mod loss_request;
 mod loss_run;
 mod panels;

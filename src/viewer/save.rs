@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use eframe::egui;
 
-use super::slots::{Loaded, Slots};
+use super::loaded::Loaded;
+use super::slots::Slots;
 use super::state::{Layout, ViewState};
 use super::worker::Job;
 use crate::export::{Destination, Provenance, Shows};

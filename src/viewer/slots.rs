@@ -1,47 +1,17 @@
 //! The materials in the window: read on a worker, kept whole, replaced only by what has been read.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::SystemTime;
 
 use eframe::egui;
 
+use super::loaded::{Loaded, Origin, Reader, Rules, file_name, loaded};
 use super::worker::Job;
 use crate::error::Error;
-use crate::gpu::{Gpu, MaterialTextures};
+use crate::gpu::Gpu;
 use crate::loss;
-use crate::material::Material;
-use crate::material::read::{self, Assumption, Kept, MapReport, Read, ReadOptions};
+use crate::material::read::{self, Kept, ReadOptions};
 use crate::samples;
-
-/// Where a material came from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Origin {
-    BuiltIn,
-    Path(PathBuf),
-}
-
-/// A material that has been read and, where there is an adapter, uploaded.
-#[derive(Debug)]
-pub struct Loaded {
-    pub origin: Origin,
-    /// What was said when it was opened.
-    asked: ReadOptions,
-    /// What it was read with: what was said, or is kept with it, or chosen since.
-    pub read: ReadOptions,
-    /// What is kept with it.
-    pub kept: ReadOptions,
-    pub material: Material<f32>,
-    /// What was assumed in reading, for the user.
-    pub notes: Vec<String>,
-    pub assumptions: Vec<Assumption>,
-    /// What each map looks like as stored.
-    pub maps: Vec<MapReport>,
-    /// The files that were read, each with the time at which it was last changed.
-    pub files: Vec<(PathBuf, Option<SystemTime>)>,
-    /// `None` without an adapter; an error where the adapter cannot hold the material.
-    pub textures: Option<Result<MaterialTextures, String>>,
-}
 
 /// A material in the window, with a number that no other one ever had: the key of everything derived from it.
 #[derive(Clone, Debug)]
@@ -73,40 +43,6 @@ pub struct Opening {
     pub what: String,
     target: Target,
     pub job: Job<Vec<Result<Loaded, Error>>>,
-}
-
-/// What is asked of every material that is opened.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rules {
-    /// A guess is an error.
-    pub strict: bool,
-    /// A prediction of another size is resized to the ground truth.
-    pub fit: bool,
-}
-
-/// Reads materials on a worker.
-struct Reader {
-    gpu: Option<Gpu>,
-    rules: Rules,
-    /// The ground truth's size, once that is known.
-    size: Option<[usize; 2]>,
-}
-
-impl Reader {
-    /// The material at `path` as the window keeps it; the first one read sets the size where there is none yet.
-    fn take(&mut self, path: PathBuf, asked: ReadOptions, mut read: Read<f32>) -> Result<Loaded, Error> {
-        if self.rules.strict {
-            read.refuse_guesses(&path)?;
-        }
-        let from = read.material.size();
-        let size = *self.size.get_or_insert(from);
-        if self.rules.fit && from != size {
-            read.material = read.material.resized(size)?;
-            let [[w, h], [to_w, to_h]] = [from, size];
-            read.notes.push(format!("Resized from {w} x {h} to the {to_w} x {to_h} of the ground truth."));
-        }
-        Ok(loaded(Origin::Path(path), asked, read, self.gpu.as_ref()))
-    }
 }
 
 /// The ground truth first, then the predictions; and what is still being read.
@@ -331,21 +267,4 @@ fn misfit(ground_truth: &Slot, prediction: &Loaded) -> Option<String> {
         b.name(),
         a.name()
     ))
-}
-
-fn loaded(origin: Origin, asked: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
-    let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
-    let files = read.files.into_iter().map(|path| (changed(&path), path)).map(|(t, p)| (p, t)).collect();
-    let Read { material, assumptions, notes, maps, options, kept, .. } = read;
-    Loaded { origin, asked, read: options, kept, material, notes, assumptions, maps, files, textures }
-}
-
-/// When a file was last changed; `None` where that cannot be told.
-pub fn changed(path: &Path) -> Option<SystemTime> {
-    std::fs::metadata(path).and_then(|m| m.modified()).ok()
-}
-
-/// The last part of a path, for people.
-pub fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned())
 }

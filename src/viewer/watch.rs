@@ -5,7 +5,8 @@ use std::time::{Duration, Instant, SystemTime};
 
 use eframe::egui;
 
-use super::slots::{Slots, changed};
+use super::loaded::changed;
+use super::slots::Slots;
 use super::worker::Job;
 
 /// How often the files are looked at.

@@ -4,7 +4,8 @@ use eframe::egui::{self, RichText};
 
 use crate::material::read::{Certainty, Kept};
 use crate::viewer::command::Command;
-use crate::viewer::slots::{Origin, Slot, Slots};
+use crate::viewer::loaded::Origin;
+use crate::viewer::slots::{Slot, Slots};
 use crate::viewer::theme;
 
 /// What the section shows.

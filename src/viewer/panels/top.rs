@@ -89,7 +89,13 @@ impl TopBar<'_> {
     fn position(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         button(ui, "Fit", "Fit the material into its pane (F)", commands, Command::Fit);
         button(ui, "1:1", "One texel per pixel (0)", commands, Command::OneToOne);
-        button(ui, "Reset", "Light, view, zoom, exposure and clipping marks back to the start (R)", commands, Command::Reset);
+        button(
+            ui,
+            "Reset",
+            "Light, view, zoom, exposure and clipping marks back to the start (R)",
+            commands,
+            Command::Reset,
+        );
         button(ui, "Undo", "Undo (Ctrl+Z)", commands, Command::Undo);
         button(ui, "Redo", "Redo (Ctrl+Shift+Z)", commands, Command::Redo);
     }
