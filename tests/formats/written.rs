@@ -84,6 +84,10 @@ fn codes_of_research_are_written_as_they_are_read() {
     }
     let preview = WriteOptions { preview: true, ..WriteOptions::default() };
     assert!(matches!(Kind::new(Path::new("x.png"), &preview), Err(Error::Usage(_))));
+    for picture in ["x.jpg", "x.TIF", "x.gltf"] {
+        assert!(matches!(Kind::new(Path::new(picture), &WriteOptions::default()), Err(Error::Usage(_))));
+    }
+    assert!(Kind::new(Path::new("brick.v2"), &WriteOptions::default()).is_ok());
 }
 
 #[test]

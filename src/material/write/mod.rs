@@ -16,6 +16,10 @@ use super::read::Preset;
 use crate::error::Error;
 use crate::export;
 
+/// Kinds of files that materials are read from and not written into: as the name of a folder they are a mistake.
+const NOT_WRITTEN: [&str; 12] =
+    ["jpg", "jpeg", "tif", "tiff", "hdr", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json"];
+
 /// How samples are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
@@ -85,11 +89,14 @@ impl Kind {
     /// By the extension of `path` and what `options` say.
     ///
     /// # Errors
-    /// [`Error::Usage`] for a depth, a preset or a preview that the kind of file has not.
+    /// [`Error::Usage`] for a kind of file that is not written, and for a depth, a preset or a preview that it has not.
     pub fn new(path: &Path, options: &WriteOptions) -> Result<Self, Error> {
         let WriteOptions { depth, like, preview } = *options;
         let refuse = |why: &str| Err(Error::Usage(format!("{} {why}", path.display())));
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        if NOT_WRITTEN.contains(&extension.as_str()) {
+            return refuse("cannot be written: name an .exr file, a .png file or a folder");
+        }
         let is_exr = extension == "exr";
         if matches!(depth, Some(Depth::Half | Depth::Float)) != is_exr && depth.is_some() {
             return refuse("cannot have that depth; EXR has half and float, PNG and folders have 8 and 16");
