@@ -282,25 +282,3 @@ fn options_of_any_letters_never_panic() {
     }
     assert!(understood > 0);
 }
-
-#[test]
-fn archives_and_arrays_that_claim_too_much_are_refused_at_once() {
-    let huge = npy([1, 1, 3], &[0.5; 3]);
-    let text = String::from_utf8_lossy(&huge).find("(1,").unwrap();
-    for claim in
-        ["(99999999999, 99999999999, 3)", "(4294967296, 4294967296, 3)", "(9999999, 2, 3)", "(0, 5, 3)"]
-    {
-        let mut bytes = huge.clone();
-        let end = bytes[text..].iter().position(|&b| b == b')').unwrap() + text + 1;
-        let padding = bytes[end..].iter().take_while(|&&b| b != b'\n').count();
-        let header = format!("{claim}, }}");
-        let room = end - text + padding;
-        assert!(header.len() <= room, "{claim} needs {} of {room}", header.len());
-        bytes[text..text + room].fill(b' ');
-        bytes[text..text + header.len()].copy_from_slice(header.as_bytes());
-        let started = std::time::Instant::now();
-        let message = read_bytes::<f32>("claims", &bytes, &ReadOptions::default()).unwrap_err().to_string();
-        assert!(message.contains("claims"), "{message}");
-        assert!(started.elapsed().as_secs() < 2, "{claim} took {:?}", started.elapsed());
-    }
-}
