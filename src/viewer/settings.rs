@@ -57,7 +57,6 @@ mod tests {
     use std::collections::HashMap;
 
     use super::*;
-    use crate::material::read::{Order, Preset, Roughness};
 
     #[derive(Default)]
     struct Memory(HashMap<String, String>);
@@ -80,18 +79,7 @@ mod tests {
 
     #[test]
     fn settings_are_the_same_when_they_are_stored_and_loaded() {
-        let read = ReadOptions {
-            preset: Some(Preset::Gao),
-            roughness: Some(Roughness::Gamma22),
-            normal_y: Some("down".parse().unwrap()),
-            dielectric: Some("0.05".parse().unwrap()),
-            order: Some(Order::DNRS),
-            grid: Some("4x1".parse().unwrap()),
-            flip_v: Some(true),
-            exemplar: Some(3),
-            ..ReadOptions::AUTO
-        };
-        let settings = Settings { dark: false, read, recent: vec!["a b.png".into()], ..Settings::default() };
+        let settings = Settings { dark: false, recent: vec!["a b.png".into()], ..Settings::default() };
         let mut memory = Memory::default();
         eframe::set_value(&mut memory, KEY, &settings);
         assert_eq!(eframe::get_value::<Settings>(&memory, KEY), Some(settings));
