@@ -140,6 +140,44 @@ fn a_click_on_another_workflow_changes_the_material() {
 }
 
 #[test]
+fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wide.png");
+    let tile =
+        |x: u32, _| image::Rgb(if (32..64).contains(&x) { [128, 128, 255] } else { [(x % 32) as u8; 3] });
+    image::RgbImage::from_fn(3 * 32, 16, tile).save(&path).unwrap();
+    let options = ViewerOptions { ground_truth: Some(path), ..ViewerOptions::default() };
+    let Some(mut window) = window(options) else { return };
+    window.set_size(vec2(1200.0, 2000.0));
+    window.run_steps(3);
+    assert_eq!(material(window.state(), 0).size(), [16, 16]);
+    let enter = |window: &mut Window<'_>, name: &str, text: &str| {
+        window.get_by_role_and_label(Role::SpinButton, name).click();
+        window.run_steps(2);
+        window.get_by_role_and_label(Role::SpinButton, name).type_text(text);
+        press(window, egui::Key::Enter);
+    };
+    choose_order(&mut window, "order of wide", "order dnr");
+    enter(&mut window, "columns of tiles of wide", "3");
+    wait(&mut window, "the wide tiles", |app| app.materials().next().unwrap().size() == [32, 16]);
+    let specular = |app: &App| app.materials().next().unwrap().planes().specular[0][0];
+    assert_eq!(specular(window.state()), 0.04);
+    enter(&mut window, "F0 of wide", "0.08");
+    wait(&mut window, "another F0", |app| specular(app) == 0.08);
+    enter(&mut window, "columns of tiles of wide", "0");
+    wait(&mut window, "square tiles again", |app| app.materials().next().unwrap().size() == [16, 16]);
+}
+
+/// Clicks a drop-down and one of its choices, where there is no loss to wait for.
+fn choose_order(window: &mut Window<'_>, name: &str, choice: &str) {
+    window.get_by_role_and_label(Role::ComboBox, name).click();
+    window.run_steps(4);
+    window.get_by_label(choice).click();
+    window.run_steps(2);
+    wait(window, choice, |app| !app.is_reading());
+}
+
+#[test]
 fn what_is_chosen_is_kept_with_the_material_by_a_click() {
     let (folder, paths) = two_strips();
     let kept = folder.path().join("guess.svbrdf.json");

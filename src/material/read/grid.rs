@@ -16,7 +16,8 @@ pub struct Grid {
 }
 
 impl Grid {
-    const MOST: usize = 64;
+    /// Most columns, and most rows.
+    pub const MOST: usize = 64;
 
     /// The (width, height) of a tile of an image of `size`; `None` where the image does not divide so.
     pub(super) fn tile(self, size: [usize; 2]) -> Option<[usize; 2]> {

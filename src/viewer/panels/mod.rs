@@ -15,8 +15,8 @@ pub mod top;
 use eframe::egui::{self, DragValue, Response, RichText};
 
 use crate::material::read::{
-    Albedo, Assumption, Certainty, Energy, NonFinite, NormalCode, NormalY, Order, Preset, ReadOptions,
-    Roughness, What, Workflow,
+    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalCode, NormalY, Order, Preset, ReadOptions,
+    Reflectance, Roughness, What, Workflow,
 };
 
 /// A number that can be dragged and typed; a double-click puts back its `default`.
@@ -71,6 +71,14 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         choice(ui, (name, "normal code"), normal_code, &NormalCode::ALL, found(What::NormalCode));
         choice(ui, (name, "roughness"), roughness, &Roughness::ALL, found(What::Roughness));
         choice(ui, (name, "energy"), energy, &Energy::ALL, found(What::Energy));
+        grid(ui, name, &mut options.grid);
+        let mut f0 = options.dielectric.unwrap_or(Reflectance::DIELECTRIC).value();
+        number(ui, &format!("F0 of {name}"), &mut f0, Reflectance::DIELECTRIC.value(), |drag| {
+            drag.range(0.0..=1.0).speed(0.001).prefix("F0 ")
+        })
+        .on_hover_text("Reflectance at normal incidence of what is no metal, where no map says it");
+        let f0 = Reflectance::try_from(f0).ok();
+        options.dielectric = f0.filter(|f0| *f0 != Reflectance::DIELECTRIC);
         let exemplar = format!("exemplar of {name}");
         let mut number_of = options.exemplar.unwrap_or(0);
         number(ui, &exemplar, &mut number_of, 0, |drag| drag.range(0..=999).prefix("exemplar "))
@@ -83,6 +91,28 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         ui.checkbox(&mut flip, "flip rows").on_hover_text("Row 0 of every picture is the lowest one");
         options.flip_v = flip.then_some(true);
     });
+}
+
+/// How many columns and rows of tiles a packed picture has; 0 of either is to find it out.
+fn grid(ui: &mut egui::Ui, name: &str, grid: &mut Option<Grid>) {
+    let [mut columns, mut rows] = grid.map_or([0, 0], |g| [g.columns, g.rows]);
+    let auto = |count: f64, _| if count < 1.0 { "auto".to_owned() } else { format!("{count:.0}") };
+    let count = |ui: &mut egui::Ui, what: &str, value: &mut usize| {
+        let name = format!("{what} of tiles of {name}");
+        let hover = "A packed picture has this many tiles; 0 is to find it out";
+        number(ui, &name, value, 0, |drag| {
+            drag.range(0..=Grid::MOST).speed(0.05).prefix(format!("{what} ")).custom_formatter(auto)
+        })
+        .on_hover_text(hover)
+        .changed()
+    };
+    if count(ui, "columns", &mut columns) | count(ui, "rows", &mut rows) {
+        // One of them alone has one of the other.
+        let was_auto = grid.is_none();
+        let least = usize::from(was_auto);
+        let both = Grid { columns: columns.max(least), rows: rows.max(least) };
+        *grid = (both.columns > 0 && both.rows > 0).then_some(both);
+    }
 }
 
 /// A drop-down for one assumption: `None` is to find it out.
