@@ -11,6 +11,7 @@ use svbrdf::scene::{Kind, Scene};
 
 use super::bar::watched;
 use super::materials;
+use super::stop::stoppable;
 
 /// Writes a rendering of one material, or of several side by side, into a file
 ///
@@ -63,7 +64,8 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
     let materials = materials::open::<f32>(&args.materials)?.into_all();
     check_heights(&materials)?;
     let (panes, renderer) = panes(args, &materials, &scene)?;
-    destination.write(&panes, &provenance(args, &materials, scene, renderer))
+    let provenance = provenance(args, &materials, scene, renderer);
+    stoppable(|progress| destination.write(&panes, &provenance, progress))
 }
 
 fn scene(args: &RenderArgs) -> Scene {

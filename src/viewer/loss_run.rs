@@ -233,7 +233,7 @@ fn report(request: &LossRequest, ground_truth: &Material<f32>, reached: Reached)
         convention: request.params.convention,
         ground_truth: ground_truth.name().to_owned(),
         size: ground_truth.size(),
-        seed: Some(request.params.seed),
+        seed: Some(draw.seed),
         sampler: Some(draw.sampler),
         texels: draw.texels,
         precision: "f32",

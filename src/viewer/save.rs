@@ -27,7 +27,7 @@ pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBu
             render::render_f32(&loaded.material, &provenance.scene, &provenance.convention, progress)
         };
         let panes = materials.iter().map(render).collect::<Result<Vec<_>, _>>()?;
-        destination.write(&panes, &provenance)?;
+        destination.write(&panes, &provenance, progress)?;
         Ok(path)
     })
 }

@@ -11,6 +11,7 @@ use crate::export::{self, Provenance};
 use crate::material::read::transfer::{encoded, encoded_roughness};
 use crate::material::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
 use crate::material::{Material, Planes};
+use crate::progress::Progress;
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug)]
@@ -159,16 +160,19 @@ pub(super) fn folder(
     material: &Material<f32>,
     files: &[Picture<'_>],
     sixteen: bool,
+    progress: &Progress,
 ) -> io::Result<()> {
     let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(export::folder_of(path))?;
     for Picture { name, shown, code } in files {
-        let file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
+        let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
         let mut bytes = Vec::new();
         for index in 0..material.width() * material.height() {
             put(code.of(material, *shown, index), sixteen, &mut bytes);
         }
-        write(io::BufWriter::new(file), material.size(), sixteen, &code.text(), &bytes)?;
+        let file = io::BufWriter::new(export::Watched::new(&mut file, progress));
+        write(file, material.size(), sixteen, &code.text(), &bytes)?;
     }
+    export::check(progress)?;
     // Only an empty folder gives way to a rename.
     fs::rename(temporary.path(), path)?;
     #[cfg(unix)]
