@@ -41,13 +41,13 @@ fn what_is_unsure_or_changed_is_said_with_the_name_of_its_material() {
     succeed(folder.path(), "convert big.png other");
     std::fs::copy(folder.path().join("other/roughness.png"), folder.path().join("set/roughness.png"))
         .unwrap();
-    let changed = notes(folder.path(), "loss gt.png set");
+    let changed = notes(folder.path(), "loss big.png set");
     for said in ["set: missing: ", "set: size: "] {
         assert!(changed.iter().any(|note| note.starts_with(said)), "{said} is missing in {changed:?}");
     }
     assert!(!changed.iter().any(|note| note.contains("map is")), "{changed:?}");
     assert!(
-        notes(folder.path(), "loss gt.png set -v")
+        notes(folder.path(), "loss big.png set -v")
             .contains(&"set: The diffuse map is diffuse.png.".to_owned())
     );
     assert_eq!(
