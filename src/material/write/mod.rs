@@ -153,7 +153,7 @@ pub fn write_watched(
             export::replace(path, progress, |file| exr::write(file, material, half, preview))
         }
         Kind::Packed { sixteen, like } => {
-            export::replace(path, progress, |file| png::packed(file, material, like, sixteen))
+            export::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
         }
         Kind::Folder { sixteen } => folder(&png::PLAIN, sixteen),
         Kind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen),

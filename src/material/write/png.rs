@@ -132,12 +132,14 @@ pub(super) fn packed(
     material: &Material<f32>,
     like: Preset,
     sixteen: bool,
+    progress: &Progress,
 ) -> io::Result<()> {
     let (order, code) = (like.order().unwrap_or(Order::NDRS), Code::from(like));
     let tiles = order.to_string();
     let [width, height] = material.size();
     let mut bytes = Vec::new();
     for row in 0..height {
+        export::check(progress)?;
         for letter in tiles.chars() {
             let shown = match letter {
                 'n' => Shown::Normal,
@@ -166,8 +168,11 @@ pub(super) fn folder(
     for Picture { name, shown, code } in files {
         let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
         let mut bytes = Vec::new();
-        for index in 0..material.width() * material.height() {
-            put(code.of(material, *shown, index), sixteen, &mut bytes);
+        for row in 0..material.height() {
+            export::check(progress)?;
+            for index in row * material.width()..(row + 1) * material.width() {
+                put(code.of(material, *shown, index), sixteen, &mut bytes);
+            }
         }
         let file = io::BufWriter::new(export::Watched::new(&mut file, progress));
         write(file, material.size(), sixteen, &code.text(), &bytes)?;
