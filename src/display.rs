@@ -1,6 +1,6 @@
 //! From linear radiance to what a screen shows: exposure, the sRGB curve, 8 bits.
 //!
-//! `shaders/display.wgsl` is the twin of this file.
+//! `shaders/srgb.wgsl` and `shaders/encode.wgsl` are the twins of this file.
 
 /// The sRGB transfer curve (IEC 61966-2-1) of one linear value, which is first clipped to [0, 1]; NaN stays NaN.
 pub fn srgb_encode(linear: f32) -> f32 {

@@ -3,6 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use crate::study::text::percent;
+
 /// The error of every fallible operation of this crate. Its text is complete: it ends with what to do.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -69,6 +71,24 @@ pub enum Error {
     /// A value of an option or a combination of options that makes no sense.
     #[error("{0}")]
     Usage(String),
+
+    /// The materials of a study do not differ.
+    #[error(
+        "the two materials look the same in every scene, so that there is no error to study; \
+        give a prediction that differs from the ground truth"
+    )]
+    NothingToStudy,
+
+    /// A material would be resized to more than fits.
+    #[error("the materials cannot be resized to {width} x {height} texels: expected at most {max_side} x {max_side} \
+        and {} GiB a material, found {} GiB; give a smaller width to --resize-to",
+        max_bytes >> 30, bytes.div_ceil(1 << 30))]
+    TooLarge { width: usize, height: usize, bytes: usize, max_side: usize, max_bytes: usize },
+
+    /// An accuracy that was asked for needs more scenes than are drawn.
+    #[error("{prediction} is known to +-{}, not to the +-{} that was asked for: {scenes} scenes, the most there are, \
+        are not enough; ask for less, or go by the interval", percent(*reached), percent(*target))]
+    Inaccurate { prediction: String, reached: f64, target: f64, scenes: usize },
 
     /// A result cannot be written.
     #[error("cannot write {}: {source}; {remedy}", path.display())]

@@ -34,7 +34,7 @@ impl Progress {
     /// As [`Progress::step`].
     pub fn advance(&self, steps: u64) -> Result<(), Error> {
         self.done.fetch_add(steps, Ordering::Relaxed);
-        if self.cancelled.load(Ordering::Relaxed) {
+        if self.is_cancelled() {
             return Err(Error::Cancelled);
         }
         Ok(())
@@ -49,6 +49,11 @@ impl Progress {
     /// Asks the work to stop at its next step.
     pub fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the work was asked to stop.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
     }
 
     /// (steps done, steps in all); (0, 0) before the work has begun.

@@ -7,7 +7,9 @@ use svbrdf::material::Material;
 use svbrdf::material::read::{Binding, Preset};
 use svbrdf::material::write::{self, Depth, Kind, WriteOptions};
 
-use super::materials::{ReadingArgs, noted, read_one};
+use super::materials::read_one;
+use super::reading::ReadingArgs;
+use super::stop::stoppable;
 
 /// Writes a material as one layered EXR, as a packed PNG or into a folder
 ///
@@ -59,6 +61,6 @@ pub fn run(args: &ConvertArgs) -> Result<(), Error> {
     let kind = Kind::new(&args.output, &options)?;
     let read = read_one(&args.material, &args.bindings, &args.reading.options())?;
     args.reading.check(&args.material, &read)?;
-    let material: Material<f32> = noted(read);
-    write::write(&material, &args.output, kind)
+    let material: Material<f32> = args.reading.noted(read);
+    stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))
 }

@@ -13,6 +13,8 @@ const FAILED: u8 = 1;
 const NO_GRAPHICS: u8 = 2;
 /// The command line was not understood (EX_USAGE of sysexits.h).
 const USAGE: u8 = 64;
+/// Stopped by Ctrl+C, as a shell counts it: 128 and the number of the signal.
+pub const INTERRUPTED: u8 = 130;
 
 /// Prints the error of the program, if any, and says with which code it ends.
 pub fn exit_code(result: Result<(), Error>) -> ExitCode {
@@ -26,9 +28,12 @@ pub fn exit_code(result: Result<(), Error>) -> ExitCode {
 
 /// Prints what the parser of the command line has to say: help, version or a misunderstanding.
 pub fn explain(unusual: &clap::Error) -> ExitCode {
-    // A closed pipe is the reader's choice.
-    let _ = unusual.print();
-    if unusual.use_stderr() { ExitCode::from(USAGE) } else { ExitCode::SUCCESS }
+    if unusual.use_stderr() {
+        // There is nowhere else to say that a closed stderr is closed.
+        let _ = unusual.print();
+        return ExitCode::from(USAGE);
+    }
+    exit_code(accepted(unusual.print().and_then(|()| io::stdout().flush())))
 }
 
 /// A line on stderr, under the program's name. A closed stderr is no reason to stop.
@@ -42,7 +47,12 @@ pub fn tell(line: &str) {
 /// [`Error::Unwritable`], as on a full disk.
 pub fn put(text: &str) -> Result<(), Error> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    accepted(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
+}
+
+/// A closed pipe is the reader's choice.
+fn accepted(written: io::Result<()>) -> Result<(), Error> {
+    match written {
         Err(source) if source.kind() != io::ErrorKind::BrokenPipe => Err(unwritable(source)),
         _ => Ok(()),
     }
@@ -57,7 +67,8 @@ pub fn unwritable(source: io::Error) -> Error {
 fn code_of(error: &Error) -> u8 {
     match error {
         Error::NoWindow { .. } | Error::NoAdapter { .. } => NO_GRAPHICS,
-        Error::Usage(_) => USAGE,
+        Error::Usage(_) | Error::UnknownName { .. } => USAGE,
+        Error::Cancelled => INTERRUPTED,
         _ => FAILED,
     }
 }

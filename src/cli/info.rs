@@ -9,7 +9,8 @@ use svbrdf::error::Error;
 use svbrdf::material::read::{Assumption, Binding, Kept, MapReport, Read};
 
 use super::exit;
-use super::materials::{ReadingArgs, read_one};
+use super::materials::read_one;
+use super::reading::ReadingArgs;
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]

@@ -14,7 +14,7 @@ use svbrdf::scene::{self, Scene};
 
 use super::backend::{self, Choice, Job};
 use super::bar::watched;
-use super::report::Format;
+use super::report::{Format, Printed};
 use super::{exit, materials};
 
 /// Prints the rendering loss of predictions against a ground truth
@@ -41,17 +41,23 @@ pub struct LossArgs {
     sampler: Sampler,
 
     /// Compares all texels, or so many in each scene, which differ from scene to scene: fast on maps of any size
-    #[arg(long, value_name = "all|N", default_value = "all", conflicts_with_all = ["scenes", "backend"])]
+    #[arg(
+        long,
+        value_name = "all|N",
+        allow_negative_numbers = true,
+        default_value = "all",
+        conflicts_with = "scenes"
+    )]
     texels: Texels,
 
     /// Draws as many scenes as the loss needs to be known this well with 95% confidence, such as 1%
-    #[arg(long, value_name = "PERCENT", value_parser = percent,
-        conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes", "backend", "time_budget"])]
+    #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true,
+        conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes", "time_budget"])]
     target_error: Option<f64>,
 
     /// Draws as many scenes as fit into this time, such as 500ms or 2s
-    #[arg(long, value_name = "TIME", value_parser = duration,
-        conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes", "backend"])]
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true,
+        conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes"])]
     time_budget: Option<Duration>,
 
     /// printed, single-image-2018, multi-image-2019 or guided-2020
@@ -81,9 +87,11 @@ pub struct LossArgs {
 /// Prints the losses to stdout.
 ///
 /// # Errors
-/// Where a material or the scenes cannot be read or used.
+/// Where a material or the scenes cannot be read or used; with `--strict` where an accuracy is not reached, after the
+/// losses are printed with what is.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
     check_predictions(&args.materials)?;
+    check_backend(args)?;
     let report = match (args.precision, args.backend) {
         (Precision::F32, backend) => {
             report(args, losses_of_f32, |job, scenes| backend::losses(backend, job, scenes))?
@@ -94,7 +102,32 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
         }
         (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, losses_of, in_f64)?,
     };
-    exit::put(&args.format.write(&report).map_err(exit::unwritable)?)
+    let printed = Printed { missed: missed(args, &report), report, goal: goal(args), paths: paths(args) };
+    exit::put(&args.format.write(&printed).map_err(exit::unwritable)?)?;
+    match printed.missed {
+        Some(missed) if args.materials.reading.both.strict => Err(missed),
+        Some(missed) => {
+            exit::tell(&format!("warning: {missed}"));
+            Ok(())
+        }
+        None => Ok(()),
+    }
+}
+
+/// The accuracy that was asked for, where it is not reached.
+fn missed(args: &LossArgs, report: &Report) -> Option<Error> {
+    let goal = goal(args).filter(|goal| !goal.is_met_by(&report.losses));
+    let Some(Goal::RelativeError(target)) = goal else { return None };
+    let error = |loss: &Loss| loss.estimate.relative_error95();
+    let worst = report.losses.iter().max_by(|a, b| error(a).total_cmp(&error(b)))?;
+    let (prediction, scenes) = (worst.prediction.clone(), report.scenes.len());
+    Some(Error::Inaccurate { prediction, reached: error(worst), target, scenes })
+}
+
+/// The paths of the ground truth and of the predictions; none of the built-in ones.
+fn paths(args: &LossArgs) -> Vec<String> {
+    let all = args.materials.ground_truth.iter().chain(&args.materials.predictions);
+    all.map(|path| path.display().to_string()).collect()
 }
 
 /// The plain loss, which the CPU alone can compute.
@@ -143,7 +176,7 @@ fn report<T: Real>(
         convention: args.convention,
         ground_truth: opened.ground_truth.name().to_owned(),
         size: opened.ground_truth.size(),
-        seed: args.scenes.is_none().then_some(args.seed),
+        seed: args.scenes.is_none().then_some(reached.draw.seed),
         precision: T::NAME,
         backend,
         sampler: args.scenes.is_none().then_some(reached.draw.sampler),
@@ -151,6 +184,16 @@ fn report<T: Real>(
         scenes: reached.scenes,
         losses: reached.losses,
     })
+}
+
+/// A part of the texels is compared on the CPU alone.
+fn check_backend(args: &LossArgs) -> Result<(), Error> {
+    if args.backend != Choice::Gpu || args.texels == Texels::All && goal(args).is_none() {
+        return Ok(());
+    }
+    let problem = "graphics adapters compare all texels; leave out --backend gpu, or what chooses texels: \
+        --texels, --target-error or --time-budget";
+    Err(Error::Usage(problem.to_owned()))
 }
 
 fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
@@ -197,11 +240,26 @@ fn percent(text: &str) -> Result<f64, String> {
 
 /// A time such as `500ms`, `2s` or `0.5` (seconds).
 fn duration(text: &str) -> Result<Duration, String> {
-    let (number, scale) = match text.strip_suffix("ms") {
-        Some(number) => (number, 1e-3),
-        None => (text.strip_suffix('s').unwrap_or(text), 1.0),
-    };
+    let units = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0)];
+    let with_unit = units.iter().find_map(|(unit, scale)| Some((text.strip_suffix(unit)?, *scale)));
+    let (number, scale) = with_unit.unwrap_or((text, 1.0));
     let seconds = number.trim().parse::<f64>().map(|number| number * scale);
     let time = seconds.ok().filter(|s| *s > 0.0 && *s <= 86_400.0).map(Duration::from_secs_f64);
-    time.ok_or("expected a time of at most a day, as in 500ms or 2s".to_owned())
+    time.ok_or(
+        "expected a time above 0, at most a day, in us, ms or s (the default), as in 500ms or 2s".to_owned(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_positive_and_have_units() {
+        let times = ["100us", "500ms", "2s", "0.5", "1 s"].map(|text| duration(text).unwrap().as_micros());
+        assert_eq!(times, [100, 500_000, 2_000_000, 500_000, 1_000_000]);
+        for wrong in ["0", "-1s", "2m", "1e9s", "nan", "s", ""] {
+            assert!(duration(wrong).is_err_and(|said| said.contains("above 0")), "{wrong}");
+        }
+    }
 }

@@ -7,8 +7,10 @@ mod exit;
 mod info;
 mod loss;
 mod materials;
+mod reading;
 mod render;
 mod report;
+mod stop;
 mod study;
 mod view;
 
@@ -32,7 +34,8 @@ Exit codes:
    0  fine
    1  bad input, or the work failed
    2  no display, or no graphics adapter
-  64  the command line was not understood";
+  64  the command line was not understood
+ 130  stopped by Ctrl+C; what was being written is as it was";
 
 /// Shows SVBRDF materials under a light that you drag, and computes the rendering loss between them.
 ///

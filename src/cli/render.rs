@@ -12,6 +12,7 @@ use svbrdf::scene::{Kind, Scene};
 
 use super::bar::watched;
 use super::materials;
+use super::stop::stoppable;
 
 /// Writes a rendering of one material, or of several side by side, into a file
 ///
@@ -74,7 +75,8 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
     if args.difference {
         panes = differences(&panes, args.convention.epsilon as f32)?;
     }
-    destination.write(&panes, &provenance(args, &materials, scene, renderer))
+    let provenance = provenance(args, &materials, scene, renderer);
+    stoppable(|progress| destination.write(&panes, &provenance, progress))
 }
 
 fn scene(args: &RenderArgs) -> Scene {

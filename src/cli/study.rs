@@ -11,6 +11,7 @@ use svbrdf::study::{self, Pair, Study, plot};
 
 use super::backend::{Adapter, Job};
 use super::bar::watched;
+use super::stop::stoppable;
 use super::{exit, materials};
 
 /// Measures what accuracy of the loss costs, for this pair on this machine
@@ -42,15 +43,15 @@ pub struct StudyArgs {
 /// Where a material cannot be read, the two are of different sizes or look the same, or a file cannot be written.
 pub fn run(args: &StudyArgs) -> Result<(), Error> {
     check_predictions(&args.materials)?;
-    let plot = args.plot.as_deref().map(plot::Destination::new).transpose()?;
+    let plot = args.plot.as_deref().map(plot::destination).transpose()?;
     args.output.as_deref().map_or(Ok(()), export::check_place)?;
     let study = measured(args)?;
-    if let Some(path) = &args.output {
-        study.write_csv(path)?;
-    }
-    if let Some(plot) = plot {
-        plot.write(&study)?;
-    }
+    stoppable(|progress| {
+        if let Some(path) = &args.output {
+            study.write_csv(path, progress)?;
+        }
+        plot.map_or(Ok(()), |plot| plot::write(&study, &plot, progress))
+    })?;
     exit::put(&study.summary())
 }
 

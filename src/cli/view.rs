@@ -3,7 +3,8 @@
 use svbrdf::error::Error;
 
 use super::exit::tell;
-use super::materials::{MaterialArgs, ResizeTo};
+use super::materials::MaterialArgs;
+use super::reading::ResizeTo;
 
 #[derive(Debug, clap::Args)]
 pub struct ViewArgs {
@@ -25,7 +26,7 @@ pub fn run(args: ViewArgs) -> Result<(), Error> {
 
 #[cfg(feature = "viewer")]
 fn open_window(materials: MaterialArgs) -> Result<(), Error> {
-    let fit = match materials.reading.resize_to() {
+    let fit = match materials.reading.resize_to {
         None => false,
         Some(ResizeTo::GroundTruth) => true,
         Some(_) => {
@@ -37,7 +38,7 @@ fn open_window(materials: MaterialArgs) -> Result<(), Error> {
         }
     };
     svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
-        strict: materials.reading.is_strict(),
+        strict: materials.reading.both.strict,
         fit,
         ground_truth_read: materials.reading.of_ground_truth(),
         prediction_read: materials.reading.of_predictions(),

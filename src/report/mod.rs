@@ -1,6 +1,9 @@
 //! Losses with everything that gives them a meaning: what the command line prints and the window copies.
 
+mod names;
 mod text;
+
+pub use names::told_apart;
 
 use crate::convention::Convention;
 use crate::loss::{Estimate, Loss, Texels};
@@ -43,6 +46,14 @@ impl Report {
     pub fn difference(&self, loss: &Loss, less: &Loss) -> Estimate {
         let sampler = self.sampler.unwrap_or_default();
         Estimate::of_difference(sampler, &self.scenes, &loss.per_scene, &less.per_scene)
+    }
+
+    /// The texels that are compared in each scene: all where no fewer were asked for.
+    pub fn compared(&self) -> Texels {
+        match self.texels {
+            Texels::Sampled(count) if count < self.size[0] * self.size[1] => self.texels,
+            _ => Texels::All,
+        }
     }
 
     /// The number of scenes of a kind.

@@ -35,8 +35,9 @@ fn header(report: &Report) -> String {
         Some(Sampler::Sobol) => format!("{origin}, scrambled Sobol"),
         _ => origin,
     };
-    let texels = match report.texels {
+    let texels = match report.compared() {
         Texels::All => String::new(),
+        Texels::Sampled(1) => ", each on 1 texel of its own".to_owned(),
         Texels::Sampled(count) => format!(", each on {count} texels of its own"),
     };
     format!(

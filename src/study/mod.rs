@@ -144,7 +144,7 @@ impl Study {
 /// Measures every choice for `pair`, unless one loss would take too long; `update` sees the study after each point.
 ///
 /// # Errors
-/// Those of the loss; [`Error::Usage`] where the two materials look the same, and errors have nothing to be relative
+/// Those of the loss; [`Error::NothingToStudy`] where the two materials look the same, and errors have nothing to be relative
 /// to; [`Error::Cancelled`].
 pub fn run(pair: &Pair<'_>, progress: &Progress, mut update: impl FnMut(&Study)) -> Result<Study, Error> {
     let mut bench = Bench::new(pair, progress);

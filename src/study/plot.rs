@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use epaint_default_fonts::UBUNTU_LIGHT;
 use plotters::coord::Shift;
@@ -14,7 +14,8 @@ use plotters::style::{FontStyle, register_font};
 use super::text::{percent, time};
 use super::{Family, Point, Study};
 use crate::error::Error;
-use crate::export;
+use crate::export::Destination;
+use crate::progress::Progress;
 
 /// Width and height of the picture in pixels.
 const SIZE: (u32, u32) = (1200, 780);
@@ -28,51 +29,34 @@ type Pixel = (i32, i32);
 
 /// The kinds of files that plots are written into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Format {
+pub enum Format {
     Svg,
     Png,
 }
 
-/// A plot to be written, into a folder that is there.
-#[derive(Clone, Debug)]
-pub struct Destination {
-    path: PathBuf,
-    format: Format,
+/// Where a plot is to be written: checks what can be checked of `path` before there is anything to write.
+///
+/// # Errors
+/// [`Error::UnknownName`] for an extension other than svg and png, [`Error::Unwritable`] where its folder is missing or
+/// it is itself a folder.
+pub fn destination(path: &Path) -> Result<Destination<Format>, Error> {
+    let format = |extension: &str| match extension {
+        "svg" => Some(Format::Svg),
+        "png" => Some(Format::Png),
+        _ => None,
+    };
+    Destination::among(path, format, "extension of a plot", ".svg, .png")
 }
 
-impl Destination {
-    /// Checks what can be checked of `path` before there is anything to write.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`] for an extension other than svg and png, [`Error::Unwritable`] where its folder is
-    /// missing or it is itself a folder.
-    pub fn new(path: &Path) -> Result<Self, Error> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let format = match extension.as_str() {
-            "svg" => Format::Svg,
-            "png" => Format::Png,
-            _ => {
-                return Err(Error::UnknownName {
-                    what: "extension of a plot",
-                    found: path.display().to_string(),
-                    known: ".svg, .png".to_owned(),
-                });
-            }
-        };
-        export::check_place(path)?;
-        Ok(Self { path: path.to_owned(), format })
-    }
-
-    /// Writes the plot; the file appears when it is complete, or not at all.
-    ///
-    /// # Errors
-    /// [`Error::Unwritable`].
-    pub fn write(&self, study: &Study) -> Result<(), Error> {
-        export::replace(&self.path, |file| match self.format {
-            Format::Svg => file.write_all(svg(study)?.as_bytes()),
-            Format::Png => png(file, &rgb(study)?),
-        })
-    }
+/// Writes the plot of `study`; the file appears when it is complete, or not at all.
+///
+/// # Errors
+/// [`Error::Unwritable`], [`Error::Cancelled`].
+pub fn write(study: &Study, destination: &Destination<Format>, progress: &Progress) -> Result<(), Error> {
+    destination.replace(progress, |file| match destination.format {
+        Format::Svg => file.write_all(svg(study)?.as_bytes()),
+        Format::Png => png(file, &rgb(study)?),
+    })
 }
 
 fn svg(study: &Study) -> io::Result<String> {

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::export;
 use crate::loss::Precision;
 use crate::material::write::Depth;
+use crate::progress::Progress;
 
 /// Errors that a person may want, as shares of the loss.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
@@ -81,9 +82,9 @@ impl Study {
     /// Writes [`Study::csv`]; the file appears when it is complete, or not at all.
     ///
     /// # Errors
-    /// [`Error::Unwritable`].
-    pub fn write_csv(&self, path: &Path) -> Result<(), Error> {
-        export::replace(path, |file| std::io::Write::write_all(file, self.csv().as_bytes()))
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write_csv(&self, path: &Path, progress: &Progress) -> Result<(), Error> {
+        export::replace(path, progress, |file| std::io::Write::write_all(file, self.csv().as_bytes()))
     }
 }
 

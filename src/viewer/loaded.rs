@@ -37,6 +37,16 @@ pub struct Loaded {
     pub textures: Option<Result<MaterialTextures, String>>,
 }
 
+impl Loaded {
+    /// Where it was read from; nothing where it is built in.
+    pub fn path(&self) -> &Path {
+        match &self.origin {
+            Origin::BuiltIn => Path::new(""),
+            Origin::Path(path) => path,
+        }
+    }
+}
+
 /// What is asked of every material that is opened.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rules {

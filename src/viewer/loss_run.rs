@@ -191,6 +191,7 @@ impl LossRun {
         }
         let key = key(slots, request);
         let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|s| s.loaded.clone()).collect();
+        let names: Vec<String> = slots.slots.iter().map(|s| s.name().to_owned()).collect();
         let request = request.clone();
         let latest = Arc::new(Mutex::new(None));
         let (left, seen) = (latest.clone(), ctx.clone());
@@ -200,7 +201,7 @@ impl LossRun {
             let (ground_truth, predictions) = (materials[0], &materials[1..]);
             request.run(ground_truth, predictions, progress, |reached| {
                 let elapsed = start.elapsed();
-                let report = report(&request, ground_truth, reached);
+                let report = report(&request, ground_truth.size(), &names, reached);
                 let update = Update { differences: differences(&report), report, elapsed };
                 *left.lock().unwrap_or_else(PoisonError::into_inner) = Some(update);
                 seen.request_repaint();
@@ -230,13 +231,16 @@ fn key(slots: &Slots, request: &LossRequest) -> Key {
     Key { ids: slots.slots.iter().map(|s| s.id).collect(), request: request.clone() }
 }
 
-fn report(request: &LossRequest, ground_truth: &Material<f32>, reached: Reached) -> Report {
+/// `names` are those of the materials in the window, the ground truth first.
+fn report(request: &LossRequest, size: [usize; 2], names: &[String], reached: Reached) -> Report {
     let Reached { draw, scenes, losses } = reached;
+    let losses = losses.into_iter().zip(&names[1..]);
+    let losses = losses.map(|(loss, name)| Loss { prediction: name.clone(), ..loss }).collect();
     Report {
         convention: request.params.convention,
-        ground_truth: ground_truth.name().to_owned(),
-        size: ground_truth.size(),
-        seed: Some(request.params.seed),
+        ground_truth: names[0].clone(),
+        size,
+        seed: Some(draw.seed),
         sampler: Some(draw.sampler),
         texels: draw.texels,
         precision: "f32",

@@ -28,7 +28,7 @@ pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBu
         scene: state.scene,
         convention: state.convention(),
         exposure_ev: state.exposure_ev,
-        sources: materials.iter().map(|l| l.material.name().to_owned()).collect(),
+        sources: slots.slots.iter().map(|slot| slot.name().to_owned()).collect(),
         renderer: "CPU, f32".to_owned(),
     };
     Job::start(ctx, move |progress| {
@@ -42,7 +42,7 @@ pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBu
             let epsilon = provenance.convention.epsilon as f32;
             panes = panes.iter().map(|p| render::log_difference(p, &ground_truth, epsilon)).collect();
         }
-        destination.write(&panes, &provenance)?;
+        destination.write(&panes, &provenance, progress)?;
         Ok(path)
     })
 }

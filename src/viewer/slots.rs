@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::loss;
 use crate::material::read::{self, Kept, ReadOptions};
+use crate::report::told_apart;
 use crate::samples;
 
 /// A material in the window, with a number that no other one ever had: the key of everything derived from it.
@@ -18,11 +19,18 @@ use crate::samples;
 pub struct Slot {
     pub id: u64,
     pub loaded: Arc<Loaded>,
+    /// What tells it from the others.
+    name: String,
 }
 
 impl Slot {
+    fn new(id: u64, loaded: Loaded) -> Self {
+        let name = loaded.material.name().to_owned();
+        Self { id, loaded: Arc::new(loaded), name }
+    }
+
     pub fn name(&self) -> &str {
-        self.loaded.material.name()
+        &self.name
     }
 }
 
@@ -157,6 +165,7 @@ impl Slots {
             Target::Predictions => loaded.into_iter().for_each(|one| self.add(one, errors)),
             Target::Again(id) => loaded.into_iter().for_each(|one| self.replace(id, one, errors)),
         }
+        self.tell_apart();
     }
 
     fn add(&mut self, loaded: Loaded, errors: &mut Vec<String>) {
@@ -167,13 +176,13 @@ impl Slots {
             self.opened.push(path.clone());
         }
         let id = self.new_id();
-        self.slots.push(Slot { id, loaded: Arc::new(loaded) });
+        self.slots.push(Slot::new(id, loaded));
     }
 
     /// Puts `loaded` in the place of the slot `id`. A ground truth of another size sends the predictions away.
     fn replace(&mut self, id: u64, loaded: Loaded, errors: &mut Vec<String>) {
         let Some(index) = self.slots.iter().position(|s| s.id == id) else { return };
-        let new = Slot { id: self.new_id(), loaded: Arc::new(loaded) };
+        let new = Slot::new(self.new_id(), loaded);
         if index == 0 {
             let misfits = self.predictions().iter().filter_map(|s| misfit(&new, &s.loaded));
             errors.extend(misfits.map(|text| format!("a prediction was closed: {text}")));
@@ -182,6 +191,13 @@ impl Slots {
             return errors.push(text);
         }
         self.slots[index] = new;
+    }
+
+    /// Gives every slot a name of its own.
+    fn tell_apart(&mut self) {
+        let named: Vec<_> = self.slots.iter().map(|s| (s.loaded.material.name(), s.loaded.path())).collect();
+        let names = told_apart(&named);
+        self.slots.iter_mut().zip(names).for_each(|(slot, name)| slot.name = name);
     }
 
     fn new_id(&mut self) -> u64 {
@@ -246,6 +262,7 @@ impl Slots {
     pub fn close(&mut self, index: usize) {
         if index > 0 && index < self.slots.len() {
             self.slots.remove(index);
+            self.tell_apart();
         }
     }
 

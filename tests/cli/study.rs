@@ -1,8 +1,9 @@
 //! `svbrdf study`.
 
 use std::path::Path;
+use std::process::Output;
 
-use super::{fail, folder, succeed, svbrdf, text};
+use super::{fail, folder, succeed, svbrdf, text, write_material};
 
 /// The rows of a table with a heading, as cells by name.
 fn rows(csv: &str) -> Vec<Vec<(&str, &str)>> {
@@ -15,12 +16,17 @@ fn cell<'a>(row: &[(&str, &'a str)], name: &str) -> &'a str {
     row.iter().find(|(column, _)| *column == name).unwrap().1
 }
 
-/// The stdout of a study without an adapter.
-fn study(folder: &Path, args: &str) -> String {
+/// A study without an adapter.
+fn run(folder: &Path, args: &str) -> Output {
     let mut command = svbrdf();
     command.arg("study").args(args.split_whitespace()).current_dir(folder);
     command.env("WGPU_BACKEND", "vulkan").env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none");
-    let output = command.output().unwrap();
+    command.output().unwrap()
+}
+
+/// Its stdout.
+fn study(folder: &Path, args: &str) -> String {
+    let output = run(folder, args);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(text(&output.stderr).contains("note: without the GPU: no usable graphics adapter"));
     text(&output.stdout).to_owned()
@@ -60,11 +66,21 @@ fn a_study_writes_its_points_and_prints_what_to_type() {
 #[test]
 fn a_png_shows_points() {
     let folder = folder();
-    study(folder.path(), "gt.png b.png --plot study.png");
+    // More texels than the 128 of the blue points.
+    write_material(&folder.path().join("big2.png"), 16, 220);
+    study(folder.path(), "big.png big2.png --plot study.png");
     let picture = image::open(folder.path().join("study.png")).unwrap().to_rgb8();
     let is = |colour: [u8; 3]| picture.pixels().filter(|pixel| pixel.0 == colour).count();
     // The paper; a blue point and an orange triangle at least, which others may cover, beside those of the legend.
     assert!(is([255; 3]) > 500_000 && is([0, 114, 178]) > 2 * 60 && is([213, 94, 0]) > 2 * 30);
+}
+
+#[test]
+fn materials_that_look_the_same_are_bad_input() {
+    let folder = folder();
+    let output = run(folder.path(), "gt.png gt.png -o study.csv");
+    assert_eq!((output.status.code(), text(&output.stdout)), (Some(1), ""));
+    assert!(text(&output.stderr).contains("look the same") && !folder.path().join("study.csv").exists());
 }
 
 #[test]
@@ -74,7 +90,7 @@ fn a_study_that_cannot_be_done_is_refused_before_it_begins() {
         ("study gt.png", 64, "one prediction"),
         ("study gt.png a.png b.png", 64, "not 2"),
         ("study gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
-        ("study gt.png a.png --plot study.jpg", 1, ".svg, .png"),
+        ("study gt.png a.png --plot study.jpg", 64, ".svg, .png"),
         ("study gt.png a.png --plot no/study.svg", 1, "create the folder"),
         ("study gt.png a.png -o no/study.csv", 1, "create the folder"),
     ];

@@ -169,3 +169,25 @@ fn guesses_are_refused_where_the_window_was_told_to() {
         assert_eq!(refused, strict, "{:?}", window.state().messages());
     }
 }
+
+#[test]
+fn predictions_of_one_name_are_told_apart_by_their_folders() {
+    let folder = tempfile::tempdir().unwrap();
+    let [large, _] = two_sizes(folder.path());
+    let predictions = ["run_a", "run_b"].map(|run| {
+        std::fs::create_dir(folder.path().join(run)).unwrap();
+        let path = folder.path().join(run).join("out.png");
+        std::fs::copy(&large, &path).unwrap();
+        path
+    });
+    let options = ViewerOptions {
+        ground_truth: Some(large),
+        predictions: predictions.to_vec(),
+        ..ViewerOptions::default()
+    };
+    let Some(mut window) = window(options) else { return };
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    assert_eq!(window.state().names(), ["large", "run_a/out.png", "run_b/out.png"]);
+    let losses = window.state().losses().unwrap().iter().map(|loss| loss.prediction.clone());
+    assert_eq!(losses.collect::<Vec<_>>(), ["run_a/out.png", "run_b/out.png"]);
+}

@@ -1,32 +1,47 @@
 //! One table for spreadsheets (RFC 4180, with a heading); an unknown value is an empty cell.
 
 use svbrdf::loss::Loss;
-use svbrdf::report::Report;
 use svbrdf::scene::Kind;
 
-const HEADING: &str = "prediction,loss,standard_error,interval95_low,interval95_high,\
-    convention,epsilon,width,height,near,distant,seed,sampler,texels,precision,backend\n";
+use super::Printed;
 
-pub(super) fn write(report: &Report) -> String {
+const HEADING: &str = "prediction,loss,standard_error,interval95_low,interval95_high,\
+    convention,epsilon,width,height,near,distant,seed,sampler,texels,precision,backend,\
+    target_error,target_reached,path,ground_truth,ground_truth_path\n";
+
+pub(super) fn write(printed: &Printed) -> String {
+    let report = &printed.report;
     let [width, height] = report.size;
-    let common = format!(
-        "{},{},{width},{height},{},{},{},{},{},{},{}",
-        report.convention.name,
-        report.convention.epsilon,
-        report.count(Kind::Near),
-        report.count(Kind::Distant),
-        report.seed.map_or(String::new(), |seed| seed.to_string()),
-        report.sampler.map_or(String::new(), |sampler| sampler.to_string()),
-        report.texels,
-        report.precision,
-        report.backend,
-    );
-    let rows: String = report.losses.iter().map(|loss| format!("{},{common}\n", cells(loss))).collect();
+    let common = [
+        report.convention.name.to_owned(),
+        report.convention.epsilon.to_string(),
+        width.to_string(),
+        height.to_string(),
+        report.count(Kind::Near).to_string(),
+        report.count(Kind::Distant).to_string(),
+        or_empty(report.seed),
+        or_empty(report.sampler),
+        report.compared().to_string(),
+        report.precision.to_owned(),
+        report.backend.to_owned(),
+        or_empty(printed.target().map(|(error, _)| error)),
+        or_empty(printed.target().map(|(_, reached)| reached)),
+    ]
+    .join(",");
+    let ground_truth =
+        [&*report.ground_truth, printed.ground_truth_path().unwrap_or_default()].map(quoted).join(",");
+    let row = |(loss, path): (&Loss, Option<&str>)| {
+        format!("{},{common},{},{ground_truth}\n", cells(loss), quoted(path.unwrap_or_default()))
+    };
+    let rows: String = report.losses.iter().zip(printed.prediction_paths()).map(row).collect();
     format!("{HEADING}{rows}")
 }
 
+fn or_empty(value: Option<impl ToString>) -> String {
+    value.map_or(String::new(), |value| value.to_string())
+}
+
 fn cells(loss: &Loss) -> String {
-    let or_empty = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
     let estimate = &loss.estimate;
     let (low, high) = (estimate.interval95.map(|i| i[0]), estimate.interval95.map(|i| i[1]));
     let numbers = [Some(estimate.mean), estimate.standard_error, low, high].map(or_empty);

@@ -8,21 +8,38 @@ use svbrdf::report::Report;
 use svbrdf::sampler::Sampler;
 use svbrdf::scene::{Kind, Scene};
 
+use super::Printed;
+
+/// A scene file, too: `--scenes` takes it.
 #[derive(Serialize)]
 struct Object<'a> {
+    ground_truth: &'a str,
+    ground_truth_path: Option<&'a str>,
     convention: &'a str,
     epsilon: f64,
+    precision: &'a str,
     backend: &'a str,
     size: [usize; 2],
     near: usize,
     distant: usize,
     seed: Option<u64>,
     sampler: Option<Sampler>,
-    /// In each scene; absent where all are compared.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    texels: Option<usize>,
-    differences: Vec<DifferenceEntry<'a>>,
+    /// In each scene: their number, or "all".
+    texels: TexelsEntry,
+    target_error: Option<f64>,
+    target_reached: Option<bool>,
     results: Vec<Entry<'a>>,
+    differences: Vec<DifferenceEntry<'a>>,
+    /// Left out where a goal decides how many there are, which are far too many to read: their numbers, sampler,
+    /// texels and seed ask for the same ones.
+    scenes: Option<&'a [Scene]>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum TexelsEntry {
+    Number(usize),
+    Word(Texels),
 }
 
 /// How much larger the loss of a prediction is than that of the first, on the same scenes.
@@ -38,36 +55,39 @@ struct DifferenceEntry<'a> {
 #[derive(Serialize)]
 struct Entry<'a> {
     prediction: &'a str,
+    path: Option<&'a str>,
     loss: f64,
     standard_error: Option<f64>,
     interval95: Option<[f64; 2]>,
-    scenes: Vec<SceneLoss<'a>>,
+    /// That of each scene, in their order.
+    losses: Option<&'a [f64]>,
 }
 
-/// A scene and the loss in it.
-#[derive(Serialize)]
-struct SceneLoss<'a> {
-    #[serde(flatten)]
-    scene: &'a Scene,
-    loss: f64,
-}
-
-pub(super) fn write(report: &Report) -> io::Result<String> {
+pub(super) fn write(printed: &Printed) -> io::Result<String> {
+    let report = &printed.report;
+    let all = printed.goal.is_none();
+    let predictions = report.losses.iter().zip(printed.prediction_paths());
     let object = Object {
+        ground_truth: &report.ground_truth,
+        ground_truth_path: printed.ground_truth_path(),
         convention: report.convention.name,
         epsilon: report.convention.epsilon,
+        precision: report.precision,
         backend: report.backend,
         size: report.size,
         near: report.count(Kind::Near),
         distant: report.count(Kind::Distant),
         seed: report.seed,
         sampler: report.sampler,
-        texels: match report.texels {
-            Texels::All => None,
-            Texels::Sampled(count) => Some(count),
+        texels: match report.compared() {
+            Texels::Sampled(count) => TexelsEntry::Number(count),
+            all => TexelsEntry::Word(all),
         },
+        target_error: printed.target().map(|(error, _)| error),
+        target_reached: printed.target().map(|(_, reached)| reached),
+        results: predictions.map(|(loss, path)| entry(loss, path, all)).collect(),
         differences: report.differences().into_iter().map(|d| difference(report, d)).collect(),
-        results: report.losses.iter().map(|loss| entry(&report.scenes, loss)).collect(),
+        scenes: all.then_some(&report.scenes),
     };
     Ok(serde_json::to_string_pretty(&object)? + "\n")
 }
@@ -82,13 +102,13 @@ fn difference<'a>(report: &'a Report, (loss, e): (&'a Loss, Estimate)) -> Differ
     }
 }
 
-fn entry<'a>(scenes: &'a [Scene], loss: &'a Loss) -> Entry<'a> {
-    let per_scene = scenes.iter().zip(&loss.per_scene);
+fn entry<'a>(loss: &'a Loss, path: Option<&'a str>, all: bool) -> Entry<'a> {
     Entry {
         prediction: &loss.prediction,
+        path,
         loss: loss.estimate.mean,
         standard_error: loss.estimate.standard_error,
         interval95: loss.estimate.interval95,
-        scenes: per_scene.map(|(scene, &loss)| SceneLoss { scene, loss }).collect(),
+        losses: all.then_some(&loss.per_scene),
     }
 }

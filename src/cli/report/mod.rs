@@ -5,7 +5,40 @@ mod json;
 
 use std::io;
 
+use svbrdf::error::Error;
+use svbrdf::loss::adaptive::Goal;
 use svbrdf::report::Report;
+
+/// A report, and what the command line knows beside it.
+#[derive(Debug)]
+pub struct Printed {
+    pub report: Report,
+    /// What was asked for instead of a number of scenes.
+    pub goal: Option<Goal>,
+    /// The accuracy that was asked for, where it was not reached.
+    pub missed: Option<Error>,
+    /// Where the ground truth and the predictions were read from; none for the built-in ones.
+    pub paths: Vec<String>,
+}
+
+impl Printed {
+    /// The accuracy that was asked for, if any, and whether it was reached.
+    fn target(&self) -> Option<(f64, bool)> {
+        match self.goal {
+            Some(Goal::RelativeError(target)) => Some((target, self.missed.is_none())),
+            _ => None,
+        }
+    }
+
+    fn ground_truth_path(&self) -> Option<&str> {
+        self.paths.first().map(String::as_str)
+    }
+
+    /// The path of each prediction.
+    fn prediction_paths(&self) -> impl Iterator<Item = Option<&str>> {
+        self.paths.iter().skip(1).map(|path| Some(path.as_str())).chain(std::iter::repeat(None))
+    }
+}
 
 /// What a report is written in.
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
@@ -18,11 +51,11 @@ pub enum Format {
 
 impl Format {
     /// The report in this format, complete with its last line break.
-    pub fn write(self, report: &Report) -> io::Result<String> {
+    pub fn write(self, printed: &Printed) -> io::Result<String> {
         match self {
-            Self::Text => Ok(report.text()),
-            Self::Json => json::write(report),
-            Self::Csv => Ok(csv::write(report)),
+            Self::Text => Ok(printed.report.text()),
+            Self::Json => json::write(printed),
+            Self::Csv => Ok(csv::write(printed)),
         }
     }
 }

@@ -13,6 +13,7 @@ use super::names::Label;
 use super::options::ReadOptions;
 use crate::error::Error;
 use crate::export;
+use crate::progress::Progress;
 
 /// The name of the file in a folder.
 const IN_FOLDER: &str = "svbrdf.json";
@@ -123,7 +124,7 @@ impl Kept {
             all.insert(MAPS.to_owned(), maps.into());
         }
         let text = format!("{:#}\n", Value::from(all));
-        export::replace(&place, |file| file.write_all(text.as_bytes()))?;
+        export::replace(&place, &Progress::default(), |file| file.write_all(text.as_bytes()))?;
         Ok(place)
     }
 

@@ -15,6 +15,7 @@ use super::Material;
 use super::read::Preset;
 use crate::error::Error;
 use crate::export;
+use crate::progress::Progress;
 
 /// Kinds of files that materials are read from and not written into: as the name of a folder they are a mistake.
 const NOT_WRITTEN: [&str; 12] =
@@ -129,19 +130,37 @@ impl Kind {
 /// # Errors
 /// [`Error::Unwritable`]; a folder that is there and not empty is not replaced.
 pub fn write(material: &Material<f32>, path: &Path, kind: Kind) -> Result<(), Error> {
+    write_watched(material, path, kind, &Progress::default())
+}
+
+/// [`write`], which can be cancelled: then nothing appears.
+///
+/// # Errors
+/// As [`write`]; [`Error::Cancelled`].
+pub fn write_watched(
+    material: &Material<f32>,
+    path: &Path,
+    kind: Kind,
+    progress: &Progress,
+) -> Result<(), Error> {
     let folder = |files: &[png::Picture<'_>], sixteen| {
-        png::folder(path, material, files, sixteen).map_err(|source| Error::Unwritable {
-            path: path.to_owned(),
-            source,
-            remedy: "name a folder that is not there yet, in one that is writable",
+        png::folder(path, material, files, sixteen, progress).map_err(|source| {
+            match progress.is_cancelled() {
+                true => Error::Cancelled,
+                false => Error::Unwritable {
+                    path: path.to_owned(),
+                    source,
+                    remedy: "name a folder that is not there yet, in one that is writable",
+                },
+            }
         })
     };
     match kind {
         Kind::Exr { half, preview } => {
-            export::replace(path, |file| exr::write(file, material, half, preview))
+            export::replace(path, progress, |file| exr::write(file, material, half, preview))
         }
         Kind::Packed { sixteen, like } => {
-            export::replace(path, |file| png::packed(file, material, like, sixteen))
+            export::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
         }
         Kind::Folder { sixteen } => folder(&png::PLAIN, sixteen),
         Kind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen),

@@ -11,6 +11,7 @@ use crate::export::{self, Provenance};
 use crate::material::read::transfer::{encoded, encoded_roughness};
 use crate::material::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
 use crate::material::{Material, Planes};
+use crate::progress::Progress;
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug)]
@@ -131,12 +132,14 @@ pub(super) fn packed(
     material: &Material<f32>,
     like: Preset,
     sixteen: bool,
+    progress: &Progress,
 ) -> io::Result<()> {
     let (order, code) = (like.order().unwrap_or(Order::NDRS), Code::from(like));
     let tiles = order.to_string();
     let [width, height] = material.size();
     let mut bytes = Vec::new();
     for row in 0..height {
+        export::check(progress)?;
         for letter in tiles.chars() {
             let shown = match letter {
                 'n' => Shown::Normal,
@@ -159,16 +162,22 @@ pub(super) fn folder(
     material: &Material<f32>,
     files: &[Picture<'_>],
     sixteen: bool,
+    progress: &Progress,
 ) -> io::Result<()> {
     let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(export::folder_of(path))?;
     for Picture { name, shown, code } in files {
-        let file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
+        let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
         let mut bytes = Vec::new();
-        for index in 0..material.width() * material.height() {
-            put(code.of(material, *shown, index), sixteen, &mut bytes);
+        for row in 0..material.height() {
+            export::check(progress)?;
+            for index in row * material.width()..(row + 1) * material.width() {
+                put(code.of(material, *shown, index), sixteen, &mut bytes);
+            }
         }
-        write(io::BufWriter::new(file), material.size(), sixteen, &code.text(), &bytes)?;
+        let file = io::BufWriter::new(export::Watched::new(&mut file, progress));
+        write(file, material.size(), sixteen, &code.text(), &bytes)?;
     }
+    export::check(progress)?;
     // Only an empty folder gives way to a rename.
     fs::rename(temporary.path(), path)?;
     #[cfg(unix)]

@@ -1,0 +1,106 @@
+//! How the program ends: exit codes, and what it says then.
+
+use std::process::Stdio;
+
+use super::{fail, folder, succeed, svbrdf, text};
+
+#[test]
+fn help_shows_examples_and_exit_codes() {
+    let folder = folder();
+    let help = succeed(folder.path(), "--help");
+    for expected in ["view", "loss", "render", "Examples:", "Exit codes:", "64", "--albedo", "--normal-y"] {
+        assert!(help.contains(expected), "{expected} is missing in\n{help}");
+    }
+    for (subcommand, option) in [("view", "--gt-albedo"), ("loss", "--scenes"), ("render", "--exposure")] {
+        assert!(succeed(folder.path(), &format!("{subcommand} --help")).contains(option));
+    }
+    assert!(succeed(folder.path(), "--version").contains(env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn bad_input_gets_one_clear_error_and_leaves_nothing() {
+    let folder = folder();
+    let cases = [
+        ("loss gt.png a.png --convention other", 64, "guided-2020"),
+        ("loss gt.png a.png --precision f16", 64, "f32, f64"),
+        ("loss gt.png a.png --backend tpu", 64, "auto"),
+        ("loss gt.png a.png --backend gpu --precision f64", 64, "leave out --backend gpu"),
+        ("loss gt.png a.png --near -1", 64, "--near"),
+        ("loss gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
+        ("loss gt.png a.png --scenes one.json --seed 1", 64, "cannot be used with"),
+        ("loss gt.png", 64, "no prediction"),
+        ("loss gt.png a.png --colour", 64, "--colour"),
+        ("loss --albedo srgb", 64, "<GT>"),
+        ("loss gt.png a.png --scenes nan.json", 1, "nan.json"),
+        ("loss gt.png a.png --scenes below.json", 1, "scene 0: its light [0.5, 0.5, -1.0] is not above"),
+        ("loss gt.png a.png --scenes none.json", 1, "no scene"),
+        ("loss gt.png a.png --scenes not.json", 1, "not.json"),
+        ("loss gt.png a.png --scenes missing.json", 1, "missing.json"),
+        ("loss gt.png missing.png", 1, "missing.png"),
+        ("loss gt.png text.png", 1, "text.png"),
+        ("loss gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
+        ("render gt.png", 64, "--output"),
+        ("render gt.png -o no/folder.png", 1, "create the folder"),
+        ("render gt.png -o picture.jpg", 64, ".exr (linear floats), .png"),
+        ("render gt.png -o picture", 64, ".exr"),
+        ("convert gt.png x.exr --like gltf", 64, "leave out --like"),
+        ("render gt.png -o x.png --view 1,2", 64, "three numbers"),
+        ("render gt.png -o x.png --view a,b,c", 64, "three numbers"),
+        ("render gt.png -o x.png --light 0,0,-1", 1, "above the plane"),
+        ("render gt.png -o x.png --light 0,nan,1", 1, "not finite"),
+        ("render gt.png -o x.png --exposure nan", 64, "number of stops"),
+        ("render gt.png big.png -o x.png", 1, "one by one"),
+        ("render missing.png -o x.exr", 1, "missing.png"),
+    ];
+    for (args, code, said) in cases {
+        let stderr = fail(folder.path(), args, code);
+        assert!(stderr.contains(said), "{args}: `{said}` is missing in {stderr}");
+    }
+}
+
+#[test]
+fn without_a_display_the_window_names_the_headless_commands() {
+    let folder = folder();
+    for args in ["", "view", "gt.png a.png", "view gt.png"] {
+        let stderr = fail(folder.path(), args, 2);
+        assert!(stderr.contains("`svbrdf loss`") && stderr.contains("`svbrdf render`"), "{args}: {stderr}");
+    }
+}
+
+#[test]
+fn without_an_adapter_the_gpu_is_a_clear_error() {
+    let folder = folder();
+    let mut command = svbrdf();
+    command.args(["render", "gt.png", "--gpu", "-o", "x.png"]).current_dir(folder.path());
+    command.env("WGPU_BACKEND", "vulkan").env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none");
+    let output = command.output().unwrap();
+    let stderr = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert!(stderr.contains("no usable graphics adapter"), "{stderr}");
+    assert!(!folder.path().join("x.png").exists());
+}
+
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let mut child =
+        svbrdf().args(["loss", "--near", "2"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stderr).lines().find(|line| !line.contains("note: ")), None);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_an_error() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let output = svbrdf().args(["loss", "--near", "2"]).stdout(full).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("cannot write standard output"));
+
+    for args in [&["--help"][..], &["loss", "--help"], &["--version"]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = svbrdf().args(args).stdout(full).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{args:?}");
+    }
+}

@@ -1,0 +1,176 @@
+//! `svbrdf loss`: its numbers and its formats.
+
+use serde_json::{Value, json};
+
+use super::{fail, folder, keys, losses_as_json, run_in, succeed, text, write_material};
+
+#[test]
+fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
+    let folder = folder();
+    let table = succeed(folder.path(), "loss --near 3 --distant 2");
+    let csv = succeed(folder.path(), "loss --near 3 --distant 2 --format csv");
+    let json = losses_as_json(folder.path(), "--near 3 --distant 2");
+    for said in
+        ["convention printed", "epsilon 0.01", "3 near-field and 2 distant", "seed 0", "f32 on the cpu"]
+    {
+        assert!(table.contains(said), "{said} is missing in\n{table}");
+    }
+    let results = json["results"].as_array().unwrap();
+    assert_eq!((results.len(), csv.lines().count()), (2, 3));
+    for (result, row) in results.iter().zip(csv.lines().skip(1)) {
+        let (name, loss) = (result["prediction"].as_str().unwrap(), result["loss"].as_f64().unwrap());
+        assert!(row.starts_with(&format!("{name},{loss},")), "{row}");
+        let line = table.lines().find(|line| line.starts_with(name)).unwrap();
+        assert!(line.contains(&format!("  {loss:.6}  ")), "{line}");
+    }
+}
+
+#[test]
+fn json_is_one_object_with_exactly_these_keys() {
+    let folder = folder();
+    let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 5 --convention multi-image-2019");
+    let top = "backend convention differences distant epsilon ground_truth ground_truth_path near precision results \
+        sampler scenes seed size target_error target_reached texels";
+    assert_eq!(keys(&json).join(" "), top);
+    assert_eq!((&json["ground_truth"], &json["ground_truth_path"]), (&json!("gt"), &json!("gt.png")));
+    assert_eq!((&json["precision"], &json["texels"]), (&json!("f32"), &json!("all")));
+    assert_eq!(losses_as_json(folder.path(), "gt.png a.png --texels 12")["texels"], json!(12));
+    assert_eq!((&json["convention"], &json["epsilon"]), (&json!("multi-image-2019"), &json!(0.1)));
+    assert_eq!((&json["size"], &json["seed"]), (&json!([8, 8]), &json!(5)));
+    assert_eq!((&json["near"], &json["distant"]), (&json!(6), &json!(3)));
+    let result = &json["results"][1];
+    assert_eq!(keys(result), ["interval95", "loss", "losses", "path", "prediction", "standard_error"]);
+    assert_eq!((&result["prediction"], &result["path"]), (&json!("b"), &json!("b.png")));
+    let losses: Vec<f64> =
+        result["losses"].as_array().unwrap().iter().map(|loss| loss.as_f64().unwrap()).collect();
+    assert!((losses.iter().sum::<f64>() / 9.0 - result["loss"].as_f64().unwrap()).abs() < 1e-12);
+    assert_eq!(json["scenes"].as_array().unwrap().len(), 9);
+    assert_eq!(keys(&json["scenes"][0]), ["kind", "light", "view"]);
+    let [low, high] = [0, 1].map(|i| result["interval95"][i].as_f64().unwrap());
+    assert!((low..high).contains(&result["loss"].as_f64().unwrap()));
+}
+
+#[test]
+fn a_target_error_is_reached_and_a_difference_has_its_own_interval() {
+    let folder = folder();
+    let json = losses_as_json(folder.path(), "gt.png a.png b.png --target-error 1%");
+    for result in json["results"].as_array().unwrap() {
+        let [low, high] = [0, 1].map(|i| result["interval95"][i].as_f64().unwrap());
+        assert!((high - low) / 2.0 <= 0.01 * result["loss"].as_f64().unwrap(), "{result}");
+    }
+    let (a, b) = (&json["results"][0]["loss"], &json["results"][1]["loss"]);
+    let difference = json["differences"][0]["interval95"].clone();
+    let [low, high] = [0, 1].map(|i| difference[i].as_f64().unwrap());
+    assert!((low..high).contains(&(b.as_f64().unwrap() - a.as_f64().unwrap())), "{difference}");
+    assert_eq!(json["sampler"], "sobol");
+}
+
+#[test]
+fn a_time_budget_gives_a_loss_and_nonsense_is_refused() {
+    let folder = folder();
+    let json = losses_as_json(folder.path(), "gt.png a.png --time-budget 20ms");
+    assert!(json["near"].as_u64().unwrap() >= 32, "{json}");
+    for (bad, said) in [
+        ("--target-error 0%", "more than 0%"),
+        ("--target-error -1%", "more than 0%"),
+        ("--target-error much", "more than 0%"),
+        ("--time-budget 0", "above 0"),
+        ("--time-budget -1s", "above 0"),
+        ("--time-budget 2m", "in us, ms or s"),
+        ("--texels -3", "a number such as 256"),
+        ("--texels 0", "a number such as 256"),
+        ("--dielectric-f0 -1", "a number from 0 to 1"),
+        ("--resize-to -1", "a width from 1"),
+        ("--sampler halton", "sobol"),
+    ] {
+        let stderr = fail(folder.path(), &format!("loss gt.png a.png {bad}"), 64);
+        assert!(stderr.contains(said), "{bad}: {stderr}");
+    }
+    fail(folder.path(), "loss gt.png a.png --target-error 1% --near 6", 64);
+}
+
+#[test]
+fn what_is_unknown_is_never_printed_as_0() {
+    let folder = folder();
+    let json = losses_as_json(folder.path(), "gt.png a.png --near 1");
+    assert_eq!(json["results"][0]["standard_error"], Value::Null);
+    assert_eq!(json["results"][0]["interval95"], Value::Null);
+    let table = succeed(folder.path(), "loss gt.png a.png --near 1");
+    assert_eq!(table.matches("unknown").count(), 2, "{table}");
+    let csv = succeed(folder.path(), "loss gt.png a.png --near 1 --format csv");
+    assert!(csv.contains(",,,,printed,"), "{csv}");
+}
+
+/// What a report says about its losses, and the options that ask for as many scenes by number.
+fn numbers_and_options(json: &Value) -> (Vec<Value>, String) {
+    let results = json["results"].as_array().unwrap();
+    let numbers = results.iter().flat_map(|r| ["loss", "standard_error", "interval95"].map(|k| r[k].clone()));
+    let options = ["near", "distant", "seed", "sampler", "texels"]
+        .map(|option| format!("--{option} {}", json[option].to_string().trim_matches('"')));
+    (numbers.chain([json["differences"].clone()]).collect(), options.join(" "))
+}
+
+#[test]
+fn a_run_by_accuracy_or_time_is_the_run_that_its_report_names() {
+    let folder = folder();
+    for (materials, goal) in [
+        ("", "--target-error 3%"),
+        ("", "--target-error 5% --seed 7"),
+        ("gt.png a.png b.png", "--time-budget 30ms --seed 2"),
+        ("big.png big2.png", "--target-error 10% --precision f64"),
+        ("big.png big2.png", "--time-budget 10ms"),
+    ] {
+        write_material(&folder.path().join("big2.png"), 16, 140);
+        let by_goal = losses_as_json(folder.path(), &format!("{materials} {goal}"));
+        assert_eq!((&by_goal["scenes"], &by_goal["results"][0]["losses"]), (&Value::Null, &Value::Null));
+        let (numbers, options) = numbers_and_options(&by_goal);
+        let precision = if goal.contains("f64") { "--precision f64" } else { "" };
+        let again = |options: &str| {
+            numbers_and_options(&losses_as_json(folder.path(), &format!("{materials} {options} {precision}")))
+                .0
+        };
+        assert_eq!(again(&options), numbers, "{goal}: {options}");
+        // A planted fault: another seed.
+        let seed = by_goal["seed"].as_u64().unwrap();
+        let other = options.replace(&format!("--seed {seed}"), &format!("--seed {}", seed + 1));
+        assert_ne!(again(&other), numbers);
+    }
+}
+
+#[test]
+fn an_accuracy_that_is_not_reached_is_said() {
+    let folder = folder();
+    let missed = "gt.png a.png --target-error 0.001%";
+    let output = run_in(folder.path(), &format!("loss {missed} --format json"));
+    let stderr = text(&output.stderr);
+    assert!(output.status.success() && stderr.contains("warning: a is known to +-0.0"), "{stderr}");
+    assert!(stderr.contains("not to the +-0.001%") && stderr.contains("786432 scenes"), "{stderr}");
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&json["target_error"], &json["target_reached"]), (&json!(1e-5), &json!(false)));
+    let strict = run_in(folder.path(), &format!("loss {missed} --strict --format csv"));
+    assert_eq!(strict.status.code(), Some(1));
+    assert!(text(&strict.stdout).contains(",0.00001,false,a.png,gt,gt.png\n"), "{}", text(&strict.stdout));
+    assert!(text(&strict.stderr).contains("error: a is known to"));
+    let reached = losses_as_json(folder.path(), "gt.png a.png --target-error 10% --strict");
+    assert_eq!(reached["target_reached"], json!(true));
+}
+
+#[test]
+fn the_header_says_which_texels_are_compared() {
+    let folder = folder();
+    let line = |args: &str| {
+        let table = succeed(folder.path(), &format!("loss gt.png a.png {args}"));
+        table.lines().nth(2).unwrap().to_owned()
+    };
+    let drawn = "6 near-field and 3 distant scenes of seed 0";
+    assert_eq!(line("--texels 99999999999"), drawn);
+    assert_eq!(line("--texels 64"), drawn);
+    assert_eq!(line("--texels 63"), format!("{drawn}, each on 63 texels of its own"));
+    assert_eq!(line("--texels 1 --backend cpu"), format!("{drawn}, each on 1 texel of its own"));
+    line("--texels 9 --backend auto");
+    line("--target-error 10% --backend cpu");
+    for chosen in ["--texels 9", "--target-error 1%", "--time-budget 1ms"] {
+        let stderr = fail(folder.path(), &format!("loss gt.png a.png {chosen} --backend gpu"), 64);
+        assert!(stderr.contains("leave out --backend gpu"), "{stderr}");
+    }
+}

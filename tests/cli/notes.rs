@@ -1,0 +1,57 @@
+//! What is said about materials on stderr.
+
+use image::{Rgb, RgbImage};
+
+use super::{folder, run_in, succeed, text};
+
+/// The notes of a run that must succeed.
+fn notes(folder: &std::path::Path, args: &str) -> Vec<String> {
+    let output = run_in(folder, args);
+    assert!(output.status.success(), "{args}: {}", text(&output.stderr));
+    text(&output.stderr).lines().map(|line| line.strip_prefix("svbrdf: note: ").unwrap().to_owned()).collect()
+}
+
+#[test]
+fn what_is_sure_is_only_said_when_asked_for() {
+    let folder = folder();
+    for command in ["loss gt.png a.png", "convert gt.png gt.exr", "render a.png -o a.exr"] {
+        assert_eq!(notes(folder.path(), command), [""; 0], "{command}");
+    }
+    let all = notes(folder.path(), "loss gt.png a.png --verbose");
+    for name in ["gt", "a"] {
+        assert!(
+            all.contains(&format!("{name}: albedo: linear: so do Deschaintre et al. store this order")),
+            "{all:?}"
+        );
+    }
+    assert_eq!(notes(folder.path(), "loss gt.png a.png -v"), all);
+    assert!(succeed(folder.path(), "info gt.png").contains("albedo: linear"));
+}
+
+#[test]
+fn what_is_unsure_or_changed_is_said_with_the_name_of_its_material() {
+    let folder = folder();
+    RgbImage::from_pixel(32, 8, Rgb([90, 90, 90])).save(folder.path().join("flat.png")).unwrap();
+    let guessed = notes(folder.path(), "loss gt.png flat.png");
+    assert!(guessed.iter().any(|note| note.starts_with("flat: layout: ndrs") && note.contains("(unsure)")));
+    assert!(guessed.iter().all(|note| note.starts_with("flat: ")), "{guessed:?}");
+
+    succeed(folder.path(), "convert gt.png set");
+    std::fs::remove_file(folder.path().join("set/specular.png")).unwrap();
+    succeed(folder.path(), "convert big.png other");
+    std::fs::copy(folder.path().join("other/roughness.png"), folder.path().join("set/roughness.png"))
+        .unwrap();
+    let changed = notes(folder.path(), "loss big.png set");
+    for said in ["set: missing: ", "set: size: "] {
+        assert!(changed.iter().any(|note| note.starts_with(said)), "{said} is missing in {changed:?}");
+    }
+    assert!(!changed.iter().any(|note| note.contains("map is")), "{changed:?}");
+    assert!(
+        notes(folder.path(), "loss big.png set -v")
+            .contains(&"set: The diffuse map is diffuse.png.".to_owned())
+    );
+    assert_eq!(
+        notes(folder.path(), "loss gt.png big.png --resize-to gt"),
+        ["big is resized from 16 x 16 to 8 x 8"]
+    );
+}

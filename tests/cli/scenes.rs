@@ -1,0 +1,17 @@
+//! Scenes that are printed, and read again.
+
+use serde_json::{Value, json};
+
+use super::{folder, losses_as_json, succeed};
+
+#[test]
+fn scenes_that_were_printed_can_be_read_again() {
+    let folder = folder();
+    let drawn = losses_as_json(folder.path(), "gt.png a.png --seed 9 --precision f64");
+    std::fs::write(folder.path().join("drawn.json"), drawn.to_string()).unwrap();
+    let read = losses_as_json(folder.path(), "gt.png a.png --scenes drawn.json --precision f64");
+    assert_eq!((&read["results"], &read["scenes"]), (&drawn["results"], &drawn["scenes"]));
+    assert_eq!((&read["seed"], &read["near"]), (&Value::Null, &json!(6)));
+    let table = succeed(folder.path(), "loss gt.png a.png --scenes drawn.json");
+    assert!(table.contains("from a file"), "{table}");
+}

@@ -1,0 +1,89 @@
+//! Ctrl+C while files are written.
+#![cfg(target_os = "linux")]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use super::{files, folder};
+
+/// Width and height of the material: writing it takes a while.
+const LARGE: u32 = 1024;
+
+/// Starts a conversion in `folder`. Signals that the tests' own parent ignores are not ignored.
+fn convert(folder: &Path, out: &str) -> Child {
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_svbrdf"), "convert", "large.png"]);
+    command.args(out.split(' ')).current_dir(folder);
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+}
+
+fn send(signal: &str, child: &Child) {
+    let kill = format!("kill -{signal} {}", child.id());
+    assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
+}
+
+/// Waits until `folder` has a temporary file or folder; false where the child has ended before.
+fn writing(folder: &Path, child: &mut Child) -> bool {
+    while child.try_wait().unwrap().is_none() {
+        if files(folder).iter().any(|name| name.starts_with(".svbrdf-")) {
+            return true;
+        }
+        sleep(Duration::from_millis(1));
+    }
+    false
+}
+
+/// Ends as a shell shows it: by the signal itself, or with its code.
+fn is_interrupted(status: ExitStatus) -> bool {
+    use std::os::unix::process::ExitStatusExt;
+    status.code() == Some(130) || matches!(status.signal(), Some(2 | 15))
+}
+
+#[test]
+fn an_interrupt_at_any_moment_leaves_what_was_there() {
+    let folder = folder();
+    super::write_material(&folder.path().join("large.png"), LARGE, 90);
+    for (out, target, signal) in [
+        ("out.exr --depth float", "out.exr", "INT"),
+        ("out.png --depth 16", "out.png", "TERM"),
+        ("out", "out", "INT"),
+    ] {
+        let target = folder.path().join(target);
+        let before = files(folder.path());
+        let started = Instant::now();
+        let mut child = convert(folder.path(), out);
+        assert!(writing(folder.path(), &mut child));
+        let reading = started.elapsed();
+        assert!(child.wait().unwrap().success());
+        let writing_time = started.elapsed() - reading;
+        if target.is_dir() { fs::remove_dir_all(&target) } else { fs::remove_file(&target) }.unwrap();
+        assert_eq!(files(folder.path()), before);
+
+        let mut cancelled = 0;
+        for share in [0.0, 0.2, 0.4, 0.6, 0.8] {
+            let mut child = convert(folder.path(), out);
+            assert!(writing(folder.path(), &mut child));
+            sleep(writing_time.mul_f64(share));
+            send(signal, &child);
+            let status = child.wait().unwrap();
+            let finished = status.success() && target.exists();
+            assert!(finished || status.code() == Some(130) && !target.exists(), "{out}: {status}");
+            cancelled += u32::from(!finished);
+            if finished {
+                if target.is_dir() { fs::remove_dir_all(&target) } else { fs::remove_file(&target) }.unwrap();
+            }
+            assert_eq!(files(folder.path()), before, "{out}: something is left");
+        }
+        assert!(cancelled > 0, "{out}: nothing was ever cancelled");
+
+        // While it reads there is nothing to take away, and no need to wait.
+        let mut child = convert(folder.path(), out);
+        sleep(reading / 4);
+        send(signal, &child);
+        assert!(is_interrupted(child.wait().unwrap()), "{out}");
+        assert_eq!(files(folder.path()), before);
+    }
+}
