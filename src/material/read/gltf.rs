@@ -44,7 +44,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     }
     let scene = Scene { path: path.to_owned(), document: gltf.document, blob: gltf.blob };
     let count = scene.document.materials().len();
-    let index = options.exemplar.unwrap_or(0).min(count.saturating_sub(1));
+    let index = options.exemplar_of(count, path)?;
     let material = scene.document.materials().nth(index).ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
         expected: "a material in the glTF".to_owned(),

@@ -39,8 +39,8 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     })?;
     let is_surface = |n: &Node<'_, '_>| matches!(n.tag_name().name(), "standard_surface" | "gltf_pbr");
     let surfaces: Vec<_> = document.descendants().filter(is_surface).collect();
-    let chosen = surfaces.get(options.exemplar.unwrap_or(0).min(surfaces.len().saturating_sub(1)));
-    let surface = *chosen.ok_or_else(|| Error::NotAMaterial {
+    let index = options.exemplar_of(surfaces.len(), path)?;
+    let surface = *surfaces.get(index).ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
         expected: "a standard_surface or a gltf_pbr".to_owned(),
         found: "neither".to_owned(),
@@ -93,7 +93,9 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     found.assumptions.insert(0, layout);
     if surfaces.len() > 1 {
         let count = surfaces.len();
-        found.notes.push(format!("The file holds {count} surfaces. Another: --exemplar."));
+        found.notes.push(format!(
+            "The file holds {count} surfaces; this is number {index} from 0. Another: --exemplar."
+        ));
     }
     Ok(found)
 }

@@ -1,6 +1,7 @@
 //! How stored values are to be understood. Whatever a user leaves open is detected, and said.
 
 use std::fmt;
+use std::path::Path;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
@@ -212,6 +213,24 @@ pub struct ReadOptions {
 }
 
 impl ReadOptions {
+    /// Which of the `count` materials of the file `path` is read. The only one of a file is, whatever is said: that may
+    /// be meant for the other materials of a command line.
+    ///
+    /// # Errors
+    /// [`Error::NotAMaterial`] where there is none of that number.
+    pub(super) fn exemplar_of(&self, count: usize, path: &Path) -> Result<usize, Error> {
+        match self.exemplar.unwrap_or(0) {
+            _ if count < 2 => Ok(0),
+            exemplar if exemplar < count => Ok(exemplar),
+            exemplar => Err(Error::NotAMaterial {
+                path: path.to_owned(),
+                expected: format!("an exemplar from 0 to {}: it holds {count} materials", count - 1),
+                found: format!("--exemplar {exemplar}"),
+                remedy: "count from 0".to_owned(),
+            }),
+        }
+    }
+
     /// Everything is found out.
     pub const AUTO: Self = Self {
         preset: None,

@@ -44,14 +44,8 @@ pub fn unpack(
     let chosen = own.as_ref().map(Own::choice).or_else(|| choose(image, &name, options));
     let refused = || refusal(path, image, options);
     let Choice { grid, order, first, why, certainty } = chosen.ok_or_else(refused)?;
-    let exemplar = options.exemplar.unwrap_or(0);
-    if is_stack(grid, order.len()) && exemplar >= grid.rows {
-        return Err(Error::NotAMaterial {
-            path: path.to_owned(),
-            expected: format!("an exemplar from 0 to {}, a row each", grid.rows - 1),
-            found: format!("--exemplar {exemplar}"),
-            remedy: "count the rows from 0".to_owned(),
-        });
+    if is_stack(grid, order.len()) {
+        options.exemplar_of(grid.rows, path)?;
     }
     let tile = grid.tile(image.size()).ok_or_else(refused)?;
     let mut pictures = Pictures::default();

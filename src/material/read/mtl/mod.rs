@@ -27,7 +27,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let text = String::from_utf8_lossy(&bytes);
     let all = entries(&text);
-    let index = options.exemplar.unwrap_or(0).min(all.len().saturating_sub(1));
+    let index = options.exemplar_of(all.len(), path)?;
     let entry = all.get(index).ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
         expected: "a material (newmtl NAME)".to_owned(),
