@@ -4,7 +4,6 @@ use svbrdf::error::Error;
 
 use super::exit::tell;
 use super::materials::MaterialArgs;
-use super::reading::ResizeTo;
 
 #[derive(Debug, clap::Args)]
 pub struct ViewArgs {
@@ -26,6 +25,8 @@ pub fn run(args: ViewArgs) -> Result<(), Error> {
 
 #[cfg(feature = "viewer")]
 fn open_window(materials: MaterialArgs) -> Result<(), Error> {
+    use super::reading::ResizeTo;
+
     let fit = match materials.reading.resize_to {
         None => false,
         Some(ResizeTo::GroundTruth) => true,
