@@ -133,10 +133,10 @@ pub fn write(material: &Material<f32>, path: &Path, kind: Kind) -> Result<(), Er
     write_watched(material, path, kind, &Progress::default())
 }
 
-/// [`write`], which can be cancelled: then nothing appears.
+/// [`write()`], which can be cancelled: then nothing appears.
 ///
 /// # Errors
-/// As [`write`]; [`Error::Cancelled`].
+/// As [`write()`]; [`Error::Cancelled`].
 pub fn write_watched(
     material: &Material<f32>,
     path: &Path,
