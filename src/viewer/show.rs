@@ -14,6 +14,9 @@ use super::panels::top::TopBar;
 use super::save;
 use super::viewport::Scenery;
 
+/// Width of the side panel: what is in it does not fit into less.
+const SIDE: f32 = 320.0;
+
 impl App {
     /// Draws everything; what a person does in it is returned.
     pub(super) fn show(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
@@ -26,8 +29,8 @@ impl App {
         }
         let mut side_panel = self.settings.side_panel;
         egui::Panel::right("side")
-            .default_size(320.0)
-            .size_range(240.0..=(0.4 * ui.available_width()).max(240.0))
+            .default_size(SIDE)
+            .size_range(SIDE..=(0.4 * ui.available_width()).max(SIDE))
             .show_collapsible(ui, &mut side_panel, |ui| commands.extend(self.side(ui)));
         if side_panel != self.settings.side_panel {
             commands.push(Command::ToggleSidePanel);

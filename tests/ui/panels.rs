@@ -76,3 +76,22 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
     assert!(window.state().messages()[0].contains(&path(1)), "{:?}", window.state().messages());
     assert_eq!(window.state().settings.recent.len(), 12, "what could not be opened is not remembered");
 }
+
+#[test]
+fn the_side_panel_stands_beside_the_panes_in_the_smallest_window() {
+    let Some(mut window) = built_in() else { return };
+    for size in [vec2(640.0, 420.0), vec2(760.0, 500.0), vec2(1600.0, 900.0)] {
+        window.set_size(size);
+        window.run_steps(8);
+        let panes =
+            ["GROUND TRUTH  worn tiles", "1  blurred normals"].map(|title| pane(&window, title).right());
+        let panes = panes.into_iter().fold(0.0, f32::max);
+        for label in ["Near-field", "Copy scene", "Compute loss"] {
+            let rect = window.get_by_label(label).rect();
+            assert!(
+                rect.left() >= panes && rect.right() <= size.x,
+                "{label} at {rect:?}, panes up to {panes}, {size}"
+            );
+        }
+    }
+}

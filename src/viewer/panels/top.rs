@@ -101,7 +101,7 @@ impl TopBar<'_> {
     }
 
     fn window(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let light = ui.selectable_label(!self.dark, "Light").on_hover_text("Light or dark window");
+        let light = ui.selectable_label(!self.dark, "Light theme").on_hover_text("Light or dark window");
         if light.clicked() {
             commands.push(Command::SetDark(!self.dark));
         }
