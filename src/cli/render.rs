@@ -67,13 +67,20 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
     let scene = scene(args);
     scene.check().map_err(|problem| Error::UnusableScene { problem })?;
     let materials = materials::open::<f32>(&args.materials)?.into_all();
-    if let (true, [ground_truth, predictions @ ..]) = (args.difference, materials.as_slice()) {
-        predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
+    match materials.as_slice() {
+        [_] if args.difference => {
+            let problem = "--difference compares predictions with a ground truth: name both";
+            return Err(Error::Usage(problem.to_owned()));
+        }
+        [ground_truth, predictions @ ..] if args.difference => {
+            predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
+        }
+        _ => {}
     }
     check_heights(&materials)?;
     let (mut panes, renderer) = panes(args, &materials, &scene)?;
     if args.difference {
-        panes = differences(&panes, args.convention.epsilon as f32)?;
+        panes = render::log_differences(&panes, args.convention.epsilon as f32);
     }
     let provenance = provenance(args, &materials, scene, renderer);
     stoppable(|progress| destination.write(&panes, &provenance, progress))
@@ -92,16 +99,6 @@ fn provenance(args: &RenderArgs, materials: &[Material<f32>], scene: Scene, rend
         exposure_ev: args.exposure,
         sources: materials.iter().map(|m| m.name().to_owned()).collect(),
         renderer,
-    }
-}
-
-/// Of every picture but the first the difference to that.
-fn differences(panes: &[Image<f32>], epsilon: f32) -> Result<Vec<Image<f32>>, Error> {
-    match panes {
-        [ground_truth, predictions @ ..] if !predictions.is_empty() => {
-            Ok(predictions.iter().map(|p| render::log_difference(p, ground_truth, epsilon)).collect())
-        }
-        _ => Err(Error::Usage("--difference compares predictions with a ground truth: name both".to_owned())),
     }
 }
 

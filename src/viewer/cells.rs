@@ -13,8 +13,7 @@ const GAP: f32 = 6.0;
 /// of which a point has `scale`: only then are the pictures in them the same, pixel by pixel.
 pub fn cells(area: Rect, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
     let whole = |v: Vec2| (v * scale).floor() / scale;
-    let area =
-        Rect::from_min_max((whole(area.min.to_vec2() + Vec2::splat(0.99 / scale))).to_pos2(), area.max);
+    let area = Rect::from_min_max(((area.min.to_vec2() * scale).ceil() / scale).to_pos2(), area.max);
     let [half_width, half_height] = grid.half_extent();
     let size = |columns: usize| {
         let rows = count.div_ceil(columns);

@@ -38,9 +38,7 @@ pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBu
         };
         let mut panes = materials.iter().map(render).collect::<Result<Vec<_>, _>>()?;
         if provenance.shows == Shows::LogDifference {
-            let ground_truth = panes.remove(0);
-            let epsilon = provenance.convention.epsilon as f32;
-            panes = panes.iter().map(|p| render::log_difference(p, &ground_truth, epsilon)).collect();
+            panes = render::log_differences(&panes, provenance.convention.epsilon as f32);
         }
         destination.write(&panes, &provenance, progress)?;
         Ok(path)

@@ -46,7 +46,6 @@ fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
     window.run_steps(30);
     window.get_by_label_contains("at least one scene");
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
-    window.get_by_label("Undo");
     let number = egui::accesskit::Role::SpinButton;
     window.get_by_role_and_label(number, "Near-field scenes").click();
     window.run_steps(2);
