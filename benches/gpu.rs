@@ -9,18 +9,18 @@
 mod support;
 
 use divan::counter::ItemsCount;
-use svbrdf::camera::Camera;
-use svbrdf::convention::PRINTED;
 use svbrdf::gpu::{
     DisplayMode, DisplayParams, Encoding, Gpu, Losses, MaterialTextures, ShadeParams, Shaded, Shading,
 };
 use svbrdf::loss::{LossParams, losses_f32};
 use svbrdf::material::Material;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::picture::camera::Camera;
+use svbrdf::picture::content::Shown;
 use svbrdf::progress::Progress;
 use svbrdf::render::render;
-use svbrdf::scene::{Kind, Scene};
-use svbrdf::vec3::Vec3;
-use svbrdf::view::Shown;
 
 const SIDES: [usize; 3] = [256, 1024, 2048];
 /// Most that a mean over a picture or a loss may be off the CPU's in f32, relative.
@@ -133,7 +133,7 @@ fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
     let shown = screen.read(gpu);
     let radiances = shaded.read_back(gpu).expect("read back").pixels;
     for [column, row] in [[0, 0], [side / 2, side / 3], [side - 1, side - 1]] {
-        let want = radiances[row * side + column].map(|x| 255.0 * svbrdf::display::srgb_encode(x));
+        let want = radiances[row * side + column].map(|x| 255.0 * svbrdf::picture::tone::srgb_encode(x));
         let got = shown.at(column, row).map(f32::from);
         assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() <= 1.0), "{got:?}, not {want:?}");
     }

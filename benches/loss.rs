@@ -8,15 +8,17 @@ use std::time::Instant;
 
 use divan::counter::ItemsCount;
 use fearless_simd::{Simd, dispatch, prelude::*};
-use svbrdf::convention::PRINTED;
-use svbrdf::loss::fused::{Level, losses_at};
+use svbrdf::image::Image;
+use svbrdf::loss::fused::losses_at;
 use svbrdf::loss::{Draw, LossParams, Texels, losses, losses_f32, losses_of_f32};
 use svbrdf::material::{Material, Planes};
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::sampler::Sampler;
+use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
-use svbrdf::render::{Image, render, render_f32};
-use svbrdf::sampler::Sampler;
+use svbrdf::render::simd::Level;
+use svbrdf::render::{render, render_f32};
 use svbrdf::samples;
-use svbrdf::scene::Scene;
 
 /// Floating-point operations of a well arranged pp (48 FMA, 35 multiplications, 3 divisions, 3 square roots, ...).
 const FLOPS_PER_PP: f64 = 156.0;

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use svbrdf::error::Error;
-use svbrdf::material::write::{self, Depth, Kind, WriteOptions};
+use svbrdf::files::write::{self, Depth, Kind, WriteOptions};
 use svbrdf::material::{Material, Planes};
 use svbrdf::samples;
 

@@ -6,11 +6,11 @@
 use std::path::Path;
 use std::time::Instant;
 
-use svbrdf::convention::PRINTED;
 use svbrdf::loss::losses_f32;
 use svbrdf::material::{Material, Planes};
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
-use svbrdf::scene::Scene;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::study::text::percent;
+use crate::text::percent;
 
 /// The error of every fallible operation of this crate. Its text is complete: it ends with what to do.
 #[derive(Debug, thiserror::Error)]

@@ -26,16 +26,16 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`material`] | the four maps, checked once; [`material::read`] opens files; [`samples`] are built in |
-//! | [`convention`] | what differs between the printed algorithms and the released codes, as data |
-//! | [`brdf`] | Algorithm 3 at one point, a function a term, over [`real`] and [`vec3`] |
-//! | [`scene`] | Algorithm 2 and the scenes of Algorithm 1, functions of a point of the unit cube |
-//! | [`sampler`] | where the points of the unit cube come from: random, or scrambled Sobol sequences |
+//! | [`material`] | the four maps, checked once; [`files::read`] opens files; [`samples`] are built in |
+//! | [`model::convention`] | what differs between the printed algorithms and the released codes, as data |
+//! | [`model::brdf`] | Algorithm 3 at one point, a function a term, over [`math::real`] and [`math::vec3`] |
+//! | [`model::scene`] | Algorithm 2 and the scenes of Algorithm 1, functions of a point of the unit cube |
+//! | [`model::sampler`] | where the points of the unit cube come from: random, or scrambled Sobol sequences |
 //! | [`render`] | Algorithm 3 over a whole material |
 //! | [`loss`] | Algorithm 1: plain and generic, and fused for f32; standard errors |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
-//! | [`display`], [`colour_map`], [`export`] | what a screen shows, of radiance and of differences; pictures as PNG and EXR files |
-//! | [`camera`], [`view`] | where in a pane the material is seen, and what of it |
+//! | [`picture::tone`], [`picture::colour_map`], [`picture::export`] | what a screen shows, of radiance and of differences; pictures as PNG and EXR files |
+//! | [`picture::camera`], [`picture::content`] | where in a pane the material is seen, and what of it |
 //! | [`report`] | losses with what gives them a meaning, as text |
 //! | [`progress`], [`error`] | long work watched and cancelled; one error variant a cause |
 #![cfg_attr(
@@ -50,26 +50,21 @@
 //! The core knows no graphics; `gpu` knows the core; `viewer` knows both; the command line is in the binary. Cargo's
 //! features enforce it: `--no-default-features` is the core with the command line.
 
-pub mod brdf;
-pub mod camera;
-pub mod colour_map;
-pub mod convention;
-pub mod display;
 pub mod error;
-pub mod export;
+pub mod files;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod image;
 pub mod loss;
 pub mod material;
+pub mod math;
+pub mod model;
+pub mod picture;
 pub mod progress;
-pub mod real;
 pub mod render;
 pub mod report;
-pub mod sampler;
 pub mod samples;
-pub mod scene;
 pub mod study;
-pub mod vec3;
-pub mod view;
+pub mod text;
 #[cfg(feature = "viewer")]
 pub mod viewer;

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use image::{GrayImage, RgbImage};
+use svbrdf::files::read::{ReadOptions, read, read_bytes};
 use svbrdf::material::Material;
-use svbrdf::material::read::{ReadOptions, read, read_bytes};
 use svbrdf::progress::Progress;
 use tempfile::tempdir;
 

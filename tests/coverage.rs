@@ -6,13 +6,13 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use svbrdf::convention::PRINTED;
+use svbrdf::files::read::{Albedo, ReadOptions, read};
 use svbrdf::loss::adaptive::{self, Goal};
 use svbrdf::loss::{Draw, Estimate, Loss, Texels, losses_of_f32};
-use svbrdf::material::read::{Albedo, ReadOptions, read};
 use svbrdf::material::{Material, Planes};
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::sampler::Sampler;
 use svbrdf::progress::Progress;
-use svbrdf::sampler::Sampler;
 use svbrdf::samples;
 
 /// Coverage in percent that 2,000 seeds may show.

@@ -15,11 +15,11 @@ use std::path::Path;
 
 use image::{DynamicImage, GrayImage, ImageFormat};
 use svbrdf::error::Error;
-use svbrdf::material::Material;
-use svbrdf::material::read::{
+use svbrdf::files::read::{
     Albedo, Certainty, NonFinite, NormalY, Order, Preset, Read, ReadOptions, Roughness, What, read,
 };
-use svbrdf::material::write::{self, Depth, Kind, WriteOptions};
+use svbrdf::files::write::{self, Depth, Kind, WriteOptions};
+use svbrdf::material::Material;
 use svbrdf::progress::Progress;
 use tempfile::tempdir;
 

@@ -6,14 +6,15 @@ mod extremes;
 mod golden;
 mod pictures;
 
-use svbrdf::brdf::Texel;
-use svbrdf::convention::{self, Convention};
 use svbrdf::error::Error;
-use svbrdf::loss::fused::{Level, losses_at, losses_of_at};
+use svbrdf::loss::fused::{losses_at, losses_of_at};
 use svbrdf::loss::{self, LossParams, losses_f32, losses_of};
 use svbrdf::material::{Material, Planes};
+use svbrdf::model::brdf::Texel;
+use svbrdf::model::convention::{self, Convention};
+use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::progress::Progress;
-use svbrdf::scene::{Kind, Scene};
+use svbrdf::render::simd::Level;
 
 use crate::support::tolerance;
 

@@ -4,14 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use svbrdf::convention::{ALL, Convention};
+use svbrdf::files::read::{ReadOptions, read};
 use svbrdf::loss::losses;
 use svbrdf::material::Material;
-use svbrdf::material::read::{ReadOptions, read};
+use svbrdf::math::real::Real;
+use svbrdf::model::convention::{ALL, Convention};
+use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
-use svbrdf::real::Real;
 use svbrdf::render::render;
-use svbrdf::scene::Scene;
 
 use crate::support::tolerance::{GOLDEN_LOSS_F32, GOLDEN_LOSS_F64, GOLDEN_PROBE_F32, GOLDEN_PROBE_F64};
 

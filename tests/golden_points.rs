@@ -1,10 +1,10 @@
 //! Algorithm 3 at 200 single points against numbers that were computed elsewhere with 60 digits.
 
 use serde::Deserialize;
-use svbrdf::brdf::{self, Model, Texel};
-use svbrdf::convention::{Convention, GUIDED_2020, MULTI_IMAGE_2019, PRINTED};
-use svbrdf::real::Real;
-use svbrdf::vec3::Vec3;
+use svbrdf::math::real::Real;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::{self, Model, Texel};
+use svbrdf::model::convention::{Convention, GUIDED_2020, MULTI_IMAGE_2019, PRINTED};
 
 use crate::support::tolerance::{GOLDEN_POINTS, GOLDEN_POINTS_F32_KAPPA};
 

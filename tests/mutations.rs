@@ -11,7 +11,7 @@ use image::{DynamicImage, ImageFormat};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use svbrdf::error::Error;
-use svbrdf::material::read::{
+use svbrdf::files::read::{
     Binding, Grid, NonFinite, Order, Read, ReadOptions, Reflectance, read, read_bytes,
 };
 use svbrdf::progress::Progress;

@@ -3,15 +3,15 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::ThreadPoolBuilder;
-use svbrdf::brdf::{self, Model, Texel};
-use svbrdf::convention::{self, PRINTED};
 use svbrdf::loss::{Loss, losses};
 use svbrdf::material::{Material, Planes};
+use svbrdf::math::real::Real;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::{self, Model, Texel};
+use svbrdf::model::convention::{self, PRINTED};
+use svbrdf::model::scene::{Kind, Scene, sample};
 use svbrdf::progress::Progress;
-use svbrdf::real::Real;
 use svbrdf::render::render;
-use svbrdf::scene::{Kind, Scene, sample};
-use svbrdf::vec3::Vec3;
 
 use crate::support::tolerance::{LOSS_SUM_F64, RECIPROCITY};
 

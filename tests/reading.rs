@@ -4,12 +4,12 @@ use std::path::Path;
 
 use image::{DynamicImage, GrayAlphaImage, GrayImage, Rgb, RgbImage, RgbaImage};
 use svbrdf::error::Error;
+use svbrdf::files::read::{Albedo, NormalY, Read, ReadOptions, read, read_bytes};
 use svbrdf::material::Material;
-use svbrdf::material::read::{Albedo, NormalY, Read, ReadOptions, read, read_bytes};
+use svbrdf::math::vec3::Vec3;
 use svbrdf::progress::Progress;
 use svbrdf::samples;
 use svbrdf::samples::generate;
-use svbrdf::vec3::Vec3;
 use tempfile::{TempDir, tempdir};
 
 use crate::support::fixtures::{LINEAR, MAPS, SIDE, bytes_at, flat, map, png_bytes, save, save_maps, strip};

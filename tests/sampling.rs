@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use statrs::distribution::{ContinuousCDF, Normal};
-use svbrdf::convention::{self, Convention, PRINTED, SINGLE_IMAGE_2018};
 use svbrdf::material::Grid;
-use svbrdf::scene::{Kind, Scene, sample};
-use svbrdf::vec3::Vec3;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::convention::{self, Convention, PRINTED, SINGLE_IMAGE_2018};
+use svbrdf::model::scene::{Kind, Scene, sample};
 
 use crate::support::tolerance::{CHI_SQUARED_63, GEOMETRY_F64, GOLDEN_SCENES, KOLMOGOROV};
 

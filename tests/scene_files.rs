@@ -5,7 +5,7 @@ pub mod mtl;
 use std::path::Path;
 
 use image::ImageFormat;
-use svbrdf::material::read::{Certainty, Read, ReadOptions, What, read};
+use svbrdf::files::read::{Certainty, Read, ReadOptions, What, read};
 use svbrdf::progress::Progress;
 use tempfile::{TempDir, tempdir};
 

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf::files::read::{Albedo, Read, ReadOptions, What, read};
 use svbrdf::material::Material;
-use svbrdf::material::read::{Albedo, Read, ReadOptions, What, read};
 use svbrdf::progress::Progress;
 
 fn data() -> PathBuf {

@@ -2,12 +2,13 @@
 
 use std::sync::LazyLock;
 
-use svbrdf::convention::PRINTED;
 use svbrdf::error::Error;
+use svbrdf::files::read;
+use svbrdf::files::read::Preset;
+use svbrdf::files::write::{self, Depth, Kind};
 use svbrdf::loss::{Draw, Texels, losses, losses_of};
-use svbrdf::material::read::Preset;
-use svbrdf::material::write::{self, Depth, Kind};
-use svbrdf::material::{Material, read};
+use svbrdf::material::Material;
+use svbrdf::model::convention::PRINTED;
 use svbrdf::progress::Progress;
 use svbrdf::samples;
 use svbrdf::study::{self, Choice, Family, Pair, Point, Study};

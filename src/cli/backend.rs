@@ -2,12 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use svbrdf::convention::Convention;
 use svbrdf::error::Error;
 use svbrdf::loss::{Loss, losses_f32};
 use svbrdf::material::Material;
+use svbrdf::model::convention::Convention;
+use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
-use svbrdf::scene::Scene;
 
 use super::bar::watched;
 use super::exit::tell;

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use svbrdf::error::Error;
+use svbrdf::files::read::{Binding, Preset};
+use svbrdf::files::write::{self, Depth, Kind, WriteOptions};
 use svbrdf::material::Material;
-use svbrdf::material::read::{Binding, Preset};
-use svbrdf::material::write::{self, Depth, Kind, WriteOptions};
 
 use super::materials::read_one;
 use super::reading::ReadingArgs;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde::Serialize;
 use svbrdf::error::Error;
-use svbrdf::material::read::{Assumption, Binding, Kept, MapReport, Read};
+use svbrdf::files::read::{Assumption, Binding, Kept, MapReport, Read};
 
 use super::exit;
 use super::materials::read_one;

@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use svbrdf::convention::Convention;
 use svbrdf::error::Error;
 use svbrdf::loss::adaptive::{self, Goal, Reached};
 use svbrdf::loss::{Draw, Loss, LossParams, Losses, Precision, Texels, losses, losses_of, losses_of_f32};
-use svbrdf::real::Real;
+use svbrdf::math::real::Real;
+use svbrdf::model::convention::Convention;
+use svbrdf::model::sampler::Sampler;
+use svbrdf::model::scene::{self, Scene};
 use svbrdf::report::Report;
-use svbrdf::sampler::Sampler;
-use svbrdf::scene::{self, Scene};
 
 use super::backend::{self, Choice, Job};
 use super::bar::watched;

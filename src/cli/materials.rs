@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::error::Error;
+use svbrdf::files::read::{self, Binding, Read, ReadOptions};
 use svbrdf::material::Material;
-use svbrdf::material::read::{self, Binding, Read, ReadOptions};
-use svbrdf::real::Real;
+use svbrdf::math::real::Real;
 use svbrdf::report::told_apart;
 use svbrdf::samples;
 

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::str::FromStr;
 
 use svbrdf::error::Error;
-use svbrdf::material::Material;
-use svbrdf::material::read::{
+use svbrdf::files::read::{
     Albedo, Assumption, Certainty, Energy, Grid, MapReport, NonFinite, NormalCode, NormalY, Order, Preset,
     Read, ReadOptions, Reflectance, Roughness, What, Workflow,
 };
-use svbrdf::real::Real;
+use svbrdf::material::Material;
+use svbrdf::math::real::Real;
 
 use super::exit::tell;
 

@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
-use svbrdf::convention::Convention;
 use svbrdf::error::Error;
-use svbrdf::export::{Destination, Provenance, Shows};
+use svbrdf::files::atomic::Destination;
+use svbrdf::image::Image;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
-use svbrdf::render::{self, Image};
-use svbrdf::scene::{Kind, Scene};
+use svbrdf::model::convention::Convention;
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::picture::export::{Provenance, Shows};
+use svbrdf::render;
 
 use super::bar::watched;
 use super::materials;

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use svbrdf::convention::Convention;
 use svbrdf::error::Error;
-use svbrdf::export;
 use svbrdf::loss::check_same_size;
-use svbrdf::scene::Scene;
+use svbrdf::model::convention::Convention;
+use svbrdf::model::scene::Scene;
+use svbrdf::picture::export;
 use svbrdf::study::{self, Pair, Study, plot};
 
 use super::backend::{Adapter, Job};

@@ -5,12 +5,12 @@ use wgpu::{Adapter, Backends, Device, DeviceDescriptor, InstanceDescriptor, Queu
 use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY, select};
 use super::fault::Faults;
 use super::{MaterialTextures, ShadeParams, Shading};
-use crate::convention::Convention;
 use crate::error::Error;
+use crate::image::Image;
 use crate::material::Material;
-use crate::render::Image;
-use crate::scene::Scene;
-use crate::view::Shown;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::picture::content::Shown;
 
 /// A graphics device, its queue, and what is known about it. Clones share the device.
 #[derive(Clone, Debug)]

@@ -8,9 +8,9 @@ use wgpu::{
 use super::fault::scoped;
 use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
 use super::{Gpu, Shaded, shaders, uniforms};
-use crate::camera::Camera;
 use crate::error::Error;
-use crate::view::Shown;
+use crate::picture::camera::Camera;
+use crate::picture::content::Shown;
 
 /// How a pane shows its pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ pub enum DisplayMode {
     Shown,
     /// The reference left of this x of the pane, which runs from -1 to 1, and the first right of it.
     Wipe(f32),
-    /// How far they differ, as a colour of [`heat`](crate::colour_map::heat): of renderings (of [`Encoding::Radiance`])
+    /// How far they differ, as a colour of [`heat`](crate::picture::colour_map::heat): of renderings (of [`Encoding::Radiance`])
     /// `|ln(shown + epsilon) - ln(reference + epsilon)|`, where exposure 0 maps 2 to the last colour; of maps
     /// `|shown - reference|`, where 1 is the last colour. The mean of RGB; both pictures have the same size.
     Difference,

@@ -9,8 +9,8 @@ use super::pipeline::{bind, buffer_type, compute, layout, module, uniform_buffer
 use super::read_back::{read, read_buffer};
 use super::uniforms::{Model, Point};
 use super::{Gpu, shaders};
-use crate::brdf::{self, Texel};
 use crate::error::Error;
+use crate::model::brdf::{self, Texel};
 
 /// Points that one dispatch computes: within every adapter's limits.
 const CHUNK: usize = 1 << 18;

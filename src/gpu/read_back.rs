@@ -7,7 +7,7 @@ use wgpu::{Buffer, BufferDescriptor, BufferUsages, Extent3d, Origin3d, PollType,
 use super::fault::{failed, scoped};
 use super::{Gpu, Shaded};
 use crate::error::Error;
-use crate::render::Image;
+use crate::image::Image;
 
 /// About how many bytes are read at once.
 const BAND_BYTES: usize = 16 << 20;

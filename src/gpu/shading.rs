@@ -10,10 +10,10 @@ use super::fault::scoped;
 use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
 use super::textures::extent;
 use super::{Gpu, MaterialTextures, shaders, uniforms};
-use crate::convention::Convention;
 use crate::error::Error;
-use crate::scene::Scene;
-use crate::view::Shown;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::picture::content::Shown;
 
 /// The largest 16-bit float.
 const LARGEST_F16: f32 = 65504.0;

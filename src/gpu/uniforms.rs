@@ -6,11 +6,11 @@ use bytemuck::{Pod, Zeroable};
 
 use super::display::{DisplayMode, DisplayParams, Encoding};
 use super::shading::ShadeParams;
-use crate::brdf;
-use crate::camera;
-use crate::scene::{self, Kind};
-use crate::vec3::Vec3;
-use crate::view::Shown;
+use crate::math::vec3::Vec3;
+use crate::model::brdf;
+use crate::model::scene::{self, Kind};
+use crate::picture::camera;
+use crate::picture::content::Shown;
 
 /// `Model` of brdf.wgsl.
 #[repr(C)]

@@ -13,13 +13,13 @@
 use std::time::{Duration, Instant};
 
 use super::{Draw, Estimate, Loss, Losses, Texels};
-use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
+use crate::math::real::Real;
+use crate::model::convention::Convention;
+use crate::model::sampler::{REPLICATES, Sampler};
+use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::real::Real;
-use crate::sampler::{REPLICATES, Sampler};
-use crate::scene::Scene;
 
 /// Texels of each scene. With fewer, scenes that are hardly seen take most of the time; with more, texels do that add
 /// little.

@@ -2,6 +2,7 @@
 
 pub mod adaptive;
 pub mod fused;
+pub mod prefix;
 mod statistics;
 mod texels;
 
@@ -14,15 +15,15 @@ pub use fused::{losses_f32, losses_of_f32};
 pub use statistics::Estimate;
 pub use texels::{Draw, Texels};
 
-use crate::brdf::Model;
-use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
+use crate::math::real::Real;
+use crate::model::brdf::Model;
+use crate::model::convention::Convention;
+use crate::model::sampler::Sampler;
+use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::real::Real;
 use crate::render::render_texel;
-use crate::sampler::Sampler;
-use crate::scene::Scene;
 
 /// Rows are summed within blocks of this many texels, and blocks in order: threads never change a sum.
 const TEXELS_PER_BLOCK: usize = 4096;

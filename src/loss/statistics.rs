@@ -2,8 +2,8 @@
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-use crate::sampler::Sampler;
-use crate::scene::{Kind, Scene};
+use crate::model::sampler::Sampler;
+use crate::model::scene::{Kind, Scene};
 
 /// A mean over scenes and how far it may be from the mean over all scenes there are.
 #[derive(Clone, Copy, Debug, PartialEq)]

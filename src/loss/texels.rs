@@ -11,13 +11,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{Loss, Losses, check};
-use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
+use crate::math::real::Real;
+use crate::model::convention::Convention;
+use crate::model::sampler::Sampler;
+use crate::model::scene::{Kind, Scene};
 use crate::progress::Progress;
-use crate::real::Real;
-use crate::sampler::Sampler;
-use crate::scene::{Kind, Scene};
 
 /// Which texels of the materials are compared in a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

@@ -5,10 +5,10 @@ mod text;
 
 pub use names::told_apart;
 
-use crate::convention::Convention;
 use crate::loss::{Estimate, Loss, Texels};
-use crate::sampler::Sampler;
-use crate::scene::{Kind, Scene};
+use crate::model::convention::Convention;
+use crate::model::sampler::Sampler;
+use crate::model::scene::{Kind, Scene};
 
 /// Losses with everything that gives them a meaning.
 #[derive(Clone, Debug)]

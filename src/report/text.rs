@@ -2,8 +2,8 @@
 
 use super::Report;
 use crate::loss::{Loss, Texels};
-use crate::sampler::Sampler;
-use crate::scene::Kind;
+use crate::model::sampler::Sampler;
+use crate::model::scene::Kind;
 
 const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interval"];
 

@@ -7,8 +7,8 @@ mod noise;
 mod tiles;
 
 use crate::error::Error;
-use crate::material::read::{Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, read_bytes};
-use crate::real::Real;
+use crate::files::read::{Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, read_bytes};
+use crate::math::real::Real;
 
 /// How the samples are stored: nothing of it is left to be found out.
 const STORED: ReadOptions = ReadOptions {

@@ -1,8 +1,8 @@
 //! What a loss can be asked for, and which of it is tried.
 
+use crate::files::write::Depth;
 use crate::loss::{Precision, Texels};
-use crate::material::write::Depth;
-use crate::sampler::Sampler;
+use crate::model::sampler::Sampler;
 
 /// Numbers of random scenes that are tried.
 const RANDOM: &[usize] = &[9, 90, 900, 9000];

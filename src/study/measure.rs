@@ -2,17 +2,17 @@
 
 use std::time::Instant;
 
-use super::text::time;
 use super::{Choice, Family, Pair, Point, Reference, Study};
-use crate::convention::Convention;
 use crate::error::Error;
+use crate::files::write::{self, Depth};
 use crate::loss::{Draw, Estimate, Loss, Losses, Texels, losses_of, losses_of_f32};
 use crate::material::Material;
-use crate::material::write::{self, Depth};
+use crate::math::real::Real;
+use crate::model::convention::Convention;
+use crate::model::sampler::Sampler;
+use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::real::Real;
-use crate::sampler::Sampler;
-use crate::scene::Scene;
+use crate::text::time;
 
 /// Scenes of the reference, 24 x 2^n for the sequence, and the most texels of each: more of these add little.
 const REFERENCE_SCENES: usize = 24 << 13;

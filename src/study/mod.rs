@@ -32,13 +32,13 @@ pub use choice::{Backend, Choice, Family};
 
 use std::fmt;
 
-use crate::convention::Convention;
 use crate::error::Error;
+use crate::files::write::Depth;
 use crate::loss::Loss;
 use crate::material::Material;
-use crate::material::write::Depth;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::scene::Scene;
 use measure::Bench;
 
 /// Errors below this many standard errors of the reference are not told from 0.

@@ -11,11 +11,11 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 
-use super::text::{percent, time};
 use super::{Family, Point, Study};
 use crate::error::Error;
-use crate::export::Destination;
+use crate::files::atomic::Destination;
 use crate::progress::Progress;
+use crate::text::{percent, time};
 
 /// Width and height of the picture in pixels.
 const SIZE: (u32, u32) = (1200, 780);

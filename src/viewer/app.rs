@@ -21,9 +21,9 @@ use super::viewport::Viewport;
 use super::watch::Watch;
 use super::worker::Job;
 use super::{ViewerOptions, keys, theme};
+use crate::files::read::ReadOptions;
 use crate::loss::Loss;
 use crate::material::Material;
-use crate::material::read::ReadOptions;
 use crate::study::Study;
 
 /// The viewer. What it shows is public for tests; what changes it are [`Command`]s.

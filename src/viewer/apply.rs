@@ -10,12 +10,12 @@ use super::settings::Settings;
 use super::slots::Target;
 use super::state::{self, Layout, ViewState};
 use super::worker::Job;
-use crate::brdf::Model;
+use crate::files::read::EXTENSIONS;
 use crate::material::Material;
-use crate::material::read::EXTENSIONS;
+use crate::model::brdf::Model;
+use crate::model::scene::{Scene, SceneFile};
+use crate::picture::content::Shown;
 use crate::render::render_texel;
-use crate::scene::{Scene, SceneFile};
-use crate::view::Shown;
 
 /// Least and greatest magnification.
 const ZOOM: std::ops::RangeInclusive<f32> = 0.1..=400.0;

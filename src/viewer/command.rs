@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use super::loss_request::LossSettings;
 use super::panels::study::Setting;
 use super::state::{End, Layout};
-use crate::material::read::ReadOptions;
-use crate::scene::Scene;
-use crate::view::Shown;
+use crate::files::read::ReadOptions;
+use crate::model::scene::Scene;
+use crate::picture::content::Shown;
 
 /// One act. Nothing else changes the model.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,8 +5,8 @@ use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
 use super::command::Command;
 use super::handles::{self, REACH};
 use super::state::{self, End, Layout, Projection, ViewState};
-use crate::camera::Camera;
-use crate::scene::Kind;
+use crate::model::scene::Kind;
+use crate::picture::camera::Camera;
 
 /// Radians of orbit per point that the pointer moves.
 const ORBIT_SPEED: f64 = 0.008;

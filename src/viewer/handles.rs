@@ -3,8 +3,8 @@
 use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2};
 
 use super::theme;
-use crate::camera::Camera;
-use crate::vec3::Vec3;
+use crate::math::vec3::Vec3;
+use crate::picture::camera::Camera;
 
 /// Within this distance, in points, of a handle or the wipe line a press takes hold of it.
 pub const REACH: f32 = 12.0;

@@ -3,8 +3,8 @@
 use eframe::egui::{Align2, Color32, FontId, Painter, Rect, Stroke, StrokeKind, pos2, vec2};
 
 use super::state::ViewState;
-use crate::colour_map::{FULL_DIFFERENCE, heat};
-use crate::view::Shown;
+use crate::picture::colour_map::{FULL_DIFFERENCE, heat};
+use crate::picture::content::Shown;
 
 /// Colours in the bar.
 const STEPS: usize = 64;

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use crate::error::Error;
+use crate::files::read::{Assumption, MapReport, Read, ReadOptions};
 use crate::gpu::{Gpu, MaterialTextures};
 use crate::material::Material;
-use crate::material::read::{Assumption, MapReport, Read, ReadOptions};
 
 /// Where a material came from.
 #[derive(Clone, Debug, PartialEq)]

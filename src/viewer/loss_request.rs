@@ -4,14 +4,14 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::prefix;
-use crate::convention::Convention;
 use crate::error::Error;
 use crate::loss::adaptive::{self, Goal, Reached};
+use crate::loss::prefix;
 use crate::loss::{LossParams, Texels, losses_of_f32};
 use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::model::sampler::Sampler;
 use crate::progress::Progress;
-use crate::sampler::Sampler;
 
 /// What decides how many scenes there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

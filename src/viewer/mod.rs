@@ -15,10 +15,10 @@ mod loaded;
 mod loss_request;
 mod loss_run;
 mod panels;
-mod prefix;
+
+mod draw;
 mod save;
 mod settings;
-mod show;
 mod slots;
 pub mod state;
 mod study;
@@ -36,8 +36,8 @@ use eframe::egui;
 use eframe::egui_wgpu::{WgpuError, WgpuSetup, WgpuSetupCreateNew};
 
 use crate::error::Error;
+use crate::files::read::ReadOptions;
 use crate::gpu::Gpu;
-use crate::material::read::ReadOptions;
 
 /// What the window starts with.
 #[derive(Clone, Debug, Default)]

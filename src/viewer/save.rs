@@ -9,7 +9,8 @@ use super::loaded::Loaded;
 use super::slots::Slots;
 use super::state::{Layout, ViewState};
 use super::worker::Job;
-use crate::export::{Destination, Provenance, Shows};
+use crate::files::atomic::Destination;
+use crate::picture::export::{Provenance, Shows};
 use crate::render;
 
 /// What a layout is saved as.

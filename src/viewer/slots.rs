@@ -8,9 +8,9 @@ use eframe::egui;
 use super::loaded::{Loaded, Origin, Reader, Rules, file_name, loaded};
 use super::worker::Job;
 use crate::error::Error;
+use crate::files::read::{self, Kept, ReadOptions};
 use crate::gpu::Gpu;
 use crate::loss;
-use crate::material::read::{self, Kept, ReadOptions};
 use crate::report::told_apart;
 use crate::samples;
 

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::convention::{self, Convention};
-use crate::scene::{Kind, Scene};
-use crate::vec3::Vec3;
-use crate::view::Shown;
+use crate::math::vec3::Vec3;
+use crate::model::convention::{self, Convention};
+use crate::model::scene::{Kind, Scene};
+use crate::picture::content::Shown;
 
 /// Lowest height of a light or a view that the window lets a person set: the plane itself shows nothing.
 pub const LOWEST: f64 = 0.01;

@@ -6,7 +6,7 @@ use eframe::egui;
 
 use super::slots::Slots;
 use super::worker::Job;
-use crate::convention::Convention;
+use crate::model::convention::Convention;
 use crate::study::{self, Pair, Study};
 
 /// What a study holds for: the ids of the ground truth and of the prediction, and the convention.

@@ -12,10 +12,10 @@ use super::slots::Slot;
 use super::state::{self, End, Layout, Projection, ViewState};
 use super::theme;
 use super::title::title_bar;
-use crate::camera::Camera;
 use crate::gpu::{DisplayMode, DisplayParams, ShadeParams};
 use crate::material::Grid;
-use crate::view::Shown;
+use crate::picture::camera::Camera;
+use crate::picture::content::Shown;
 
 /// What the panes need to know, for one frame.
 #[derive(Debug)]

@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
-use svbrdf::colour_map::difference_to_display;
-use svbrdf::convention::PRINTED;
-use svbrdf::display::to_display;
-use svbrdf::export::GAP;
+use svbrdf::image::Image;
 use svbrdf::loss::losses_f32;
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::picture::colour_map::difference_to_display;
+use svbrdf::picture::export::GAP;
+use svbrdf::picture::tone::to_display;
 use svbrdf::progress::Progress;
-use svbrdf::render::{Image, render_f32};
+use svbrdf::render::render_f32;
 use svbrdf::samples;
-use svbrdf::scene::{Kind, Scene};
 
 use super::{fail, folder, succeed};
 

@@ -1,10 +1,10 @@
 //! The cases: a table of values for each axis, and random ones.
 
 use exr::prelude::f16;
-use svbrdf::brdf::Texel;
-use svbrdf::convention::{self, Convention};
 use svbrdf::material::{Material, Planes};
-use svbrdf::vec3::Vec3;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::Texel;
+use svbrdf::model::convention::{self, Convention};
 
 use crate::support::points::Generator;
 

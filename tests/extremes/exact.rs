@@ -5,9 +5,9 @@ use std::sync::LazyLock;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use svbrdf::brdf::Texel;
-use svbrdf::convention::Convention;
-use svbrdf::vec3::Vec3;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::Texel;
+use svbrdf::model::convention::Convention;
 
 type Big = FBig<HalfEven, 2>;
 type BigVec = [Big; 3];

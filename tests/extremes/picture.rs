@@ -3,9 +3,9 @@
 use std::fmt::{Display, Write as _};
 
 use rayon::prelude::*;
-use svbrdf::brdf::Texel;
-use svbrdf::convention::PRINTED;
-use svbrdf::vec3::Vec3;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::Texel;
+use svbrdf::model::convention::PRINTED;
 
 use super::cases::{Batch, row, turned};
 use super::regions::Truth;

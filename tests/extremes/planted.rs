@@ -1,9 +1,9 @@
 //! Defects that a rung might have, shown to its comparator.
 
-use svbrdf::brdf::Texel;
-use svbrdf::convention::{GUIDED_2020, PRINTED};
-use svbrdf::loss::fused::Level;
 use svbrdf::material::Material;
+use svbrdf::model::brdf::Texel;
+use svbrdf::model::convention::{GUIDED_2020, PRINTED};
+use svbrdf::render::simd::Level;
 
 use super::cases::{self, Batch, row};
 use super::regions::{Region, Truth};
@@ -103,7 +103,7 @@ fn defects_of_the_fused_kernel_are_seen() {
 #[test]
 fn defects_of_the_gpu_are_seen() {
     use exr::prelude::f16;
-    use svbrdf::vec3::Vec3;
+    use svbrdf::math::vec3::Vec3;
 
     if crate::support::gpu::gpu().is_none() {
         return;

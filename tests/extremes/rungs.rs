@@ -1,12 +1,12 @@
 //! What computes the cases: the ladder of precision, and what it is compared with.
 
-use svbrdf::brdf::{self, Model, Texel};
-use svbrdf::convention::{Convention, GUIDED_2020, PRINTED};
-use svbrdf::loss::fused::{Level, render_at};
 use svbrdf::material::Material;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::{self, Model, Texel};
+use svbrdf::model::convention::{Convention, GUIDED_2020, PRINTED};
+use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::progress::Progress;
-use svbrdf::scene::{Kind, Scene};
-use svbrdf::vec3::Vec3;
+use svbrdf::render::simd::{Level, render_at};
 
 use super::cases::{Batch, row};
 use super::exact;
@@ -81,7 +81,7 @@ pub fn fused(level: Level, batch: &Batch) -> Option<Vec<Rgb>> {
 /// The shader, for each batch; `None` where there is no adapter.
 #[cfg(feature = "gpu")]
 pub fn on_gpu(batches: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
-    use svbrdf::convention;
+    use svbrdf::model::convention;
 
     let gpu = crate::support::gpu::gpu()?;
     let mut values: Vec<_> = batches.iter().map(|_| Vec::new()).collect();

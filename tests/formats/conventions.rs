@@ -1,6 +1,6 @@
 //! What sources of materials mean beyond layouts and names.
 
-use svbrdf::material::read::Workflow;
+use svbrdf::files::read::Workflow;
 
 use super::*;
 use crate::support::pictures::layered_with_more;

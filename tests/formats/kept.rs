@@ -1,6 +1,6 @@
 //! What is kept with a material, in a file beside it.
 
-use svbrdf::material::read::{Binding, Kept, read_as, read_bound};
+use svbrdf::files::read::{Binding, Kept, read_as, read_bound};
 
 use super::*;
 

@@ -1,6 +1,6 @@
 //! What the user can say.
 
-use svbrdf::material::read::{Binding, Energy, NormalCode, Workflow, read_bound};
+use svbrdf::files::read::{Binding, Energy, NormalCode, Workflow, read_bound};
 
 use super::*;
 

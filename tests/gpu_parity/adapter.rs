@@ -2,15 +2,15 @@
 
 use std::process::Command;
 
-use svbrdf::brdf::Texel;
-use svbrdf::camera::Camera;
-use svbrdf::convention::PRINTED;
 use svbrdf::error::Error;
 use svbrdf::gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shading};
 use svbrdf::material::Material;
-use svbrdf::scene::{Kind, Scene};
-use svbrdf::vec3::Vec3;
-use svbrdf::view::Shown;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::Texel;
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::picture::camera::Camera;
+use svbrdf::picture::content::Shown;
 
 use crate::support::gpu::{bumpy, gpu, picture};
 

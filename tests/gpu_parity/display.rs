@@ -1,16 +1,16 @@
 //! Pass 2: what a window would show.
 
-use svbrdf::brdf::Texel;
-use svbrdf::camera::Camera;
-use svbrdf::colour_map::heat;
-use svbrdf::convention::PRINTED;
 use svbrdf::gpu::{
     DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading,
 };
 use svbrdf::material::Material;
-use svbrdf::scene::{Kind, Scene};
-use svbrdf::vec3::Vec3;
-use svbrdf::view::Shown;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::Texel;
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::picture::camera::Camera;
+use svbrdf::picture::colour_map::heat;
+use svbrdf::picture::content::Shown;
 
 use crate::support::gpu::{Picture, bumpy, gpu, gpu_f32, picture};
 use crate::support::tolerance::SCREEN_LEVELS;

@@ -3,14 +3,14 @@
 use std::sync::OnceLock;
 
 use serde_json::Value;
-use svbrdf::convention::{self, Convention, GUIDED_2020, PRINTED};
 use svbrdf::error::Error;
 use svbrdf::gpu::{Gpu, Losses};
 use svbrdf::loss::{self, Loss};
 use svbrdf::material::{Material, Planes};
+use svbrdf::model::convention::{self, Convention, GUIDED_2020, PRINTED};
+use svbrdf::model::scene::{self, Kind, Scene};
 use svbrdf::progress::Progress;
 use svbrdf::samples;
-use svbrdf::scene::{self, Kind, Scene};
 
 use crate::golden_loss;
 use crate::support::gpu::{bumpy, gpu};
@@ -173,8 +173,8 @@ fn equal_materials_have_no_loss_at_all() {
 fn mirrors_and_grazing_lights_have_finite_losses() {
     let Some(computer) = Computer::get() else { return };
     let uniform = |roughness, specular| {
-        let texel = svbrdf::brdf::Texel {
-            normal: svbrdf::vec3::Vec3::new(0.0, 0.0, 1.0),
+        let texel = svbrdf::model::brdf::Texel {
+            normal: svbrdf::math::vec3::Vec3::new(0.0, 0.0, 1.0),
             diffuse: [0.0; 3],
             specular: [specular; 3],
             roughness,

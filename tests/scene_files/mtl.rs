@@ -65,7 +65,7 @@ fn other_ways_to_say_it_in_mtl_are_the_same_material() {
         assert!(says(&read, "holds 2 materials; this is number 1 from 0"), "{what}");
         let third = ReadOptions { exemplar: Some(2), ..ReadOptions::AUTO };
         let refused =
-            svbrdf::material::read::read::<f64>(&path, &third, &Progress::default()).unwrap_err().to_string();
+            svbrdf::files::read::read::<f64>(&path, &third, &Progress::default()).unwrap_err().to_string();
         assert!(refused.contains("an exemplar from 0 to 1"), "{refused}");
     }
 }

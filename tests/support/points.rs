@@ -2,8 +2,8 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use svbrdf::brdf::{self, Model, Texel};
-use svbrdf::vec3::Vec3;
+use svbrdf::math::vec3::Vec3;
+use svbrdf::model::brdf::{self, Model, Texel};
 
 /// Half the distance of 1 and the next f32.
 pub const U: f64 = 1.0 / (1 << 24) as f64;

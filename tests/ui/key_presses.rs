@@ -1,6 +1,6 @@
 //! What the keys do.
 
-use svbrdf::view::Shown;
+use svbrdf::picture::content::Shown;
 use svbrdf::viewer::keys;
 use svbrdf::viewer::state::{Layout, Projection};
 

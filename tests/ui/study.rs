@@ -1,7 +1,7 @@
 //! The study window.
 
 use svbrdf::loss::Texels;
-use svbrdf::sampler::Sampler;
+use svbrdf::model::sampler::Sampler;
 
 use super::*;
 use crate::support::pictures::packed;

@@ -1,7 +1,7 @@
 //! One table for spreadsheets (RFC 4180, with a heading); an unknown value is an empty cell.
 
 use svbrdf::loss::Loss;
-use svbrdf::scene::Kind;
+use svbrdf::model::scene::Kind;
 
 use super::Printed;
 

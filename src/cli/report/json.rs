@@ -4,9 +4,9 @@ use std::io;
 
 use serde::Serialize;
 use svbrdf::loss::{Estimate, Loss, Texels};
+use svbrdf::model::sampler::Sampler;
+use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::report::Report;
-use svbrdf::sampler::Sampler;
-use svbrdf::scene::{Kind, Scene};
 
 use super::Printed;
 

@@ -13,12 +13,12 @@ use plan::{MOST_PREDICTIONS, Plan};
 use super::Gpu;
 use super::fault::failed;
 use super::uniforms::LogSum;
-use crate::convention::Convention;
 use crate::error::Error;
 use crate::loss::{Loss, check};
 use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::scene::Scene;
 
 /// The pipelines of the loss: worth keeping, a driver compiles them for some time.
 #[derive(Debug)]

@@ -7,17 +7,17 @@ use wgpu::{
     ShaderStages, SubmissionIndex,
 };
 
-use super::super::fault::scoped;
-use super::super::pipeline::{bind, buffer_type, compute, layout, module};
-use super::super::read_back::{read_after, read_buffer};
-use super::super::uniforms::{Band, LogSum, Model, Rays};
-use super::super::{Gpu, shaders};
 use super::plan::{LANES, PLANES, Plan, blocks};
-use crate::brdf;
-use crate::convention::Convention;
 use crate::error::Error;
+use crate::gpu::fault::scoped;
+use crate::gpu::pipeline::{bind, buffer_type, compute, layout, module};
+use crate::gpu::read_back::{read_after, read_buffer};
+use crate::gpu::uniforms::{Band, LogSum, Model, Rays};
+use crate::gpu::{Gpu, shaders};
 use crate::material::{Material, Planes};
-use crate::scene::Scene;
+use crate::model::brdf;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
 
 /// The pipelines and what they bind.
 #[derive(Debug)]

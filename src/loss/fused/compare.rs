@@ -4,9 +4,9 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::lanes::V;
-use super::shade::Radiance;
-use super::tile::vectors;
+use crate::render::simd::lanes::V;
+use crate::render::simd::shade::Radiance;
+use crate::render::simd::tile::vectors;
 
 /// Unsigned integers as wide as the floats of [`V`].
 type Bits<S> = <V<S> as SimdFloat<S>>::Bits;

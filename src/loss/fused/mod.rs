@@ -11,27 +11,19 @@
 //! and predictions of a batch change a bit. Instruction sets do: they differ in the last bits.
 
 mod compare;
-mod geometry;
-mod lanes;
 mod pass;
-mod picture;
-mod shade;
 mod sums;
-mod tile;
 
 use super::{Loss, check};
-use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::scene::Scene;
-pub use lanes::Level;
-pub use picture::render_at;
+use crate::render::simd::Level;
+use crate::render::simd::TEXELS_PER_BLOCK;
 use sums::{Job, SCENES_PER_GROUP};
-use tile::TEXELS;
 
-/// Texels whose logarithm is taken at once, and which one thread works on at a time.
-const TEXELS_PER_BLOCK: usize = 16 * TEXELS;
 /// Most sums that are held at a time.
 const MAX_SUMS: usize = 1 << 20;
 

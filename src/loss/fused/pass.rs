@@ -1,11 +1,11 @@
 //! One scene passes over the tile that is in cache: all materials are rendered, and compared.
 
 use super::compare::LogSum;
-use super::geometry::{Ray, Rays, Source};
-use super::lanes::{Lanes, V};
-use super::shade::{Model, Radiance};
 use super::sums::Job;
-use super::tile::{At, Places, Terms};
+use crate::render::simd::geometry::{Ray, Rays, Source};
+use crate::render::simd::lanes::{Lanes, V};
+use crate::render::simd::shade::{Model, Radiance};
+use crate::render::simd::tile::{At, Places, Terms};
 
 /// The texels that are in cache.
 pub(super) struct Tile {

@@ -5,16 +5,16 @@ use rayon::prelude::*;
 
 use super::TEXELS_PER_BLOCK;
 use super::compare::LogSum;
-use super::geometry::Source;
-use super::lanes::{Lanes, Level, dispatch};
 use super::pass::Tile;
-use super::shade::Model;
-use super::tile::{self, AHEAD, At, Axes, TEXELS, prefetch};
-use crate::convention::Convention;
 use crate::error::Error;
 use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::scene::Scene;
+use crate::render::simd::geometry::Source;
+use crate::render::simd::lanes::{Lanes, Level, dispatch};
+use crate::render::simd::shade::Model;
+use crate::render::simd::tile::{self, AHEAD, At, Axes, TEXELS, prefetch};
 
 /// Scenes that pass over a tile while it is in cache. More would push it out.
 pub(super) const SCENES_PER_GROUP: usize = 64;

@@ -5,7 +5,7 @@ use std::time::Duration;
 use eframe::egui::{self, RichText, Sides};
 
 use crate::loss::{Estimate, Loss};
-use crate::sampler::Sampler;
+use crate::model::sampler::Sampler;
 use crate::viewer::command::Command;
 use crate::viewer::loss_run::Shown;
 use crate::viewer::theme;

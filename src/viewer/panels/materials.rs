@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::material::read::{Certainty, Kept};
+use crate::files::read::{Certainty, Kept};
 use crate::viewer::command::Command;
 use crate::viewer::loaded::Origin;
 use crate::viewer::slots::{Slot, Slots};

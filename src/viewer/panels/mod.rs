@@ -14,7 +14,7 @@ pub mod top;
 
 use eframe::egui::{self, DragValue, Response, RichText};
 
-use crate::material::read::{
+use crate::files::read::{
     Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalCode, NormalY, Order, Preset, ReadOptions,
     Reflectance, Roughness, What, Workflow,
 };

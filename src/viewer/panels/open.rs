@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
-use crate::material::read::ReadOptions;
+use crate::files::read::ReadOptions;
 use crate::viewer::command::Command;
 
 /// What has been typed and chosen so far.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
-use crate::export::Shows;
+use crate::picture::export::Shows;
 use crate::viewer::command::Command;
 use crate::viewer::theme;
 

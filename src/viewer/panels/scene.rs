@@ -2,8 +2,8 @@
 
 use eframe::egui;
 
-use crate::convention;
-use crate::scene::{Kind, Scene};
+use crate::model::convention;
+use crate::model::scene::{Kind, Scene};
 use crate::viewer::command::Command;
 use crate::viewer::state::{End, FARTHEST, LOWEST, ViewState, end, set_end};
 

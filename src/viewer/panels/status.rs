@@ -2,12 +2,12 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::brdf::Model;
-use crate::convention::Convention;
 use crate::gpu::AdapterReport;
 use crate::material::Material;
+use crate::model::brdf::Model;
+use crate::model::convention::Convention;
+use crate::picture::content::Shown;
 use crate::render::render_texel;
-use crate::view::Shown;
 use crate::viewer::slots::Slot;
 use crate::viewer::state::ViewState;
 

@@ -5,11 +5,11 @@ use egui_plot::{
     Corner, GridInput, GridMark, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points,
 };
 
+use crate::files::write::Depth;
 use crate::loss::Texels;
-use crate::material::write::Depth;
-use crate::sampler::Sampler;
-use crate::study::text::{percent, time};
+use crate::model::sampler::Sampler;
 use crate::study::{Choice, Family, Point, Study};
+use crate::text::{percent, time};
 use crate::viewer::command::Command;
 use crate::viewer::loss_request::{Ask, LossSettings};
 use crate::viewer::study::StudyRun;

@@ -2,7 +2,7 @@
 
 use eframe::egui;
 
-use crate::view::Shown;
+use crate::picture::content::Shown;
 use crate::viewer::command::Command;
 use crate::viewer::state::{Layout, Projection, ViewState};
 

@@ -1,7 +1,7 @@
 //! Which prediction is better, and whether that is known.
 
 use svbrdf::loss::Estimate;
-use svbrdf::sampler::Sampler;
+use svbrdf::model::sampler::Sampler;
 
 use super::*;
 

@@ -1,0 +1,49 @@
+//! The claims of DWA blocks in an EXR, which the library allocates without a look: a damaged one would end the program.
+
+use std::io::{Read, Seek, SeekFrom};
+
+use exr::block::chunk::CompressedBlock;
+use exr::compression::Compression;
+use exr::error::{Error, Result};
+use exr::meta::MetaData;
+
+/// How many 8-byte numbers a block begins with.
+const NUMBERS: usize = 11;
+
+/// Checks that no block claims to unpack into more than `most` bytes; leaves `reader` at its beginning.
+///
+/// # Errors
+/// Those of the library, and where a block claims more.
+pub(crate) fn check(reader: &mut (impl Read + Seek), meta: &MetaData, most: u64) -> Result<()> {
+    let is_dwa = |compression| matches!(compression, Compression::DWAA(_) | Compression::DWAB(_));
+    if meta.headers.iter().any(|header| is_dwa(header.compression)) {
+        for chunk in exr::block::read(&mut *reader, false)?.filter_chunks(false, |_, _, _| true)? {
+            let chunk = chunk?;
+            let header = meta.headers.get(chunk.layer_index);
+            if header.is_some_and(|header| is_dwa(header.compression)) {
+                check_block(&chunk.compressed_block, most)?;
+            }
+        }
+        reader.seek(SeekFrom::Start(0))?;
+    }
+    Ok(())
+}
+
+fn check_block(block: &CompressedBlock, most: u64) -> Result<()> {
+    let bytes = match block {
+        CompressedBlock::ScanLine(block) => &block.compressed_pixels_le,
+        CompressedBlock::Tile(block) => &block.compressed_pixels_le,
+        _ => return Ok(()),
+    };
+    let numbers = bytes.as_chunks::<8>().0.iter().take(NUMBERS).map(|eight| u64::from_le_bytes(*eight));
+    // A block that did not shrink begins with its pixels: they hardly ever look like a version.
+    if bytes.len() >= 8 * NUMBERS && numbers.clone().next().is_some_and(|version| version <= 2) {
+        match numbers.max() {
+            Some(largest) if largest > most => {
+                return Err(Error::Invalid(format!("a DWA block that claims {largest} bytes").into()));
+            }
+            _ => (),
+        }
+    }
+    Ok(())
+}

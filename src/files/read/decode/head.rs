@@ -1,0 +1,66 @@
+//! What files say before their pixels, and the libraries that decode them keep to themselves.
+
+use std::io::{self, Read, Seek, SeekFrom};
+
+/// How many components the pixels of a JPEG have, 4 for CMYK; `None` where no frame begins as it should.
+pub(crate) fn jpeg_components(mut reader: impl Read + Seek) -> io::Result<Option<u8>> {
+    let mut two = [0; 2];
+    reader.read_exact(&mut two)?;
+    loop {
+        reader.read_exact(&mut two)?;
+        let [255, marker] = two else { return Ok(None) };
+        reader.read_exact(&mut two)?;
+        let length = u16::from_be_bytes(two);
+        // The frames: all of C0 to CF but the tables of C4, C8 and CC.
+        if (0xc0..=0xcf).contains(&marker) && marker % 4 != 0 || marker == 0xc0 {
+            let mut frame = [0; 6];
+            reader.read_exact(&mut frame)?;
+            return Ok(Some(frame[5]));
+        }
+        reader.seek(SeekFrom::Current(i64::from(length) - 2))?;
+    }
+}
+
+/// What a PNG says before its pixels.
+#[derive(Debug, Default)]
+pub(crate) struct PngHead {
+    /// Whether it says in a gAMA chunk, without an sRGB one, that its values are linear.
+    pub linear: bool,
+    /// The text that this program writes into packed pictures: their order and encoding.
+    pub meaning: Option<String>,
+}
+
+/// Longest text that is looked at.
+const LONGEST: u32 = 1 << 10;
+
+pub(crate) fn png(mut reader: impl Read + Seek) -> io::Result<PngHead> {
+    const KEYWORD: &[u8] = b"svbrdf\0packed ";
+    let (mut gamma_is_one, mut srgb, mut meaning) = (false, false, None);
+    reader.seek(SeekFrom::Current(8))?;
+    loop {
+        let (mut length, mut name) = ([0; 4], [0; 4]);
+        reader.read_exact(&mut length)?;
+        reader.read_exact(&mut name)?;
+        let length = u32::from_be_bytes(length);
+        let mut left = i64::from(length) + 4;
+        match &name {
+            b"IDAT" => return Ok(PngHead { linear: gamma_is_one && !srgb, meaning }),
+            b"sRGB" => srgb = true,
+            b"tEXt" if length <= LONGEST => {
+                let mut text = vec![0; length as usize];
+                reader.read_exact(&mut text)?;
+                left -= i64::from(length);
+                let said = text.strip_prefix(KEYWORD).map(|said| String::from_utf8_lossy(said).into_owned());
+                meaning = said.or(meaning);
+            }
+            b"gAMA" => {
+                let mut gamma = [0; 4];
+                reader.read_exact(&mut gamma)?;
+                left -= 4;
+                gamma_is_one = u32::from_be_bytes(gamma).abs_diff(100_000) < 1000;
+            }
+            _ => (),
+        }
+        reader.seek(SeekFrom::Current(left))?;
+    }
+}

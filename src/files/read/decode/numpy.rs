@@ -1,0 +1,134 @@
+//! npy arrays and npz archives of them: (h, w) or (h, w, channels), or (channels, h, w) of at most 4 channels.
+
+use std::io::{BufRead, Read, Seek};
+
+use exr::prelude::f16;
+use npyz::{NpyFile, Order};
+
+use super::{Decoded, Layer, MAX_BYTES, Place};
+use crate::error::Error;
+use crate::files::read::raster::{Raster, Samples};
+
+/// Most arrays that are read of an archive.
+const MOST_ARRAYS: usize = 64;
+
+/// Every array of an archive, by its name.
+pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
+    let invalid = |e: zip::result::ZipError| place.invalid("npz", e);
+    let mut archive = zip::ZipArchive::new(reader).map_err(invalid)?;
+    let names: Vec<String> = {
+        let all: Vec<_> = archive.file_names().collect::<Result<_, _>>().map_err(invalid)?;
+        all.into_iter().filter(|n| n.ends_with(".npy")).map(|n| n.into_owned()).collect()
+    };
+    if names.is_empty() || names.len() > MOST_ARRAYS {
+        let problem = format!("expected 1 to {MOST_ARRAYS} arrays in the npz, found {}", names.len());
+        return Err(place.bad(problem, "save the maps as named arrays"));
+    }
+    // An archive bomb says so in its directory, or meets the limit of a single array or of all of them.
+    let mut unpacked = 0_u64;
+    for file in &names {
+        unpacked = unpacked.saturating_add(archive.by_name(file).map_err(invalid)?.size());
+    }
+    if unpacked > MAX_BYTES {
+        let problem =
+            format!("expected at most {} GiB in the npz, found {} GiB", MAX_BYTES >> 30, unpacked >> 30);
+        return Err(place.bad(problem, "save fewer or smaller arrays"));
+    }
+    let mut decoded = Decoded::default();
+    let mut bytes = 0;
+    for file in names {
+        let name = file.trim_end_matches(".npy").to_owned();
+        let array = archive.by_name(&file).map_err(invalid)?;
+        let layer = decode_array(array, name, place)?;
+        // In memory: 2 to 4 bytes a sample.
+        bytes += 4 * (layer.raster.width * layer.raster.height * layer.raster.channels.len()) as u64;
+        place.check_size(layer.raster.width as u64, layer.raster.height as u64, bytes)?;
+        decoded.layers.push(layer);
+    }
+    Ok(decoded)
+}
+
+/// One array.
+pub(crate) fn decode_array(reader: impl Read, name: String, place: Place<'_>) -> Result<Layer, Error> {
+    let whose = if name.is_empty() { String::new() } else { format!("array {name}: ") };
+    let invalid = |e: std::io::Error| match e.kind() {
+        std::io::ErrorKind::UnexpectedEof => place.truncated(),
+        _ => place.invalid("npy", format!("{whose}{e}")),
+    };
+    let file = NpyFile::new(reader).map_err(invalid)?;
+    let shape = file.shape().to_vec();
+    let [height, width, count, planar] = sides(&shape).ok_or_else(|| {
+        place.bad(
+            format!("{whose}expected the shape (h, w) or (h, w, 1 to 4), found {shape:?}"),
+            "save each map as an array of rows, columns and channels",
+        )
+    })?;
+    let bytes = width.checked_mul(height).and_then(|n| n.checked_mul(8 * count));
+    place.check_size(width, height, bytes.unwrap_or(u64::MAX).min(MAX_BYTES + 1))?;
+    if file.order() == Order::Fortran {
+        return Err(
+            place.bad(format!("{whose}expected rows first, found Fortran order"), "save a C-ordered copy")
+        );
+    }
+    let (values, depth) = values(file, invalid, || {
+        place.bad(
+            format!("{whose}expected float16, float32, float64, uint8 or uint16"),
+            "convert it with astype",
+        )
+    })?;
+    let (width, height, count) = (width as usize, height as usize, count as usize);
+    let layout = |channel: usize| {
+        let (first, step) = if planar == 1 { (channel * width * height, 1) } else { (channel, count) };
+        move |index: usize| first + index * step
+    };
+    let channels = (0..count).map(|channel| values.picked(width * height, layout(channel))).collect();
+    Ok(Layer { name, raster: Raster::with_alpha(width, height, depth, channels) })
+}
+
+/// Height, width, channels, and 1 where the channels come first.
+fn sides(shape: &[u64]) -> Option<[u64; 4]> {
+    match *shape {
+        [1, h, w] | [h, w] => Some([h, w, 1, 0]),
+        [h, w, c @ 1..=4] => Some([h, w, c, 0]),
+        [c @ 2..=4, h, w] => Some([h, w, c, 1]),
+        [1, c @ 1..=4, h, w] => Some([h, w, c, 1]),
+        _ => None,
+    }
+}
+
+fn values<R: Read>(
+    file: NpyFile<R>,
+    invalid: impl Fn(std::io::Error) -> Error,
+    other: impl Fn() -> Error,
+) -> Result<(Samples, &'static str), Error> {
+    let count = file.len() as usize;
+    // Grows with what is really there, not with what the header claims.
+    fn take<T, E>(values: impl Iterator<Item = Result<T, E>>) -> Result<Vec<T>, E> {
+        values.collect()
+    }
+    let (samples, depth) = match file.try_data::<f32>() {
+        Ok(data) => (Samples::Floats(take(data).map_err(&invalid)?), "float"),
+        Err(file) => match file.try_data::<f16>() {
+            Ok(data) => (Samples::Floats(take(data.map(|x| x.map(f32::from))).map_err(&invalid)?), "half"),
+            Err(file) => match file.try_data::<f64>() {
+                Ok(data) => {
+                    (Samples::Floats(take(data.map(|x| x.map(|x| x as f32))).map_err(&invalid)?), "double")
+                }
+                Err(file) => match file.try_data::<u8>() {
+                    Ok(data) => {
+                        let codes = take(data.map(|x| x.map(u16::from))).map_err(&invalid)?;
+                        (Samples::Codes { codes, max: u8::MAX.into() }, "8-bit")
+                    }
+                    Err(file) => {
+                        let data = file.try_data::<u16>().map_err(|_| other())?;
+                        (Samples::Codes { codes: take(data).map_err(&invalid)?, max: u16::MAX }, "16-bit")
+                    }
+                },
+            },
+        },
+    };
+    if samples.len() != count {
+        return Err(invalid(std::io::ErrorKind::UnexpectedEof.into()));
+    }
+    Ok((samples, depth))
+}

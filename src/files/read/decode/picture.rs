@@ -1,0 +1,134 @@
+//! PNG, JPEG and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
+
+use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
+
+use image::codecs::hdr::HdrDecoder;
+use image::codecs::jpeg::JpegDecoder;
+use image::codecs::png::PngDecoder;
+use image::error::{ImageError, LimitErrorKind};
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
+
+use super::head::PngHead;
+use super::{Decoded, FORMATS, MAX_BYTES, Place, alone, head, planes};
+use crate::error::Error;
+use crate::files::read::raster::{Raster, Samples};
+
+pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
+    let unreadable = |e| Error::unreadable(place.path, e);
+    let head = reader.fill_buf().map_err(unreadable)?;
+    match image::guess_format(head) {
+        Ok(ImageFormat::Png) => {
+            let PngHead { linear, meaning } = head::png(&mut reader).unwrap_or_default();
+            reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+            let decoder = PngDecoder::with_limits(reader, limits()).map_err(|e| explain(&e, "PNG", place))?;
+            let mut decoded = decode_with(decoder, "PNG", place)?;
+            if linear && !place.is_data() {
+                decoded.notes.push(format!(
+                    "The {} says in a gAMA chunk that it is linear, which is ignored: --albedo linear takes it so.",
+                    place.what
+                ));
+            }
+            Ok(Decoded { meaning, ..decoded })
+        }
+        Ok(ImageFormat::Jpeg) => {
+            let components = head::jpeg_components(&mut reader).unwrap_or(None);
+            if components == Some(4) {
+                return Err(place.bad("expected gray or RGB, found a JPEG in CMYK", "convert it to RGB"));
+            }
+            reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+            let decoder = JpegDecoder::new(reader).map_err(|error| explain(&error, "JPEG", place))?;
+            decode_with(decoder, "JPEG", place)
+        }
+        Ok(ImageFormat::Hdr) => {
+            let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
+            decode_with(decoder, "HDR", place)
+        }
+        Ok(other) => Err(place.bad(format!("expected {FORMATS}, found {other:?}"), "convert it to PNG")),
+        Err(_) => {
+            Err(place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file"))
+        }
+    }
+}
+
+fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -> Result<Decoded, Error> {
+    let broken = |error: ImageError| explain(&error, format, place);
+    decoder.set_limits(limits()).map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    place.check_size(width.into(), height.into(), decoder.total_bytes())?;
+    let notes = ignored(&mut decoder, place);
+    let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    let found = image.color();
+    let raster = raster(image)
+        .ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))?;
+    Ok(Decoded { notes, ..alone(raster) })
+}
+
+/// What the file says beside its pixels and nobody heeds.
+fn ignored(decoder: &mut impl ImageDecoder, place: Place<'_>) -> Vec<String> {
+    let mut notes = Vec::new();
+    let what = place.what;
+    let turned = decoder.orientation().is_ok_and(|turned| turned != Orientation::NoTransforms);
+    if turned {
+        notes
+            .push(format!("The {what} has an EXIF orientation, which is ignored: rows are taken as stored."));
+    }
+    let profile = decoder.icc_profile().ok().flatten().filter(|_| !place.is_data());
+    if profile.is_some_and(|profile| !is_srgb(&profile)) {
+        notes.push(format!("The {what} has an ICC profile other than sRGB, which is ignored."));
+    }
+    notes
+}
+
+/// Whether an ICC profile calls itself sRGB, in ASCII or UTF-16.
+fn is_srgb(profile: &[u8]) -> bool {
+    let says = |name: &[u8]| profile.windows(name.len()).any(|bytes| bytes == name);
+    says(b"sRGB") || says(b"s\0R\0G\0B")
+}
+
+/// What the decoder may allocate. The size of the image is checked apart, for a message with numbers.
+fn limits() -> Limits {
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MAX_BYTES);
+    limits
+}
+
+fn explain(error: &ImageError, format: &str, place: Place<'_>) -> Error {
+    match error {
+        ImageError::IoError(io) if io.kind() == ErrorKind::UnexpectedEof => place.truncated(),
+        ImageError::Limits(limit) if matches!(limit.kind(), LimitErrorKind::InsufficientMemory) => {
+            let problem = format!("expected at most {} GiB of pixels, found more", MAX_BYTES >> 30);
+            place.bad(problem, "scale it down")
+        }
+        other => place.invalid(format, other),
+    }
+}
+
+/// `None` for kinds of pixels that are not known.
+fn raster(image: DynamicImage) -> Option<Raster> {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let (channels, depth) = match image {
+        DynamicImage::ImageLuma8(i) => (codes8(&i.into_raw(), 1), "8-bit"),
+        DynamicImage::ImageLumaA8(i) => (codes8(&i.into_raw(), 2), "8-bit"),
+        DynamicImage::ImageRgb8(i) => (codes8(&i.into_raw(), 3), "8-bit"),
+        DynamicImage::ImageRgba8(i) => (codes8(&i.into_raw(), 4), "8-bit"),
+        DynamicImage::ImageLuma16(i) => (codes16(&i.into_raw(), 1), "16-bit"),
+        DynamicImage::ImageLumaA16(i) => (codes16(&i.into_raw(), 2), "16-bit"),
+        DynamicImage::ImageRgb16(i) => (codes16(&i.into_raw(), 3), "16-bit"),
+        DynamicImage::ImageRgba16(i) => (codes16(&i.into_raw(), 4), "16-bit"),
+        DynamicImage::ImageRgb32F(i) => {
+            (planes(&i.into_raw(), 3, |s| s).into_iter().map(Samples::Floats).collect(), "float")
+        }
+        _ => return None,
+    };
+    Some(Raster::with_alpha(width, height, depth, channels))
+}
+
+fn codes8(samples: &[u8], count: usize) -> Vec<Samples> {
+    let planes = planes(samples, count, u16::from).into_iter();
+    planes.map(|codes| Samples::Codes { codes, max: u8::MAX.into() }).collect()
+}
+
+fn codes16(samples: &[u16], count: usize) -> Vec<Samples> {
+    planes(samples, count, |s| s).into_iter().map(|codes| Samples::Codes { codes, max: u16::MAX }).collect()
+}

@@ -1,0 +1,91 @@
+//! TIFF through the `tiff` library: integers of 8, 16 and 32 bits, half, float and double, in pixels or planes.
+
+use std::io::{BufRead, Seek};
+
+use tiff::ColorType;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+
+use super::{MAX_BYTES, Place, planes};
+use crate::error::Error;
+use crate::files::read::raster::{Raster, Samples};
+
+pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
+    let invalid = |error: tiff::TiffError| match error {
+        tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
+        other => place.invalid("TIFF", other),
+    };
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = usize::try_from(MAX_BYTES).unwrap_or(usize::MAX);
+    limits.intermediate_buffer_size = limits.decoding_buffer_size;
+    let mut decoder = Decoder::new(reader).map_err(invalid)?.with_limits(limits);
+    let (width, height) = decoder.dimensions().map_err(invalid)?;
+    let colour = decoder.colortype().map_err(invalid)?;
+    let count = channels_of(colour)
+        .ok_or_else(|| place.bad(format!("expected gray or RGB, found {colour:?}"), "convert it to RGB"))?;
+    let bytes =
+        u64::from(width) * u64::from(height) * count as u64 * u64::from(colour.bit_depth()).div_ceil(8);
+    place.check_size(width.into(), height.into(), bytes)?;
+    let planar = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(invalid)? == Some(2);
+    let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(invalid)?.unwrap_or(1);
+    let mut result = DecodingResult::U8(Vec::new());
+    decoder.read_image_to_buffer(&mut result).map_err(invalid)?;
+    let (width, height) = (width as usize, height as usize);
+    let layout = Interleaving { count, planar, texels: width * height };
+    let (channels, depth) = layout
+        .samples(result)
+        .ok_or_else(|| place.bad("expected 8, 16 or 32 bits for each sample, found others", "convert it"))?;
+    Ok(Raster::with_alpha(width, height, depth, channels).oriented(orientation))
+}
+
+fn channels_of(colour: ColorType) -> Option<usize> {
+    match colour {
+        ColorType::Gray(_) => Some(1),
+        ColorType::GrayA(_) => Some(2),
+        ColorType::RGB(_) | ColorType::YCbCr(8) => Some(3),
+        ColorType::RGBA(_) => Some(4),
+        ColorType::Multiband { num_samples, .. } => {
+            Some(usize::from(num_samples)).filter(|n| (1..=4).contains(n))
+        }
+        _ => None,
+    }
+}
+
+/// How the samples of a picture lie in memory.
+struct Interleaving {
+    count: usize,
+    planar: bool,
+    texels: usize,
+}
+
+impl Interleaving {
+    fn samples(&self, result: DecodingResult) -> Option<(Vec<Samples>, &'static str)> {
+        let codes = |planes: Vec<Vec<u16>>, max| -> Vec<Samples> {
+            planes.into_iter().map(|codes| Samples::Codes { codes, max }).collect()
+        };
+        let floats = |planes: Vec<Vec<f32>>| planes.into_iter().map(Samples::Floats).collect();
+        Some(match result {
+            DecodingResult::U8(all) => (codes(self.apart(&all, u16::from)?, u8::MAX.into()), "8-bit"),
+            DecodingResult::U16(all) => (codes(self.apart(&all, |s| s)?, u16::MAX), "16-bit"),
+            DecodingResult::U32(all) => {
+                (floats(self.apart(&all, |s| (f64::from(s) / f64::from(u32::MAX)) as f32)?), "32-bit")
+            }
+            DecodingResult::F16(all) => (floats(self.apart(&all, f32::from)?), "half"),
+            DecodingResult::F32(all) => (floats(self.apart(&all, |s| s)?), "float"),
+            DecodingResult::F64(all) => (floats(self.apart(&all, |s| s as f32)?), "double"),
+            _ => return None,
+        })
+    }
+
+    /// `None` where there are not as many samples as there have to be, as with fewer than 8 bits a sample.
+    fn apart<S: Copy, U>(&self, samples: &[S], of: impl Fn(S) -> U) -> Option<Vec<Vec<U>>> {
+        if samples.len() != self.count * self.texels {
+            return None;
+        }
+        Some(if self.planar {
+            samples.chunks_exact(self.texels).map(|plane| plane.iter().map(|&s| of(s)).collect()).collect()
+        } else {
+            planes(samples, self.count, of)
+        })
+    }
+}

@@ -1,0 +1,5 @@
+//! Files that describe materials and name their textures.
+
+pub mod gltf;
+pub mod mtl;
+pub mod mtlx;

@@ -1,0 +1,242 @@
+//! From stored samples to the linear values of a material: each choice made here is recorded as an assumption.
+
+use rayon::prelude::*;
+
+use super::detect;
+use super::normals;
+use super::transfer::{self, linear};
+use super::values::{self, Clamped, finite};
+use super::workflow;
+use crate::error::Error;
+use crate::files::read::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
+use crate::files::read::options::{Albedo, ReadOptions, Roughness};
+use crate::files::read::raster::Samples;
+use crate::files::read::stored::{Found, Hint, Source};
+use crate::material::Planes;
+use crate::material::resize::{self, Filter};
+use crate::math::real::Real;
+
+/// Channels of a gray map that differ by less were gray before they were rounded.
+const ROUNDING: f64 = 2.0 / 255.0;
+
+/// The planes that the maps of `found` stand for, and their (width, height); each map is let go once it is decoded.
+///
+/// # Errors
+/// [`Error::OutOfRange`] at NaN and infinity, [`Error::SizesDiffer`] where maps have another shape,
+/// [`Error::NotAMaterial`] where the normal map is gray.
+pub fn planes<T: Real>(found: &mut Found, options: &ReadOptions) -> Result<(Planes<T>, [usize; 2]), Error> {
+    let size = found.common_size()?;
+    values::check(found, options)?;
+    let albedo = albedo(found, options);
+    let specular_space = specular_space(found, options, albedo);
+    let roughness_code = roughness_code(found, options);
+    let normal = match found.normal.take() {
+        Some(source) => normals::planes(source, found, options, size)?,
+        None => normals::flat(found, size),
+    };
+    let mut clamped = Clamped::default();
+    let mut colour = |source: Source, space: Albedo, name| -> [Vec<T>; 3] {
+        let Source { raster, .. } = source;
+        let (from, last) = (raster.size(), raster.channels.len() - 1);
+        let mut decode = |plane: &Samples| {
+            let plane = plane.decoded(|v| linear(clamped.unit(finite(v, 0.0), name), space));
+            resize::plane(plane, from, size, Filter::Value)
+        };
+        [0, 1, 2].map(|c| decode(&raster.channels[last.min(c)]))
+    };
+    let diffuse = colour(found.colour.take(), albedo, "diffuse");
+    let specular = found.specular.take().map(|source| colour(source, specular_space, "specular"));
+    let roughness =
+        roughness_plane(found.roughness.take(), roughness_code, size, &mut clamped, &mut found.notes);
+    let metallic = found
+        .metallic
+        .take()
+        .map(|source| gray::<T>(source, "metallic", size, &mut clamped, &mut found.notes));
+    let level = found.level.take().map(|source| {
+        found.assumptions.push(workflow::level_assumed(&source));
+        gray::<T>(source, "specular level", size, &mut clamped, &mut found.notes)
+    });
+    clamped.say(found);
+    let maps = workflow::Maps { colour: diffuse, specular, metallic, level };
+    let (mut diffuse, specular) = maps.separated(size, found, options);
+    workflow::undo_energy(&mut diffuse, &specular, found, options);
+    let mut planes = Planes { normal, diffuse, specular, roughness };
+    if options.flip_v == Some(true) {
+        mirror(&mut planes, size[0]);
+        found.notes.push(format!("Row 0 is taken as the lowest, {AS_YOU_SAID}: the material is mirrored."));
+    }
+    Ok((planes, size))
+}
+
+/// The red channel of a map of one value; said where the others differ by more than rounding makes them.
+fn gray<T: Real>(
+    source: Source,
+    name: &'static str,
+    size: [usize; 2],
+    clamped: &mut Clamped,
+    notes: &mut Vec<String>,
+) -> Vec<T> {
+    let raster = &source.raster;
+    let spread = channel_spread(&raster.channels);
+    if spread > ROUNDING {
+        notes.push(format!(
+            "The red, green and blue of the {name} map differ by up to {spread:.4}; red is used."
+        ));
+    }
+    let plane = raster.channels[0].decoded(|v| clamped.unit(finite(v, 0.0), name));
+    resize::plane(plane, raster.size(), size, Filter::Value)
+}
+
+/// Top and bottom exchanged, and the normals with them.
+fn mirror<T: Real>(planes: &mut Planes<T>, width: usize) {
+    let Planes { normal, diffuse, specular, roughness } = planes;
+    normal[1].iter_mut().for_each(|y| *y = -*y);
+    for plane in normal.iter_mut().chain(diffuse).chain(specular).chain([roughness]) {
+        let height = plane.len() / width;
+        for row in 0..height / 2 {
+            let (above, below) = plane.split_at_mut((height - 1 - row) * width);
+            above[row * width..(row + 1) * width].swap_with_slice(&mut below[..width]);
+        }
+    }
+}
+
+/// What the user said, else the hint, else `detected`; recorded.
+pub fn decide<T: Copy + std::fmt::Display>(
+    assumptions: &mut Vec<Assumption>,
+    what: What,
+    given: Option<T>,
+    hint: Hint<T>,
+    detected: impl FnOnce() -> (T, String, Certainty),
+) -> T {
+    if let Some(value) = given {
+        assumptions.push(Assumption::given(what, value));
+        return value;
+    }
+    let (value, why, certainty) = hint.unwrap_or_else(detected);
+    assumptions.push(Assumption::new(what, value, why, certainty));
+    value
+}
+
+fn albedo(found: &mut Found, options: &ReadOptions) -> Albedo {
+    let hint = found.hints.albedo.take();
+    let specular = found.specular.as_ref().map(|source| detect::specular_median(&source.raster));
+    decide(&mut found.assumptions, What::Albedo, options.albedo, hint, || match specular {
+        None => {
+            (Albedo::Srgb, "colours in files of their own are sRGB by custom".to_owned(), Certainty::Likely)
+        }
+        Some(median) => by_median(median),
+    })
+}
+
+/// What the median of specular says: 0.04 stored as it is, or encoded.
+fn by_median(median: f64) -> (Albedo, String, Certainty) {
+    let measured = format!("the median of specular is {median:.3}");
+    match median {
+        0.03..=0.06 => (Albedo::Linear, format!("{measured}, 0.04 as it is"), Certainty::Likely),
+        0.2..=0.26 => (Albedo::Srgb, format!("{measured}, 0.04 encoded"), Certainty::Likely),
+        _ => (
+            Albedo::Srgb,
+            format!("colours in files of their own are sRGB by custom; {measured}, which tells nothing"),
+            Certainty::Unsure,
+        ),
+    }
+}
+
+fn specular_space(found: &mut Found, options: &ReadOptions, albedo: Albedo) -> Albedo {
+    let Some(source) = &found.specular else { return albedo };
+    let median = detect::specular_median(&source.raster);
+    let hint = found.hints.specular.take();
+    let chosen = options.specular.or(options.albedo).or(hint.as_ref().map(|h| h.0)).unwrap_or(albedo);
+    let (says, why, certainty) = by_median(median);
+    let contradicts =
+        (says == Albedo::Linear) != (chosen == Albedo::Linear) && certainty == Certainty::Likely;
+    let assumption = if options.specular.or(options.albedo).is_some() {
+        if contradicts && !source.raster.is_float() {
+            found.notes.push(format!("Specular is taken as {chosen}, {AS_YOU_SAID}, but {why}: look at it."));
+        }
+        Assumption::given(What::Specular, chosen)
+    } else if contradicts
+        && !source.raster.is_float()
+        && hint.as_ref().is_none_or(|(.., certainty)| *certainty != Certainty::Sure)
+    {
+        Assumption::new(
+            What::Specular,
+            chosen,
+            format!("by convention, but {why}: look at it"),
+            Certainty::Unsure,
+        )
+    } else if let Some((_, why, certainty)) = hint {
+        Assumption::new(What::Specular, chosen, why, certainty)
+    } else {
+        Assumption::new(What::Specular, chosen, why, certainty)
+    };
+    found.assumptions.push(assumption);
+    chosen
+}
+
+fn roughness_code(found: &mut Found, options: &ReadOptions) -> Roughness {
+    let hint = found.hints.roughness.take();
+    decide(&mut found.assumptions, What::Roughness, options.roughness, hint, || {
+        (Roughness::R, "it is called roughness".to_owned(), Certainty::Likely)
+    })
+}
+
+/// The first channel, or the mean of channels that differ; the geometric mean of two widths.
+fn roughness_plane<T: Real>(
+    source: Source,
+    code: Roughness,
+    size: [usize; 2],
+    clamped: &mut Clamped,
+    notes: &mut Vec<String>,
+) -> Vec<T> {
+    let Source { raster, .. } = source;
+    let channels = &raster.channels;
+    let mut value = |v: f64| transfer::roughness(clamped.unit(finite(v, 1.0), "roughness"), code);
+    let largest = channel_spread(channels);
+    let plane = if code == Roughness::Anisotropic && channels.len() > 1 {
+        notes.push(format!(
+            "The two widths of the roughness map differ by up to {:.4}; an isotropic lobe stands for both.",
+            channel_spread(&channels[..2])
+        ));
+        let width = |i: usize| (channels[0].at(i) * channels[1].at(i)).sqrt();
+        (0..channels[0].len()).map(|i| T::of(value(width(i)))).collect()
+    } else if largest == 0.0 {
+        channels[0].decoded(value)
+    } else {
+        notes.push(format!(
+            "The red, green and blue of the roughness map differ by up to {largest:.4}; their mean is used."
+        ));
+        (0..channels[0].len()).map(|i| T::of(value(mean(channels, i)))).collect()
+    };
+    resize::plane(plane, raster.size(), size, Filter::Roughness)
+}
+
+/// Of codes exactly: their sum is an integer.
+fn mean(channels: &[Samples], index: usize) -> f64 {
+    let mut codes = 0.0;
+    for channel in channels {
+        match channel {
+            Samples::Codes { codes: all, .. } => codes += f64::from(all[index]),
+            Samples::Floats(all) => codes += f64::from(all[index]),
+        }
+    }
+    let top = match &channels[0] {
+        Samples::Codes { max, .. } => f64::from(*max),
+        Samples::Floats(_) => 1.0,
+    };
+    codes / (channels.len() as f64 * top)
+}
+
+/// The largest difference between the channels of a texel.
+fn channel_spread(channels: &[Samples]) -> f64 {
+    let Some((first, others)) = channels.split_first() else { return 0.0 };
+    if others.iter().all(|other| other == first) {
+        return 0.0;
+    }
+    let spread = |i| {
+        let values = channels.iter().map(|channel| channel.at(i));
+        let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
+        high - low
+    };
+    (0..first.len()).into_par_iter().map(spread).reduce(|| 0.0, f64::max)
+}

@@ -1,0 +1,123 @@
+//! Maps that the user names one by one.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use super::layers;
+use super::names::Role;
+use crate::error::Error;
+use crate::files::read::assumption::AS_YOU_SAID;
+use crate::files::read::decode::{self, Layer};
+use crate::files::read::stored::Source;
+
+/// `normal=FILE`, or `roughness=FILE:g` for one channel or layer of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Binding {
+    role: Role,
+    file: PathBuf,
+    /// r, g, b, a, or the name of a layer.
+    part: Option<String>,
+}
+
+/// The maps that can be named.
+const ROLES: [(&str, Role); 6] = [
+    ("normal", Role::Normal),
+    ("diffuse", Role::Diffuse),
+    ("base", Role::Base),
+    ("specular", Role::Specular),
+    ("roughness", Role::Roughness),
+    ("metallic", Role::Metallic),
+];
+
+impl FromStr for Binding {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let (name, file) = text.split_once('=').unwrap_or((text, ""));
+        let role = ROLES.into_iter().find(|(known, _)| *known == name).map(|(_, role)| role);
+        let (Some(role), false) = (role, file.is_empty()) else {
+            return Err(Error::UnknownName {
+                what: "map",
+                found: text.to_owned(),
+                known: format!(
+                    "{}, each as in normal=FILE or roughness=FILE:g",
+                    ROLES.map(|(n, _)| n).join(", ")
+                ),
+            });
+        };
+        let (file, part) = match file.rsplit_once(':') {
+            Some((file, part)) if !file.is_empty() && !part.contains(['/', '\\']) => {
+                (file, Some(part.to_owned()))
+            }
+            _ => (file, None),
+        };
+        Ok(Self { role, file: file.into(), part: part.filter(|part| part != "rgb") })
+    }
+}
+
+/// What is said of a map that was named.
+pub(crate) fn note(role: Role, file: &Path) -> String {
+    format!("The {} map is {}, {AS_YOU_SAID}.", role.name(), file.display())
+}
+
+impl Binding {
+    pub(crate) fn role(&self) -> Role {
+        self.role
+    }
+
+    pub(crate) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    pub(crate) fn note(&self) -> String {
+        note(self.role, &self.file)
+    }
+
+    /// The same with a file that is beside others in `folder`, where it has no path of its own.
+    pub(crate) fn within(self, folder: &Path) -> Self {
+        Self { file: folder.join(self.file), ..self }
+    }
+
+    /// The name of the map, and `FILE` or `FILE:PART` as seen from `folder`.
+    pub(crate) fn said_within(&self, folder: &Path) -> (&'static str, String) {
+        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        // The folder of a file that was named without one.
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let file = absolute(&self.file);
+        let file = file.strip_prefix(absolute(folder)).unwrap_or(&file).display();
+        let name = ROLES.iter().find(|(_, role)| *role == self.role).map_or("", |(name, _)| name);
+        let part = self.part.as_ref().map(|part| format!(":{part}")).unwrap_or_default();
+        (name, format!("{file}{part}"))
+    }
+
+    /// Reads the map.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`], [`Error::BadImage`], also where the file has no such part.
+    pub(crate) fn load(&self) -> Result<(Role, Source), Error> {
+        let what = format!("{} map", self.role.name());
+        let Some(part) = &self.part else {
+            let (raster, _) = decode::decode_one(&self.file, &what)?;
+            return Ok((self.role, Source { raster, file: self.file.clone(), part: String::new() }));
+        };
+        let mut all = decode::decode_file(&self.file, &what)?.layers;
+        let channel = ["r", "g", "b", "a"].iter().position(|letter| letter == part);
+        let raster = match (all.iter().position(|layer| layer.name == *part), channel) {
+            (Some(place), _) => Some(all.swap_remove(place).raster),
+            (None, Some(3)) if all.len() == 1 => {
+                all.pop().and_then(|Layer { raster, .. }| Some(raster.of(raster.alpha.clone()?)))
+            }
+            (None, Some(channel)) if all.len() == 1 => all
+                .pop()
+                .and_then(|Layer { raster, .. }| Some(raster.of(raster.channels.get(channel)?.clone()))),
+            _ => None,
+        };
+        let names: Vec<_> = all.iter().map(layers::name).collect();
+        let raster = raster.ok_or_else(|| Error::BadImage {
+            path: self.file.clone(),
+            problem: format!("{what}: expected the part {part}, found {}", super::directory::listing(&names)),
+            remedy: "name a channel (r, g, b, a) that it has, or one of its layers".to_owned(),
+        })?;
+        Ok((self.role, Source { raster, file: self.file.clone(), part: part.clone() }))
+    }
+}

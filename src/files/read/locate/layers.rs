@@ -1,0 +1,78 @@
+//! Files of named layers: EXR with layers or parts, npz with named arrays.
+
+use std::path::Path;
+
+use super::names::{Label, Role};
+use crate::error::Error;
+use crate::files::read::assumption::{Assumption, Certainty, What};
+use crate::files::read::decode::Layer;
+use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
+use crate::files::read::stored::{Found, Pictures, Source};
+
+/// Whether the name of a layer says which map it is.
+pub fn is_named(layer: &Layer) -> bool {
+    Label::of(&layer.name).is_some()
+}
+
+/// The name of a layer, for messages.
+pub fn name(layer: &Layer) -> String {
+    if layer.name.is_empty() { "one without a name".to_owned() } else { format!("`{}`", layer.name) }
+}
+
+/// The maps among `layers`, by their names; others are left aside and named.
+///
+/// # Errors
+/// [`Error::NotAMaterial`] where maps are missing, or one is there twice.
+pub fn assemble(
+    path: &Path,
+    layers: Vec<Layer>,
+    native: bool,
+    options: &ReadOptions,
+) -> Result<Found, Error> {
+    let names: Vec<String> = layers.iter().map(name).collect();
+    let listed = format!("the layers {}", super::directory::listing(&names));
+    let mut pictures = Pictures::default();
+    let mut notes = Vec::new();
+    let mut floats = true;
+    for Layer { name, raster } in layers {
+        match Label::of(&name) {
+            Some(label) if label.role == Role::Ignored => notes.push(format!("Layer {name} is not used.")),
+            Some(label) if pictures.has(label.role) => {
+                return Err(Error::NotAMaterial {
+                    path: path.to_owned(),
+                    expected: format!("one layer for the {} map", label.role.name()),
+                    found: listed,
+                    remedy: "rename the layers that are none".to_owned(),
+                });
+            }
+            Some(label) => {
+                floats &= raster.is_float();
+                pictures
+                    .add(label.role, Source { raster, file: path.to_owned(), part: format!("layer {name}") });
+            }
+            None if name.is_empty() => {
+                notes.push("The unnamed layer is taken as a preview and ignored.".to_owned())
+            }
+            None => notes.push(format!("Layer {name} is not used.")),
+        }
+    }
+    let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let mut found = pictures.into_found(path, name, &listed, options)?;
+    let layout =
+        Assumption::new(What::Layout, "layers", "the names of the layers say the maps", Certainty::Sure);
+    found.assumptions.insert(0, layout);
+    notes.append(&mut found.notes);
+    found.notes = notes;
+    if floats {
+        let (why, certainty) = if native {
+            ("svbrdf wrote the file", Certainty::Sure)
+        } else {
+            ("floats are linear", Certainty::Likely)
+        };
+        found.hints.albedo = Some((Albedo::Linear, why.to_owned(), certainty));
+        found.hints.specular = found.hints.albedo.clone();
+        found.hints.roughness = Some((Roughness::R, why.to_owned(), certainty));
+        found.hints.normal_y = native.then(|| (NormalY::Up, why.to_owned(), certainty));
+    }
+    Ok(found)
+}

@@ -1,0 +1,280 @@
+//! Packed images: square tiles beside or above one another. The tile that looks like normals tells the order.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::names::Role;
+use crate::error::Error;
+use crate::files::read::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
+use crate::files::read::grid::Grid;
+use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
+use crate::files::read::options::{Albedo, Energy, NormalY, ReadOptions, Roughness};
+use crate::files::read::order::Order;
+use crate::files::read::preset::Preset;
+use crate::files::read::raster::Raster;
+use crate::files::read::stored::{Found, Hint, Pictures, Source};
+
+/// Of a picture of diffuse alone.
+const ROUGHNESS: f32 = 0.5;
+
+/// Where the tiles of one material are: the order, and the number of the first tile.
+#[derive(Clone, Debug)]
+struct Choice {
+    grid: Grid,
+    order: Order,
+    first: usize,
+    why: String,
+    certainty: Certainty,
+}
+
+/// Takes a packed image apart, or says that it is none.
+///
+/// # Errors
+/// [`Error::NotAMaterial`] where it has not the shape of one, or no tile looks like normals in a shape that needs it.
+pub fn unpack(
+    path: &Path,
+    image: &Raster,
+    meaning: Option<&str>,
+    options: &ReadOptions,
+) -> Result<Found, Error> {
+    let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let own = meaning
+        .and_then(|text| Own::of(text, image))
+        .filter(|_| options.order.is_none() && options.grid.is_none());
+    let chosen = own.as_ref().map(Own::choice).or_else(|| choose(image, &name, options));
+    let refused = || refusal(path, image, options);
+    let Choice { grid, order, first, why, certainty } = chosen.ok_or_else(refused)?;
+    if is_stack(grid, order.len()) {
+        options.exemplar_of(grid.rows, path)?;
+    }
+    let tile = grid.tile(image.size()).ok_or_else(refused)?;
+    let mut pictures = Pictures::default();
+    for (place, role) in order.roles().enumerate() {
+        let number = first + place;
+        let raster = image.crop(grid.corner(number, tile), tile);
+        pictures.add(role, Source { raster, file: path.to_owned(), part: format!("tile {}", number + 1) });
+    }
+    if !pictures.has(Role::Roughness) {
+        pictures.add(Role::Roughness, Source::constant(path, &[ROUGHNESS]));
+    }
+    let mut found = pictures.into_found(path, name, "", options)?;
+    if order == Order::D {
+        let why = "a picture of diffuse alone says nothing of it";
+        let chosen = format!("roughness {ROUGHNESS}");
+        found.assumptions.push(Assumption::new(What::Missing, chosen, why, Certainty::Unsure));
+    }
+    match own {
+        Some(own) => own.hint(&mut found),
+        None => hint(&mut found, order, image),
+    }
+    let chosen = format!("{order} in {grid} tiles of {} x {}", tile[0], tile[1]);
+    found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
+    let photos = if grid.rows == 1 || grid.columns == 1 { first } else { 0 };
+    if photos > 0 {
+        let count = grid.count();
+        found.notes.push(format!("The first {photos} of {count} tiles are taken as photos and ignored."));
+    }
+    if is_stack(grid, order.len()) {
+        found.notes.push(format!(
+            "The image holds {} materials, one a row; this is number {} from 0. Another: --exemplar.",
+            grid.rows,
+            first / grid.columns
+        ));
+    }
+    Ok(found)
+}
+
+/// What this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy plain`.
+struct Own {
+    order: Order,
+    diffuse: Albedo,
+    specular: Albedo,
+    roughness: Roughness,
+    normal_y: NormalY,
+    energy: Energy,
+}
+
+impl Own {
+    const WHY: &str = "svbrdf wrote the file, which says so";
+
+    /// `None` where the text or the shape of the picture is none that this program writes.
+    fn of(text: &str, image: &Raster) -> Option<Self> {
+        let mut parts = text.split(", ");
+        let order: Order = parts.next()?.parse().ok()?;
+        let mut next = |key: &str| parts.next()?.strip_prefix(key)?.strip_prefix(' ').map(str::to_owned);
+        let own = Self {
+            order,
+            diffuse: next("diffuse")?.parse().ok()?,
+            specular: next("specular")?.parse().ok()?,
+            roughness: next("roughness")?.parse().ok()?,
+            normal_y: next("normal y")?.parse().ok()?,
+            energy: next("energy")?.parse().ok()?,
+        };
+        (image.width == order.len() * (image.width / order.len())).then_some(own)
+    }
+
+    fn choice(&self) -> Choice {
+        let grid = Grid { columns: self.order.len(), rows: 1 };
+        Choice { grid, order: self.order, first: 0, why: Self::WHY.to_owned(), certainty: Certainty::Sure }
+    }
+
+    fn hint(&self, found: &mut Found) {
+        fn sure<T>(value: T) -> Hint<T> {
+            Some((value, Own::WHY.to_owned(), Certainty::Sure))
+        }
+        found.hints.albedo = sure(self.diffuse);
+        found.hints.specular = sure(self.specular);
+        found.hints.roughness = sure(self.roughness);
+        found.hints.normal_y = sure(self.normal_y);
+        found.hints.energy = sure(self.energy);
+    }
+}
+
+/// What goes with an order, by those who use it. Nothing where none is known to.
+fn hint(found: &mut Found, order: Order, image: &Raster) {
+    let (albedo, roughness, why) = match order {
+        _ if image.is_float() => (Albedo::Linear, Roughness::R, "floats are linear"),
+        Order::NDRS => (Albedo::Linear, Roughness::R, "so do Deschaintre et al. store this order"),
+        Order::DNRS | Order::DNR | Order::NDSR => {
+            (Albedo::Gamma22, Roughness::Gamma22, "so do MaterialGAN and its heirs store this order")
+        }
+        Order::DSRN => (Albedo::Gamma22, Roughness::R, "so does MatFusion store this order"),
+        Order::IBRM => (Albedo::Srgb, Roughness::R, "so does svbrdf-evaluation seem to store this order"),
+        _ => return,
+    };
+    let certainty = if order == Order::IBRM { Certainty::Unsure } else { Certainty::Likely };
+    found.hints.albedo = Some((albedo, why.to_owned(), certainty));
+    found.hints.specular = found.hints.albedo.clone();
+    found.hints.roughness = Some((roughness, why.to_owned(), Certainty::Likely));
+    let why = "so do all who are known to pack maps";
+    found.hints.normal_y = Some((NormalY::Up, why.to_owned(), Certainty::Likely));
+}
+
+/// Every way to divide the image into square tiles, in the order in which they are tried; or the one that was said.
+fn grids(image: &Raster, options: &ReadOptions) -> Vec<Grid> {
+    if let Some(grid) = options.grid {
+        return grid.tile(image.size()).map(|_| grid).into_iter().collect();
+    }
+    let (w, h) = (image.width, image.height);
+    let grid = |columns: usize, rows: usize| {
+        let grid = Grid { columns, rows };
+        grid.tile([w, h]).filter(|tile| tile[0] == tile[1]).map(|_| grid)
+    };
+    let strip = (w % h == 0).then(|| w / h).filter(|k| (3..=64).contains(k)).and_then(|k| grid(k, 1));
+    let upright = (h % w == 0).then(|| h / w).filter(|k| (3..=64).contains(k)).and_then(|k| grid(1, k));
+    let stack = |columns: usize| {
+        let rows = (w >= columns).then(|| h / (w / columns))?;
+        grid(columns, rows.max(1)).filter(|g| g.rows > 1)
+    };
+    [strip, stack(4), stack(5), upright, grid(2, 2)].into_iter().flatten().collect()
+}
+
+fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
+    let grids = grids(image, options);
+    if let Some(order) = options.order {
+        if order.len() == 1 && options.grid.is_none() {
+            let grid = Grid { columns: 1, rows: 1 };
+            return Some(placed(grid, order, options, AS_YOU_SAID.to_owned(), Certainty::Given));
+        }
+        let grid = *grids.iter().find(|g| g.count() >= order.len())?;
+        return Some(placed(grid, order, options, AS_YOU_SAID.to_owned(), Certainty::Given));
+    }
+    if let Some(choice) = grids.iter().find_map(|&grid| recognized(image, grid, options)) {
+        return Some(choice);
+    }
+    // In a strip, or in the grid that was said, the usual order; but a picture of normals all over is no strip.
+    let usual = |g: &&Grid| (g.rows == 1 || options.grid.is_some()) && g.count() >= 4;
+    let grid = *grids.iter().find(usual)?;
+    let scores = scores(image, grid, 0..grid.count());
+    if scores.iter().all(|&score| score >= NORMAL_AT_LEAST) {
+        return None;
+    }
+    let none = scores.iter().all(|&score| score < NORMAL_AT_LEAST);
+    let (order, why) = match options.preset.and_then(Preset::order) {
+        Some(order) => (order, "no tile tells; it is the order of the preset"),
+        None if none && grid.columns == 4 && name.to_lowercase().contains("svbrdf") => {
+            (Order::IBRM, "no tile looks like normals, and svbrdf-evaluation gives such names")
+        }
+        None => (Order::NDRS, "no tile looks like normals more than all others; this is the usual order"),
+    };
+    Some(placed(grid, order, options, why.to_owned(), Certainty::Unsure))
+}
+
+/// Whether every row of `grid` is a material of `count` tiles.
+fn is_stack(grid: Grid, count: usize) -> bool {
+    grid.rows > 1 && grid.columns >= count.max(3)
+}
+
+/// `order` in `grid`: in a strip at its end, after the photos; in a stack in the row that the user chose.
+fn placed(grid: Grid, order: Order, options: &ReadOptions, why: String, certainty: Certainty) -> Choice {
+    let end = if is_stack(grid, order.len()) {
+        (options.exemplar.unwrap_or(0).min(grid.rows - 1) + 1) * grid.columns
+    } else {
+        grid.count()
+    };
+    Choice { grid, order, first: end - order.len(), why, certainty }
+}
+
+/// How much each of the tiles looks like normals, from 0 to 1.
+fn scores(image: &Raster, grid: Grid, tiles: Range<usize>) -> Vec<f64> {
+    let Some(size) = grid.tile(image.size()) else { return Vec::new() };
+    let score = |number: usize| {
+        let tile = image.crop(grid.corner(number, size), size);
+        let signed = if image.is_float() { signed_normal_score(&tile) } else { 0.0 };
+        normal_score(&tile).max(signed)
+    };
+    tiles.map(score).collect()
+}
+
+/// The order by the one tile that looks like normals; `None` where none or several do.
+fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choice> {
+    let (start, count) = if is_stack(grid, 0) {
+        (options.exemplar.unwrap_or(0).min(grid.rows - 1) * grid.columns, grid.columns)
+    } else {
+        (0, grid.count())
+    };
+    let scores = scores(image, grid, start..start + count);
+    let (place, best) = scores.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let others = scores.iter().copied().enumerate().filter(|&(i, _)| i != place);
+    let second = others.map(|(_, score)| score).fold(0.0, f64::max);
+    if best < NORMAL_AT_LEAST || second >= NORMAL_AT_LEAST {
+        return None;
+    }
+    let square = grid.columns == 2 && grid.rows == 2;
+    let order = match (count, place) {
+        (3, 1) => Order::DNR,
+        (4, 0) if square => Order::NDSR,
+        (4, 3) => Order::DSRN,
+        (4, 0) => Order::NDRS,
+        (4, 1) if !square => Order::DNRS,
+        (5.., place) if place + 4 == count => Order::NDRS,
+        _ => return None,
+    };
+    let why = format!(
+        "tile {} looks like normals ({:.0} % of its pixels), the next best {:.0} %",
+        place + 1,
+        100.0 * best,
+        100.0 * second
+    );
+    Some(Choice { grid, order, first: start + count - order.len(), why, certainty: Certainty::Likely })
+}
+
+fn refusal(path: &Path, image: &Raster, options: &ReadOptions) -> Error {
+    let found = format!("{} x {} pixels", image.width, image.height);
+    let (expected, found, remedy) = match options.grid {
+        Some(grid) => (
+            format!("a packed image of {grid} tiles with room for the order"),
+            found,
+            "say another --grid, or leave it out",
+        ),
+        None => (
+            "a packed strip of square tiles, any photos and then normal | diffuse | roughness | specular, \
+            4 or more times as wide as high, or another grid in which one tile looks like normals"
+                .to_owned(),
+            found + " without one",
+            "correct the strip, say its --order or its --grid (--order d takes all of it as diffuse), or give a folder \
+             or prefix of one file a map",
+        ),
+    };
+    Error::NotAMaterial { path: path.to_owned(), expected, found, remedy: remedy.to_owned() }
+}

@@ -1,0 +1,176 @@
+//! Pictures as stored, before anything is made of their values.
+
+use crate::math::real::Real;
+
+/// One channel.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Samples {
+    /// Integers, of which `max` stands for 1.
+    Codes { codes: Vec<u16>, max: u16 },
+    /// Numbers that stand for themselves.
+    Floats(Vec<f32>),
+}
+
+impl Samples {
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Codes { codes, .. } => codes.len(),
+            Self::Floats(values) => values.len(),
+        }
+    }
+
+    /// The number that sample `index` stands for: a code as a fraction of the largest one.
+    pub fn at(&self, index: usize) -> f64 {
+        match self {
+            Self::Codes { codes, max } => f64::from(codes[index]) / f64::from(*max),
+            Self::Floats(values) => f64::from(values[index]),
+        }
+    }
+
+    /// `of` every number; each code is computed once.
+    pub fn decoded<T: Real>(&self, mut of: impl FnMut(f64) -> f64) -> Vec<T> {
+        match self {
+            Self::Codes { codes, max } => {
+                let top = f64::from(*max);
+                let table: Vec<T> = (0..=*max).map(|code| T::of(of(f64::from(code) / top))).collect();
+                codes.iter().map(|&code| table[usize::from(code)]).collect()
+            }
+            Self::Floats(values) => values.iter().map(|&value| T::of(of(f64::from(value)))).collect(),
+        }
+    }
+
+    pub fn is_float(&self) -> bool {
+        matches!(self, Self::Floats(_))
+    }
+
+    /// `count` samples, each from the place that `place` says.
+    pub fn picked(&self, count: usize, place: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Codes { codes, max } => {
+                Self::Codes { codes: (0..count).map(|i| codes[place(i)]).collect(), max: *max }
+            }
+            Self::Floats(values) => Self::Floats((0..count).map(|i| values[place(i)]).collect()),
+        }
+    }
+
+    fn crop(&self, width: usize, [left, top]: [usize; 2], [w, h]: [usize; 2]) -> Self {
+        fn cut<S: Copy>(all: &[S], width: usize, [left, top, w, h]: [usize; 4]) -> Vec<S> {
+            let rows = all.chunks_exact(width).skip(top).take(h);
+            rows.flat_map(|row| &row[left..left + w]).copied().collect()
+        }
+        let place = [left, top, w, h];
+        match self {
+            Self::Codes { codes, max } => Self::Codes { codes: cut(codes, width, place), max: *max },
+            Self::Floats(values) => Self::Floats(cut(values, width, place)),
+        }
+    }
+}
+
+/// A picture: one plane for each channel, row 0 on top. Alpha is kept apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raster {
+    pub width: usize,
+    pub height: usize,
+    /// How the file stores a sample, for people: "8-bit", "half".
+    pub depth: &'static str,
+    /// One plane for gray, two for XY, three for RGB or XYZ.
+    pub channels: Vec<Samples>,
+    /// Alpha where it is not opaque everywhere.
+    pub alpha: Option<Samples>,
+}
+
+impl Raster {
+    /// The part of `size` (width, height) whose top left corner is at `corner` (column, row).
+    pub fn crop(&self, corner: [usize; 2], size: [usize; 2]) -> Self {
+        let cut = |plane: &Samples| plane.crop(self.width, corner, size);
+        Self {
+            width: size[0],
+            height: size[1],
+            depth: self.depth,
+            channels: self.channels.iter().map(cut).collect(),
+            alpha: self.alpha.as_ref().map(cut),
+        }
+    }
+
+    /// Only channel number `index`.
+    pub fn channel(&self, index: usize) -> Self {
+        let channels = self.channels.get(index).or(self.channels.last()).cloned();
+        Self { channels: channels.into_iter().collect(), ..self.without_samples() }
+    }
+
+    pub fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
+    /// The channels at `index`, as many as there are; gray stands for all three.
+    pub fn rgb(&self, index: usize) -> [f64; 3] {
+        let last = self.channels.len() - 1;
+        [0, 1, 2].map(|c| self.channels[last.min(c)].at(index))
+    }
+
+    pub fn is_float(&self) -> bool {
+        self.channels.iter().any(Samples::is_float)
+    }
+
+    /// Places all over the picture, a million at most, evenly.
+    pub fn sampled(&self) -> impl Iterator<Item = usize> + use<> {
+        const MOST: usize = 1 << 20;
+        let count = self.width * self.height;
+        // Odd, so that a picture whose width is a power of two is not seen in columns only.
+        let step = (count / MOST).max(1) | 1;
+        (0..count).step_by(step)
+    }
+
+    /// `plane`, of the same size.
+    pub fn of(&self, plane: Samples) -> Self {
+        Self { channels: vec![plane], ..self.without_samples() }
+    }
+
+    /// Size and depth alone.
+    pub fn without_samples(&self) -> Self {
+        Self { channels: Vec::new(), alpha: None, ..*self }
+    }
+
+    /// Of 1 to 4 channels; the last of 2 or 4 is alpha, and forgotten where it is opaque everywhere.
+    pub fn with_alpha(width: usize, height: usize, depth: &'static str, mut channels: Vec<Samples>) -> Self {
+        let alpha = if channels.len().is_multiple_of(2) { channels.pop() } else { None };
+        let opaque = |alpha: &Samples| (0..alpha.len()).all(|i| alpha.at(i) == 1.0);
+        Self { width, height, depth, channels, alpha: alpha.filter(|alpha| !opaque(alpha)) }
+    }
+
+    /// Every number of the channels times a factor, one for each; as it is where all are 1.
+    pub fn scaled(self, factors: &[f32]) -> Self {
+        if factors.iter().all(|&factor| factor == 1.0) {
+            return self;
+        }
+        let times = |(plane, &factor): (&Samples, &f32)| {
+            Samples::Floats((0..plane.len()).map(|i| plane.at(i) as f32 * factor).collect())
+        };
+        Self { channels: self.channels.iter().zip(factors.iter().cycle()).map(times).collect(), ..self }
+    }
+
+    /// The picture as it is seen whose rows and columns are stored in the TIFF `orientation` (1 to 8).
+    pub fn oriented(self, orientation: u16) -> Self {
+        let (mirrored, upset) = (matches!(orientation, 2 | 3 | 6 | 7), matches!(orientation, 3 | 4 | 7 | 8));
+        let turned = matches!(orientation, 5..=8);
+        if !(mirrored || upset || turned) {
+            return self;
+        }
+        let [width, height] = if turned { [self.height, self.width] } else { self.size() };
+        let stored = |index: usize| {
+            let (x, y) = (index % width, index / width);
+            let x = if mirrored { width - 1 - x } else { x };
+            let y = if upset { height - 1 - y } else { y };
+            if turned { x * self.width + y } else { y * self.width + x }
+        };
+        let plane = |plane: &Samples| plane.picked(width * height, stored);
+        let (channels, alpha) = (self.channels.iter().map(plane).collect(), self.alpha.as_ref().map(plane));
+        Self { width, height, channels, alpha, ..self }
+    }
+
+    /// A single texel of the given channels.
+    pub fn constant(depth: &'static str, values: &[f32]) -> Self {
+        let channels = values.iter().map(|&value| Samples::Floats(vec![value])).collect();
+        Self { width: 1, height: 1, depth, channels, alpha: None }
+    }
+}

@@ -1,0 +1,299 @@
+//! What has been found of a material, still as stored.
+
+use std::path::{Path, PathBuf};
+
+use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
+use super::interpret::transfer::{encoded, linear};
+use super::locate::names::Role;
+use super::options::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow};
+use super::preset::Preset;
+use super::raster::{Raster, Samples};
+use crate::error::Error;
+
+/// A map as stored.
+#[derive(Clone, Debug)]
+pub struct Source {
+    pub raster: Raster,
+    pub file: PathBuf,
+    /// Layer, channel or tile within the file, for people; may be empty.
+    pub part: String,
+}
+
+impl Source {
+    /// That there is no use for the map in a workflow.
+    fn unused(&self, workflow: Workflow) -> String {
+        let part = if self.part.is_empty() { String::new() } else { format!(", {}", self.part) };
+        format!("{}{part} is not used: the workflow is {workflow}.", self.file.display())
+    }
+
+    /// A map of one value that the file `path` says.
+    pub fn constant(path: &Path, values: &[f32]) -> Self {
+        let raster = Raster::constant("value", values);
+        Self { raster, file: path.to_owned(), part: "value".to_owned() }
+    }
+
+    /// Colours stored as `space` times linear factors, stored likewise.
+    pub fn times(self, factor: [f32; 3], space: Albedo) -> Self {
+        if factor == [1.0; 3] {
+            return self;
+        }
+        let last = self.raster.channels.len() - 1;
+        let times = |c: usize| {
+            let plane = &self.raster.channels[last.min(c)];
+            let value = |i| encoded(linear(plane.at(i), space) * f64::from(factor[c]), space) as f32;
+            Samples::Floats((0..plane.len()).map(value).collect())
+        };
+        let channels = [0, 1, 2].map(times).into();
+        Self { raster: Raster { channels, ..self.raster.without_samples() }, ..self }
+    }
+
+    /// Takes the samples out, so that they can be let go; size and names stay.
+    pub fn take(&mut self) -> Self {
+        let left = self.raster.without_samples();
+        Self {
+            raster: std::mem::replace(&mut self.raster, left),
+            file: self.file.clone(),
+            part: self.part.clone(),
+        }
+    }
+}
+
+/// What a convention says about stored values, with why and how surely. `None` where it says nothing.
+#[derive(Clone, Debug, Default)]
+pub struct Hints {
+    pub albedo: Hint<Albedo>,
+    pub specular: Hint<Albedo>,
+    pub roughness: Hint<Roughness>,
+    pub normal_y: Hint<NormalY>,
+    pub energy: Hint<Energy>,
+}
+
+/// A choice, why, and how surely.
+pub type Hint<T> = Option<(T, String, Certainty)>;
+
+/// The maps of a material as stored, and what is known about them.
+#[derive(Debug)]
+pub struct Found {
+    pub name: String,
+    pub normal: Option<Source>,
+    /// Diffuse, or the base colour where there is `metallic`.
+    pub colour: Source,
+    pub specular: Option<Source>,
+    /// How reflective what is no metal is.
+    pub level: Option<Source>,
+    pub roughness: Source,
+    pub metallic: Option<Source>,
+    pub hints: Hints,
+    pub assumptions: Vec<Assumption>,
+    /// What the user may want to know, one sentence each.
+    pub notes: Vec<String>,
+    /// Every file that was read, once.
+    pub files: Vec<PathBuf>,
+}
+
+/// The pictures of a material by their role.
+#[derive(Debug, Default)]
+pub struct Pictures {
+    all: Vec<(Role, Source)>,
+}
+
+impl Pictures {
+    pub fn add(&mut self, role: Role, source: Source) {
+        self.all.push((role, source));
+    }
+
+    pub fn has(&self, role: Role) -> bool {
+        self.all.iter().any(|(r, _)| *r == role)
+    }
+
+    /// Puts `source` in the place of what there is for its role; there is one colour, diffuse or base.
+    pub fn replace(&mut self, role: Role, source: Source) {
+        let colours = [Role::Base, Role::Diffuse];
+        self.all.retain(|(r, _)| *r != role && !(colours.contains(r) && colours.contains(&role)));
+        self.all.push((role, source));
+    }
+
+    fn take(&mut self, role: Role) -> Option<Source> {
+        let place = self.all.iter().position(|(r, _)| *r == role)?;
+        Some(self.all.swap_remove(place).1)
+    }
+
+    /// Roughness (0) or metallic (1) out of a picture that holds both.
+    fn packed(&self, which: usize) -> Option<Source> {
+        self.all.iter().find_map(|(role, source)| {
+            let channel = role.packing()?[which];
+            let plane =
+                if channel == 3 { source.raster.alpha.as_ref() } else { source.raster.channels.get(channel) };
+            let raster = source.raster.of(plane?.clone());
+            let name = ["red", "green", "blue", "alpha"][channel];
+            let before = if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) };
+            Some(Source { raster, file: source.file.clone(), part: before + name })
+        })
+    }
+
+    fn roughness(&mut self) -> Option<Source> {
+        self.take(Role::Roughness).or_else(|| self.packed(0))
+    }
+
+    fn metallic(&mut self) -> Option<Source> {
+        self.take(Role::Metallic).or_else(|| self.packed(1))
+    }
+
+    /// Chooses the workflow and puts the maps in their places; `path` is what the user gave, `listed` what is there.
+    ///
+    /// # Errors
+    /// [`Error::NotAMaterial`] without a colour or without roughness.
+    pub fn into_found(
+        mut self,
+        path: &Path,
+        name: String,
+        listed: &str,
+        options: &ReadOptions,
+    ) -> Result<Found, Error> {
+        let missing = |role: Role| Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: format!(
+                "one picture for the {} map (named {})",
+                role.name(),
+                role.words()[..3].join(", ")
+            ),
+            found: listed.to_owned(),
+            remedy: "add or rename the file, or open a packed one by itself".to_owned(),
+        };
+        let mut assumptions = Vec::new();
+        let mut files: Vec<_> = self.all.iter().map(|(_, source)| source.file.clone()).collect();
+        files.sort();
+        files.dedup();
+        let doubtful = [Role::RoughnessMetallicOcclusion, Role::MetallicRoughnessOcclusion];
+        if let Some((role, source)) = self.all.iter().find(|(role, _)| doubtful.contains(role)) {
+            let chosen = if *role == doubtful[0] {
+                "red roughness, green metallic, blue occlusion"
+            } else {
+                "red metallic, green roughness, blue occlusion"
+            };
+            let why = format!("by the name of {}; such packings differ", source.file.display());
+            assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
+        }
+        let normal = self.take(Role::Normal);
+        let roughness = self.roughness();
+        let metallic = self.metallic();
+        let (specular, level) = (self.take(Role::Specular), self.take(Role::SpecularLevel));
+        let (base, diffuse) = (self.take(Role::Base), self.take(Role::Diffuse));
+        let use_metallic = match options.workflow {
+            Some(workflow) => workflow == Workflow::Metallic && metallic.is_some(),
+            None => metallic.is_some() && (base.is_some() || specular.is_none()),
+        };
+        let (first, second) = if use_metallic { (base, diffuse) } else { (diffuse, base) };
+        let (colour, mut unused) = if first.is_some() { (first, vec![second]) } else { (second, Vec::new()) };
+        let no_specular = use_metallic || options.workflow == Some(Workflow::Metallic);
+        let (specular, other) = if no_specular { (None, specular) } else { (specular, None) };
+        let (level, coloured) = if specular.is_some() { (None, level) } else { (level, None) };
+        let (metallic, plain) = if use_metallic { (metallic, None) } else { (None, metallic) };
+        unused.extend([other, coloured, plain]);
+        if normal.is_none() && colour.is_none() && roughness.is_none() {
+            return Err(missing(Role::Normal));
+        }
+        let colour = colour.ok_or_else(|| missing(Role::Diffuse))?;
+        let roughness = roughness.ok_or_else(|| missing(Role::Roughness))?;
+        let (chosen, why) = match (use_metallic, specular.is_some()) {
+            (true, _) if options.preset == Some(Preset::MatFusion) => (
+                Workflow::Metallic,
+                "there is a metallic map: d = b (1 - m), s = f + b m as MatFusion has it",
+            ),
+            (true, _) => (Workflow::Metallic, "there is a metallic map: d = b (1 - m), s = f (1 - m) + b m"),
+            (false, true) => (Workflow::Specular, "there is a specular map"),
+            (false, false) => (Workflow::Specular, "there is neither a specular nor a metallic map"),
+        };
+        assumptions.push(match options.workflow {
+            Some(given) if given == chosen => Assumption::given(What::Workflow, given),
+            Some(given) => Assumption::new(
+                What::Workflow,
+                given,
+                format!("{AS_YOU_SAID}, but there is no metallic map"),
+                Certainty::Given,
+            ),
+            None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
+        });
+        Ok(Found {
+            name,
+            normal,
+            colour,
+            specular,
+            level,
+            roughness,
+            metallic,
+            hints: Hints::default(),
+            assumptions,
+            notes: unused.into_iter().flatten().map(|source| source.unused(chosen)).collect(),
+            files,
+        })
+    }
+}
+
+impl Found {
+    /// Puts `source` in the place of the map of its role.
+    pub fn replace(&mut self, role: Role, source: Source) {
+        self.files.push(source.file.clone());
+        self.files.sort();
+        self.files.dedup();
+        match role {
+            Role::Normal => self.normal = Some(source),
+            Role::Specular => (self.specular, self.metallic) = (Some(source), None),
+            Role::Roughness => self.roughness = source,
+            Role::Metallic => (self.metallic, self.specular) = (Some(source), None),
+            _ => self.colour = source,
+        }
+    }
+
+    /// Every map with its name.
+    pub fn sources(&self) -> Vec<(&'static str, &Source)> {
+        let colour = if self.metallic.is_some() { "base colour" } else { "diffuse" };
+        let optional = [
+            ("normal", &self.normal),
+            ("specular", &self.specular),
+            ("specular level", &self.level),
+            ("metallic", &self.metallic),
+        ];
+        let always = [(colour, &self.colour), ("roughness", &self.roughness)];
+        let there = optional.into_iter().filter_map(|(name, source)| source.as_ref().map(|s| (name, s)));
+        there.chain(always).collect()
+    }
+
+    /// The size of the largest map; says so where others are smaller.
+    pub fn common_size(&mut self) -> Result<[usize; 2], Error> {
+        let all: Vec<_> = self
+            .sources()
+            .into_iter()
+            .map(|(name, s)| (format!("{name} map {}", s.file.display()), name, s.raster.size()))
+            .collect();
+        let Some((largest_whose, _, largest)) = all.iter().max_by_key(|(.., size)| size[0] * size[1]) else {
+            return Ok([0; 2]);
+        };
+        let [width, height] = *largest;
+        let mut smaller = Vec::new();
+        for (whose, name, size) in &all {
+            // A single value has every shape.
+            if *size == [1, 1] {
+                continue;
+            }
+            if size[0] * height != size[1] * width {
+                return Err(Error::SizesDiffer {
+                    first: largest_whose.clone(),
+                    first_size: *largest,
+                    second: whose.clone(),
+                    second_size: *size,
+                    remedy: "resize them so that the maps of a material have one shape",
+                });
+            }
+            if size != largest {
+                smaller.push(format!("{name} from {} x {}", size[0], size[1]));
+            }
+        }
+        if !smaller.is_empty() {
+            let chosen = format!("{width} x {height}");
+            let why = format!("the largest map has it; resampled bilinearly: {}", smaller.join(", "));
+            self.assumptions.push(Assumption::new(What::Size, chosen, why, Certainty::Likely));
+        }
+        Ok([width, height])
+    }
+}

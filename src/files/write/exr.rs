@@ -1,0 +1,93 @@
+//! The project's own form: one part with the layers diffuse, specular, normal and roughness.
+
+use std::io::{self, Seek, Write};
+
+use exr::image::{AnyChannel, AnyChannels, FlatSamples};
+use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage, f16};
+
+use crate::material::{Material, Planes};
+use crate::math::vec3::Vec3;
+use crate::model::convention::PRINTED;
+use crate::model::scene::{Kind, Scene};
+use crate::picture::export::Provenance;
+use crate::progress::Progress;
+use crate::render::render_f32;
+
+/// How the comments of an EXR begin that this module wrote.
+pub(crate) const NATIVE: &str = "svbrdf:version=1\n";
+/// What the values of such an EXR mean.
+const MEANING: &str = "svbrdf:workflow=specular, linear Rec. 709\nsvbrdf:normal=signed, +y\n\
+    svbrdf:roughness=r, alpha = r^2\n";
+/// The scene of previews: that in which the window starts.
+const PREVIEW: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
+
+pub(crate) fn write(
+    file: impl Write + Seek,
+    material: &Material<f32>,
+    half: bool,
+    preview: bool,
+) -> io::Result<()> {
+    let Planes { normal, diffuse, specular, roughness } = material.planes();
+    let normal = if half { half_normals(normal) } else { normal.clone() };
+    let samples = |plane: &[f32]| match half {
+        true => FlatSamples::F16(plane.iter().map(|&x| f16::from_f32(x)).collect()),
+        false => FlatSamples::F32(plane.to_vec()),
+    };
+    let rendering = if preview { rendering(material)? } else { Default::default() };
+    let layers = [
+        ("diffuse.", ["R", "G", "B"], diffuse),
+        ("specular.", ["R", "G", "B"], specular),
+        ("normal.", ["X", "Y", "Z"], &normal),
+        ("", ["R", "G", "B"], &rendering),
+    ];
+    let layers = layers.into_iter().take(if preview { 4 } else { 3 });
+    let colours = layers.flat_map(|(layer, names, planes)| {
+        names.into_iter().zip(planes).map(move |(name, plane)| (format!("{layer}{name}"), plane.as_slice()))
+    });
+    let all = colours.chain([("roughness.Y".to_owned(), roughness.as_slice())]);
+    let channels = all.map(|(name, plane)| AnyChannel::new(text(&name), samples(plane))).collect();
+    let attributes = LayerAttributes {
+        software_name: Text::new_or_none(Provenance::SOFTWARE),
+        comments: Text::new_or_none(format!("{NATIVE}{MEANING}")),
+        ..LayerAttributes::default()
+    };
+    let layer = Layer::new(
+        (material.width(), material.height()),
+        attributes,
+        Encoding::SMALL_LOSSLESS,
+        AnyChannels::sort(channels),
+    );
+    Image::from_layer(layer).write().to_buffered(file).map_err(io::Error::other)
+}
+
+/// Red, green and blue of the material in the scene of previews, no more than a half can hold.
+fn rendering(material: &Material<f32>) -> io::Result<[Vec<f32>; 3]> {
+    let image = render_f32(material, &PREVIEW, &PRINTED, &Progress::default()).map_err(io::Error::other)?;
+    let most = f16::MAX.to_f32();
+    Ok([0, 1, 2].map(|c| image.pixels.iter().map(|rgb| rgb[c].min(most)).collect()))
+}
+
+/// Text of the ASCII that is written here.
+fn text(name: &str) -> Text {
+    Text::new_or_none(name).unwrap_or_else(|| Text::from("?"))
+}
+
+/// Normals that are halves and, once they have been normalized and rounded to halves again, the same halves.
+pub(crate) fn half_normals([xs, ys, zs]: &[Vec<f32>; 3]) -> [Vec<f32>; 3] {
+    const MOST_ROUNDS: usize = 16;
+    let round = |n: [f32; 3]| n.map(|x| f16::from_f32(x).to_f32());
+    let again = |n: [f32; 3]| round(Vec3::from(n.map(f64::from)).normalize().to_array().map(|x| x as f32));
+    let mut planes = [0; 3].map(|_| Vec::with_capacity(xs.len()));
+    for ((&x, &y), &z) in xs.iter().zip(ys).zip(zs) {
+        let mut n = round([x, y, z]);
+        for _ in 0..MOST_ROUNDS {
+            let next = again(n);
+            if next == n {
+                break;
+            }
+            n = next;
+        }
+        planes.iter_mut().zip(n).for_each(|(plane, x)| plane.push(x));
+    }
+    planes
+}

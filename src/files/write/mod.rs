@@ -1,0 +1,169 @@
+//! Materials as files: one layered EXR, a packed PNG, a folder of PNG files.
+
+mod exr;
+mod metallic;
+mod png;
+mod quantized;
+
+use std::path::Path;
+use std::str::FromStr;
+
+pub(crate) use exr::NATIVE;
+pub use quantized::held;
+
+use super::read::Preset;
+use crate::error::Error;
+use crate::material::Material;
+use crate::picture::export;
+use crate::progress::Progress;
+
+/// Kinds of files that materials are read from and not written into: as the name of a folder they are a mistake.
+const NOT_WRITTEN: [&str; 12] =
+    ["jpg", "jpeg", "tif", "tiff", "hdr", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json"];
+
+/// How samples are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Depth {
+    Eight,
+    Sixteen,
+    Half,
+    Float,
+}
+
+impl Depth {
+    /// How the command line calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Eight => "8",
+            Self::Sixteen => "16",
+            Self::Half => "half",
+            Self::Float => "float",
+        }
+    }
+}
+
+impl FromStr for Depth {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self, Error> {
+        match name {
+            "8" => Ok(Self::Eight),
+            "16" => Ok(Self::Sixteen),
+            "half" => Ok(Self::Half),
+            "float" => Ok(Self::Float),
+            _ => Err(Error::UnknownName {
+                what: "depth",
+                found: name.to_owned(),
+                known: "8, 16 (PNG), half, float (EXR)".to_owned(),
+            }),
+        }
+    }
+}
+
+/// What the user says about the files to write.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WriteOptions {
+    /// Half in EXR and 8 bits in PNG where nothing is said.
+    pub depth: Option<Depth>,
+    /// Whose names, order and encoding the files get.
+    pub like: Option<Preset>,
+    /// Whether an EXR gets a rendering as its R, G and B, for programs that know no layers.
+    pub preview: bool,
+}
+
+/// What is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// One layered EXR: signed normals, y up, everything linear.
+    Exr { half: bool, preview: bool },
+    /// Four tiles in a row, in the order and encoding of a research code that packs maps.
+    Packed { sixteen: bool, like: Preset },
+    /// Four PNG files, colours in sRGB.
+    Folder { sixteen: bool },
+    /// Four PNG files in the names and encoding of MaterialGAN.
+    MaterialGan { sixteen: bool },
+    /// Base colour, normals, and occlusion | roughness | metallic in one picture: loses what metal cannot say.
+    Gltf { sixteen: bool },
+}
+
+impl Kind {
+    /// By the extension of `path` and what `options` say.
+    ///
+    /// # Errors
+    /// [`Error::Usage`] for a kind of file that is not written, and for a depth, a preset or a preview that it has not.
+    pub fn new(path: &Path, options: &WriteOptions) -> Result<Self, Error> {
+        let WriteOptions { depth, like, preview } = *options;
+        let refuse = |why: &str| Err(Error::Usage(format!("{} {why}", path.display())));
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        if NOT_WRITTEN.contains(&extension.as_str()) {
+            return refuse("cannot be written: name an .exr file, a .png file or a folder");
+        }
+        let is_exr = extension == "exr";
+        if matches!(depth, Some(Depth::Half | Depth::Float)) != is_exr && depth.is_some() {
+            return refuse("cannot have that depth; EXR has half and float, PNG and folders have 8 and 16");
+        }
+        if preview && !is_exr {
+            return refuse("cannot have a preview; only EXR has one");
+        }
+        let sixteen = depth == Some(Depth::Sixteen);
+        match (extension.as_str(), like) {
+            ("exr", None) => Ok(Self::Exr { half: depth != Some(Depth::Float), preview }),
+            ("exr", Some(_)) => refuse("is always written in the project's own form; leave out --like"),
+            ("png", like) => {
+                let like = like.unwrap_or(Preset::Deschaintre);
+                let known =
+                    "cannot be packed like that; deschaintre, gao, materialgan, lookahead and matfusion pack";
+                like.order().map_or_else(|| refuse(known), |_| Ok(Self::Packed { sixteen, like }))
+            }
+            (_, None) => Ok(Self::Folder { sixteen }),
+            (_, Some(Preset::MaterialGan)) => Ok(Self::MaterialGan { sixteen }),
+            (_, Some(Preset::Gltf)) => Ok(Self::Gltf { sixteen }),
+            _ => refuse(
+                "cannot be a folder like that; folders are like materialgan or gltf, or have no --like",
+            ),
+        }
+    }
+}
+
+/// Writes `material`: the file or folder appears when it is complete, or not at all.
+///
+/// # Errors
+/// [`Error::Unwritable`]; a folder that is there and not empty is not replaced.
+pub fn write(material: &Material<f32>, path: &Path, kind: Kind) -> Result<(), Error> {
+    write_watched(material, path, kind, &Progress::default())
+}
+
+/// [`write()`], which can be cancelled: then nothing appears.
+///
+/// # Errors
+/// As [`write()`]; [`Error::Cancelled`].
+pub fn write_watched(
+    material: &Material<f32>,
+    path: &Path,
+    kind: Kind,
+    progress: &Progress,
+) -> Result<(), Error> {
+    let folder = |files: &[png::Picture<'_>], sixteen| {
+        png::folder(path, material, files, sixteen, progress).map_err(|source| {
+            match progress.is_cancelled() {
+                true => Error::Cancelled,
+                false => Error::Unwritable {
+                    path: path.to_owned(),
+                    source,
+                    remedy: "name a folder that is not there yet, in one that is writable",
+                },
+            }
+        })
+    };
+    match kind {
+        Kind::Exr { half, preview } => {
+            export::replace(path, progress, |file| exr::write(file, material, half, preview))
+        }
+        Kind::Packed { sixteen, like } => {
+            export::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
+        }
+        Kind::Folder { sixteen } => folder(&png::PLAIN, sixteen),
+        Kind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen),
+        Kind::Gltf { sixteen } => folder(&png::GLTF, sixteen),
+    }
+}

@@ -1,0 +1,210 @@
+//! PNG files: a packed strip, or a folder of one picture a map.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use png::{BitDepth, ColorType, Encoder};
+
+use super::metallic::base_and_metallic;
+use crate::files::read::interpret::transfer::{encoded, encoded_roughness};
+use crate::files::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
+use crate::material::{Material, Planes};
+use crate::picture::export::{self, Provenance};
+use crate::progress::Progress;
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug)]
+enum Shown {
+    Normal,
+    Diffuse,
+    Specular,
+    Roughness,
+    Base,
+    /// Occlusion (none), roughness, metallic.
+    Orm,
+}
+
+/// The encoding of colours and roughness.
+#[derive(Clone, Copy, Debug)]
+struct Code {
+    diffuse: Albedo,
+    specular: Albedo,
+    roughness: Roughness,
+    normal_y: NormalY,
+    energy: Energy,
+}
+
+impl From<Preset> for Code {
+    fn from(preset: Preset) -> Self {
+        let ReadOptions { albedo, specular, roughness, normal_y, energy, .. } = preset.options();
+        let diffuse = albedo.unwrap_or(Albedo::Linear);
+        Self {
+            diffuse,
+            specular: specular.unwrap_or(diffuse),
+            roughness: roughness.unwrap_or(Roughness::R),
+            normal_y: normal_y.unwrap_or(NormalY::Up),
+            energy: energy.unwrap_or(Energy::Deschaintre),
+        }
+    }
+}
+
+impl Code {
+    const SRGB: Self = Self {
+        diffuse: Albedo::Srgb,
+        specular: Albedo::Srgb,
+        roughness: Roughness::R,
+        normal_y: NormalY::Up,
+        energy: Energy::Deschaintre,
+    };
+    const MATERIAL_GAN: Self = Self {
+        diffuse: Albedo::Gamma22,
+        specular: Albedo::Gamma22,
+        roughness: Roughness::Gamma22,
+        ..Self::SRGB
+    };
+
+    fn text(&self) -> String {
+        let Self { diffuse, specular, roughness, normal_y, energy } = self;
+        format!(
+            "diffuse {diffuse}, specular {specular}, roughness {roughness}, normal y {normal_y}, energy {energy}"
+        )
+    }
+
+    /// (red, green, blue) in [0, 1] of the texel at `index`.
+    fn of(&self, material: &Material<f32>, shown: Shown, index: usize) -> [f64; 3] {
+        let Planes { normal, diffuse, specular, roughness } = material.planes();
+        let at = |planes: &[Vec<f32>; 3]| planes.each_ref().map(|plane| f64::from(plane[index]));
+        let rough = || encoded_roughness(f64::from(roughness[index]), self.roughness);
+        let colour = |rgb: [f64; 3], albedo| rgb.map(|value| encoded(value, albedo));
+        match shown {
+            Shown::Normal => {
+                let [x, y, z] = at(normal);
+                let y = if self.normal_y == NormalY::Up { y } else { -y };
+                [x, y, z].map(|n| (0.5 * n + 0.5).clamp(0.0, 1.0))
+            }
+            Shown::Diffuse if self.energy == Energy::Plain => {
+                let [d, s] = [at(diffuse), at(specular)];
+                colour([0, 1, 2].map(|c| d[c] * (1.0 - s[c])), self.diffuse)
+            }
+            Shown::Diffuse => colour(at(diffuse), self.diffuse),
+            Shown::Specular => colour(at(specular), self.specular),
+            Shown::Roughness => [rough(); 3],
+            Shown::Base => colour(base_and_metallic(at(diffuse), at(specular)).0, self.diffuse),
+            Shown::Orm => [1.0, rough(), base_and_metallic(at(diffuse), at(specular)).1],
+        }
+    }
+}
+
+/// A file of a folder.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Picture<'a> {
+    name: &'a str,
+    shown: Shown,
+    code: Code,
+}
+
+const fn picture(name: &str, shown: Shown, code: Code) -> Picture<'_> {
+    Picture { name, shown, code }
+}
+
+pub(crate) const PLAIN: [Picture<'_>; 4] = [
+    picture("normal_gl", Shown::Normal, Code::SRGB),
+    picture("diffuse", Shown::Diffuse, Code::SRGB),
+    picture("roughness", Shown::Roughness, Code::SRGB),
+    picture("specular", Shown::Specular, Code::SRGB),
+];
+pub(crate) const MATERIAL_GAN: [Picture<'_>; 4] = [
+    picture("nom", Shown::Normal, Code::MATERIAL_GAN),
+    picture("dif", Shown::Diffuse, Code::MATERIAL_GAN),
+    picture("rgh", Shown::Roughness, Code::MATERIAL_GAN),
+    picture("spe", Shown::Specular, Code::MATERIAL_GAN),
+];
+pub(crate) const GLTF: [Picture<'_>; 3] = [
+    picture("normal_gl", Shown::Normal, Code::SRGB),
+    picture("basecolor", Shown::Base, Code::SRGB),
+    picture("occlusion_roughness_metallic", Shown::Orm, Code::SRGB),
+];
+
+/// Four tiles in a row, as `like` orders and encodes them.
+pub(crate) fn packed(
+    file: impl Write,
+    material: &Material<f32>,
+    like: Preset,
+    sixteen: bool,
+    progress: &Progress,
+) -> io::Result<()> {
+    let (order, code) = (like.order().unwrap_or(Order::NDRS), Code::from(like));
+    let tiles = order.to_string();
+    let [width, height] = material.size();
+    let mut bytes = Vec::new();
+    for row in 0..height {
+        export::check(progress)?;
+        for letter in tiles.chars() {
+            let shown = match letter {
+                'n' => Shown::Normal,
+                'd' => Shown::Diffuse,
+                'r' => Shown::Roughness,
+                _ => Shown::Specular,
+            };
+            for index in row * width..(row + 1) * width {
+                put(code.of(material, shown, index), sixteen, &mut bytes);
+            }
+        }
+    }
+    let meaning = format!("packed {order}, {}", code.text());
+    write(file, [tiles.len() * width, height], sixteen, &meaning, &bytes)
+}
+
+/// Fills a temporary folder beside `path` and renames it.
+pub(crate) fn folder(
+    path: &Path,
+    material: &Material<f32>,
+    files: &[Picture<'_>],
+    sixteen: bool,
+    progress: &Progress,
+) -> io::Result<()> {
+    let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(export::folder_of(path))?;
+    for Picture { name, shown, code } in files {
+        let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
+        let mut bytes = Vec::new();
+        for row in 0..material.height() {
+            export::check(progress)?;
+            for index in row * material.width()..(row + 1) * material.width() {
+                put(code.of(material, *shown, index), sixteen, &mut bytes);
+            }
+        }
+        let file = io::BufWriter::new(export::Watched::new(&mut file, progress));
+        write(file, material.size(), sixteen, &code.text(), &bytes)?;
+    }
+    export::check(progress)?;
+    // Only an empty folder gives way to a rename.
+    fs::rename(temporary.path(), path)?;
+    #[cfg(unix)]
+    fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
+    let _ = temporary.keep();
+    Ok(())
+}
+
+/// The codes of a pixel, of one or two bytes each.
+fn put(rgb: [f64; 3], sixteen: bool, bytes: &mut Vec<u8>) {
+    for value in rgb {
+        if sixteen {
+            bytes.extend(((value * 65_535.0).round() as u16).to_be_bytes());
+        } else {
+            bytes.push((value * 255.0).round() as u8);
+        }
+    }
+}
+
+fn write(file: impl Write, size: [usize; 2], sixteen: bool, meaning: &str, bytes: &[u8]) -> io::Result<()> {
+    let [width, height] = size.map(|side| u32::try_from(side).map_err(io::Error::other));
+    let mut encoder = Encoder::new(file, width?, height?);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(if sixteen { BitDepth::Sixteen } else { BitDepth::Eight });
+    encoder.add_text_chunk("Software".to_owned(), Provenance::SOFTWARE.to_owned())?;
+    encoder.add_text_chunk("svbrdf".to_owned(), meaning.to_owned())?;
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(bytes)?;
+    Ok(writer.finish()?)
+}

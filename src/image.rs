@@ -1,0 +1,9 @@
+//! A picture of linear radiance in memory.
+
+/// A picture of linear radiance: `width * height` RGB values, row 0 on top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image<T> {
+    pub width: usize,
+    pub height: usize,
+    pub pixels: Vec<[T; 3]>,
+}

@@ -1,0 +1,189 @@
+//! What one rendering is lit and seen by: Algorithm 2, and the scenes that Algorithm 1 draws.
+//!
+//! A scene is a function of a point of the unit cube: 6 numbers for a near-field scene, 4 for a distant one. Where
+//! the numbers come from is the caller's choice; [`sample`] takes them from a counter-based generator whose i-th
+//! point depends on the seed and on i alone.
+
+use std::path::Path;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use super::convention::Convention;
+use crate::error::Error;
+use crate::math::real::Real;
+use crate::math::vec3::Vec3;
+
+/// Mean of the logarithm of a near-field distance (Algorithm 1).
+const DISTANCE_MU: f64 = 0.5;
+/// Standard deviation of the logarithm of a near-field view's distance (Algorithm 1).
+const VIEW_DISTANCE_SIGMA: f64 = 0.75;
+/// Lower end of the uniform u1 (Algorithm 2).
+const U1_MIN: f64 = 0.001;
+/// Least height above the plane: closer to a texel, f32 squares of distances vanish.
+const LOWEST: f64 = 1e-18;
+/// Largest coordinate of a position; beyond it, f32 squares overflow.
+const FARTHEST: f64 = 1e9;
+
+/// Where the light and the view of a scene are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// At positions: directions differ from texel to texel.
+    Near,
+    /// Infinitely far: the same directions at every texel.
+    Distant,
+}
+
+/// One view and one light.
+///
+/// Positions for [`Kind::Near`], directions of any length for [`Kind::Distant`], in units of half the width of the
+/// material, which lies in the plane z = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    pub kind: Kind,
+    pub view: [f64; 3],
+    pub light: [f64; 3],
+}
+
+/// A scene in the precision that it is rendered in.
+#[derive(Clone, Copy, Debug)]
+pub struct Rays<T> {
+    kind: Kind,
+    view: Vec3<T>,
+    light: Vec3<T>,
+}
+
+impl<T: Real> Rays<T> {
+    /// The directions (w_L, w_V) from the texel at `c` to the light and to the viewer, not yet of unit length.
+    pub fn from_texel(&self, c: Vec3<T>) -> (Vec3<T>, Vec3<T>) {
+        match self.kind {
+            Kind::Near => (self.light - c, self.view - c),
+            Kind::Distant => (self.light, self.view),
+        }
+    }
+}
+
+impl Scene {
+    /// The scene in precision `T`. Directions are normalized in f64 first, so that no length is too long for f32.
+    pub fn rays<T: Real>(&self) -> Rays<T> {
+        let cast = |p: [f64; 3]| {
+            let p = Vec3::from(p);
+            match self.kind {
+                Kind::Near => p.cast(),
+                Kind::Distant => p.normalize().cast(),
+            }
+        };
+        Rays { kind: self.kind, view: cast(self.view), light: cast(self.light) }
+    }
+
+    /// A near-field scene of Algorithm 1 from a point of the open unit cube: P_S.x, P_S.y, u1, u2, view distance,
+    /// light distance.
+    pub fn near_from_point(point: [f64; 6], convention: &Convention) -> Self {
+        let [sx, sy, u1, u2, view, light] = point;
+        let shift = Vec3::new(2.0 * sx - 1.0, 2.0 * sy - 1.0, convention.shift_z);
+        let w = cosine(u1, u2, convention);
+        let mirrored = Vec3::new(-w.x, -w.y, w.z);
+        let view = w * log_normal(view, VIEW_DISTANCE_SIGMA) + shift;
+        let light = mirrored * log_normal(light, convention.light_distance_sigma) + shift;
+        Self { kind: Kind::Near, view: view.to_array(), light: light.to_array() }
+    }
+
+    /// A distant scene of Algorithm 1 from a point of the unit cube: view u1, u2, light u1, u2.
+    pub fn distant_from_point(point: [f64; 4], convention: &Convention) -> Self {
+        let [view_u1, view_u2, light_u1, light_u2] = point;
+        Self {
+            kind: Kind::Distant,
+            view: cosine(view_u1, view_u2, convention).to_array(),
+            light: cosine(light_u1, light_u2, convention).to_array(),
+        }
+    }
+
+    /// Whether the scene can be rendered: finite, positions within 1e9 of the origin, light and view at least 1e-18 above
+    /// the plane (directions: once they have length 1).
+    ///
+    /// # Errors
+    /// What is wrong, without saying which scene it is.
+    pub fn check(&self) -> Result<(), String> {
+        for (what, p) in [("view", self.view), ("light", self.light)] {
+            if p.iter().any(|c| !c.is_finite()) {
+                return Err(format!("its {what} {p:?} is not finite"));
+            }
+            if p.iter().any(|c| c.abs() > FARTHEST) {
+                return Err(format!("its {what} {p:?} is farther away than {FARTHEST:e}"));
+            }
+            let unit = match self.kind {
+                Kind::Near => 1.0,
+                Kind::Distant => Vec3::from(p).length(),
+            };
+            // NaN where a direction has no length.
+            let height = p[2] / unit;
+            if height.is_nan() || height < LOWEST {
+                return Err(format!(
+                    "its {what} {p:?} is not above the plane of the material (z must be at least {LOWEST:e})"
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Algorithm 2: a cosine-distributed direction from two numbers of [0, 1). Its z is at least `sqrt(1 - u1_max)`.
+pub fn cosine(u1: f64, u2: f64, convention: &Convention) -> Vec3<f64> {
+    let u1 = U1_MIN + (convention.u1_max - U1_MIN) * u1;
+    let rho = u1.sqrt();
+    let phi = std::f64::consts::TAU * u2;
+    Vec3::new(rho * phi.cos(), rho * phi.sin(), (1.0 - u1).sqrt())
+}
+
+/// The `u` quantile of exp(Normal(0.5, sigma)), for `u` in (0, 1).
+fn log_normal(u: f64, sigma: f64) -> f64 {
+    (DISTANCE_MU + sigma * Normal::standard().inverse_cdf(u)).exp()
+}
+
+/// Point `index` of stream `stream` of `seed`: coordinates in (0, 1), each an odd multiple of 2^-53.
+///
+/// ChaCha8 is counter-based and specified bit by bit: the point depends on its arguments alone.
+fn point<const N: usize>(seed: u64, stream: u64, index: u64) -> [f64; N] {
+    /// More than the 32-bit words that one point uses; a multiple of a ChaCha block.
+    const WORDS_PER_POINT: u128 = 16;
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    generator.set_stream(stream);
+    generator.set_word_pos(WORDS_PER_POINT * u128::from(index));
+    std::array::from_fn(|_| ((generator.next_u64() >> 12) as f64 + 0.5) / (1u64 << 52) as f64)
+}
+
+/// The scenes that Algorithm 1 draws for a seed: `near` near-field ones, then `distant` distant ones.
+///
+/// The i-th scene of either kind depends on (`seed`, i, `convention`) only.
+pub fn sample(seed: u64, near: usize, distant: usize, convention: &Convention) -> Vec<Scene> {
+    let near = (0..near as u64).map(|i| Scene::near_from_point(point(seed, 0, i), convention));
+    let distant = (0..distant as u64).map(|i| Scene::distant_from_point(point(seed, 1, i), convention));
+    near.chain(distant).collect()
+}
+
+/// The form of a scene file.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct SceneFile {
+    pub scenes: Vec<Scene>,
+}
+
+/// Reads a scene file: JSON, `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`.
+///
+/// # Errors
+/// Where the file cannot be read, is not of that form, has no scene, or has one that [`Scene::check`] refuses.
+pub fn read(path: &Path) -> Result<Vec<Scene>, Error> {
+    let text = std::fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
+    let bad = |problem: String| Error::BadScene { path: path.to_owned(), problem };
+    let file: SceneFile = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
+    if file.scenes.is_empty() {
+        return Err(bad("it lists no scene".to_owned()));
+    }
+    for (i, scene) in file.scenes.iter().enumerate() {
+        scene.check().map_err(|problem| bad(format!("scene {i}: {problem}")))?;
+    }
+    Ok(file.scenes)
+}

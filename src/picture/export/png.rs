@@ -1,0 +1,28 @@
+//! 8-bit sRGB pictures with text chunks.
+
+use std::io::{self, Write};
+
+use super::Provenance;
+use crate::image::Image;
+
+pub(super) fn write(file: impl Write, image: &Image<u8>, provenance: &Provenance) -> io::Result<()> {
+    let mut encoder = png::Encoder::new(file, side(image.width)?, side(image.height)?);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
+    encoder.add_text_chunk("Software".to_owned(), Provenance::SOFTWARE.to_owned())?;
+    for (keyword, text) in provenance.entries() {
+        if text.is_ascii() {
+            encoder.add_text_chunk(keyword.to_owned(), text)?;
+        } else {
+            encoder.add_itxt_chunk(keyword.to_owned(), text)?;
+        }
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(image.pixels.as_flattened())?;
+    Ok(writer.finish()?)
+}
+
+fn side(length: usize) -> io::Result<u32> {
+    u32::try_from(length).map_err(io::Error::other)
+}

@@ -1,0 +1,7 @@
+//! Pictures of materials: what they show, from where, in which colours, and how they become files.
+
+pub mod camera;
+pub mod colour_map;
+pub mod content;
+pub mod export;
+pub mod tone;

@@ -1,0 +1,181 @@
+//! What the kernel needs beyond portable SIMD: fast reciprocals, and which instruction sets there are.
+
+use fearless_simd::{Fallback, Simd, prelude::*};
+
+use super::tile::TEXELS;
+
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::x86::{Avx2, Avx512, Sse2, Sse4_2};
+
+/// Floats in a cache line.
+#[cfg(target_arch = "x86_64")]
+const FLOATS_PER_LINE: usize = 16;
+
+/// A vector of the native width of the instruction set `S`.
+pub(crate) type V<S> = <S as Simd>::f32s;
+
+/// Reciprocals: exact by default, an estimate where that is faster. The kernel follows each with a Newton step.
+///
+/// The estimates are the vendor's: the last bits of a loss may differ between makes of processors.
+pub(crate) trait Lanes: Simd {
+    /// 1 / x, within a relative 1.5 x 2^-12.
+    #[inline(always)]
+    fn recip_estimate(self, x: V<Self>) -> V<Self> {
+        V::<Self>::splat(self, 1.0) / x
+    }
+
+    /// 1 / sqrt(x) for normal x > 0, within a relative 1.5 x 2^-12.
+    #[inline(always)]
+    fn rsqrt_estimate(self, x: V<Self>) -> V<Self> {
+        V::<Self>::splat(self, 1.0) / x.sqrt()
+    }
+
+    /// Asks for the cache lines of `values` before they are needed, into the second cache: in the first one, planes that
+    /// lie at like places of their pages push each other out.
+    #[inline(always)]
+    fn prefetch(self, _values: &[f32; TEXELS]) {}
+}
+
+/// c - a b.
+#[inline(always)]
+pub(crate) fn neg_mul_add<S: Simd>(a: V<S>, b: V<S>, c: V<S>) -> V<S> {
+    (-a).mul_add(b, c)
+}
+
+#[cfg(target_arch = "aarch64")]
+impl Lanes for fearless_simd::aarch64::Neon {}
+
+#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+impl Lanes for fearless_simd::wasm32::WasmSimd128 {}
+
+impl Lanes for Fallback {}
+
+/// Implements [`Lanes`] with the estimates of an x86 instruction set.
+#[cfg(target_arch = "x86_64")]
+macro_rules! estimate {
+    ($token:ident, $register:ident, $rsqrt:ident) => {
+        impl Lanes for $token {
+            #[inline(always)]
+            fn recip_estimate(self, x: V<Self>) -> V<Self> {
+                x.approximate_recip()
+            }
+
+            #[inline(always)]
+            fn rsqrt_estimate(self, x: V<Self>) -> V<Self> {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn estimate(_token: $token, x: $register) -> $register {
+                        std::arch::x86_64::$rsqrt(x)
+                    }
+                );
+                estimate(self, x.into()).simd_into(self)
+            }
+
+            #[inline(always)]
+            fn prefetch(self, values: &[f32; TEXELS]) {
+                fearless_simd::kernel!(
+                    #[inline(always)]
+                    fn prefetch(_token: $token, values: &[f32; TEXELS]) {
+                        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+                        for line in values.as_chunks::<FLOATS_PER_LINE>().0 {
+                            _mm_prefetch::<_MM_HINT_T1>(line.as_ptr().cast());
+                        }
+                    }
+                );
+                prefetch(self, values);
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use super::*;
+    use std::arch::x86_64::{__m128, __m256, __m512};
+
+    estimate!(Sse2, __m128, _mm_rsqrt_ps);
+    estimate!(Sse4_2, __m128, _mm_rsqrt_ps);
+    estimate!(Avx2, __m256, _mm256_rsqrt_ps);
+    estimate!(Avx512, __m512, _mm512_rsqrt14_ps);
+}
+
+/// An instruction set that this machine has.
+#[derive(Clone, Copy, Debug)]
+pub struct Level(pub(crate) fearless_simd::Level);
+
+impl Level {
+    /// The widest one.
+    pub fn best() -> Self {
+        Self(fearless_simd::Level::new())
+    }
+
+    /// Every instruction set that the kernel is written for on this architecture, the scalar one first; `None`
+    /// where this machine lacks it.
+    pub fn all() -> Vec<(&'static str, Option<Self>)> {
+        let mut all = vec![("scalar", Some(Self(fearless_simd::Level::fallback())))];
+        let best = fearless_simd::Level::new();
+        #[cfg(target_arch = "x86_64")]
+        all.extend([
+            ("sse2", best.as_sse2().map(|s| Self(s.level()))),
+            ("sse4.2", best.as_sse4_2().map(|s| Self(s.level()))),
+            ("avx2", best.as_avx2().map(|s| Self(s.level()))),
+            ("avx512", best.as_avx512().map(|s| Self(s.level()))),
+        ]);
+        #[cfg(target_arch = "aarch64")]
+        all.push(("neon", best.as_neon().map(|s| Self(s.level()))));
+        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+        all.push(("simd128", best.as_wasm_simd128().map(|s| Self(s.level()))));
+        let _ = best;
+        all
+    }
+}
+
+/// Runs `$call` compiled for the instruction set of a [`Level`], with `$simd` as its token.
+macro_rules! dispatch {
+    ($level:expr, $simd:ident => $call:expr) => {
+        match $level.0 {
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Avx512($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Avx2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Sse4_2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Sse2($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(target_arch = "aarch64")]
+            fearless_simd::Level::Neon($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            fearless_simd::Level::WasmSimd128($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            fearless_simd::Level::Fallback($simd) => $simd.vectorize(
+                #[inline(always)]
+                || $call,
+            ),
+            _ => {
+                let $simd = Fallback::new();
+                $simd.vectorize(
+                    #[inline(always)]
+                    || $call,
+                )
+            }
+        }
+    };
+}
+pub(crate) use dispatch;
