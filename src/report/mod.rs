@@ -3,7 +3,7 @@
 mod names;
 mod text;
 
-pub use names::told_apart;
+pub use names::distinct_names;
 
 use crate::loss::{Estimate, Loss, Texels};
 use crate::model::convention::Convention;

@@ -8,10 +8,10 @@ use eframe::egui;
 use super::loaded::{Loaded, Origin, Reader, Rules, file_name, loaded};
 use super::worker::Job;
 use crate::error::Error;
-use crate::files::read::{self, Kept, ReadOptions};
+use crate::files::read::{self, Sidecar, ReadOptions};
 use crate::gpu::Gpu;
 use crate::loss;
-use crate::report::told_apart;
+use crate::report::distinct_names;
 use crate::samples;
 
 /// A material in the window, with a number that no other one ever had: the key of everything derived from it.
@@ -196,7 +196,7 @@ impl Slots {
     /// Gives every slot a name of its own.
     fn tell_apart(&mut self) {
         let named: Vec<_> = self.slots.iter().map(|s| (s.loaded.material.name(), s.loaded.path())).collect();
-        let names = told_apart(&named);
+        let names = distinct_names(&named);
         self.slots.iter_mut().zip(names).for_each(|(slot, name)| slot.name = name);
     }
 
@@ -249,11 +249,11 @@ impl Slots {
     /// Keeps what is said about the material at `index` in a file beside it, and opens it again.
     ///
     /// # Errors
-    /// Those of [`Kept`].
+    /// Those of [`Sidecar`].
     pub fn keep(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize) -> Result<(), Error> {
         let Some(slot) = self.slots.get(index) else { return Ok(()) };
         let Origin::Path(path) = &slot.loaded.origin else { return Ok(()) };
-        Kept { options: slot.loaded.read, ..Kept::of(path)? }.write(path)?;
+        Sidecar { options: slot.loaded.read, ..Sidecar::load(path)? }.save(path)?;
         self.open_again(ctx, gpu, index, ReadOptions::AUTO);
         Ok(())
     }

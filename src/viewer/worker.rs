@@ -46,8 +46,8 @@ impl<T: Send + 'static> Job<T> {
                 ctx.request_repaint_after(LOOK_AGAIN);
                 None
             }
-            Err(TryRecvError::Disconnected) => Some(Err(Error::Usage(
-                "the work ended without a result, which is a mistake of this program; please report it"
+            Err(TryRecvError::Disconnected) => Some(Err(Error::Internal(
+                "the work ended without a result"
                     .to_owned(),
             ))),
         }

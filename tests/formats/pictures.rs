@@ -9,7 +9,7 @@ fn layered_and_multi_part_exr_open_with_signed_normals() {
     for write in [|p: &Path| layered(p, false), |p: &Path| layered(p, true), multi_part] {
         write(&path);
         let read = open(&path);
-        assert_eq!((chosen(&read, What::NormalCode), chosen(&read, What::Albedo)), ("signed", "linear"));
+        assert_eq!((chosen(&read, What::NormalEncoding), chosen(&read, What::Albedo)), ("signed", "linear"));
         assert_same(&read, HALF);
     }
 }
@@ -45,7 +45,7 @@ fn nan_and_infinity_are_counted_located_and_replaced_only_on_request() {
         &ReadOptions { non_finite: Some(NonFinite::Replace), ..ReadOptions::default() },
     );
     assert_eq!(replaced.material.texel(35).diffuse, [0.0; 3]);
-    assert!(replaced.said().any(|line| line.contains("6 samples of the diffuse map")));
+    assert!(replaced.messages().any(|line| line.contains("6 samples of the diffuse map")));
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn values_beyond_one_are_clamped_and_counted() {
     }
     let read = open(folder.path());
     assert_eq!(read.material.texel(4).specular, [1.0; 3]);
-    assert!(read.unsure().any(|a| a.why.contains("3 samples of the specular map") && a.why.contains("2.5")));
+    assert!(read.unsure().any(|a| a.why.to_string().contains("3 samples of the specular map") && a.why.to_string().contains("2.5")));
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn data_beside_the_display_window_is_put_in_its_place_and_said() {
     windowed(&path, (-7, 3), SIDE);
     let shifted = open(&path);
     assert_same(&shifted, HALF);
-    assert!(shifted.notes.iter().any(|note| note.contains("data window beside")), "{:?}", shifted.notes);
+    assert!(shifted.notes.iter().any(|note| note.to_string().contains("data window beside")), "{:?}", shifted.notes);
     windowed(&path, (2, 1), SIDE + 4);
     let read = open(&path);
     assert_eq!(read.material.size(), [SIDE + 4; 2]);
@@ -80,7 +80,7 @@ fn data_beside_the_display_window_is_put_in_its_place_and_said() {
     let expected = texel(1, 3, 2);
     assert!(inside.diffuse.iter().zip(expected).all(|(a, b)| (a - b).abs() < HALF), "{inside:?}");
     assert_eq!((outside.diffuse, outside.normal.to_array()), ([0.0; 3], [0.0, 0.0, 1.0]));
-    assert!(read.notes.iter().any(|note| note.contains("16 x 16 of the 20 x 20")), "{:?}", read.notes);
+    assert!(read.notes.iter().any(|note| note.to_string().contains("16 x 16 of the 20 x 20")), "{:?}", read.notes);
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
     assert_eq!(material(window.state(), 0), materials[0]);
     assert!(loss(&mut window) > 0.1);
-    window.get_by_label("albedo: srgb: as you said");
+    window.get_by_label("albedo: srgb: as specified");
     let after = panes.map(|rect| pixels(&mut window, rect));
     assert!(before[0] == after[0], "the pane of the ground truth stays");
     assert!(before[1] != after[1], "the pane of the prediction changes");
@@ -225,6 +225,6 @@ fn what_the_maps_hold_is_listed_on_a_click() {
 #[test]
 fn nobody_is_said_to_have_said_what_is_built_in() {
     let Some(window) = built_in() else { return };
-    assert!(window.query_all_by_label_contains("as you said").next().is_none());
+    assert!(window.query_all_by_label_contains("as specified").next().is_none());
     assert!(window.query_all_by_label_contains("it was made so").count() >= 3);
 }

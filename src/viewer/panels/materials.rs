@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::files::read::{Certainty, Kept};
+use crate::files::read::{Certainty, Sidecar};
 use crate::viewer::command::Command;
 use crate::viewer::loaded::Origin;
 use crate::viewer::slots::{Slot, Slots};
@@ -61,7 +61,7 @@ fn keep(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command
     let button = ui.button("Keep with the material");
     let name = format!("Keep with {}", slot.name());
     button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-    let place = Kept::place(path);
+    let place = Sidecar::path_for(path);
     let why = format!(
         "Write what is chosen here into {}: it then holds whenever the material is opened",
         place.display()
@@ -109,7 +109,7 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
         ui.label(if unsure { text.color(ui.visuals().warn_fg_color) } else { text });
     }
     for note in &loaded.notes {
-        ui.label(RichText::new(note).small());
+        ui.label(RichText::new(note.to_string()).small());
     }
     ui.collapsing("As stored", |ui| {
         for map in &loaded.maps {

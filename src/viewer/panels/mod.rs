@@ -15,7 +15,7 @@ pub mod top;
 use eframe::egui::{self, DragValue, Response, RichText};
 
 use crate::files::read::{
-    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalCode, NormalY, Order, Preset, ReadOptions,
+    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions,
     Reflectance, Roughness, What, Workflow,
 };
 
@@ -56,7 +56,7 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         albedo,
         specular,
         normal_y,
-        normal_code,
+        normal_encoding,
         roughness,
         energy,
         ..
@@ -68,7 +68,7 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         choice(ui, (name, "albedo"), albedo, &Albedo::ALL, found(What::Albedo));
         choice(ui, (name, "specular"), specular, &Albedo::ALL, found(What::Specular));
         choice(ui, (name, "normal y"), normal_y, &NormalY::ALL, found(What::NormalY));
-        choice(ui, (name, "normal code"), normal_code, &NormalCode::ALL, found(What::NormalCode));
+        choice(ui, (name, "normal encoding"), normal_encoding, &NormalEncoding::ALL, found(What::NormalEncoding));
         choice(ui, (name, "roughness"), roughness, &Roughness::ALL, found(What::Roughness));
         choice(ui, (name, "energy"), energy, &Energy::ALL, found(What::Energy));
         grid(ui, name, &mut options.grid);

@@ -6,8 +6,8 @@ use super::*;
 fn what_is_kept_holds_for_every_command_until_something_else_is_said() {
     let folder = folder();
     let of = |name: &str| folder.path().join(name);
-    let said = succeed(folder.path(), "info a.png --roughness gloss --exemplar 0 --keep");
-    assert!(said.contains("roughness: gloss: as you said"), "{said}");
+    let said = succeed(folder.path(), "info a.png --roughness gloss --exemplar 0 --save");
+    assert!(said.contains("roughness: gloss: as specified"), "{said}");
     let kept: Value = serde_json::from_str(&std::fs::read_to_string(of("a.svbrdf.json")).unwrap()).unwrap();
     assert_eq!(kept, json!({"roughness": "gloss", "exemplar": 0}));
 
@@ -21,8 +21,8 @@ fn what_is_kept_holds_for_every_command_until_something_else_is_said() {
     assert_ne!(kept.replace("a ", "c "), gloss);
     RgbImage::from_pixel(8, 8, Rgb([99; 3])).save(of("r.png")).unwrap();
     // Kept again, what is said now is added; what is said otherwise is replaced.
-    let again = "info a.png --roughness alpha --map roughness=r.png --grid 4x1 --keep";
-    assert!(succeed(folder.path(), again).contains("roughness: alpha: as you said"));
+    let again = "info a.png --roughness alpha --map roughness=r.png --grid 4x1 --save";
+    assert!(succeed(folder.path(), again).contains("roughness: alpha: as specified"));
     let kept: Value = serde_json::from_str(&std::fs::read_to_string(of("a.svbrdf.json")).unwrap()).unwrap();
     assert_eq!(
         kept,
@@ -33,10 +33,10 @@ fn what_is_kept_holds_for_every_command_until_something_else_is_said() {
 #[test]
 fn nothing_is_kept_of_what_is_refused() {
     let folder = folder();
-    fail(folder.path(), "info a.png --grid 5x1 --keep", 1);
+    fail(folder.path(), "info a.png --grid 5x1 --save", 1);
     std::fs::write(folder.path().join("a.svbrdf.json"), r#"{"albdo": "srgb"}"#).unwrap();
     let message = fail(folder.path(), "info a.png", 1);
     assert!(message.contains("unknown key `albdo`"), "{message}");
-    fail(folder.path(), "info a.png --keep --albedo srgb", 1);
+    fail(folder.path(), "info a.png --save --albedo srgb", 1);
     assert!(std::fs::read_to_string(folder.path().join("a.svbrdf.json")).unwrap().contains("albdo"));
 }
