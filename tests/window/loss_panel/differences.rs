@@ -27,7 +27,7 @@ fn gives(label: &str, expected: [f64; 2]) -> bool {
 
 /// The difference in the panel: the last of its numbers with an error.
 fn difference(window: &Window<'_>) -> String {
-    window.query_all_by_label_contains(" +- ").filter_map(|node| node.value()).last().unwrap()
+    window.query_all_by_label_contains(" +- ").filter_map(|node| node.value()).next_back().unwrap()
 }
 
 #[test]
