@@ -82,7 +82,7 @@ pub fn unpack(
     Ok(found)
 }
 
-/// What this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy plain`.
+/// What this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy scaled`.
 struct Own {
     order: Order,
     diffuse: Albedo,
