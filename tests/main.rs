@@ -9,6 +9,7 @@ mod cli;
 mod coverage;
 #[cfg(feature = "viewer")]
 mod end_to_end;
+mod detection;
 mod extremes;
 mod formats;
 mod fused;
@@ -20,6 +21,7 @@ mod layering;
 mod mutations;
 mod physics;
 mod reading;
+mod real_files;
 mod sampling;
 mod scene_files;
 #[cfg(feature = "gpu")]
