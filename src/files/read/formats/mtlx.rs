@@ -11,7 +11,7 @@ use crate::files::read::decode;
 use crate::files::read::locate::names::Role;
 use crate::files::read::note::{Container, Note, Subject};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
-use crate::files::read::reason::{StorageConvention, Known, Reason};
+use crate::files::read::reason::{Known, Reason, StorageConvention};
 use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 
@@ -89,8 +89,10 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
     found.files.sort();
     found.files.dedup();
     found.inferred.albedo = albedo;
-    found.inferred.normal_y = Some((NormalY::Up, StorageConvention::MaterialXNormals.into(), Certainty::Likely));
-    let layout = Assumption::new(What::Layout, "MaterialX", StorageConvention::ListedTextures, Certainty::Sure);
+    found.inferred.normal_y =
+        Some((NormalY::Up, StorageConvention::MaterialXNormals.into(), Certainty::Likely));
+    let layout =
+        Assumption::new(What::Layout, "MaterialX", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);
     if surfaces.len() > 1 {
         found.notes.push(Note::Several { container: Container::MaterialX, count: surfaces.len(), index });
