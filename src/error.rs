@@ -68,6 +68,12 @@ pub enum Error {
     #[error("unknown {what} `{found}`; use one of: {known}")]
     UnknownName { what: &'static str, found: String, known: String },
 
+    /// A loss over no scenes, or over too many.
+    #[error(
+        "a loss takes 1 to {most} scenes, found {count}; ask for a number of near-field or distant scenes between"
+    )]
+    SceneCount { count: usize, most: usize },
+
     /// A value of an option or a combination of options that makes no sense.
     #[error("{0}")]
     Usage(String),

@@ -28,16 +28,15 @@ mod measure;
 pub mod plot;
 pub mod text;
 
-pub use choice::{Backend, Choice, Family};
+pub use choice::{Choice, Device, Family};
 
 use std::fmt;
 
 use crate::error::Error;
 use crate::files::write::Depth;
-use crate::loss::Loss;
+use crate::loss::Backend;
 use crate::material::Material;
 use crate::model::convention::Convention;
-use crate::model::scene::Scene;
 use crate::progress::Progress;
 use measure::Bench;
 
@@ -47,10 +46,6 @@ const RESOLVED: f64 = 3.0;
 /// Errors that differ by less are one: f64 or an adapter moves all losses of a choice by next to nothing.
 const SAME: f64 = 0.99;
 
-/// The loss on a graphics adapter: [`crate::loss::losses_f32`] of one prediction, elsewhere.
-pub type OnGpu<'a> =
-    dyn Fn(&Material<f32>, &Material<f32>, &[Scene], &Convention, &Progress) -> Result<Vec<Loss>, Error> + 'a;
-
 /// What is studied, and what with.
 #[derive(Clone, Copy)]
 pub struct Pair<'a> {
@@ -58,7 +53,7 @@ pub struct Pair<'a> {
     pub prediction: &'a Material<f32>,
     pub convention: Convention,
     /// `None` where there is no adapter.
-    pub gpu: Option<&'a OnGpu<'a>>,
+    pub gpu: Option<&'a dyn Backend<f32>>,
 }
 
 impl fmt::Debug for Pair<'_> {

@@ -9,7 +9,7 @@ use eframe::egui::util::undoer::{self, Undoer};
 use super::command::Command;
 use super::gpu_view::GpuView;
 use super::loaded::Rules;
-use super::loss_request::LossRequest;
+use super::loss_run::Asked;
 use super::loss_run::LossRun;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
@@ -109,13 +109,13 @@ impl App {
     }
 
     /// What is asked of the loss: by the settings, in the convention that is rendered.
-    pub(super) fn loss_request(&self) -> LossRequest {
-        self.settings.loss.request(self.state.convention())
+    pub(super) fn asked(&self) -> Asked {
+        Asked { request: self.settings.loss.request(), convention: self.state.convention() }
     }
 
     /// The losses of the predictions, where they have been computed to the end for what is shown now.
     pub fn losses(&self) -> Option<&[Loss]> {
-        self.loss.finished(&self.slots, &self.loss_request())
+        self.loss.finished(&self.slots, &self.asked())
     }
 
     /// What has been measured of the chosen pair, and whether that is all.
@@ -186,7 +186,7 @@ impl App {
             let gpu = self.gpu.as_ref().map(|g| &g.gpu);
             self.slots.reload(ctx, gpu, Some(&stale));
         }
-        self.loss.follow(ctx, &self.slots, &self.loss_request(), self.settings.auto_loss);
+        self.loss.follow(ctx, &self.slots, &self.asked(), self.settings.auto_loss);
         self.loss.poll(ctx);
     }
 

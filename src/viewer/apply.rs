@@ -57,8 +57,8 @@ impl App {
             Command::SetWatch(on) => self.settings.watch = on,
             Command::SetFit(on) => self.slots.rules.fit = on,
             Command::ComputeLoss => {
-                let request = self.loss_request();
-                self.loss.start(ctx, &self.slots, &request);
+                let asked = self.asked();
+                self.loss.start(ctx, &self.slots, &asked);
             }
             Command::CancelLoss => self.loss.cancel(),
             Command::ShowStudy(on) => {

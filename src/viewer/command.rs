@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::loss_request::LossSettings;
+use super::loss_settings::LossSettings;
 use super::panels::study::Setting;
 use super::state::{End, Layout};
 use crate::files::read::ReadOptions;

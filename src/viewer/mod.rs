@@ -12,8 +12,8 @@ mod handles;
 pub mod keys;
 pub mod legend;
 mod loaded;
-mod loss_request;
 mod loss_run;
+mod loss_settings;
 mod panels;
 
 mod draw;

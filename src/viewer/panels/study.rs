@@ -11,7 +11,7 @@ use crate::model::sampler::Sampler;
 use crate::study::{Choice, Family, Point, Study};
 use crate::text::{percent, time};
 use crate::viewer::command::Command;
-use crate::viewer::loss_request::{Ask, LossSettings};
+use crate::viewer::loss_settings::{Ask, LossSettings};
 use crate::viewer::study::StudyRun;
 
 /// How far from its middle a point is felt, in pixels.

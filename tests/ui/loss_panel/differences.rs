@@ -1,18 +1,13 @@
 //! Which prediction is better, and whether that is known.
 
-use svbrdf::loss::Estimate;
-use svbrdf::model::sampler::Sampler;
-
 use super::*;
 
 /// The difference of the built-in predictions' losses, second less first, and with `swapped` first less second.
 fn difference(swapped: bool) -> String {
-    let params = LossParams::default();
-    let losses = expected(&params);
-    let (first, second) = (&losses[1].per_scene, &losses[0].per_scene);
+    let outcome = expected(&Sampling::default());
+    let (first, second) = (&outcome.losses[1], &outcome.losses[0]);
     let (first, second) = if swapped { (second, first) } else { (first, second) };
-    let scenes = params.scenes().unwrap();
-    let [mean, error, _] = Estimate::of_difference(Sampler::Random, &scenes, first, second).texts();
+    let [mean, error, _] = outcome.difference(first, second).texts();
     format!("{mean} +- {error}")
 }
 
