@@ -42,7 +42,6 @@ const KNOWN_CIRCLES: [&[&str]; 9] = [
     &["files/read/options.rs", "files/read/preset.rs"],
     &["gpu/context.rs", "gpu/display.rs", "gpu/shading.rs", "gpu/textures.rs", "gpu/uniforms.rs"],
     &["loss/fused/pass.rs", "loss/fused/sums.rs"],
-    &["loss/mod.rs", "loss/texels.rs"],
     &["render/simd/lanes.rs", "render/simd/tile.rs"],
 ];
 
