@@ -7,6 +7,8 @@ use std::path::Path;
 #[path = "build/adapter.rs"]
 mod adapter;
 
+use adapter::set;
+
 const GOLDEN: &str = "../shared/golden";
 
 /// What the test of the real window runs.
@@ -23,25 +25,9 @@ fn main() {
     }
     set("has_shared", shared);
 
-    let adapter = adapter::Adapter::find();
-    for variable in adapter::VARIABLES {
-        println!("cargo::rerun-if-env-changed={variable}");
-    }
-    for path in adapter.watched {
-        println!("cargo::rerun-if-changed={}", path.display());
-    }
-    set("has_adapter", adapter.any);
-    set("has_f32_adapter", adapter.f32);
+    adapter::tell_cargo();
 
     let path = env::var_os("PATH").unwrap_or_default();
     let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());
     set("has_desktop", DESKTOP.iter().all(|program| installed(&program)));
-}
-
-/// Declares a `cfg` of the tests and sets it where `holds`.
-fn set(name: &str, holds: bool) {
-    println!("cargo::rustc-check-cfg=cfg({name})");
-    if holds {
-        println!("cargo::rustc-cfg={name}");
-    }
 }

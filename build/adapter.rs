@@ -4,7 +4,7 @@ use std::env;
 use std::path::PathBuf;
 
 /// Environment variables that the answer depends on.
-pub const VARIABLES: [&str; 8] = [
+const VARIABLES: [&str; 8] = [
     "WGPU_BACKEND",
     "VK_DRIVER_FILES",
     "VK_ICD_FILENAMES",
@@ -15,29 +15,33 @@ pub const VARIABLES: [&str; 8] = [
     "XDG_DATA_DIRS",
 ];
 
-/// What the tests may expect of this machine.
-pub struct Adapter {
-    /// Some adapter.
-    pub any: bool,
-    /// An adapter that renders to 32-bit floats: any but OpenGL.
-    pub f32: bool,
-    /// Folders and files whose change can change the answer.
-    pub watched: Vec<PathBuf>,
+/// Sets `has_adapter` where there is an adapter and `has_f32_adapter` where it renders to 32-bit floats: on Linux with
+/// a Vulkan driver, on macOS and Windows always. OpenGL renders to 16 bits, and counts if `WGPU_BACKEND` asks for it.
+pub fn tell_cargo() {
+    let backends = env::var("WGPU_BACKEND").unwrap_or_default().to_lowercase();
+    let opengl = backends.contains("gl");
+    let linux = cfg!(target_os = "linux");
+    let native = !linux || (!manifests().is_empty() && has_loader());
+    let allowed =
+        backends.is_empty() || ["vulkan", "vk", "metal", "dx12"].iter().any(|b| backends.contains(b));
+    let f32 = native && allowed;
+    set("has_f32_adapter", f32);
+    set("has_adapter", f32 || opengl);
+
+    for variable in VARIABLES {
+        println!("cargo::rerun-if-env-changed={variable}");
+    }
+    // A missing path would rebuild the crate on every run.
+    for folder in folders().iter().filter(|folder| linux && folder.is_dir()) {
+        println!("cargo::rerun-if-changed={}", folder.display());
+    }
 }
 
-impl Adapter {
-    /// On Linux a Vulkan driver, or OpenGL where `WGPU_BACKEND` asks for it; macOS and Windows bring a driver along.
-    pub fn find() -> Self {
-        let backends = env::var("WGPU_BACKEND").unwrap_or_default().to_lowercase();
-        let asked = |names: &[&str]| names.iter().any(|name| backends.contains(name));
-        if !cfg!(target_os = "linux") {
-            return Self { any: true, f32: !asked(&["gl"]), watched: Vec::new() };
-        }
-        let manifests = manifests();
-        let vulkan = backends.is_empty() || asked(&["vulkan", "vk"]);
-        let f32 = vulkan && !manifests.is_empty() && has_loader();
-        let folders = folders().into_iter().filter(|folder| folder.is_dir());
-        Self { any: f32 || asked(&["gl"]), f32, watched: folders.chain(manifests).collect() }
+/// Declares a `cfg` of the tests and sets it where `holds`.
+pub fn set(name: &str, holds: bool) {
+    println!("cargo::rustc-check-cfg=cfg({name})");
+    if holds {
+        println!("cargo::rustc-cfg={name}");
     }
 }
 
