@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use svbrdf::files::read::{ReadOptions, read};
-use svbrdf::loss::losses;
+use svbrdf::loss::{Compute, Plain};
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;
 use svbrdf::model::convention::{ALL, Convention, PRINTED};
@@ -13,6 +13,7 @@ use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
 use svbrdf::render::render;
 
+use crate::support::losses::losses;
 use crate::support::tolerance::{GOLDEN_LOSS_F32, GOLDEN_LOSS_F64, GOLDEN_PROBE_F32, GOLDEN_PROBE_F64};
 
 /// The worst relative errors: of losses and mean renderings, and of single texels; and how many texels were compared.
@@ -106,7 +107,7 @@ fn an_empty_folder_and_a_case_without_numbers_are_refused() {
     assert!(expected(&case(serde_json::json!({})), &PRINTED).is_err());
 }
 
-fn check_all<T: Real>() -> Worst {
+fn check_all<T: Compute>() -> Worst {
     let mut worst = Worst { loss: 0.0, probe: 0.0, texels: 0 };
     for case in cases() {
         check_case::<T>(&case, &mut worst);
@@ -116,15 +117,14 @@ fn check_all<T: Real>() -> Worst {
     worst
 }
 
-fn check_case<T: Real>(case: &Value, worst: &mut Worst) {
+fn check_case<T: Compute>(case: &Value, worst: &mut Worst) {
     let materials = ["ground_truth", "prediction"].map(|key| material::<T>(&case[key]));
     let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).unwrap();
     for convention in ALL {
         let golden = expected(case, &convention).unwrap_or_else(|e| panic!("{e}"));
         let means = &case["expected"][convention.name];
         let [ground_truth, prediction] = &materials;
-        let loss =
-            &losses(ground_truth, &[prediction], &scenes, &convention, &Progress::default()).unwrap()[0];
+        let loss = &losses(&Plain, ground_truth, &[prediction], &scenes, &convention).unwrap()[0];
         let mut compare = |got: f64, want: f64| worst.loss = worst.loss.max(relative_error(got, want));
         compare(loss.estimate.mean, golden.loss);
         for (i, scene) in scenes.iter().enumerate() {
