@@ -63,6 +63,6 @@ pub mod render;
 pub mod report;
 pub mod samples;
 pub mod study;
-pub mod text;
+pub(crate) mod text;
 #[cfg(feature = "viewer")]
 pub mod viewer;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf::error::Error;
-use svbrdf::files::atomic::Destination;
+use svbrdf::picture::export::Destination;
 use svbrdf::image::Image;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;

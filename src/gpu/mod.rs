@@ -12,20 +12,38 @@
 
 mod adapter;
 mod context;
+#[cfg(any(feature = "viewer", feature = "testing"))]
 mod display;
 mod fault;
 mod loss;
 mod pipeline;
+#[cfg(feature = "testing")]
 mod probe;
 mod read_back;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod shaders;
+#[cfg(feature = "testing")]
 pub mod shaders;
 mod shading;
 mod textures;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod uniforms;
+#[cfg(feature = "testing")]
 pub mod uniforms;
 
 pub use adapter::AdapterReport;
 pub use context::Gpu;
-pub use display::{Display, DisplayMode, DisplayParams, Encoding, Pane};
 pub use loss::Losses;
-pub use shading::{ShadeParams, Shaded, Shading};
-pub use textures::MaterialTextures;
+
+#[cfg(feature = "testing")]
+pub use {
+    display::{Display, DisplayMode, DisplayParams, Encoding, Pane},
+    shading::{ShadeParams, Shaded, Shading},
+    textures::MaterialTextures,
+};
+#[cfg(all(feature = "viewer", not(feature = "testing")))]
+pub(crate) use {
+    display::{Display, DisplayMode, DisplayParams, Encoding, Pane},
+    shading::{ShadeParams, Shaded, Shading},
+    textures::MaterialTextures,
+};
