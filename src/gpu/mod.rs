@@ -9,10 +9,10 @@
 //!
 //! `shaders/` holds one idea a file; [`shaders`] says which files make a shader. Bad input and bad hardware never
 //! panic: they are an [`Error::Gpu`](crate::error::Error::Gpu) or wait in [`Gpu::take_fault`].
+#![cfg_attr(not(any(feature = "viewer", feature = "testing")), allow(dead_code, reason = "of the window"))]
 
 mod adapter;
 mod context;
-#[cfg(any(feature = "viewer", feature = "testing"))]
 mod display;
 mod fault;
 mod loss;
@@ -35,14 +35,15 @@ pub use adapter::AdapterReport;
 pub use context::Gpu;
 pub use loss::Losses;
 
-#[cfg(feature = "testing")]
-pub use {
+#[cfg(not(feature = "testing"))]
+#[allow(unused_imports, reason = "the window uses them all")]
+pub(crate) use {
     display::{Display, DisplayMode, DisplayParams, Encoding, Pane},
     shading::{ShadeParams, Shaded, Shading},
     textures::MaterialTextures,
 };
-#[cfg(all(feature = "viewer", not(feature = "testing")))]
-pub(crate) use {
+#[cfg(feature = "testing")]
+pub use {
     display::{Display, DisplayMode, DisplayParams, Encoding, Pane},
     shading::{ShadeParams, Shaded, Shading},
     textures::MaterialTextures,

@@ -1,6 +1,7 @@
 //! Pictures of materials: what they show, from where, in which colours, and how they become files.
 
 #[cfg(all(feature = "gpu", not(feature = "testing")))]
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
 pub(crate) mod camera;
 #[cfg(feature = "testing")]
 pub mod camera;
@@ -10,6 +11,7 @@ pub(crate) mod colour_map;
 pub mod colour_map;
 pub mod export;
 #[cfg(all(feature = "gpu", not(feature = "testing")))]
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
 pub(crate) mod quantity;
 #[cfg(feature = "testing")]
 pub mod quantity;

@@ -26,9 +26,7 @@ impl Study {
         let heading = ["target", "time", "error", "svbrdf loss ..."].map(str::to_owned);
         let table: String = std::iter::once(heading)
             .chain(rows)
-            .map(|[target, time, error, options]| {
-                format!("{target:>6}  {time:>7}  {error:>8}  {options}\n")
-            })
+            .map(|[target, time, error, options]| format!("{target:>6}  {time:>7}  {error:>8}  {options}\n"))
             .collect();
         format!("{}\n{table}\n{}", self.header(), self.footer())
     }

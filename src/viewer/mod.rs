@@ -30,6 +30,8 @@ mod loss_settings;
 pub(crate) mod message;
 #[cfg(feature = "testing")]
 pub mod message;
+#[cfg(feature = "testing")]
+mod observe;
 mod options;
 mod panels;
 mod panes;
