@@ -1,13 +1,13 @@
 //! Algorithm 3 on the graphics adapter, offscreen and in a window. Knows the core and wgpu, and no egui.
 //!
-//! Two passes. [`Shading`] runs one fragment per texel of the map and writes linear floats: Algorithm 3 under a
-//! scene, or one of the maps. [`Display`] runs one fragment per pixel of the screen: from the camera's ray to the
+//! Two passes. `Shading` runs one fragment per texel of the map and writes linear floats: Algorithm 3 under a
+//! scene, or one of the maps. `Display` runs one fragment per pixel of the screen: from the camera's ray to the
 //! texels that are seen, averaged where they are smaller than a pixel, exposed and encoded. So shading is never
 //! computed on filtered maps, and moving the camera costs no shading.
 //!
 //! [`Losses`] is Algorithm 1 in compute shaders, for large jobs on a fast adapter.
 //!
-//! `shaders/` holds one idea a file; [`shaders`] says which files make a shader. Bad input and bad hardware never
+//! `shaders/` holds one idea a file; `shaders` says which files make a shader. Bad input and bad hardware never
 //! panic: they are an [`Error::Gpu`](crate::error::Error::Gpu) or wait in [`Gpu::take_fault`].
 #![cfg_attr(not(any(feature = "viewer", feature = "testing")), allow(dead_code, reason = "of the window"))]
 

@@ -1,6 +1,6 @@
 //! The window: ground truth and predictions side by side under a light and a view that a person drags.
 //!
-//! Panels and keys return [`command::Command`]s; [`app::App`] carries them out; slow work runs in [`worker::Task`]s.
+//! Panels and keys return `command::Command`s; `app::App` carries them out; slow work runs in `worker::Task`s.
 
 #[cfg(not(feature = "testing"))]
 pub(crate) mod app;
