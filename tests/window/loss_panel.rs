@@ -94,7 +94,7 @@ fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
     }
     let output = std::process::Command::new(program()).arg("loss").output().unwrap();
     assert_eq!(copied, String::from_utf8(output.stdout).unwrap());
-    assert!(copied.contains("wrong roughness less blurred normals"), "{copied}");
+    assert!(copied.contains("wrong roughness - blurred normals"), "{copied}");
 }
 
 /// The program `svbrdf` of the same build: cargo gives its path to the tests of its own package only.
