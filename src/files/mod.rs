@@ -12,7 +12,7 @@
 //!     println!("{assumption}");
 //! }
 //! let output = Path::new("brick.exr");
-//! let options = WriteOptions { depth: None, like: None, preview: false };
+//! let options = WriteOptions::default();
 //! write::write(&read.material, output, Kind::new(output, &options)?)?;
 //! # Ok::<(), svbrdf::error::Error>(())
 //! ```
