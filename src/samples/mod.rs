@@ -1,13 +1,18 @@
 //! Sample materials that are built in: a ground truth and two predictions of it.
 //!
-//! This project's own code made them ([`generate`]); they are free to use like the rest of it.
+//! `examples/make_samples.rs` makes them; they are free to use like the rest of this project.
 
+#[cfg(feature = "testing")]
 pub mod generate;
+#[cfg(feature = "testing")]
 mod noise;
+#[cfg(feature = "testing")]
 mod tiles;
 
 use crate::error::Error;
-use crate::files::read::{Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes};
+use crate::files::read::{
+    Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes,
+};
 use crate::math::real::Real;
 
 /// How the samples are stored: nothing of it is left to be found out.

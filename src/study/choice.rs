@@ -1,22 +1,22 @@
-//! What a loss can be asked for, and which of it is tried.
+//! The settings that a study measures.
 
 use crate::files::write::Depth;
-use crate::loss::{Precision, Texels};
+use crate::loss::{Precision, Sampling, Texels};
 use crate::model::sampler::Sampler;
 
-/// Numbers of random scenes that are tried.
+/// Numbers of random scenes.
 const RANDOM: &[usize] = &[9, 90, 900, 9000];
-/// Numbers of Sobol scenes that are tried: a power of two of either kind for each scrambling.
+/// Numbers of Sobol scenes: a power of two of each kind for each scrambling.
 const SOBOL: &[usize] = &[24, 48, 96, 192, 384, 768, 1536, 3072, 6144, 12_288, 24_576];
-/// How many of these are tried on all texels.
+/// How many of these are measured on all texels.
 const ON_ALL: usize = 9;
-/// Texels of each scene that are tried, where not all are compared.
+/// Numbers of texels per scene, where not all are compared.
 const MORE: usize = 1024;
 const FEW: usize = 128;
 
-/// What a loss is computed on.
+/// The device that computes the loss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Backend {
+pub enum Device {
     Cpu,
     Gpu,
 }
@@ -29,12 +29,12 @@ pub struct Choice {
     pub sampler: Sampler,
     pub texels: Texels,
     pub precision: Precision,
-    pub backend: Backend,
-    /// What the files hold that the maps are read from.
+    pub backend: Device,
+    /// How the maps are stored in files.
     pub maps: Depth,
 }
 
-/// Choices that differ in their numbers of scenes only: one colour of a plot.
+/// Choices that differ in their numbers of scenes only: one colour in a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     Random,
@@ -48,14 +48,14 @@ pub enum Family {
 }
 
 impl Default for Choice {
-    /// Sobol scenes, as few as there can be, in f32 on the CPU.
+    /// The fewest Sobol scenes, in f32 on the CPU.
     fn default() -> Self {
         Self {
             scenes: 3,
             sampler: Sampler::Sobol,
             texels: Texels::All,
             precision: Precision::F32,
-            backend: Backend::Cpu,
+            backend: Device::Cpu,
             maps: Depth::Float,
         }
     }
@@ -70,7 +70,13 @@ impl Choice {
         self.scenes / 3
     }
 
-    /// The options of `svbrdf loss` that choose this, but for the maps.
+    /// The scenes and texels of this choice for a seed.
+    pub fn sampling(&self, seed: u64) -> Sampling {
+        let Self { sampler, texels, .. } = *self;
+        Sampling { near: self.near(), distant: self.distant(), seed, sampler, texels }
+    }
+
+    /// The options of `svbrdf loss` that select this choice, except the maps.
     pub fn options(&self) -> String {
         let sampler = match self.sampler {
             Sampler::Random => String::new(),
@@ -81,7 +87,7 @@ impl Choice {
             Texels::Sampled(count) => format!(" --texels {count}"),
         };
         let precision = if self.precision == Precision::F64 { " --precision f64" } else { "" };
-        let backend = if self.backend == Backend::Gpu { " --backend gpu" } else { "" };
+        let backend = if self.backend == Device::Gpu { " --backend gpu" } else { "" };
         format!("{sampler}--near {} --distant {}{texels}{precision}{backend}", self.near(), self.distant())
     }
 
@@ -89,7 +95,7 @@ impl Choice {
         match *self {
             Self { maps: Depth::Half, .. } => Family::HalfMaps,
             Self { maps: Depth::Eight | Depth::Sixteen, .. } => Family::EightBitMaps,
-            Self { backend: Backend::Gpu, .. } => Family::Gpu,
+            Self { backend: Device::Gpu, .. } => Family::Gpu,
             Self { precision: Precision::F64, .. } => Family::F64,
             Self { texels: Texels::Sampled(FEW), .. } => Family::FewTexels,
             Self { texels: Texels::Sampled(_), .. } => Family::MoreTexels,
@@ -98,14 +104,14 @@ impl Choice {
         }
     }
 
-    /// The choice of the same scenes that is measured over many seeds.
+    /// The choice over the same scenes that is measured over many seeds: f32 on the CPU with float maps.
     pub(super) fn base(self) -> Self {
-        Self { precision: Precision::F32, backend: Backend::Cpu, maps: Depth::Float, ..self }
+        Self { precision: Precision::F32, backend: Device::Cpu, maps: Depth::Float, ..self }
     }
 }
 
 impl Family {
-    /// In the order in which they are measured: those that are over many seeds first.
+    /// In the order of measurement: those over many seeds first.
     pub const ALL: [Self; 8] = [
         Self::FewTexels,
         Self::MoreTexels,
@@ -130,7 +136,7 @@ impl Family {
         }
     }
 
-    /// Red, green and blue that people of any colour vision tell apart (Okabe and Ito 2008).
+    /// 8-bit RGB, distinguishable with any colour vision (Okabe and Ito 2008).
     pub fn colour(self) -> [u8; 3] {
         match self {
             Self::Random => [213, 94, 0],
@@ -143,7 +149,7 @@ impl Family {
         }
     }
 
-    /// The choices that are tried, with growing numbers of scenes.
+    /// The choices, by growing numbers of scenes.
     pub(super) fn choices(self) -> impl Iterator<Item = Choice> {
         let base = Choice::default();
         let on_all = &SOBOL[..ON_ALL];
@@ -153,7 +159,7 @@ impl Family {
             Self::MoreTexels => (Choice { texels: Texels::Sampled(MORE), ..base }, SOBOL),
             Self::FewTexels => (Choice { texels: Texels::Sampled(FEW), ..base }, SOBOL),
             Self::F64 => (Choice { precision: Precision::F64, ..base }, on_all),
-            Self::Gpu => (Choice { backend: Backend::Gpu, ..base }, on_all),
+            Self::Gpu => (Choice { backend: Device::Gpu, ..base }, on_all),
             Self::HalfMaps => (Choice { maps: Depth::Half, ..base }, on_all),
             Self::EightBitMaps => (Choice { maps: Depth::Eight, ..base }, on_all),
         };

@@ -69,7 +69,9 @@ fn a_target_error_is_reached_and_a_difference_has_its_own_interval() {
 fn a_time_budget_gives_a_loss_and_nonsense_is_refused() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png --time-budget 20ms");
-    assert!(json["near"].as_u64().unwrap() >= 32, "{json}");
+    // How many fit depends on the machine; it is always a doubling of the smallest run.
+    let [near, distant] = ["near", "distant"].map(|kind| json[kind].as_u64().unwrap());
+    assert!(near >= 16 && near == 2 * distant && distant.is_power_of_two(), "{json}");
     for (bad, said) in [
         ("--target-error 0%", "more than 0%"),
         ("--target-error -1%", "more than 0%"),
@@ -162,11 +164,11 @@ fn the_header_says_which_texels_are_compared() {
         let table = succeed(folder.path(), &format!("loss gt.png a.png {args}"));
         table.lines().nth(2).unwrap().to_owned()
     };
-    let drawn = "6 near-field and 3 distant scenes of seed 0";
+    let drawn = "6 near-field and 3 distant scenes, seed 0";
     assert_eq!(line("--texels 99999999999"), drawn);
     assert_eq!(line("--texels 64"), drawn);
-    assert_eq!(line("--texels 63"), format!("{drawn}, each on 63 texels of its own"));
-    assert_eq!(line("--texels 1 --backend cpu"), format!("{drawn}, each on 1 texel of its own"));
+    assert_eq!(line("--texels 63"), format!("{drawn}, 63 random texels per scene"));
+    assert_eq!(line("--texels 1 --backend cpu"), format!("{drawn}, 1 random texel per scene"));
     line("--texels 9 --backend auto");
     line("--target-error 10% --backend cpu");
     for chosen in ["--texels 9", "--target-error 1%", "--time-budget 1ms"] {

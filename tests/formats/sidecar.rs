@@ -33,7 +33,10 @@ fn what_is_kept_beside_a_file_holds_until_something_else_is_said() {
     assert_eq!(why(&other, What::Roughness), "as specified");
     // A preset says it, too.
     let other = open_as(&path, &ReadOptions { preset: Some(Preset::Deschaintre), ..ReadOptions::AUTO });
-    assert_eq!((chosen(&other, What::Roughness), why(&other, What::Roughness)), ("r", "as specified"));
+    assert_eq!(
+        (chosen(&other, What::Roughness), why(&other, What::Roughness).as_str()),
+        ("r", "as specified")
+    );
     let alone = read_as::<f64>(&path, &ReadOptions::AUTO, &Progress::default()).unwrap();
     assert!(worst(&alone.material) > 0.1);
     assert_eq!(alone.saved.roughness, Some(Roughness::Gloss));
@@ -93,7 +96,11 @@ fn maps_can_be_kept_in_a_folder() {
     assert_eq!(Sidecar::path_for(&folder.path().join("other.png")), folder.path().join("other.svbrdf.json"));
     let said = format!("roughness={}", folder.path().join("normal.png").display()).parse().unwrap();
     let read = read_bound::<f64>(folder.path(), &[said], &ReadOptions::AUTO, &Progress::default()).unwrap();
-    assert!(read.notes.iter().any(|n| n.to_string().contains("normal.png, as specified")), "{:?}", read.notes);
+    assert!(
+        read.notes.iter().any(|n| n.to_string().contains("normal.png, as specified")),
+        "{:?}",
+        read.notes
+    );
 }
 
 #[test]

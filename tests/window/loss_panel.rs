@@ -3,19 +3,20 @@
 mod differences;
 mod on_the_way;
 
-use svbrdf::loss::{self, Loss, LossParams};
+use svbrdf::loss::{Comparison, Outcome, Request, Sampling};
 use svbrdf::material::Material;
+use svbrdf::model::convention::PRINTED;
 use svbrdf::progress::Progress;
 use svbrdf::samples;
 
 use super::*;
 
 /// What the core gives for the built-in predictions.
-fn expected(params: &LossParams) -> Vec<Loss> {
+fn expected(sampling: &Sampling) -> Outcome {
     let samples = samples::load::<f32>().unwrap();
     let predictions: Vec<&Material<f32>> = samples.predictions.iter().map(|r| &r.material).collect();
-    let (ground_truth, scenes) = (&samples.ground_truth.material, params.scenes().unwrap());
-    loss::losses_f32(ground_truth, &predictions, &scenes, &params.convention, &Progress::default()).unwrap()
+    let comparison = Comparison::new(&samples.ground_truth.material, &predictions, PRINTED).unwrap();
+    comparison.run(&Request::Scenes(*sampling), &Progress::default()).unwrap()
 }
 
 /// Types `text` into the number called `name`.
@@ -28,8 +29,9 @@ fn enter(window: &mut Window<'_>, name: &str, text: &str) {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_loss_button_yields_the_number_that_the_core_gives() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     window.get_by_label("Auto").click();
     window.run_steps(3);
     press(&mut window, egui::Key::Escape);
@@ -39,7 +41,7 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     window.get_by_label("Compute loss").click();
     window.run_steps(2);
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    let expected = expected(&LossParams { seed: 7, ..LossParams::default() });
+    let expected = expected(&Sampling { seed: 7, ..Sampling::default() }).losses;
     assert_eq!(window.state().losses().unwrap(), expected);
     for loss in &expected {
         let [mean, error, interval] = loss.estimate.texts();
@@ -49,19 +51,21 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn many_scenes_end_with_the_bits_of_one_go() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     enter(&mut window, "Near-field scenes", "60");
     enter(&mut window, "Distant scenes", "31");
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    let expected = expected(&LossParams { near: 60, distant: 31, ..LossParams::default() });
+    let expected = expected(&Sampling { near: 60, distant: 31, ..Sampling::default() }).losses;
     assert_eq!(window.state().losses().unwrap(), expected);
     window.get_by_label_contains("from 60 + 31 scenes in");
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn auto_computes_again_when_the_convention_changes() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     let before = window.state().losses().unwrap()[0].estimate.mean;
     window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Convention").click();
@@ -74,8 +78,9 @@ fn auto_computes_again_when_the_convention_changes() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     wait(&mut window, "the loss", |app| app.losses().is_some());
     window.get_by_label("Copy").click();
     let mut copied = String::new();
@@ -89,7 +94,7 @@ fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
     }
     let output = std::process::Command::new(program()).arg("loss").output().unwrap();
     assert_eq!(copied, String::from_utf8(output.stdout).unwrap());
-    assert!(copied.contains("wrong roughness less blurred normals"), "{copied}");
+    assert!(copied.contains("wrong roughness - blurred normals"), "{copied}");
 }
 
 /// The program `svbrdf` of the same build: cargo gives its path to the tests of its own package only.
