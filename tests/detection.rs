@@ -135,7 +135,10 @@ fn colours() -> [Table; 2] {
             let known = assumption(&read, What::Albedo);
             let (says, unsure) = (known.chosen != "linear", known.certainty == Certainty::Unsure);
             now.count(says == truth, unsure);
-            println!("{colour}, re-encoded {flip}: {known}; {}", if says == truth { "right" } else { "WRONG" });
+            println!(
+                "{colour}, re-encoded {flip}: {known}; {}",
+                if says == truth { "right" } else { "WRONG" }
+            );
             let median = read.maps.iter().find_map(|map| map.specular_median);
             let old = median.map_or((true, false), |median| match median {
                 0.03..=0.06 => (false, false),
@@ -160,10 +163,14 @@ fn normals() -> Table {
                 let [r, g, b] = whole.get_pixel(x, y).0;
                 Rgb([r, green(g), b])
             });
-            let read = inferred(&[("normal.png", &picture), ("basecolor.png", &gray), ("roughness.png", &gray)]);
+            let read =
+                inferred(&[("normal.png", &picture), ("basecolor.png", &gray), ("roughness.png", &gray)]);
             let known = assumption(&read, What::NormalY);
             let truth = if is_up != flip { "up" } else { "down" };
-            println!("{normal}, flipped {flip}: {known}; {}", if known.chosen == truth { "right" } else { "WRONG" });
+            println!(
+                "{normal}, flipped {flip}: {known}; {}",
+                if known.chosen == truth { "right" } else { "WRONG" }
+            );
             table.count(known.chosen == truth, known.certainty == Certainty::Unsure);
         }
     }

@@ -7,9 +7,9 @@ mod support;
 mod bad_input;
 mod cli;
 mod coverage;
+mod detection;
 #[cfg(feature = "viewer")]
 mod end_to_end;
-mod detection;
 mod extremes;
 mod formats;
 mod fused;

@@ -53,7 +53,9 @@ fn options(case: &Value) -> ReadOptions {
     let words: Vec<&str> = case["options"].as_array().unwrap().iter().map(|v| v.as_str().unwrap()).collect();
     match words.as_slice() {
         [] => ReadOptions::AUTO,
-        ["--exemplar", number] => ReadOptions { exemplar: Some(number.parse().unwrap()), ..ReadOptions::AUTO },
+        ["--exemplar", number] => {
+            ReadOptions { exemplar: Some(number.parse().unwrap()), ..ReadOptions::AUTO }
+        }
         other => panic!("an option that this test does not know: {other:?}"),
     }
 }
@@ -72,7 +74,10 @@ fn real_files_are_read_as_their_formats_specify() {
             Err(error) => vec![error.to_string()],
         };
         let known = KNOWN_TO_FAIL.iter().find(|(known, _)| known == name);
-        println!("{name}: {}", if problems.is_empty() { "as expected".to_owned() } else { problems.join("; ") });
+        println!(
+            "{name}: {}",
+            if problems.is_empty() { "as expected".to_owned() } else { problems.join("; ") }
+        );
         match (problems.is_empty(), known) {
             (false, None) => wrong.push(format!("{name}: {}", problems.join("; "))),
             (true, Some(_)) => mended.push(name),

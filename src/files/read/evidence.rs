@@ -36,7 +36,11 @@ impl fmt::Display for Evidence {
                 write!(f, "specular is near an encoded 0.04 in {:.0} % of the texels", 100.0 * share)
             }
             Self::TooBright(share) => {
-                write!(f, "linear colours would reflect too much light in {:.0} % of the texels", 100.0 * share)
+                write!(
+                    f,
+                    "linear colours would reflect too much light in {:.0} % of the texels",
+                    100.0 * share
+                )
             }
         }
     }

@@ -44,18 +44,18 @@ pub use order::Order;
 pub use preset::Preset;
 pub use reason::Reason;
 pub use role::Role;
-pub use storage_convention::StorageConvention;
 pub use sidecar::Sidecar;
+pub use storage_convention::StorageConvention;
 
 use crate::error::Error;
 use crate::material::Material;
 use crate::math::real::Real;
 use crate::progress::Progress;
+use extensions::LISTING;
 use formats::{gltf, mtl, mtlx};
 use interpret::{encoding, report};
-use extensions::LISTING;
 use locate::{binding, folder, picture};
-use stored::{StoredMaterial, StoredMap};
+use stored::{StoredMap, StoredMaterial};
 
 /// A material, and how it was read.
 #[derive(Clone, Debug, PartialEq)]

@@ -20,31 +20,61 @@ pub enum Reason {
     /// A convention that a measurement contradicts.
     ContradictedBy(Box<Reason>, Box<Reason>),
     /// The file name says so.
-    FileName { file: String },
+    FileName {
+        file: String,
+    },
     /// The file name says where y points.
-    NormalName { file: String, y: NormalY },
+    NormalName {
+        file: String,
+        y: NormalY,
+    },
     /// The file name says how channels are packed; packings of this name differ.
-    PackingName { file: PathBuf },
+    PackingName {
+        file: PathBuf,
+    },
     /// The file declares this colour space.
-    ColourSpace { space: String, known: Known },
+    ColourSpace {
+        space: String,
+        known: Known,
+    },
     /// Colours of 8 or 16 bits are display-encoded unless the evidence, weighed as log odds of linear, says otherwise.
-    Weighed { log_odds: f64, evidence: Vec<Evidence> },
+    Weighed {
+        log_odds: f64,
+        evidence: Vec<Evidence>,
+    },
     /// There are a metallic and a specular map, and no name tells which workflow is meant.
     BothWorkflows,
     /// The channels of a picture that is named after one gray map differ as those of a packed picture do.
-    PackedChannels { map: Role, file: PathBuf },
+    PackedChannels {
+        map: Role,
+        file: PathBuf,
+    },
     /// A picture looks like normals, but is named after another map.
-    LooksLikeNormals { map: Role, file: PathBuf },
+    LooksLikeNormals {
+        map: Role,
+        file: PathBuf,
+    },
     /// Only its name, which is the name of the set, suggests that a picture is the colour.
-    NameOfSet { file: String },
+    NameOfSet {
+        file: String,
+    },
     /// The picture has no alpha, which should hold smoothness.
-    OpaqueSmoothness { file: PathBuf },
+    OpaqueSmoothness {
+        file: PathBuf,
+    },
     // What pixels say.
-    SpecularMedian { median: f64, suggests: Option<Albedo> },
+    SpecularMedian {
+        median: f64,
+        suggests: Option<Albedo>,
+    },
     /// Nearly all pixels look like normals, though the name does not name a map.
     NormalPixels,
     /// One tile looks like normals; shares of its pixels and of the next best tile's.
-    NormalTile { number: usize, share: f64, next: f64 },
+    NormalTile {
+        number: usize,
+        share: f64,
+        next: f64,
+    },
     /// No tile tells the order, which is that of the preset.
     PresetOrder,
     SvbrdfEvaluationName,
@@ -54,29 +84,50 @@ pub enum Reason {
     TwoChannels,
     RedConstant,
     /// Share of the texels that have unit length if read so.
-    UnitLength { signed: bool, share: f64 },
+    UnitLength {
+        signed: bool,
+        share: f64,
+    },
     BlueConstant(f64),
     /// The curl correlation, where the map has slopes.
     Curl(Option<f64>),
     CurlDown(f64),
     MostMapsUp(f64),
     // Which maps there are.
-    MetallicMap { matfusion: bool },
+    MetallicMap {
+        matfusion: bool,
+    },
     SpecularMap,
     NeitherMap,
     NoNormalMap,
     NoSpecularMap,
-    SpecularLevel { file: PathBuf },
+    SpecularLevel {
+        file: PathBuf,
+    },
     SmallerMaps(Vec<(Role, [usize; 2])>),
     // Values that were changed.
-    NotFinite { map: Role, count: usize },
-    OutsideUnit { map: Role, count: usize, low: f64, high: f64 },
-    NoDirection { count: usize },
-    MoreThanAllLight { count: usize },
+    NotFinite {
+        map: Role,
+        count: usize,
+    },
+    OutsideUnit {
+        map: Role,
+        count: usize,
+        low: f64,
+        high: f64,
+    },
+    NoDirection {
+        count: usize,
+    },
+    MoreThanAllLight {
+        count: usize,
+    },
     /// Roughness from the exponent of Blinn and Phong.
     Exponent(f32),
     /// A factor of an .mtl beside a picture.
-    MtlFactor { key: String },
+    MtlFactor {
+        key: String,
+    },
 }
 
 /// How well a colour space is known here.
@@ -94,7 +145,9 @@ impl Reason {
     pub fn is_stated(&self) -> bool {
         use StorageConvention as C;
         match self {
-            Self::Specified(_) | Self::NoMetallicMap(_) | Self::FileName { .. } | Self::NormalName { .. } => true,
+            Self::Specified(_) | Self::NoMetallicMap(_) | Self::FileName { .. } | Self::NormalName { .. } => {
+                true
+            }
             Self::MetallicMap { .. } | Self::SpecularMap | Self::NeitherMap => true,
             Self::ColourSpace { known, .. } => *known == Known::Exactly,
             // A flat map points nowhere.
@@ -102,8 +155,10 @@ impl Reason {
             // A picture that is named after normals holds them in the usual way where their lengths confirm it.
             Self::UnitLength { signed, share } => *signed || *share > 0.9,
             Self::LeastComponent(_) | Self::TwoChannels => true,
-            Self::Weighed { log_odds, evidence } => *log_odds < 0.0 && evidence.iter().all(Evidence::is_custom),
-            Self::Convention(convention) => match convention {
+            Self::Weighed { log_odds, evidence } => {
+                *log_odds < 0.0 && evidence.iter().all(Evidence::is_custom)
+            }
+            Self::StorageConvention(convention) => match convention {
                 C::Native | C::NativeText | C::Gltf | C::MaterialXNormals | C::ListedTextures => true,
                 C::LayerNames | C::GammadNames | C::RoughnessName | C::BuiltIn | C::Floats => true,
                 C::SeparateColours | C::MtlColours | C::SpecularGlossiness => true,
@@ -229,10 +284,19 @@ impl fmt::Display for Reason {
                 map.name()
             ),
             Self::LooksLikeNormals { map, file } => {
-                write!(f, "{} looks like normals although it is named after the {} map", file.display(), map.name())
+                write!(
+                    f,
+                    "{} looks like normals although it is named after the {} map",
+                    file.display(),
+                    map.name()
+                )
             }
-            Self::NameOfSet { file } => write!(f, "{file} has the name of the set, and no other file is its colour"),
-            Self::OpaqueSmoothness { file } => write!(f, "{} has no alpha, which holds smoothness", file.display()),
+            Self::NameOfSet { file } => {
+                write!(f, "{file} has the name of the set, and no other file is its colour")
+            }
+            Self::OpaqueSmoothness { file } => {
+                write!(f, "{} has no alpha, which holds smoothness", file.display())
+            }
             Self::MetallicMap { matfusion: false } => {
                 f.write_str("there is a metallic map: d = b (1 - m), s = f (1 - m) + b m")
             }
@@ -243,11 +307,9 @@ impl fmt::Display for Reason {
             Self::NeitherMap => f.write_str("there is neither a specular nor a metallic map"),
             Self::NoNormalMap => f.write_str("there is no normal map; the surface is taken as flat"),
             Self::NoSpecularMap => f.write_str("there is no specular map; most dielectrics have it"),
-            Self::SpecularLevel { file } => write!(
-                f,
-                "{} is named so, and the principled model takes 0.04 at 0.5",
-                file.display()
-            ),
+            Self::SpecularLevel { file } => {
+                write!(f, "{} is named so, and the principled model takes 0.04 at 0.5", file.display())
+            }
             Self::SmallerMaps(maps) => {
                 f.write_str("the largest map has it; resampled bilinearly: ")?;
                 let one = |(map, [w, h]): &(Role, [usize; 2])| format!("{} from {w} x {h}", map.name());

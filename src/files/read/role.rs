@@ -50,7 +50,9 @@ impl Role {
     pub fn words(self) -> &'static [&'static str] {
         match self {
             Self::Normal => &["normal", "normals", "nor", "nrm", "nrml", "norm", "nom", "nmap", "n"],
-            Self::Base => &["basecolor", "basecolour", "basemap", "albedo", "color", "colour", "col", "alb", "bc", "kd"],
+            Self::Base => {
+                &["basecolor", "basecolour", "basemap", "albedo", "color", "colour", "col", "alb", "bc", "kd"]
+            }
             Self::Diffuse => &["diffuse", "diff", "dif", "d", "pd"],
             Self::Specular => &["specular", "spec", "spe", "spc", "specularity", "s", "ps"],
             Self::SpecularLevel => &["specularlevel"],

@@ -126,10 +126,11 @@ impl Pictures {
             let channel = role.packing()?[which];
             let raster = match channel {
                 // Alpha that is 1 everywhere is not kept.
-                3 => source.raster.alpha.clone().map_or_else(
-                    || Raster::constant("alpha", &[1.0]),
-                    |alpha| source.raster.of(alpha),
-                ),
+                3 => source
+                    .raster
+                    .alpha
+                    .clone()
+                    .map_or_else(|| Raster::constant("alpha", &[1.0]), |alpha| source.raster.of(alpha)),
                 _ => source.raster.of(source.raster.channels.get(channel)?.clone()),
             };
             let name = ["red", "green", "blue", "alpha"][channel];
@@ -181,7 +182,8 @@ impl Pictures {
             let why = Reason::PackingName { file: source.file.clone() };
             assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
         }
-        if let Some((_, source)) = self.all.iter().find(|(r, s)| *r == Role::MetallicSmoothness && s.raster.alpha.is_none())
+        if let Some((_, source)) =
+            self.all.iter().find(|(r, s)| *r == Role::MetallicSmoothness && s.raster.alpha.is_none())
             && !self.has(Role::Roughness)
         {
             let why = Reason::OpaqueSmoothness { file: source.file.clone() };

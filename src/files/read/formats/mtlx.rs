@@ -90,8 +90,10 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
     found.files.sort();
     found.files.dedup();
     found.inferred.albedo = albedo;
-    found.inferred.normal_y = Some((NormalY::Up, StorageConvention::MaterialXNormals.into(), Certainty::Likely));
-    let layout = Assumption::new(What::Layout, "MaterialX", StorageConvention::ListedTextures, Certainty::Sure);
+    found.inferred.normal_y =
+        Some((NormalY::Up, StorageConvention::MaterialXNormals.into(), Certainty::Likely));
+    let layout =
+        Assumption::new(What::Layout, "MaterialX", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);
     if surfaces.len() > 1 {
         found.notes.push(Note::Several { container: Container::MaterialX, count: surfaces.len(), index });

@@ -95,7 +95,9 @@ fn too_bright(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
     let (mut count, mut bright) = (0_u32, 0_u32);
     for index in diffuse.sampled() {
         let pairs = || diffuse.rgb(index).into_iter().zip(specular.rgb(index));
-        let encoded = |(d, s): (f64, f64)| linear(d.clamp(0.0, 1.0), Albedo::Srgb) + linear(s.clamp(0.0, 1.0), Albedo::Srgb);
+        let encoded = |(d, s): (f64, f64)| {
+            linear(d.clamp(0.0, 1.0), Albedo::Srgb) + linear(s.clamp(0.0, 1.0), Albedo::Srgb)
+        };
         count += 1;
         bright += u32::from(pairs().any(|(d, s)| d + s > 1.0) && pairs().all(|pair| encoded(pair) <= 1.0));
     }

@@ -46,7 +46,8 @@ pub fn planes<T: Real>(
     let (encoding, why) = encoding_of(raster);
     let is_usual = encoding == NormalEncoding::Unsigned || raster.is_float();
     // Where few texels have unit length, either reading may be wrong.
-    let is_unit = !matches!(why, Reason::UnitLength { share, .. } if raster.is_float() && share < NORMAL_AT_LEAST);
+    let is_unit =
+        !matches!(why, Reason::UnitLength { share, .. } if raster.is_float() && share < NORMAL_AT_LEAST);
     let certainty = if is_usual && is_unit { Certainty::Likely } else { Certainty::Unsure };
     let encoding =
         decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, None, || {

@@ -47,7 +47,9 @@ pub fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Err
 /// Files that other programs leave beside pictures.
 fn is_junk(name: &str) -> bool {
     let name = name.to_lowercase();
-    [".import", ".meta", ".uid"].iter().any(|end| name.ends_with(end)) || name == "thumbs.db" || name == "desktop.ini"
+    [".import", ".meta", ".uid"].iter().any(|end| name.ends_with(end))
+        || name == "thumbs.db"
+        || name == "desktop.ini"
 }
 
 /// The file names for a message, no matter how many they are, without those that other programs leave.

@@ -9,17 +9,17 @@ use super::binding;
 use super::directory::{self, list, listing, material_name};
 use super::grouping::{self, Named, Set};
 use super::names::{Label, Role};
-use super::reading::{Reading, is_colour};
 use super::picture;
+use super::reading::{Reading, is_colour};
 use crate::error::Error;
-use crate::files::read::assumption::{Assumption, Certainty, What};
+use crate::files::read::assumption::Certainty;
 use crate::files::read::decode;
 use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score};
-use crate::files::read::note::{Note, Subject, Unused};
-use crate::files::read::options::{Albedo, NormalY, ReadOptions, Reflectance, Roughness, Workflow};
+use crate::files::read::note::{Note, Subject};
+use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness, Workflow};
 use crate::files::read::reason::Reason;
 use crate::files::read::storage_convention::StorageConvention;
-use crate::files::read::stored::{Inferences, Pictures, StoredMap, StoredMaterial};
+use crate::files::read::stored::{Inferences, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 
 /// Reads the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
@@ -244,7 +244,8 @@ fn inferred(folder: &Path, files: &[Named], floats: bool) -> Inferences {
     };
     let roughness = files.iter().find_map(named);
     let normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y)));
-    let normal_y = normal_y.map(|(f, y)| (y, Reason::NormalName { file: f.file.clone(), y }, Certainty::Sure));
+    let normal_y =
+        normal_y.map(|(f, y)| (y, Reason::NormalName { file: f.file.clone(), y }, Certainty::Sure));
     let mut inferred = Inferences { roughness, normal_y, ..Inferences::default() };
     if floats {
         inferred.albedo = Some((Albedo::Linear, StorageConvention::Floats.into(), Certainty::Likely));

@@ -111,9 +111,7 @@ pub fn is_picture(name: &str) -> bool {
 fn is_complete(files: &[Named], bound: &[Role]) -> bool {
     let has = |is: fn(Role) -> bool| files.iter().map(|f| f.label.role).chain(bound.iter().copied()).any(is);
     has(|role| matches!(role, Role::Base | Role::Diffuse))
-        && has(|role| {
-            matches!(role, Role::Roughness | Role::SpecularGlossiness) || role.packing().is_some()
-        })
+        && has(|role| matches!(role, Role::Roughness | Role::SpecularGlossiness) || role.packing().is_some())
 }
 
 /// The stem of what the file shares with others, as in `bishop_shared_metallic`; `None` for others.

@@ -17,7 +17,8 @@ pub struct Label {
 impl Label {
     /// The last telling word of a name wins: `metal_spec_rough` is a roughness map.
     pub fn of(name: &str) -> Option<Self> {
-        let mut words: Vec<String> = words(name).into_iter().filter(|word| !is_size_or_format(word)).collect();
+        let mut words: Vec<String> =
+            words(name).into_iter().filter(|word| !is_size_or_format(word)).collect();
         if let Some(label) = both_of_blender(&words) {
             return Some(label);
         }
@@ -48,9 +49,7 @@ impl Label {
     pub fn roughness(&self) -> Option<Roughness> {
         match self.word.as_str() {
             "glossiness" | "gloss" | "glossy" | "smoothness" | "metallicsmoothness" | "maskmap"
-            | "specularglossiness" | "specgloss" | "specularsmoothness" => {
-                Some(Roughness::Gloss)
-            }
+            | "specularglossiness" | "specgloss" | "specularsmoothness" => Some(Roughness::Gloss),
             "axay" => Some(Roughness::Anisotropic),
             _ => None,
         }
@@ -84,9 +83,13 @@ fn both_of_blender(words: &[String]) -> Option<Label> {
 }
 
 fn meaning(word: &str) -> Option<(Role, Option<NormalY>)> {
-    for (ending, y) in
-        [("opengl", NormalY::Up), ("ogl", NormalY::Up), ("gl", NormalY::Up), ("directx", NormalY::Down), ("dx", NormalY::Down)]
-    {
+    for (ending, y) in [
+        ("opengl", NormalY::Up),
+        ("ogl", NormalY::Up),
+        ("gl", NormalY::Up),
+        ("directx", NormalY::Down),
+        ("dx", NormalY::Down),
+    ] {
         let normal = word.strip_suffix(ending).and_then(Role::of_word);
         if normal == Some(Role::Normal) {
             return Some((Role::Normal, Some(y)));

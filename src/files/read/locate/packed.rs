@@ -112,7 +112,13 @@ impl Own {
 
     fn choice(&self) -> Choice {
         let grid = Grid { columns: self.order.len(), rows: 1 };
-        Choice { grid, order: self.order, first: 0, why: StorageConvention::NativeText.into(), certainty: Certainty::Sure }
+        Choice {
+            grid,
+            order: self.order,
+            first: 0,
+            why: StorageConvention::NativeText.into(),
+            certainty: Certainty::Sure,
+        }
     }
 
     fn hint(&self, found: &mut StoredMaterial) {
@@ -171,7 +177,13 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
     if let Some(order) = options.order {
         if order.len() == 1 && options.grid.is_none() {
             let grid = Grid { columns: 1, rows: 1 };
-            return Some(placed(grid, order, options, Reason::Specified(SpecifiedBy::Caller), Certainty::Given));
+            return Some(placed(
+                grid,
+                order,
+                options,
+                Reason::Specified(SpecifiedBy::Caller),
+                Certainty::Given,
+            ));
         }
         let grid = *grids.iter().find(|g| g.count() >= order.len())?;
         return Some(placed(grid, order, options, Reason::Specified(SpecifiedBy::Caller), Certainty::Given));

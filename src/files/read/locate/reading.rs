@@ -102,7 +102,8 @@ impl<'a> Reading<'a> {
         let gloss = source.raster.alpha.take();
         if !self.has_named(|role| role == Role::Roughness) {
             // Alpha that is 1 everywhere is not kept.
-            let raster = gloss.map_or_else(|| Raster::constant("alpha", &[1.0]), |gloss| source.raster.of(gloss));
+            let raster =
+                gloss.map_or_else(|| Raster::constant("alpha", &[1.0]), |gloss| source.raster.of(gloss));
             let gloss = StoredMap { raster, file: source.file.clone(), part: "alpha".to_owned() };
             self.pictures.add(Role::Roughness, gloss);
             self.is_glossy = true;
@@ -149,7 +150,8 @@ impl<'a> Reading<'a> {
     /// Uses a picture whose name names no map where the set lacks normals and it looks like them, or where the set lacks
     /// a colour and it has the name of the set.
     pub fn rescue(&mut self, file: &str) {
-        let decoded = || decode::decode_one(&self.folder.join(file), Subject::Picture).ok().map(|(raster, _)| raster);
+        let decoded =
+            || decode::decode_one(&self.folder.join(file), Subject::Picture).ok().map(|(raster, _)| raster);
         let of = |raster| StoredMap { raster, file: self.folder.join(file), part: String::new() };
         if !self.pictures.has(Role::Normal)
             && let Some(raster) = decoded().filter(|raster| normal_score(raster) > NORMAL_ALL_OVER)
@@ -165,7 +167,8 @@ impl<'a> Reading<'a> {
         {
             self.floats &= raster.is_float();
             self.pictures.add(Role::Base, of(raster));
-            return self.doubt(&format!("base colour is {file}"), Reason::NameOfSet { file: file.to_owned() });
+            return self
+                .doubt(&format!("base colour is {file}"), Reason::NameOfSet { file: file.to_owned() });
         }
         self.notes.push(Note::Unused { what: file.to_owned(), why: Unused::Unlabelled });
     }

@@ -65,7 +65,8 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
     found.files.dedup();
     let space = |map: Role| spaces.iter().find(|(whose, _)| *whose == map).map(|(_, space)| *space);
     let hint = |space| {
-        let why = if space == Albedo::Srgb { StorageConvention::MtlColours } else { StorageConvention::Floats };
+        let why =
+            if space == Albedo::Srgb { StorageConvention::MtlColours } else { StorageConvention::Floats };
         (space, why.into(), Certainty::Likely)
     };
     found.inferred.albedo = space(Role::Diffuse).map(hint);
