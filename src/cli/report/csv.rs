@@ -5,7 +5,7 @@ use std::io;
 use svbrdf::loss::Loss;
 use svbrdf::model::scene::Kind;
 
-use super::Printed;
+use super::printed::Printed;
 
 const HEADING: [&str; 21] = [
     "prediction",
