@@ -11,6 +11,7 @@
 //! and predictions of a batch change a bit. Instruction sets do: they differ in the last bits.
 
 mod compare;
+mod inputs;
 mod pass;
 mod sums;
 
@@ -21,8 +22,8 @@ use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::simd::Level;
-use crate::render::simd::TEXELS_PER_BLOCK;
-use sums::{Job, SCENES_PER_GROUP};
+use inputs::LossInputs;
+use sums::SCENES_PER_GROUP;
 
 /// Most sums that are held at a time.
 const MAX_SUMS: usize = 1 << 20;
@@ -97,13 +98,13 @@ pub fn losses_of_at(
     if predictions.is_empty() {
         return Ok(Vec::new());
     }
-    let job = Job::new(ground_truth, predictions, texels, convention);
+    let inputs = LossInputs::new(ground_truth, predictions, texels, convention);
     let groups: usize = scenes.len().div_ceil(SCENES_PER_GROUP);
-    progress.begin((groups * job.blocks) as u64);
-    let per_batch = SCENES_PER_GROUP * (MAX_SUMS / (SCENES_PER_GROUP * job.blocks)).max(1);
+    progress.begin((groups * inputs.blocks) as u64);
+    let per_batch = SCENES_PER_GROUP * (MAX_SUMS / (SCENES_PER_GROUP * inputs.blocks)).max(1);
     let mut per_scene = vec![Vec::with_capacity(scenes.len()); predictions.len()];
     for batch in scenes.chunks(per_batch) {
-        job.run(level, batch, progress, &mut per_scene)?;
+        inputs.append_losses(level, batch, progress, &mut per_scene)?;
     }
     let losses = predictions.iter().zip(per_scene);
     Ok(losses.map(|(prediction, per_scene)| Loss::new(prediction.name(), scenes, per_scene)).collect())
