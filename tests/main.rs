@@ -25,5 +25,3 @@ mod scene_files;
 mod shaders;
 mod shared_materials;
 mod study;
-#[cfg(feature = "viewer")]
-mod ui;

@@ -5,9 +5,10 @@ use std::collections::BTreeSet;
 use std::mem::offset_of;
 use std::path::Path;
 
-use naga::valid::{Capabilities, ValidationFlags, Validator};
 use svbrdf::gpu::shaders::ALL;
 use svbrdf::gpu::uniforms::{Band, Camera, Display, LogSum, Model, Point, Rays, Shading};
+use wgpu::naga;
+use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// A struct as Rust lays it out: its name in WGSL, its size, its members with their offsets.
 #[derive(Debug)]
