@@ -2,7 +2,9 @@
 
 use std::time::Instant;
 
-use super::{Choice, Family, Pair, Point, Reference, Study};
+use super::choice::{Choice, Family};
+use super::pair::Pair;
+use super::result::{Point, Reference, Study};
 use crate::error::Error;
 use crate::files::write::{self, Depth};
 use crate::loss::{Draw, Estimate, Loss, Losses, Texels, losses_of, losses_of_f32};
