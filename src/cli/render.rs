@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use svbrdf::error::Error;
-use svbrdf::files::atomic::Destination;
 use svbrdf::image::Image;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::picture::export::Destination;
 use svbrdf::picture::export::{Provenance, Shows};
 use svbrdf::render;
 

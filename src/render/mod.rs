@@ -1,5 +1,8 @@
 //! Algorithm 3 over a whole material, on the CPU.
 
+#[cfg(not(feature = "testing"))]
+pub(crate) mod simd;
+#[cfg(feature = "testing")]
 pub mod simd;
 
 use rayon::prelude::*;
