@@ -121,7 +121,7 @@ pub const EXTREMES: [[f64; 4]; 12] = [
     [1e-12, RIGHT, RIGHT, RIGHT], // r < 0.01, beside the highlight: 3.1e-13, 3.0e-4, 1.9e-4, 3.0e-4
     [1e-12, RIGHT, RIGHT, RIGHT], // r < 0.01, in it: 1.8e-13, 1.9e-4, 1.3e-4, 1.9e-4
     [1e-12, RIGHT, RIGHT, RIGHT], // grazing: 3.2e-13, 2.2e-4, 2.1e-4, 2.2e-4
-    [1e-12, RIGHT, RIGHT, RIGHT], // light nearly opposite the view: 6.8e-14, 2.3e-4, 4.0e-5, 2.3e-4
+    [1e-12, RIGHT, RIGHT, RIGHT], // light nearly opposite the view: 6.8e-14, 2.3e-4, 4.0e-5, GPU not measured again
     [NONE, NONE, NONE, NONE],     // ill-conditioned, in the highlight: 9.9e-8 in f64
     [NONE, NONE, NONE, NONE],     // ill-conditioned, light on the horizon: 9.6e-7 in f64
     [NONE, NONE, NONE, NONE],     // ill-conditioned, light nearly opposite the view
