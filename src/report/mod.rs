@@ -19,7 +19,7 @@
 mod names;
 mod text;
 
-pub use names::told_apart;
+pub use names::distinct_names;
 
 use crate::loss::{Comparison, Compute, Estimate, Loss, Outcome, Texels};
 use crate::model::convention::Convention;

@@ -227,7 +227,8 @@ impl<'a> Bench<'a> {
 fn kernel<'a>(pair: &Pair<'a>, family: Family) -> Result<Kernel<'a>, Error> {
     let Pair { ground_truth, prediction, convention, gpu } = *pair;
     let of_files = |depth| -> Result<Kernel<'a>, Error> {
-        let [truth, prediction] = [write::held(ground_truth, depth)?, write::held(prediction, depth)?];
+        let [truth, prediction] =
+            [write::after_round_trip(ground_truth, depth)?, write::after_round_trip(prediction, depth)?];
         Ok(Box::new(move |s, p| outcome(f32::cpu(), [&truth, &prediction], convention, s, p)))
     };
     Ok(match (family, gpu) {

@@ -73,7 +73,7 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
     assert_eq!(material(window.state(), 0), materials[0]);
     assert!(loss(&mut window) > 0.1);
-    window.get_by_label("albedo: srgb: as you said");
+    window.get_by_label("albedo: srgb: as specified");
     let after = panes.map(|rect| pixels(&mut window, rect));
     assert!(before[0] == after[0], "the pane of the ground truth stays");
     assert!(before[1] != after[1], "the pane of the prediction changes");
@@ -97,7 +97,7 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
         ("normal y", "down"),
         ("normal encoding", "xy"),
         ("roughness", "gloss"),
-        ("energy", "plain"),
+        ("energy", "unscaled"),
     ] {
         let before = material(window.state(), 0);
         choose(&mut window, &format!("{what} of truth"), &format!("{what} {choice}"));
@@ -201,7 +201,7 @@ fn what_is_chosen_is_kept_with_the_material_by_a_click() {
         serde_json::from_str::<serde_json::Value>(&text).unwrap(),
         serde_json::json!({"roughness": "gloss"})
     );
-    window.get_by_label("roughness: gloss: as guess.svbrdf.json says");
+    window.get_by_label("roughness: gloss: as saved in guess.svbrdf.json");
     assert!(window.query_by_label("Save assumptions of guess").is_none(), "it is kept");
 
     // A new window opens it so; a drop-down wins over it, also over what it says.
@@ -232,6 +232,6 @@ fn what_the_maps_hold_is_listed_on_a_click() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn nobody_is_said_to_have_said_what_is_built_in() {
     let window = built_in();
-    assert!(window.query_all_by_label_contains("as you said").next().is_none());
-    assert!(window.query_all_by_label_contains("it was made so").count() >= 3);
+    assert!(window.query_all_by_label_contains("as specified").next().is_none());
+    assert!(window.query_all_by_label_contains("the built-in materials are stored in this way").count() >= 3);
 }
