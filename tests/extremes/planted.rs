@@ -1,7 +1,7 @@
 //! Defects that a rung might have, shown to its comparator.
 
+use glam::DVec3;
 use svbrdf::material::Material;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::{GUIDED_2020, PRINTED};
 use svbrdf::render::simd::Level;
@@ -20,15 +20,15 @@ fn batches() -> Vec<Batch> {
 /// y by far less: well-conditioned, although the lobes are as narrow as an ulp of z.
 fn peaks_near_z() -> Vec<Batch> {
     let batch = |i: u32| {
-        let l = turned(Vec3::new(0.0, 0.0, 1.0), 1e-4 * f64::from(i), f64::from(i));
+        let l = turned(DVec3::Z, 1e-4 * f64::from(i), f64::from(i));
         let texel = |j: i32| Texel {
-            normal: turned(l, 10f64.powf(-7.0 + 0.05 * f64::from(j)), f64::from(j)).cast(),
+            normal: turned(l, 10f64.powf(-7.0 + 0.05 * f64::from(j)), f64::from(j)).as_vec3(),
             diffuse: [0.5; 3],
             specular: [0.5; 3],
             roughness: 0.0,
         };
         let material = row(&(0..20).map(texel).collect::<Vec<_>>());
-        Batch { convention: PRINTED, near: false, material, w_l: l.cast(), w_v: l.cast() }
+        Batch { convention: PRINTED, near: false, material, w_l: l.as_vec3(), w_v: l.as_vec3() }
     };
     (1..40).map(batch).collect()
 }
@@ -125,10 +125,11 @@ fn defects_of_the_fused_kernel_are_seen() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn defects_of_the_gpu_are_seen() {
     use exr::prelude::f16;
+    use glam::Vec3;
 
     let on_gpu = |b: Batch| rungs::on_gpu(&[b]).unwrap().remove(0);
     held_to_sense(Rung::Gpu, |b| on_gpu(with_material(b, b.material.clone())));
-    let coarse = |w: Vec3<f32>| Vec3::from(w.to_array().map(|x| f16::from_f32(x).to_f32()));
+    let coarse = |w: Vec3| Vec3::from(w.to_array().map(|x| f16::from_f32(x).to_f32()));
     let mediump = |b: &Batch| {
         let texels: Vec<_> = b.texels().map(|t| Texel { normal: coarse(t.normal), ..t }).collect();
         on_gpu(with_material(b, row(&texels)))

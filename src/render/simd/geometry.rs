@@ -1,10 +1,10 @@
 //! The geometry that all materials share: light, half vector and Fresnel weight of a scene at every texel of a tile.
 
 use fearless_simd::{Simd, prelude::*};
+use glam::DVec3;
 
 use super::lanes::{Lanes, V, neg_mul_add};
 use super::tile::{Positions, TilePlane, vectors};
-use crate::math::vec3::Vec3;
 use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
 
@@ -49,8 +49,8 @@ impl KernelScene {
     /// `reach`: the largest distance of a texel from the origin.
     pub(crate) fn new(scene: &Scene, convention: &Convention, reach: f64) -> Self {
         let above_plane = |p: [f64; 3]| {
-            let p = if scene.kind == Kind::Near { p } else { Vec3::from(p).normalize().to_array() };
-            Vec3::from([p[0], p[1], p[2].max(LEAST_HEIGHT)])
+            let p = if scene.kind == Kind::Near { p } else { DVec3::from(p).normalize().to_array() };
+            DVec3::from([p[0], p[1], p[2].max(LEAST_HEIGHT)])
         };
         let (light, view) = (above_plane(scene.light), above_plane(scene.view));
         let near = scene.kind == Kind::Near;

@@ -1,6 +1,7 @@
 //! Whole images from the geometry and the radiance of each tile.
 
 use fearless_simd::{Fallback, Simd};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::geometry::{KernelScene, TileGeometry};
@@ -59,7 +60,7 @@ impl<'a> ImageInputs<'a> {
             planes: tile::planes(material.planes()).collect(),
             params: ShadingParams::without_epsilon(convention),
             axes: GridAxes::from(grid),
-            scene: KernelScene::new(scene, convention, grid.position::<f64>(0, 0).length()),
+            scene: KernelScene::new(scene, convention, grid.position::<DVec3>(0, 0).length()),
         }
     }
 

@@ -1,6 +1,7 @@
 //! The material terms and positions of one tile, kept in the L1 cache while all scenes pass over it.
 
 use fearless_simd::{Simd, prelude::*};
+use glam::Vec3;
 
 use super::lanes::{Lanes, V};
 use super::size::TEXELS;
@@ -150,8 +151,8 @@ impl From<Grid> for GridAxes {
     fn from(grid: Grid) -> Self {
         Self {
             grid,
-            x: (0..grid.width).map(|column| grid.position(column, 0).x).collect(),
-            y: (0..grid.height).map(|row| grid.position(0, row).y).collect(),
+            x: (0..grid.width).map(|column| grid.position::<Vec3>(column, 0).x).collect(),
+            y: (0..grid.height).map(|row| grid.position::<Vec3>(0, row).y).collect(),
         }
     }
 }
@@ -181,7 +182,7 @@ impl Positions {
             TexelSpan::Run(range) => range,
             TexelSpan::Listed(texels) => {
                 for ((x, y), &texel) in self.x.0.iter_mut().zip(&mut self.y.0).zip(*texels) {
-                    let position = axes.grid.position::<f32>(texel % width, texel / width);
+                    let position = axes.grid.position::<Vec3>(texel % width, texel / width);
                     (*x, *y) = (position.x, position.y);
                 }
                 return;
