@@ -23,12 +23,13 @@ impl<T: Compute> Comparison<'_, T> {
             Request::Scenes(sampling) => {
                 let scenes = sampling.scenes(self.convention())?;
                 let losses = scene_losses(self, sampling, [0, 0], &scenes, progress)?;
-                Ok(self.outcome(Some(*sampling), scenes, losses))
+                let pilot = self.pilot(sampling, progress)?;
+                Ok(self.outcome(Some(*sampling), scenes, losses, pilot))
             }
             Request::Listed(scenes) => {
                 check(scenes)?;
                 let losses = self.backend().scene_losses(self, scenes, None, progress)?;
-                Ok(self.outcome(None, scenes.clone(), losses))
+                Ok(self.outcome(None, scenes.clone(), losses, None))
             }
             Request::Accuracy { .. } | Request::Time { .. } => self.stream(request, progress, |_| ()),
         }

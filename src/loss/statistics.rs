@@ -158,7 +158,7 @@ const SKEWNESS: f64 = 1.447_153;
 ///
 /// From 1e6 degrees on, that of the normal distribution, which then differs by less than 3e-6: the library's search
 /// does not end at infinity.
-fn student_quantile(freedom: f64) -> f64 {
+pub(super) fn student_quantile(freedom: f64) -> f64 {
     const LEVEL: f64 = 0.975;
     if freedom < 1e6
         && let Ok(student) = StudentsT::new(0.0, 1.0, freedom)
