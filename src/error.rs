@@ -70,7 +70,8 @@ pub enum Error {
 
     /// A loss over no scenes, or over too many.
     #[error(
-        "a loss takes 1 to {most} scenes, found {count}; ask for a number of near-field or distant scenes between"
+        "a loss needs at least one scene and at most {most}, found {count}; ask for another number of near-field or \
+        distant scenes"
     )]
     SceneCount { count: usize, most: usize },
 

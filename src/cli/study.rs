@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf::error::Error;
+use svbrdf::loss::check_same_size;
 use svbrdf::model::convention::Convention;
 use svbrdf::picture::export;
 use svbrdf::study::{self, Pair, Study, plot};
@@ -66,6 +67,7 @@ fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
 fn measured(args: &StudyArgs) -> Result<Study, Error> {
     let opened = materials::open::<f32>(&args.materials)?;
     let (ground_truth, prediction) = (&opened.ground_truth, &opened.predictions[0]);
+    check_same_size(ground_truth, prediction)?;
     let adapter = match Adapter::start() {
         Ok(adapter) => {
             exit::tell(&format!("note: the GPU is {}", adapter.name()));

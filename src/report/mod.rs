@@ -49,11 +49,6 @@ impl Report {
         self
     }
 
-    /// A table for people, with its last line break.
-    pub fn text(&self) -> String {
-        text::write(self)
-    }
-
     /// How much larger each further loss is than the first, on the same scenes.
     pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
         let Some((first, others)) = self.outcome.losses.split_first() else { return Vec::new() };

@@ -1,7 +1,7 @@
 //! What a loss can be asked for, and which of it is tried.
 
 use crate::files::write::Depth;
-use crate::loss::{Precision, Texels};
+use crate::loss::{Precision, Sampling, Texels};
 use crate::model::sampler::Sampler;
 
 /// Numbers of random scenes that are tried.
@@ -68,6 +68,12 @@ impl Choice {
 
     pub fn distant(&self) -> usize {
         self.scenes / 3
+    }
+
+    /// The scenes and texels of this choice for a seed.
+    pub fn sampling(&self, seed: u64) -> Sampling {
+        let Self { sampler, texels, .. } = *self;
+        Sampling { near: self.near(), distant: self.distant(), seed, sampler, texels }
     }
 
     /// The options of `svbrdf loss` that choose this, but for the maps.

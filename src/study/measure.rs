@@ -2,7 +2,9 @@
 
 use std::time::Instant;
 
-use super::{Choice, Family, Pair, Point, Reference, Study};
+use super::choice::{Choice, Family};
+use super::pair::Pair;
+use super::result::{Point, Reference, Study};
 use crate::error::Error;
 use crate::files::write::{self, Depth};
 use crate::loss::{Backend, Comparison, Compute, Outcome, Request, Sampling, Texels};
@@ -39,12 +41,6 @@ const VARIANT_TIME: f64 = 0.4;
 /// One of the ways to compute the loss of a sampling, on materials of its own.
 type Kernel<'a> = Box<dyn Fn(&Sampling, &Progress) -> Result<Outcome, Error> + 'a>;
 
-/// The scenes and texels of `choice` for a seed.
-fn sampling(choice: &Choice, seed: u64) -> Sampling {
-    let Choice { sampler, texels, .. } = *choice;
-    Sampling { near: choice.near(), distant: choice.distant(), seed, sampler, texels }
-}
-
 /// The loss of one prediction over sampled scenes.
 fn outcome<T: Compute>(
     backend: &dyn Backend<T>,
@@ -76,7 +72,7 @@ impl<'a> Bench<'a> {
         let fast = kernel(pair, Family::Sobol)?;
         let sobol = |scenes, texels| {
             let choice = Choice { scenes, texels: Texels::Sampled(texels), ..Choice::default() };
-            sampling(&choice, REFERENCE_SEED)
+            choice.sampling(REFERENCE_SEED)
         };
         let many = sobol(REFERENCE_SCENES, REFERENCE_TEXELS);
         let few = sobol(CORRECTION_SCENES, CORRECTION_TEXELS);
@@ -222,7 +218,7 @@ impl<'a> Bench<'a> {
     /// The loss of a choice over the scenes of a seed, and the seconds that sampling and rendering them took.
     fn timed(&self, kernel: &Kernel<'_>, choice: &Choice, seed: u64) -> Result<(f64, f64), Error> {
         let start = Instant::now();
-        let outcome = kernel(&sampling(choice, seed), &self.progress.part())?;
+        let outcome = kernel(&choice.sampling(seed), &self.progress.part())?;
         Ok((outcome.losses[0].estimate.mean, start.elapsed().as_secs_f64()))
     }
 }

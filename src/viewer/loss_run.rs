@@ -7,7 +7,7 @@ use eframe::egui;
 
 use super::loaded::Loaded;
 use super::slots::Slots;
-use super::worker::Job;
+use super::worker::Task;
 use crate::loss::{Comparison, Estimate, Loss, Outcome, Request};
 use crate::material::Material;
 use crate::model::convention::Convention;
@@ -42,7 +42,7 @@ struct Update {
 #[derive(Debug)]
 struct Running {
     key: Key,
-    job: Job<()>,
+    job: Task<()>,
     latest: Arc<Mutex<Option<Update>>>,
     /// Scenes of the latest update; 0 before the first.
     scenes: usize,
@@ -202,7 +202,7 @@ impl LossRun {
         let Asked { request, convention } = asked.clone();
         let latest = Arc::new(Mutex::new(None));
         let (left, seen) = (latest.clone(), ctx.clone());
-        let job = Job::start(ctx, move |progress| {
+        let job = Task::start(ctx, move |progress| {
             let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
             let start = Instant::now();
             let comparison = Comparison::new(materials[0], &materials[1..], convention)?;

@@ -50,6 +50,23 @@ impl LossSettings {
     }
 }
 
+impl LossSettings {
+    /// The scenes and texels; `None` where an accuracy or a time decides them.
+    pub fn sampling(&self) -> Option<Sampling> {
+        match self.request() {
+            Request::Scenes(sampling) => Some(sampling),
+            _ => None,
+        }
+    }
+
+    /// These settings with the numbers, sampler and texels of `sampling`; the seed stays.
+    #[must_use]
+    pub fn with_sampling(&self, sampling: Sampling) -> Self {
+        let Sampling { near, distant, sampler, texels, .. } = sampling;
+        Self { ask: Ask::Scenes, near, distant, sampler, texels, ..self.clone() }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

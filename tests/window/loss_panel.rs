@@ -88,7 +88,16 @@ fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
             }
         }
     }
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_svbrdf")).arg("loss").output().unwrap();
+    let output = std::process::Command::new(program()).arg("loss").output().unwrap();
     assert_eq!(copied, String::from_utf8(output.stdout).unwrap());
     assert!(copied.contains("wrong roughness less blurred normals"), "{copied}");
+}
+
+/// The program `svbrdf` of the same build: cargo gives its path to the tests of its own package only.
+fn program() -> std::path::PathBuf {
+    let test = std::env::current_exe().unwrap();
+    let program =
+        test.parent().unwrap().with_file_name("svbrdf").with_extension(std::env::consts::EXE_EXTENSION);
+    assert!(program.is_file(), "{} is missing: `cargo test --workspace` builds it", program.display());
+    program
 }

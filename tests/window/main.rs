@@ -1,5 +1,7 @@
 //! The window without a window: egui_kittest drives it by accessible labels, on a real adapter.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+
 mod doctor;
 mod files;
 mod gestures;
@@ -8,13 +10,18 @@ mod loss_panel;
 mod panels;
 mod study;
 
+#[path = "../support/gpu.rs"]
+#[allow(dead_code, reason = "the tests of the core use the rest")]
+mod gpu;
+#[path = "../support/pictures.rs"]
+#[allow(dead_code, reason = "the tests of the core use the rest")]
+mod pictures;
+
 use eframe::egui::{self, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use svbrdf::viewer::ViewerOptions;
 use svbrdf::viewer::app::App;
-
-use crate::support::gpu;
 
 type Window<'a> = Harness<'a, App>;
 

@@ -15,7 +15,7 @@ fn the_window_starts_on_the_built_in_pair() {
 #[test]
 fn dropped_files_replace_the_built_in_pair() {
     let Some(mut window) = built_in() else { return };
-    let assets = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    let assets = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets");
     let mut strips: Vec<_> = std::fs::read_dir(assets)
         .unwrap()
         .map(|entry| entry.unwrap().path())
@@ -140,7 +140,7 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
         } else {
             assert_eq!(window.state().names(), ["large"]);
             assert!(
-                window.state().messages()[0].contains("tick \"Fit sizes\""),
+                window.state().messages()[0].contains("Tick \"Fit sizes\""),
                 "{:?}",
                 window.state().messages()
             );

@@ -4,7 +4,7 @@ use svbrdf::loss::Texels;
 use svbrdf::model::sampler::Sampler;
 
 use super::*;
-use crate::support::pictures::packed;
+use crate::pictures::packed;
 
 /// The window on two materials of 4 x 4 texels.
 fn tiny<'a>(folder: &std::path::Path) -> Option<Window<'a>> {

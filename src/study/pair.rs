@@ -1,0 +1,27 @@
+//! What is studied.
+
+use std::fmt;
+
+use crate::loss::Backend;
+use crate::material::Material;
+use crate::model::convention::Convention;
+
+/// What is studied, and what with.
+#[derive(Clone, Copy)]
+pub struct Pair<'a> {
+    pub ground_truth: &'a Material<f32>,
+    pub prediction: &'a Material<f32>,
+    pub convention: Convention,
+    /// `None` where there is no adapter.
+    pub gpu: Option<&'a dyn Backend<f32>>,
+}
+
+impl fmt::Debug for Pair<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = (self.ground_truth.name(), self.prediction.name());
+        f.debug_struct("Pair")
+            .field("names", &names)
+            .field("gpu", &self.gpu.is_some())
+            .finish_non_exhaustive()
+    }
+}
