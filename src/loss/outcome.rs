@@ -1,5 +1,7 @@
 //! What a comparison gives.
 
+use std::fmt;
+
 use serde::Serialize;
 
 use super::comparison::{Comparison, Compute};
@@ -45,6 +47,15 @@ pub enum IntervalSource {
     Pilot,
     /// The losses of the scenes themselves: for many sampled scenes, and for listed ones, which have no distribution.
     Scenes,
+}
+
+impl fmt::Display for IntervalSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Pilot => "pilot",
+            Self::Scenes => "scenes",
+        })
+    }
 }
 
 impl<T: Compute> Comparison<'_, T> {

@@ -35,10 +35,9 @@ use crate::progress::Progress;
 const SCENES: [usize; 2] = [1024, 512];
 /// Least scramblings of a pilot for Sobol scenes.
 const SCRAMBLINGS: usize = 64;
-/// Degrees of freedom below which the pilot grows by [`GROWTH`], at most [`GROWTHS`] times.
+/// A pilot of fewer degrees of freedom is made anew, this many times larger.
 const FREEDOM: f64 = 60.0;
-const GROWTH: usize = 4;
-const GROWTHS: u32 = 2;
+const GROWTH: usize = 8;
 /// A request for more scenes, or for longer scramblings, is judged by its own: they are enough.
 const MOST_SCENES: usize = 4096;
 const LONGEST_SCRAMBLING: usize = 128;
@@ -86,14 +85,11 @@ impl Pilot {
         let comparison = comparison.clone().on(T::cpu());
         let subsets = Subsets::new(&comparison, sampling);
         let probe = Probe { comparison, sampling: *sampling, subsets, progress };
-        let mut pilot = probe.pilot(1)?;
-        for growths in 1..=GROWTHS {
-            if pilot.losses.iter().all(|loss| loss.freedom >= FREEDOM) {
-                break;
-            }
-            pilot = probe.pilot(GROWTH.pow(growths))?;
+        let pilot = probe.pilot(1)?;
+        if pilot.losses.iter().all(|loss| loss.freedom >= FREEDOM) {
+            return Ok(Some(pilot));
         }
-        Ok(Some(pilot))
+        probe.pilot(GROWTH).map(Some)
     }
 
     fn new(groups: Vec<Group>) -> Self {

@@ -7,7 +7,7 @@ use super::Printed;
 
 const HEADING: &str = "prediction,loss,standard_error,interval95_low,interval95_high,\
     convention,epsilon,width,height,near,distant,seed,sampler,texels,precision,backend,\
-    target_error,target_reached,path,ground_truth,ground_truth_path\n";
+    target_error,target_reached,path,ground_truth,ground_truth_path,interval95_from\n";
 
 pub(super) fn write(printed: &Printed) -> String {
     let report = &printed.report;
@@ -30,8 +30,9 @@ pub(super) fn write(printed: &Printed) -> String {
     .join(",");
     let ground_truth =
         [&*report.ground_truth, printed.ground_truth_path().unwrap_or_default()].map(quoted).join(",");
+    let source = report.outcome.interval_source();
     let row = |(loss, path): (&Loss, Option<&str>)| {
-        format!("{},{common},{},{ground_truth}\n", cells(loss), quoted(path.unwrap_or_default()))
+        format!("{},{common},{},{ground_truth},{source}\n", cells(loss), quoted(path.unwrap_or_default()))
     };
     let rows: String = report.outcome.losses.iter().zip(printed.prediction_paths()).map(row).collect();
     format!("{HEADING}{rows}")

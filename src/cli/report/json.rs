@@ -3,7 +3,7 @@
 use std::io;
 
 use serde::Serialize;
-use svbrdf::loss::{Estimate, Loss, Texels};
+use svbrdf::loss::{Estimate, IntervalSource, Loss, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::report::Report;
@@ -26,6 +26,8 @@ struct Object<'a> {
     sampler: Option<Sampler>,
     /// In each scene: their number, or "all".
     texels: TexelsEntry,
+    /// What all intervals come from.
+    interval95_from: IntervalSource,
     target_error: Option<f64>,
     target_reached: Option<bool>,
     results: Vec<Entry<'a>>,
@@ -83,6 +85,7 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
             Texels::Sampled(count) => TexelsEntry::Number(count),
             all => TexelsEntry::Word(all),
         },
+        interval95_from: report.outcome.interval_source(),
         target_error: printed.target().map(|(error, _)| error),
         target_reached: printed.target().map(|(_, reached)| reached),
         results: predictions.map(|(loss, path)| entry(loss, path, all)).collect(),
