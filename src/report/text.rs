@@ -1,15 +1,36 @@
 //! A table for people.
 
 use super::Report;
-use crate::loss::{Loss, Texels};
+use crate::loss::{Estimate, Loss, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
 
 const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interval"];
 
 impl Report {
-    /// A table for people, with its last line break.
+    /// A table for people, with its last line break: of the losses over all scenes where they are known.
     pub fn text(&self) -> String {
+        match &self.all_scenes {
+            Some(known) => {
+                let leading = Self { outcome: known.clone(), all_scenes: None, backend: "cpu", ..self.clone() };
+                format!("{}\n{}", leading.text(), self.few_scenes())
+            }
+            None => self.table(),
+        }
+    }
+
+    /// What few scenes say: one line per prediction.
+    pub fn few_scenes(&self) -> String {
+        let scenes = format!("{} + {} scenes", self.count(Kind::Near), self.count(Kind::Distant));
+        let line = |loss: &Loss| {
+            let Estimate { mean, interval95, .. } = loss.estimate;
+            let interval = interval95.map_or("unknown".to_owned(), |[low, high]| format!("{low:.3} to {high:.3}"));
+            format!("{scenes}: {mean:.3} (95% {interval}), {}\n", loss.prediction)
+        };
+        self.outcome.losses.iter().map(line).collect()
+    }
+
+    fn table(&self) -> String {
         let mut rows = vec![HEADINGS.map(str::to_owned)];
         rows.extend(self.outcome.losses.iter().map(cells));
         let widths: [usize; 4] =

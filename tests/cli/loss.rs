@@ -29,7 +29,7 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
 fn json_is_one_object_with_exactly_these_keys() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 5 --convention multi-image-2019");
-    let top = "backend convention differences distant epsilon ground_truth ground_truth_path interval95_from near \
+    let top = "all_scenes backend convention differences distant epsilon ground_truth ground_truth_path interval95_from near \
         precision results \
         sampler scenes seed size target_error target_reached texels";
     assert_eq!(keys(&json).join(" "), top);
@@ -49,6 +49,26 @@ fn json_is_one_object_with_exactly_these_keys() {
     assert_eq!(keys(&json["scenes"][0]), ["kind", "light", "view"]);
     let [low, high] = [0, 1].map(|i| result["interval95"][i].as_f64().unwrap());
     assert!((low..high).contains(&result["loss"].as_f64().unwrap()));
+}
+
+#[test]
+fn without_options_the_loss_over_all_scenes_leads_and_six_and_three_scenes_follow() {
+    let folder = folder();
+    let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 3");
+    let known = &json["all_scenes"][1];
+    let [loss, low, high] = [&known["loss"], &known["interval95"][0], &known["interval95"][1]];
+    let [loss, low, high] = [loss, low, high].map(|number| number.as_f64().unwrap());
+    assert!(low < loss && loss < high && (high - low) / 2.0 <= 0.01 * loss, "{known}");
+    assert_eq!(json["results"][1]["losses"].as_array().unwrap().len(), 9);
+    let text = succeed(folder.path(), "loss gt.png a.png b.png --seed 3");
+    let few = text.find("6 + 3 scenes: ").unwrap();
+    assert!(text.find(&format!("{loss:.6}")).unwrap() < few, "{text}");
+    assert!(text[few..].contains("(95% "), "{text}");
+    // An option that chooses scenes asks for these alone.
+    for options in ["--near 6", "--sampler random", "--texels all", "--time-budget 1ms"] {
+        let json = losses_as_json(folder.path(), &format!("gt.png a.png {options}"));
+        assert_eq!(json["all_scenes"], Value::Null, "{options}");
+    }
 }
 
 #[test]

@@ -7,7 +7,8 @@ use super::Printed;
 
 const HEADING: &str = "prediction,loss,standard_error,interval95_low,interval95_high,\
     convention,epsilon,width,height,near,distant,seed,sampler,texels,precision,backend,\
-    target_error,target_reached,path,ground_truth,ground_truth_path,interval95_from\n";
+    target_error,target_reached,path,ground_truth,ground_truth_path,interval95_from,\
+    all_scenes_loss,all_scenes_low,all_scenes_high\n";
 
 pub(super) fn write(printed: &Printed) -> String {
     let report = &printed.report;
@@ -31,10 +32,15 @@ pub(super) fn write(printed: &Printed) -> String {
     let ground_truth =
         [&*report.ground_truth, printed.ground_truth_path().unwrap_or_default()].map(quoted).join(",");
     let source = report.outcome.interval_source();
-    let row = |(loss, path): (&Loss, Option<&str>)| {
-        format!("{},{common},{},{ground_truth},{source}\n", cells(loss), quoted(path.unwrap_or_default()))
+    let row = |(index, (loss, path)): (usize, (&Loss, Option<&str>))| {
+        let known = report.all_scenes.as_ref().map(|known| &known.losses[index].estimate);
+        let interval = known.and_then(|e| e.interval95);
+        let known = [known.map(|e| e.mean), interval.map(|i| i[0]), interval.map(|i| i[1])].map(or_empty).join(",");
+        let path = quoted(path.unwrap_or_default());
+        format!("{},{common},{path},{ground_truth},{source},{known}\n", cells(loss))
     };
-    let rows: String = report.outcome.losses.iter().zip(printed.prediction_paths()).map(row).collect();
+    let rows: String =
+        report.outcome.losses.iter().zip(printed.prediction_paths()).enumerate().map(row).collect();
     format!("{HEADING}{rows}")
 }
 

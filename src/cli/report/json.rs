@@ -30,6 +30,8 @@ struct Object<'a> {
     interval95_from: IntervalSource,
     target_error: Option<f64>,
     target_reached: Option<bool>,
+    /// The losses over all scenes, to +-1%, where no option chooses scenes.
+    all_scenes: Option<Vec<Entry<'a>>>,
     results: Vec<Entry<'a>>,
     differences: Vec<DifferenceEntry<'a>>,
     /// Left out where a goal decides how many there are, which are far too many to read: their numbers, sampler,
@@ -88,6 +90,9 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
         interval95_from: report.outcome.interval_source(),
         target_error: printed.target().map(|(error, _)| error),
         target_reached: printed.target().map(|(_, reached)| reached),
+        all_scenes: report.all_scenes.as_ref().map(|known| {
+            known.losses.iter().zip(printed.prediction_paths()).map(|(l, path)| entry(l, path, false)).collect()
+        }),
         results: predictions.map(|(loss, path)| entry(loss, path, all)).collect(),
         differences: report.differences().into_iter().map(|d| difference(report, d)).collect(),
         scenes: all.then_some(&report.outcome.scenes),
