@@ -6,6 +6,7 @@
 mod adaptive;
 mod batches;
 mod comparison;
+mod differing;
 mod fused;
 mod outcome;
 mod pilot;
