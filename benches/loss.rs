@@ -234,7 +234,10 @@ impl Job {
 #[expect(clippy::expect_used, reason = "a benchmark may panic")]
 fn loss(backend: &dyn Backend<f32>, materials: [&Material<f32>; 2], request: &Request) -> f64 {
     let [ground_truth, prediction] = materials;
-    let comparison = Comparison::new(ground_truth, &[prediction], PRINTED).expect("of one size").on(backend).without_pilot();
+    let comparison = Comparison::new(ground_truth, &[prediction], PRINTED)
+        .expect("of one size")
+        .on(backend)
+        .without_pilot();
     let outcome = comparison.run(request, &Progress::default()).expect("the loss can be computed");
     outcome.losses[0].estimate.mean
 }

@@ -101,7 +101,7 @@ fn the_bound_of_few_seeds_is_that_of_the_binomial_distribution() {
 
 #[test]
 fn the_scenes_alone_do_not_tell_how_heavy_their_tail_is() {
-    let pair = &made(8, 10)[2];
+    let pair = &made(16, 9)[2];
     let seen = pair.seen(SEEDS, |seed| {
         let request = Request::Scenes(Sampling { near: 18, distant: 9, seed, ..Sampling::default() });
         let outcome = pair.comparison().without_pilot().run(&request, &Progress::default()).unwrap();

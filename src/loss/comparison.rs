@@ -81,7 +81,13 @@ impl<'a, T: Compute> Comparison<'a, T> {
         for prediction in predictions {
             check_same_size(ground_truth, prediction)?;
         }
-        Ok(Self { ground_truth, predictions: predictions.to_vec(), convention, backend: T::cpu(), pilot: true })
+        Ok(Self {
+            ground_truth,
+            predictions: predictions.to_vec(),
+            convention,
+            backend: T::cpu(),
+            pilot: true,
+        })
     }
 }
 

@@ -157,6 +157,9 @@ impl<T: Compute> Probe<'_, T> {
         let total = (near + distant) as f64;
         let mut groups = Vec::new();
         for (kind, count, scenes) in [(Kind::Near, near, SCENES[0]), (Kind::Distant, distant, SCENES[1])] {
+            if count == 0 {
+                continue;
+            }
             if sampler == Sampler::Random || count <= REPLICATES {
                 let units = self.losses(kind, 0, size * scenes, Sampler::Random)?;
                 groups.push(Group { count, units: sums(&units, 1, 1, total) });
@@ -197,7 +200,11 @@ impl<T: Compute> Probe<'_, T> {
             Subsets::Shared { halves: [first, second], share } => {
                 let scaled = |values: Vec<f64>| values.into_iter().map(|x| share * x).collect();
                 let a: Vec<_> = shared(first)?.into_iter().map(scaled).collect();
-                let b = if first == second { a.clone() } else { shared(second)?.into_iter().map(scaled).collect() };
+                let b = if first == second {
+                    a.clone()
+                } else {
+                    shared(second)?.into_iter().map(scaled).collect()
+                };
                 Ok(paired(a, b))
             }
         }

@@ -36,7 +36,9 @@ impl Subsets {
         let (texels, share) = match Differing::of(comparison) {
             Some(Differing { texels, share }) => (texels, share),
             None if size[0] * size[1] <= 2 * HALF => ((0..size[0] * size[1]).collect(), 1.0),
-            None => return Self::Shared { halves: [1, 2].map(|index| random(index, HALF, size)), share: 1.0 },
+            None => {
+                return Self::Shared { halves: [1, 2].map(|index| random(index, HALF, size)), share: 1.0 };
+            }
         };
         let halves = if texels.len() <= 2 * HALF {
             [texels.clone(), texels]

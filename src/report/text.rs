@@ -12,7 +12,8 @@ impl Report {
     pub fn text(&self) -> String {
         match &self.all_scenes {
             Some(known) => {
-                let leading = Self { outcome: known.clone(), all_scenes: None, backend: "cpu", ..self.clone() };
+                let leading =
+                    Self { outcome: known.clone(), all_scenes: None, backend: "cpu", ..self.clone() };
                 format!("{}\n{}", leading.text(), self.few_scenes())
             }
             None => self.table(),
@@ -24,7 +25,8 @@ impl Report {
         let scenes = format!("{} + {} scenes", self.count(Kind::Near), self.count(Kind::Distant));
         let line = |loss: &Loss| {
             let Estimate { mean, interval95, .. } = loss.estimate;
-            let interval = interval95.map_or("unknown".to_owned(), |[low, high]| format!("{low:.3} to {high:.3}"));
+            let interval =
+                interval95.map_or("unknown".to_owned(), |[low, high]| format!("{low:.3} to {high:.3}"));
             format!("{scenes}: {mean:.3} (95% {interval}), {}\n", loss.prediction)
         };
         self.outcome.losses.iter().map(line).collect()

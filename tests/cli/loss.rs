@@ -125,7 +125,10 @@ fn what_is_unknown_is_never_printed_as_0() {
     let listed = r#"{"scenes": [{"kind": "near", "view": [0, 0, 1], "light": [0, 0.5, 1]}]}"#;
     std::fs::write(folder.path().join("one.json"), listed).unwrap();
     let json = losses_as_json(folder.path(), "gt.png a.png --scenes one.json");
-    assert_eq!((&json["interval95_from"], &json["results"][0]["interval95"]), (&json!("scenes"), &Value::Null));
+    assert_eq!(
+        (&json["interval95_from"], &json["results"][0]["interval95"]),
+        (&json!("scenes"), &Value::Null)
+    );
     let table = succeed(folder.path(), "loss gt.png a.png --scenes one.json");
     assert_eq!(table.matches("unknown").count(), 2, "{table}");
     let csv = succeed(folder.path(), "loss gt.png a.png --scenes one.json --format csv");

@@ -65,7 +65,12 @@ fn thinned(material: &Material<f32>, step: usize) -> Material<f32> {
 
 impl Pair {
     /// Every `step`-th texel of every `step`-th row of two materials. The reference takes 24 x 2^`log_points` scenes.
-    pub fn new(ground_truth: &Material<f32>, prediction: &Material<f32>, step: usize, log_points: u32) -> Self {
+    pub fn new(
+        ground_truth: &Material<f32>,
+        prediction: &Material<f32>,
+        step: usize,
+        log_points: u32,
+    ) -> Self {
         let [ground_truth, prediction] = [ground_truth, prediction].map(|m| thinned(m, step));
         let mut pair = Self { ground_truth, prediction, reference: 0.0 };
         let (near, distant) = (16 << log_points, 8 << log_points);
@@ -106,7 +111,7 @@ impl Pair {
         }
     }
 
-    pub fn seen(&self, seeds: u64, estimate: impl Fn(u64) -> (Estimate, usize) + Sync) -> Seen {
+    pub fn seen(&self, seeds: u64, estimate: impl Fn(u64) -> (Estimate, usize) + Sync + Send) -> Seen {
         let estimates: Vec<_> = (0..seeds).into_par_iter().map(estimate).collect();
         let mean = |of: &dyn Fn(&Estimate) -> f64| {
             100.0 * estimates.iter().map(|(e, _)| of(e)).sum::<f64>() / seeds as f64

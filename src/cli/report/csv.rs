@@ -35,7 +35,8 @@ pub(super) fn write(printed: &Printed) -> String {
     let row = |(index, (loss, path)): (usize, (&Loss, Option<&str>))| {
         let known = report.all_scenes.as_ref().map(|known| &known.losses[index].estimate);
         let interval = known.and_then(|e| e.interval95);
-        let known = [known.map(|e| e.mean), interval.map(|i| i[0]), interval.map(|i| i[1])].map(or_empty).join(",");
+        let known =
+            [known.map(|e| e.mean), interval.map(|i| i[0]), interval.map(|i| i[1])].map(or_empty).join(",");
         let path = quoted(path.unwrap_or_default());
         format!("{},{common},{path},{ground_truth},{source},{known}\n", cells(loss))
     };

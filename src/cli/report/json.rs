@@ -91,7 +91,12 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
         target_error: printed.target().map(|(error, _)| error),
         target_reached: printed.target().map(|(_, reached)| reached),
         all_scenes: report.all_scenes.as_ref().map(|known| {
-            known.losses.iter().zip(printed.prediction_paths()).map(|(l, path)| entry(l, path, false)).collect()
+            known
+                .losses
+                .iter()
+                .zip(printed.prediction_paths())
+                .map(|(l, path)| entry(l, path, false))
+                .collect()
         }),
         results: predictions.map(|(loss, path)| entry(loss, path, all)).collect(),
         differences: report.differences().into_iter().map(|d| difference(report, d)).collect(),
