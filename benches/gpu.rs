@@ -146,7 +146,8 @@ fn loss(bencher: divan::Bencher<'_, '_>, side: usize) {
     let (sampling, progress) = (Sampling::default(), Progress::default());
     let scenes = sampling.near + sampling.distant;
     let (ground_truth, prediction) = (support::bumpy(side, side), flipped(side));
-    let on_cpu = Comparison::new(&ground_truth, &[&prediction], PRINTED).expect("of one size");
+    let on_cpu =
+        Comparison::new(&ground_truth, &[&prediction], PRINTED).expect("of one size").without_pilot();
     let on_gpu = on_cpu.clone().on(&losses);
     let run = |comparison: &Comparison<'_, f32>| {
         let outcome = comparison.run(&Request::Scenes(sampling), &progress).expect("computed");

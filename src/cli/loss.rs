@@ -19,34 +19,30 @@ use super::{exit, materials};
 ///
 /// Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the mean over scenes,
 /// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
-/// texels; it is unknown with a single scene of a kind. Without GT and PRED: the built-in materials.
+/// texels; it is unknown with a single scene of a kind. Without options that choose scenes: the loss over all
+/// scenes to +-1%, and that of the 6 + 3 scenes of the papers. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 pub struct LossArgs {
-    /// Number of near-field scenes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 6)]
-    near: usize,
+    /// Number of near-field scenes [default: 6]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    near: Option<usize>,
 
-    /// Number of distant scenes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 3)]
-    distant: usize,
+    /// Number of distant scenes [default: 3]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    distant: Option<usize>,
 
     /// Seed of the sampled scenes
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
 
-    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes
-    #[arg(long, value_name = "random|sobol", default_value = "random")]
-    sampler: Sampler,
+    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: random]
+    #[arg(long, value_name = "random|sobol")]
+    sampler: Option<Sampler>,
 
     /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
-    #[arg(
-        long,
-        value_name = "all|N",
-        allow_negative_numbers = true,
-        default_value = "all",
-        conflicts_with = "scenes"
-    )]
-    texels: Texels,
+    /// [default: all]
+    #[arg(long, value_name = "all|N", allow_negative_numbers = true, conflicts_with = "scenes")]
+    texels: Option<Texels>,
 
     /// Samples as many scenes as this relative error needs at 95% confidence, such as 1%
     #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true,
@@ -133,7 +129,19 @@ fn report<T: Compute>(
 ) -> Result<Report, Error> {
     let opened = materials::open::<T>(&args.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    run(Comparison::new(&opened.ground_truth, &predictions, args.convention)?)
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.convention)?;
+    let all_scenes = match chooses_scenes(args) {
+        true => None,
+        false => Some(watched("rendering", |progress| comparison.over_all_scenes(args.seed, progress))?),
+    };
+    Ok(Report { all_scenes, ..run(comparison)? })
+}
+
+/// Whether an option says which scenes and texels are compared; a seed does not.
+fn chooses_scenes(args: &LossArgs) -> bool {
+    let LossArgs { near, distant, sampler, texels, target_error, time_budget, scenes, .. } = args;
+    let counts = near.is_some() || distant.is_some() || sampler.is_some() || texels.is_some();
+    counts || target_error.is_some() || time_budget.is_some() || scenes.is_some()
 }
 
 /// A graphics adapter compares all texels, in f32.
@@ -167,7 +175,14 @@ fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
 /// The request that the options make.
 fn request(args: &LossArgs) -> Result<Request, Error> {
     let LossArgs { near, distant, seed, sampler, texels, .. } = *args;
-    let sampling = Sampling { near, distant, seed, sampler, texels };
+    let usual = Sampling::default();
+    let sampling = Sampling {
+        near: near.unwrap_or(usual.near),
+        distant: distant.unwrap_or(usual.distant),
+        seed,
+        sampler: sampler.unwrap_or(usual.sampler),
+        texels: texels.unwrap_or(usual.texels),
+    };
     Ok(match (args.target_error, args.time_budget, &args.scenes) {
         (Some(target), ..) => Request::Accuracy { target, seed },
         (None, Some(budget), _) => Request::Time { budget, seed },

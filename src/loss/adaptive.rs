@@ -117,7 +117,7 @@ fn step<T: Compute>(
         let (near, distant) = values.split_at(near.len() - before[0]);
         *values = [old_near, near, old_distant, distant].concat();
     }
-    Ok(comparison.outcome(Some(sampling), scenes, per_scene))
+    Ok(comparison.outcome(Some(sampling), scenes, per_scene, None))
 }
 
 /// The size of a run that `target` needs, by the losses of a run of `size`.

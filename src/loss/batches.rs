@@ -48,7 +48,8 @@ pub(super) fn run<T: Compute>(
         if is_last || (done.near >= sampling.near.min(2) && done.distant >= sampling.distant.min(2)) {
             let reached = Sampling { near: done.near, distant: done.distant, ..*sampling };
             let scenes = [&near[..done.near], &distant[..done.distant]].concat();
-            let outcome = comparison.outcome(Some(reached), scenes, done.per_scene());
+            let pilot = comparison.pilot(&reached, progress)?;
+            let outcome = comparison.outcome(Some(reached), scenes, done.per_scene(), pilot);
             update(&outcome);
             if is_last {
                 return Ok(outcome);

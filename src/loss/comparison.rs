@@ -34,6 +34,7 @@ pub struct Comparison<'a, T> {
     predictions: Vec<&'a Material<T>>,
     convention: Convention,
     backend: &'a dyn Backend<T>,
+    pilot: bool,
 }
 
 /// What computes the loss of each scene.
@@ -80,7 +81,13 @@ impl<'a, T: Compute> Comparison<'a, T> {
         for prediction in predictions {
             check_same_size(ground_truth, prediction)?;
         }
-        Ok(Self { ground_truth, predictions: predictions.to_vec(), convention, backend: T::cpu() })
+        Ok(Self {
+            ground_truth,
+            predictions: predictions.to_vec(),
+            convention,
+            backend: T::cpu(),
+            pilot: true,
+        })
     }
 }
 
@@ -89,6 +96,17 @@ impl<'a, T> Comparison<'a, T> {
     #[must_use]
     pub fn on(self, backend: &'a dyn Backend<T>) -> Self {
         Self { backend, ..self }
+    }
+
+    /// The same comparison, with intervals from the sampled scenes alone: a pilot takes a few milliseconds.
+    #[must_use]
+    pub fn without_pilot(self) -> Self {
+        Self { pilot: false, ..self }
+    }
+
+    /// Whether a pilot gives the intervals of few sampled scenes.
+    pub(super) fn has_pilot(&self) -> bool {
+        self.pilot
     }
 
     /// The ground truth.

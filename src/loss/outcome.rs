@@ -1,12 +1,18 @@
 //! What a comparison gives.
 
-use super::comparison::Comparison;
+use std::fmt;
+
+use serde::Serialize;
+
+use super::comparison::{Comparison, Compute};
+use super::pilot::Pilot;
 use super::request::Sampling;
 use super::statistics::Estimate;
+use crate::error::Error;
 use crate::material::Material;
-use crate::math::real::Real;
 use crate::model::sampler::Sampler;
 use crate::model::scene::Scene;
+use crate::progress::Progress;
 
 /// The loss of one prediction.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,28 +35,65 @@ pub struct Outcome {
     pub scenes: Vec<Scene>,
     /// One per prediction.
     pub losses: Vec<Loss>,
+    /// What the intervals come from; `None`: the losses of the scenes.
+    pub(super) pilot: Option<Pilot>,
 }
 
-impl<T: Real> Comparison<'_, T> {
-    /// The outcome of the loss of each of `scenes` for each prediction.
+/// What 95% intervals come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum IntervalSource {
+    /// The distribution of the losses of many other scenes: for few sampled scenes.
+    Pilot,
+    /// The losses of the scenes themselves: for many sampled scenes, and for listed ones, which have no distribution.
+    Scenes,
+}
+
+impl fmt::Display for IntervalSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Pilot => "pilot",
+            Self::Scenes => "scenes",
+        })
+    }
+}
+
+impl<T: Compute> Comparison<'_, T> {
+    /// The outcome of the loss of each of `scenes` for each prediction; intervals come from `pilot`, if there is one.
     pub(super) fn outcome(
         &self,
         sampling: Option<Sampling>,
         scenes: Vec<Scene>,
         per_scene: Vec<Vec<f64>>,
+        pilot: Option<Pilot>,
     ) -> Outcome {
         let sampler = sampling.map_or(Sampler::Random, |sampling| sampling.sampler);
-        let loss = |(prediction, per_scene): (&&Material<T>, Vec<f64>)| Loss {
-            prediction: prediction.name().to_owned(),
-            estimate: Estimate::of_sampled(sampler, &scenes, &per_scene),
-            per_scene,
+        let loss = |(index, (prediction, per_scene)): (usize, (&&Material<T>, Vec<f64>))| {
+            let mut estimate = Estimate::of_sampled(sampler, &scenes, &per_scene);
+            if let Some(pilot) = &pilot {
+                estimate.interval95 = Some(pilot.interval_of_loss(index, estimate.mean));
+            }
+            Loss { prediction: prediction.name().to_owned(), estimate, per_scene }
         };
-        let losses = self.predictions().iter().zip(per_scene).map(loss).collect();
-        Outcome { sampling, scenes, losses }
+        let losses = self.predictions().iter().zip(per_scene).enumerate().map(loss).collect();
+        Outcome { sampling, scenes, losses, pilot }
+    }
+
+    /// The pilot of a request for `sampling`, unless it needs none.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(super) fn pilot(&self, sampling: &Sampling, progress: &Progress) -> Result<Option<Pilot>, Error> {
+        if self.has_pilot() { Pilot::run(self, sampling, progress) } else { Ok(None) }
     }
 }
 
 impl Outcome {
+    /// What the intervals come from.
+    pub fn interval_source(&self) -> IntervalSource {
+        if self.pilot.is_some() { IntervalSource::Pilot } else { IntervalSource::Scenes }
+    }
+
     /// The largest [`Estimate::relative_error95`] of any loss.
     pub fn relative_error95(&self) -> f64 {
         self.losses.iter().map(|loss| loss.estimate.relative_error95()).fold(0.0, f64::max)
@@ -59,6 +102,11 @@ impl Outcome {
     /// `loss - other`, both of this outcome, on the same scenes: negative where `loss` is closer to the ground truth.
     pub fn difference(&self, loss: &Loss, other: &Loss) -> Estimate {
         let sampler = self.sampling.map_or(Sampler::Random, |sampling| sampling.sampler);
-        Estimate::of_difference(sampler, &self.scenes, &loss.per_scene, &other.per_scene)
+        let mut e = Estimate::of_difference(sampler, &self.scenes, &loss.per_scene, &other.per_scene);
+        let index = |loss: &Loss| self.losses.iter().position(|l| l.per_scene == loss.per_scene);
+        if let (Some(pilot), Some(a), Some(b)) = (&self.pilot, index(loss), index(other)) {
+            e.interval95 = Some(pilot.interval_of_difference(a, b, e.mean));
+        }
+        e
     }
 }

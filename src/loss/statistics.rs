@@ -45,6 +45,10 @@ impl Estimate {
     /// error are both too small. So the interval is moved by `(1 + 2 z^2) k_3 / (6 se^2)` with the third cumulant k_3 of
     /// the mean and z = 1.96, the first term of the Cornish-Fisher expansion of Student's t (Johnson 1978, Modified t
     /// tests and confidence intervals for asymmetrical populations). It does not reach below 0.
+    ///
+    /// Few scenes do not tell how heavy their tail is: on materials that differ in kind, the interval of 6 + 3 holds the
+    /// loss in 84 to 92% of the seeds. [`Comparison::run`](super::Comparison::run) takes those of few sampled scenes from
+    /// a pilot instead.
     pub fn of_sampled(sampler: Sampler, scenes: &[Scene], values: &[f64]) -> Self {
         let e = Self::of_signed(sampler, scenes, values);
         Self { interval95: e.interval95.map(|[low, high]| [low.max(0.0), high]), ..e }
@@ -158,7 +162,7 @@ const SKEWNESS: f64 = 1.447_153;
 ///
 /// From 1e6 degrees on, that of the normal distribution, which then differs by less than 3e-6: the library's search
 /// does not end at infinity.
-fn student_quantile(freedom: f64) -> f64 {
+pub(super) fn student_quantile(freedom: f64) -> f64 {
     const LEVEL: f64 = 0.975;
     if freedom < 1e6
         && let Ok(student) = StudentsT::new(0.0, 1.0, freedom)

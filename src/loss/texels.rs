@@ -2,11 +2,13 @@
 //!
 //! A scene changes the loss far more than a choice of texels does. So each scene is compared on an independent random
 //! subset of the texels, in which every texel is equally likely: the loss in a scene is then known without bias, and its
-//! error is part of how scenes or scramblings differ. The time does not depend on the size of the maps.
+//! error is part of how scenes or scramblings differ. The time does not depend on the size of the maps. Where fewer than
+//! half of the texels differ, subsets are of those that do: a subset of all would miss them in most scenes.
 
 use rayon::prelude::*;
 
 use super::comparison::{Comparison, Compute};
+use super::differing::Differing;
 use super::request::Sampling;
 use crate::error::Error;
 use crate::model::scene::{Kind, Scene};
@@ -30,12 +32,24 @@ pub(super) fn scene_losses<T: Compute>(
         return backend.scene_losses(comparison, scenes, None, progress);
     };
     progress.begin(scenes.len() as u64);
+    let differing = Differing::of(comparison);
+    let share = differing.as_ref().map_or(1.0, |differing| differing.share);
+    let subset = |kind, index| {
+        let texels = |size| sampling.sampler.texels(sampling.seed, kind, index, count, size);
+        match &differing {
+            None => texels(size),
+            Some(Differing { texels: few, .. }) if few.len() <= count => few.clone(),
+            Some(Differing { texels: few, .. }) => {
+                texels([few.len(), 1]).into_iter().map(|at| few[at]).collect()
+            }
+        }
+    };
     let of_scene = |(scene, index): (&Scene, usize)| {
-        let texels = sampling.sampler.texels(sampling.seed, scene.kind, index, count, size);
+        let texels = subset(scene.kind, index);
         let (scene, unseen) = (std::slice::from_ref(scene), Progress::default());
         let losses = backend.scene_losses(comparison, scene, Some(&texels), &unseen)?;
         progress.step()?;
-        Ok(losses.into_iter().map(|per_scene| per_scene[0]).collect())
+        Ok(losses.into_iter().map(|per_scene| share * per_scene[0]).collect())
     };
     let indexed: Vec<_> = scenes.iter().zip(indices(before, scenes)).collect();
     let values = indexed.into_par_iter().map(of_scene).collect::<Result<Vec<Vec<f64>>, Error>>()?;

@@ -41,6 +41,8 @@ pub struct Report {
     pub backend: &'static str,
     /// The scenes and the losses.
     pub outcome: Outcome,
+    /// The losses over all scenes, to +-1%: reports of a few scenes lead with them.
+    pub all_scenes: Option<Outcome>,
 }
 
 impl Report {
@@ -53,6 +55,7 @@ impl Report {
             precision: T::NAME,
             backend: comparison.backend().name(),
             outcome,
+            all_scenes: None,
         }
     }
 
@@ -61,8 +64,10 @@ impl Report {
     pub fn renamed(mut self, names: &[String]) -> Self {
         let Some((ground_truth, predictions)) = names.split_first() else { return self };
         self.ground_truth.clone_from(ground_truth);
-        for (loss, name) in self.outcome.losses.iter_mut().zip(predictions) {
-            loss.prediction.clone_from(name);
+        for outcome in [&mut self.outcome].into_iter().chain(&mut self.all_scenes) {
+            for (loss, name) in outcome.losses.iter_mut().zip(predictions) {
+                loss.prediction.clone_from(name);
+            }
         }
         self
     }

@@ -1,7 +1,7 @@
 //! The text form of a report: a table and the paired differences.
 
 use super::Report;
-use crate::loss::{Loss, Texels};
+use crate::loss::{Estimate, Loss, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
 
@@ -9,7 +9,32 @@ const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interva
 
 impl Report {
     /// A table of the losses, then the difference of each further loss from the first. Ends with a line break.
+    ///
+    /// Where the losses over all scenes are known, the table is theirs, and a line per prediction follows for the few scenes.
     pub fn text(&self) -> String {
+        match &self.all_scenes {
+            Some(known) => {
+                let leading =
+                    Self { outcome: known.clone(), all_scenes: None, backend: "cpu", ..self.clone() };
+                format!("{}\n{}", leading.text(), self.few_scenes())
+            }
+            None => self.table(),
+        }
+    }
+
+    /// What few scenes say: one line per prediction.
+    pub fn few_scenes(&self) -> String {
+        let scenes = format!("{} + {} scenes", self.count(Kind::Near), self.count(Kind::Distant));
+        let line = |loss: &Loss| {
+            let Estimate { mean, interval95, .. } = loss.estimate;
+            let interval =
+                interval95.map_or("unknown".to_owned(), |[low, high]| format!("{low:.3} to {high:.3}"));
+            format!("{scenes}: {mean:.3} (95% {interval}), {}\n", loss.prediction)
+        };
+        self.outcome.losses.iter().map(line).collect()
+    }
+
+    fn table(&self) -> String {
         let mut rows = vec![HEADINGS.map(str::to_owned)];
         rows.extend(self.outcome.losses.iter().map(cells));
         let widths: [usize; 4] =

@@ -49,7 +49,7 @@ fn outcome<T: Compute>(
     sampling: &Sampling,
     progress: &Progress,
 ) -> Result<Outcome, Error> {
-    let comparison = Comparison::new(ground_truth, &[prediction], convention)?.on(backend);
+    let comparison = Comparison::new(ground_truth, &[prediction], convention)?.on(backend).without_pilot();
     comparison.run(&Request::Scenes(*sampling), progress)
 }
 

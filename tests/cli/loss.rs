@@ -29,7 +29,8 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
 fn json_is_one_object_with_exactly_these_keys() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 5 --convention multi-image-2019");
-    let top = "backend convention differences distant epsilon ground_truth ground_truth_path near precision results \
+    let top = "all_scenes backend convention differences distant epsilon ground_truth ground_truth_path interval95_from near \
+        precision results \
         sampler scenes seed size target_error target_reached texels";
     assert_eq!(keys(&json).join(" "), top);
     assert_eq!((&json["ground_truth"], &json["ground_truth_path"]), (&json!("gt"), &json!("gt.png")));
@@ -48,6 +49,26 @@ fn json_is_one_object_with_exactly_these_keys() {
     assert_eq!(keys(&json["scenes"][0]), ["kind", "light", "view"]);
     let [low, high] = [0, 1].map(|i| result["interval95"][i].as_f64().unwrap());
     assert!((low..high).contains(&result["loss"].as_f64().unwrap()));
+}
+
+#[test]
+fn without_options_the_loss_over_all_scenes_leads_and_six_and_three_scenes_follow() {
+    let folder = folder();
+    let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 3");
+    let known = &json["all_scenes"][1];
+    let [loss, low, high] = [&known["loss"], &known["interval95"][0], &known["interval95"][1]];
+    let [loss, low, high] = [loss, low, high].map(|number| number.as_f64().unwrap());
+    assert!(low < loss && loss < high && (high - low) / 2.0 <= 0.01 * loss, "{known}");
+    assert_eq!(json["results"][1]["losses"].as_array().unwrap().len(), 9);
+    let text = succeed(folder.path(), "loss gt.png a.png b.png --seed 3");
+    let few = text.find("6 + 3 scenes: ").unwrap();
+    assert!(text.find(&format!("{loss:.6}")).unwrap() < few, "{text}");
+    assert!(text[few..].contains("(95% "), "{text}");
+    // An option that chooses scenes asks for these alone.
+    for options in ["--near 6", "--sampler random", "--texels all", "--time-budget 1ms"] {
+        let json = losses_as_json(folder.path(), &format!("gt.png a.png {options}"));
+        assert_eq!(json["all_scenes"], Value::Null, "{options}");
+    }
 }
 
 #[test]
@@ -96,20 +117,33 @@ fn what_is_unknown_is_never_printed_as_0() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png --near 1");
     assert_eq!(json["results"][0]["standard_error"], Value::Null);
-    assert_eq!(json["results"][0]["interval95"], Value::Null);
+    assert_eq!(json["interval95_from"], "pilot");
+    assert!(json["results"][0]["interval95"][0].as_f64().unwrap() > 0.0, "a pilot needs no second scene");
     let table = succeed(folder.path(), "loss gt.png a.png --near 1");
+    assert_eq!(table.matches("unknown").count(), 1, "{table}");
+    // Listed scenes have no distribution to make a pilot from.
+    let listed = r#"{"scenes": [{"kind": "near", "view": [0, 0, 1], "light": [0, 0.5, 1]}]}"#;
+    std::fs::write(folder.path().join("one.json"), listed).unwrap();
+    let json = losses_as_json(folder.path(), "gt.png a.png --scenes one.json");
+    assert_eq!(
+        (&json["interval95_from"], &json["results"][0]["interval95"]),
+        (&json!("scenes"), &Value::Null)
+    );
+    let table = succeed(folder.path(), "loss gt.png a.png --scenes one.json");
     assert_eq!(table.matches("unknown").count(), 2, "{table}");
-    let csv = succeed(folder.path(), "loss gt.png a.png --near 1 --format csv");
+    let csv = succeed(folder.path(), "loss gt.png a.png --scenes one.json --format csv");
     assert!(csv.contains(",,,,printed,"), "{csv}");
 }
 
 /// What a report says about its losses, and the options that ask for as many scenes by number.
 fn numbers_and_options(json: &Value) -> (Vec<Value>, String) {
     let results = json["results"].as_array().unwrap();
-    let numbers = results.iter().flat_map(|r| ["loss", "standard_error", "interval95"].map(|k| r[k].clone()));
+    let numbers = results.iter().flat_map(|r| ["loss", "standard_error"].map(|k| r[k].clone()));
     let options = ["near", "distant", "seed", "sampler", "texels"]
         .map(|option| format!("--{option} {}", json[option].to_string().trim_matches('"')));
-    (numbers.chain([json["differences"].clone()]).collect(), options.join(" "))
+    let differences = json["differences"].as_array().unwrap().iter();
+    let differences = differences.flat_map(|d| ["difference", "standard_error"].map(|k| d[k].clone()));
+    (numbers.chain(differences).collect(), options.join(" "))
 }
 
 #[test]

@@ -7,7 +7,7 @@ use svbrdf::model::scene::Kind;
 
 use super::printed::Printed;
 
-const HEADING: [&str; 21] = [
+const HEADING: [&str; 25] = [
     "prediction",
     "loss",
     "standard_error",
@@ -29,17 +29,24 @@ const HEADING: [&str; 21] = [
     "path",
     "ground_truth",
     "ground_truth_path",
+    "interval95_from",
+    "all_scenes_loss",
+    "all_scenes_low",
+    "all_scenes_high",
 ];
 
 pub(super) fn write(printed: &Printed) -> io::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(HEADING)?;
     let common = common(printed);
-    for (loss, path) in printed.report.outcome.losses.iter().zip(printed.prediction_paths()) {
+    let outcome = &printed.report.outcome;
+    for (index, (loss, path)) in outcome.losses.iter().zip(printed.prediction_paths()).enumerate() {
         let ground_truth = [&*printed.report.ground_truth, printed.ground_truth_path().unwrap_or_default()];
         let names = [path.unwrap_or_default()].into_iter().chain(ground_truth);
         let cells = cells(loss).into_iter().chain(common.clone());
-        writer.write_record(cells.chain(names.map(str::to_owned)))?;
+        let source = [outcome.interval_source().to_string()];
+        let added = source.into_iter().chain(all_scenes(printed, index));
+        writer.write_record(cells.chain(names.map(str::to_owned)).chain(added))?;
     }
     let bytes = writer.into_inner().map_err(csv::IntoInnerError::into_error)?;
     String::from_utf8(bytes).map_err(io::Error::other)
@@ -64,6 +71,13 @@ fn common(printed: &Printed) -> [String; 13] {
         or_empty(printed.target().map(|(error, _)| error)),
         or_empty(printed.target().map(|(_, reached)| reached)),
     ]
+}
+
+/// The loss of a prediction over all scenes and its interval, empty where options choose scenes.
+fn all_scenes(printed: &Printed, index: usize) -> [String; 3] {
+    let known = printed.report.all_scenes.as_ref().map(|known| known.losses[index].estimate);
+    let interval = known.and_then(|estimate| estimate.interval95);
+    [known.map(|e| e.mean), interval.map(|i| i[0]), interval.map(|i| i[1])].map(or_empty)
 }
 
 fn or_empty(value: Option<impl ToString>) -> String {

@@ -3,7 +3,7 @@
 use std::io;
 
 use serde::Serialize;
-use svbrdf::loss::{Estimate, Loss, Texels};
+use svbrdf::loss::{Estimate, IntervalSource, Loss, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::report::Report;
@@ -26,8 +26,12 @@ struct Object<'a> {
     sampler: Option<Sampler>,
     /// In each scene: their number, or "all".
     texels: TexelsEntry,
+    /// What all intervals come from.
+    interval95_from: IntervalSource,
     target_error: Option<f64>,
     target_reached: Option<bool>,
+    /// The losses over all scenes, to +-1%, where no option chooses scenes.
+    all_scenes: Option<Vec<Entry<'a>>>,
     results: Vec<Entry<'a>>,
     differences: Vec<DifferenceEntry<'a>>,
     /// Left out where a goal decides how many there are, which are far too many to read: their numbers, sampler,
@@ -83,8 +87,17 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
             Texels::Sampled(count) => TexelsEntry::Number(count),
             all => TexelsEntry::Word(all),
         },
+        interval95_from: report.outcome.interval_source(),
         target_error: printed.target().map(|(error, _)| error),
         target_reached: printed.target().map(|(_, reached)| reached),
+        all_scenes: report.all_scenes.as_ref().map(|known| {
+            known
+                .losses
+                .iter()
+                .zip(printed.prediction_paths())
+                .map(|(l, path)| entry(l, path, false))
+                .collect()
+        }),
         results: predictions.map(|(loss, path)| entry(loss, path, all)).collect(),
         differences: report.differences().into_iter().map(|d| difference(report, d)).collect(),
         scenes: all.then_some(&report.outcome.scenes),
