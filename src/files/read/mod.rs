@@ -17,6 +17,7 @@ mod order;
 mod preset;
 mod raster;
 mod role;
+mod samples;
 mod sidecar;
 mod stored;
 

@@ -6,8 +6,9 @@ mod dwa;
 mod exr;
 mod head;
 mod numpy;
-pub mod panic_guard;
+pub mod panics;
 mod picture;
+mod place;
 mod tiff;
 
 use std::fs::File;
@@ -16,86 +17,8 @@ use std::path::Path;
 
 use super::raster::Raster;
 use crate::error::Error;
-
-/// Largest side of a map: the largest that material libraries publish.
-const MAX_SIDE: usize = 16_384;
-/// Largest width of an image: a strip of four of the largest maps. The same upright.
-const MAX_WIDTH: usize = 4 * MAX_SIDE;
-/// Most bytes that an image may decode to: a strip of the largest size takes 3 GiB in 8-bit RGB.
-const MAX_BYTES: u64 = 4 << 30;
-
-/// The formats that open, for messages.
-const FORMATS: &str = "PNG, TIFF, JPEG, HDR, EXR, npy or npz";
-
-/// One picture of a file: of a layered file a layer, of an archive an array.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Layer {
-    /// Empty for the only picture of a file.
-    pub name: String,
-    pub raster: Raster,
-}
-
-/// What a file holds.
-#[derive(Debug, Default)]
-pub struct Decoded {
-    pub layers: Vec<Layer>,
-    /// Whether this program wrote the file: then it means what this program means.
-    pub native: bool,
-    /// What this program wrote into a packed picture: its order and encoding.
-    pub meaning: Option<String>,
-    /// What the user may want to know, one sentence each.
-    pub notes: Vec<String>,
-}
-
-/// Who is decoding what: for messages.
-#[derive(Clone, Copy, Debug)]
-struct Place<'a> {
-    path: &'a Path,
-    /// As in "normal map".
-    what: &'a str,
-}
-
-impl Place<'_> {
-    fn bad(self, problem: impl AsRef<str>, remedy: &str) -> Error {
-        Error::BadImage {
-            path: self.path.to_owned(),
-            problem: format!("{}: {}", self.what, problem.as_ref()),
-            remedy: remedy.to_owned(),
-        }
-    }
-
-    /// An error of a library that decodes `format`.
-    fn invalid(self, format: &str, found: impl std::fmt::Display) -> Error {
-        self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
-    }
-
-    /// Whether colour spaces mean nothing here, as far as is known.
-    fn is_data(self) -> bool {
-        ["normal", "roughness", "metallic"].iter().any(|map| self.what.contains(map))
-    }
-
-    fn truncated(self) -> Error {
-        self.bad("expected the whole image, found the end of the file within it", "copy the file again")
-    }
-
-    /// Refuses sizes before anything is allocated: `bytes` is what all samples take.
-    fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<(), Error> {
-        if width == 0 || height == 0 {
-            return Err(
-                self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again")
-            );
-        }
-        let (long, short) = (width.max(height), width.min(height));
-        if long > MAX_WIDTH as u64 || short > MAX_SIDE as u64 || bytes > MAX_BYTES {
-            let problem = format!(
-                "expected at most {MAX_WIDTH} x {MAX_SIDE} pixels and {} GiB, found {width} x {height}",
-                MAX_BYTES >> 30
-            );
-            return Err(self.bad(problem, "scale it down"));
-        }
-        Ok(())
-    }
-}
+use place::{Place, alone};
+pub use place::{Decoded, Layer};
 
 /// Decodes the file `path`, which is to be `what`, as in "normal map".
 ///
@@ -137,19 +60,4 @@ pub fn decode_one(path: &Path, what: &str) -> Result<(Raster, Vec<String>), Erro
                 .bad("expected one picture, found several layers", "open the file itself"))
         }
     }
-}
-
-fn alone(layer: impl Into<Layer>) -> Decoded {
-    Decoded { layers: vec![layer.into()], ..Decoded::default() }
-}
-
-impl From<Raster> for Layer {
-    fn from(raster: Raster) -> Self {
-        Self { name: String::new(), raster }
-    }
-}
-
-/// Takes pixels of `count` interleaved samples apart.
-fn planes<S: Copy, U>(samples: &[S], count: usize, of: impl Fn(S) -> U) -> Vec<Vec<U>> {
-    (0..count).map(|channel| samples.iter().skip(channel).step_by(count).map(|&s| of(s)).collect()).collect()
 }

@@ -9,10 +9,11 @@ use image::error::{ImageError, LimitErrorKind};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
-use super::head::PngHead;
-use super::{Decoded, FORMATS, MAX_BYTES, Place, alone, head, planes};
+use super::head::{self, PngHead};
+use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::error::Error;
-use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::raster::Raster;
+use crate::files::read::samples::Samples;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
@@ -108,27 +109,16 @@ fn explain(error: &ImageError, format: &str, place: Place<'_>) -> Error {
 fn raster(image: DynamicImage) -> Option<Raster> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let (channels, depth) = match image {
-        DynamicImage::ImageLuma8(i) => (codes8(&i.into_raw(), 1), "8-bit"),
-        DynamicImage::ImageLumaA8(i) => (codes8(&i.into_raw(), 2), "8-bit"),
-        DynamicImage::ImageRgb8(i) => (codes8(&i.into_raw(), 3), "8-bit"),
-        DynamicImage::ImageRgba8(i) => (codes8(&i.into_raw(), 4), "8-bit"),
-        DynamicImage::ImageLuma16(i) => (codes16(&i.into_raw(), 1), "16-bit"),
-        DynamicImage::ImageLumaA16(i) => (codes16(&i.into_raw(), 2), "16-bit"),
-        DynamicImage::ImageRgb16(i) => (codes16(&i.into_raw(), 3), "16-bit"),
-        DynamicImage::ImageRgba16(i) => (codes16(&i.into_raw(), 4), "16-bit"),
-        DynamicImage::ImageRgb32F(i) => {
-            (planes(&i.into_raw(), 3, |s| s).into_iter().map(Samples::Floats).collect(), "float")
-        }
+        DynamicImage::ImageLuma8(i) => (Samples::interleaved(i.into_raw(), 1), "8-bit"),
+        DynamicImage::ImageLumaA8(i) => (Samples::interleaved(i.into_raw(), 2), "8-bit"),
+        DynamicImage::ImageRgb8(i) => (Samples::interleaved(i.into_raw(), 3), "8-bit"),
+        DynamicImage::ImageRgba8(i) => (Samples::interleaved(i.into_raw(), 4), "8-bit"),
+        DynamicImage::ImageLuma16(i) => (Samples::interleaved(i.into_raw(), 1), "16-bit"),
+        DynamicImage::ImageLumaA16(i) => (Samples::interleaved(i.into_raw(), 2), "16-bit"),
+        DynamicImage::ImageRgb16(i) => (Samples::interleaved(i.into_raw(), 3), "16-bit"),
+        DynamicImage::ImageRgba16(i) => (Samples::interleaved(i.into_raw(), 4), "16-bit"),
+        DynamicImage::ImageRgb32F(i) => (Samples::interleaved(i.into_raw(), 3), "float"),
         _ => return None,
     };
     Some(Raster::with_alpha(width, height, depth, channels))
-}
-
-fn codes8(samples: &[u8], count: usize) -> Vec<Samples> {
-    let planes = planes(samples, count, u16::from).into_iter();
-    planes.map(|codes| Samples::Codes { codes, max: u8::MAX.into() }).collect()
-}
-
-fn codes16(samples: &[u16], count: usize) -> Vec<Samples> {
-    planes(samples, count, |s| s).into_iter().map(|codes| Samples::Codes { codes, max: u16::MAX }).collect()
 }

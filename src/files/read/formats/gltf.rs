@@ -12,7 +12,7 @@ use gltf::{Document, Gltf, Texture};
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::decode;
-use crate::files::read::decode::panic_guard::hushed;
+use crate::files::read::decode::panics::caught;
 use crate::files::read::locate::names::Role;
 use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
 use crate::files::read::raster::Raster;
@@ -34,7 +34,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let invalid = |found: &str| bad(path, format!("expected valid glTF, found: {found}"));
     // The library panics at some lengths that a damaged glb claims.
-    let gltf = hushed(|| Gltf::from_slice(&bytes))
+    let gltf = caught(|| Gltf::from_slice(&bytes))
         .map_err(|_| invalid("a contradiction in its lengths"))?
         .map_err(|e| invalid(&e.to_string()))?;
     // The library panics at images that lead nowhere.

@@ -1,11 +1,14 @@
 //! Normal maps: how their components are stored and where y points.
 
+use rayon::prelude::*;
+
 use super::detect;
 use super::encoding::decide;
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{NormalCode as Code, NormalY, ReadOptions};
-use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::raster::Raster;
+use crate::files::read::samples::Samples;
 use crate::files::read::stored::{Found, Source};
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
@@ -108,23 +111,28 @@ fn code_of(raster: &Raster) -> (Code, String) {
 
 /// The vector at `index`, y as stored.
 fn vector(raster: &Raster, code: Code, index: usize) -> [f64; 3] {
+    let mut stored = [0.0; 3];
+    stored.iter_mut().zip(components(raster, code)).for_each(|(value, plane)| *value = plane.at(index));
+    vector_of(stored, code, raster.channels.len() == 2)
+}
+
+/// The channels that hold x, y and, where it is stored, z.
+fn components(raster: &Raster, code: Code) -> impl Iterator<Item = &Samples> {
+    let last = raster.channels.len() - 1;
+    let x = if code == Code::Ag { raster.alpha.as_ref() } else { None };
+    let others = [1, 2].map(|c| &raster.channels[last.min(c)]);
+    [x.unwrap_or(&raster.channels[0])].into_iter().chain(others)
+}
+
+/// The vector that is stored as (x, y, z), y as stored; of `two` channels z is not stored.
+fn vector_of([x, y, z]: [f64; 3], code: Code, two: bool) -> [f64; 3] {
     let signed = |value: f64| 2.0 * value - 1.0;
     let with_z = |x: f64, y: f64| [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()];
     match code {
-        Code::Unsigned => raster.rgb(index).map(signed),
-        Code::Signed if raster.channels.len() == 2 => {
-            let [x, y, _] = raster.rgb(index);
-            with_z(x, y)
-        }
-        Code::Signed => raster.rgb(index),
-        Code::Xy => {
-            let [x, y, _] = raster.rgb(index);
-            with_z(signed(x), signed(y))
-        }
-        Code::Ag => {
-            let x = raster.alpha.as_ref().map_or(0.5, |alpha| alpha.at(index));
-            with_z(signed(x), signed(raster.channels[1].at(index)))
-        }
+        Code::Unsigned => [x, y, z].map(signed),
+        Code::Signed if two => with_z(x, y),
+        Code::Signed => [x, y, z],
+        Code::Xy | Code::Ag => with_z(signed(x), signed(y)),
     }
 }
 
@@ -156,20 +164,32 @@ fn normal_y(raster: &Raster, code: Code, found: &mut Found, options: &ReadOption
 
 /// x, y up, z; and how many had no direction.
 fn decoded<T: Real>(raster: &Raster, code: Code, y: NormalY) -> ([Vec<T>; 3], usize) {
+    const CHUNK: usize = 1 << 12;
     let sign = if y == NormalY::Up { 1.0 } else { -1.0 };
     let count = raster.width * raster.height;
-    let mut planes = [0; 3].map(|_| Vec::with_capacity(count));
-    let mut missing = 0;
-    for index in 0..count {
-        let mut n = vector(raster, code, index);
-        let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if !length.is_finite() || length < SHORTEST {
-            missing += 1;
-            n = [0.0, 0.0, 1.0];
+    let two = raster.channels.len() == 2;
+    let [mut xs, mut ys, mut zs] = [0; 3].map(|_| vec![T::zero(); count]);
+    let convert = |(number, ((xs, ys), zs)): (usize, ((&mut [T], &mut [T]), &mut [T]))| {
+        let stored: Vec<Vec<f64>> = components(raster, code)
+            .map(|plane| {
+                let mut chunk = vec![0.0; xs.len()];
+                plane.read(number * CHUNK, &mut chunk);
+                chunk
+            })
+            .collect();
+        let mut missing = 0;
+        for index in 0..xs.len() {
+            let mut n = vector_of([0, 1, 2].map(|c| stored[c][index]), code, two);
+            let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if !length.is_finite() || length < SHORTEST {
+                missing += 1;
+                n = [0.0, 0.0, 1.0];
+            }
+            [xs[index], ys[index], zs[index]] = [n[0], sign * n[1], n[2]].map(T::of);
         }
-        for (plane, value) in planes.iter_mut().zip([n[0], sign * n[1], n[2]]) {
-            plane.push(T::of(value));
-        }
-    }
-    (planes, missing)
+        missing
+    };
+    let chunks = xs.par_chunks_mut(CHUNK).zip(ys.par_chunks_mut(CHUNK)).zip(zs.par_chunks_mut(CHUNK));
+    let missing = chunks.enumerate().map(convert).sum();
+    ([xs, ys, zs], missing)
 }

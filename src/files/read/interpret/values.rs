@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{NonFinite, ReadOptions};
-use crate::files::read::raster::Samples;
+use crate::files::read::samples::Outside;
 use crate::files::read::stored::{Found, Source};
 
 /// Refuses the first NaN or infinity of any map, or says how many will be replaced, as `options` have it.
@@ -49,8 +49,7 @@ impl NotFinite {
     fn of(source: &Source) -> Self {
         let mut count = Self::default();
         for channel in &source.raster.channels {
-            let Samples::Floats(values) = channel else { continue };
-            for (index, &value) in values.iter().enumerate().filter(|(_, v)| !v.is_finite()) {
+            for (index, value) in channel.not_finite() {
                 count.first = count.first.or(Some((index, value)));
                 if value.is_nan() { count.nans += 1 } else { count.infinities += 1 }
             }
@@ -64,30 +63,30 @@ pub fn finite(value: f64, instead: f64) -> f64 {
     if value.is_finite() { value } else { instead }
 }
 
+/// `value` in [0, 1], or `instead` of NaN and infinity.
+pub fn unit(value: f64, instead: f64) -> f64 {
+    finite(value, instead).clamp(0.0, 1.0)
+}
+
 /// Values that lay outside [0, 1], how many for each map, and how far.
 #[derive(Debug, Default)]
 pub struct Clamped {
-    maps: Vec<(&'static str, usize, f64, f64)>,
+    maps: Vec<(&'static str, Outside)>,
 }
 
 impl Clamped {
-    /// `value` in [0, 1].
-    pub fn unit(&mut self, value: f64, map: &'static str) -> f64 {
-        if (0.0..=1.0).contains(&value) {
-            return value;
+    /// Adds what lies outside [0, 1] in the map `map`.
+    pub fn add(&mut self, outside: Outside, map: &'static str) {
+        match self.maps.iter_mut().find(|(name, _)| *name == map) {
+            Some((_, sum)) => *sum = sum.merged(outside),
+            None if outside.count > 0 => self.maps.push((map, outside)),
+            None => (),
         }
-        let place = self.maps.iter().position(|m| m.0 == map).unwrap_or_else(|| {
-            self.maps.push((map, 0, 0.0, 1.0));
-            self.maps.len() - 1
-        });
-        let entry = &mut self.maps[place];
-        *entry = (map, entry.1 + 1, entry.2.min(value), entry.3.max(value));
-        value.clamp(0.0, 1.0)
     }
 
     /// Says what has been clamped.
     pub fn say(self, found: &mut Found) {
-        for (map, count, low, high) in self.maps {
+        for (map, Outside { count, low, high }) in self.maps {
             let why = format!("{count} samples of the {map} map lie outside, between {low} and {high}");
             let clamped = Assumption::new(What::Values, "clamped to [0, 1]", why, Certainty::Unsure);
             found.assumptions.push(clamped);
