@@ -47,8 +47,10 @@ use locate::{binding, folder, layers, packed};
 use stored::{Found, Source};
 
 /// Extensions of the files that open as a material or as a map of one.
-pub const EXTENSIONS: [&str; 14] =
-    ["png", "tif", "tiff", "jpg", "jpeg", "hdr", "exr", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json"];
+pub const EXTENSIONS: [&str; 19] = [
+    "png", "tif", "tiff", "jpg", "jpeg", "tga", "bmp", "webp", "dds", "ktx2", "hdr", "exr", "npy", "npz",
+    "gltf", "glb", "mtl", "mtlx", "json",
+];
 /// Extensions of files that name their textures.
 const NAMING: [&str; 4] = ["gltf", "glb", "mtl", "mtlx"];
 

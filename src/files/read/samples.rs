@@ -136,7 +136,8 @@ pub struct Samples {
 
 impl PartialEq for Samples {
     fn eq(&self, other: &Self) -> bool {
-        self.len() == other.len() && (0..self.len()).all(|i| self.stored(i) == other.stored(i))
+        self.len() == other.len()
+            && (0..self.len()).all(|i| self.stored(i) == other.stored(i))
             && self.top() == other.top()
     }
 }
@@ -220,9 +221,8 @@ impl Samples {
 
     /// `of` every number, on all cores; each possible integer is computed once.
     pub fn decoded<T: Real>(&self, of: impl Fn(f64) -> f64 + Sync) -> Vec<T> {
-        let table = |top: usize| -> Vec<T> {
-            (0..=top).map(|code| T::of(of(code as f64 / top as f64))).collect()
-        };
+        let table =
+            |top: usize| -> Vec<T> { (0..=top).map(|code| T::of(of(code as f64 / top as f64))).collect() };
         match &self.buffer {
             Buffer::Bytes(all) => {
                 let table: [T; 256] = std::array::from_fn(|code| T::of(of(code as f64 / 255.0)));
@@ -255,7 +255,9 @@ impl Samples {
     /// The NaN and infinite samples with their numbers.
     pub fn not_finite(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
         let all = match &self.buffer {
-            Buffer::Floats(all) => self.scanned(all, |chunk| chunk.iter().any(|v| !v.is_finite())).any(|any| any).then_some(all),
+            Buffer::Floats(all) => {
+                self.scanned(all, |chunk| chunk.iter().any(|v| !v.is_finite())).any(|any| any).then_some(all)
+            }
             _ => None,
         };
         let places = (0..if all.is_some() { self.len() } else { 0 }).map(|i| (i, self.stored(i) as f32));
@@ -265,16 +267,22 @@ impl Samples {
     /// How many finite samples lie outside [0, 1], and the range from the least (or 0) to the largest (or 1).
     pub fn outside_unit(&self) -> Outside {
         match &self.buffer {
-            Buffer::Floats(all) => self.scanned(all, |chunk| {
-                let finite = chunk.iter().map(|&v| f64::from(v)).filter(|v| v.is_finite());
-                finite.fold(Outside::default(), Outside::and)
-            }).reduce(Outside::default, Outside::merged),
+            Buffer::Floats(all) => self
+                .scanned(all, |chunk| {
+                    let finite = chunk.iter().map(|&v| f64::from(v)).filter(|v| v.is_finite());
+                    finite.fold(Outside::default(), Outside::and)
+                })
+                .reduce(Outside::default, Outside::merged),
             _ => Outside::default(),
         }
     }
 
     /// What `of` returns for the floats of each chunk.
-    fn scanned<'a, R: Send>(&'a self, all: &'a [f32], of: impl Fn(&[f32]) -> R + Sync + Send + 'a) -> impl ParallelIterator<Item = R> + 'a {
+    fn scanned<'a, R: Send>(
+        &'a self,
+        all: &'a [f32],
+        of: impl Fn(&[f32]) -> R + Sync + Send + 'a,
+    ) -> impl ParallelIterator<Item = R> + 'a {
         (0..self.len().div_ceil(CHUNK)).into_par_iter().map(move |number| {
             let mut chunk = vec![0.0; CHUNK.min(self.len() - number * CHUNK)];
             self.view.zip(all, number * CHUNK, &mut chunk, |v| v);

@@ -1,10 +1,13 @@
 //! From a file to the samples that it stores. What they mean is the matter of `encoding`.
 //!
-//! What a file is, is told by how it begins, not by its name.
+//! How a file begins decides what it is, not its name; TGA alone, which begins with nothing of its own, goes by the name.
 
+mod dds;
 mod dwa;
 mod exr;
 mod head;
+mod known;
+mod ktx2;
 mod numpy;
 pub mod panics;
 mod picture;
@@ -17,8 +20,8 @@ use std::path::Path;
 
 use super::raster::Raster;
 use crate::error::Error;
-use place::{Place, alone};
 pub use place::{Decoded, Layer};
+use place::{Place, alone};
 
 /// Decodes the file `path`, which is to be `what`, as in "normal map".
 ///
@@ -42,6 +45,10 @@ pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: &str) -> Resul
         numpy::decode_archive(reader, place)
     } else if begins(b"II*\0") || begins(b"MM\0*") || begins(b"II+\0") || begins(b"MM\0+") {
         tiff::decode(reader, place).map(alone)
+    } else if begins(b"DDS ") {
+        dds::decode(reader, place).map(alone)
+    } else if begins(ktx2::MAGIC) {
+        ktx2::decode(reader, place).map(alone)
     } else {
         picture::decode(reader, place)
     }

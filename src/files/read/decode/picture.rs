@@ -1,15 +1,20 @@
-//! PNG, JPEG and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
+//! PNG, JPEG, BMP, TGA, WebP and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
 
 use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
 
+use image::codecs::bmp::BmpDecoder;
 use image::codecs::hdr::HdrDecoder;
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
+use image::codecs::tga::TgaDecoder;
+use image::codecs::webp::WebPDecoder;
 use image::error::{ImageError, LimitErrorKind};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
 use super::head::{self, PngHead};
+use super::known;
+use super::panics::caught;
 use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::error::Error;
 use crate::files::read::raster::Raster;
@@ -45,11 +50,30 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
             let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
             decode_with(decoder, "HDR", place)
         }
-        Ok(other) => Err(place.bad(format!("expected {FORMATS}, found {other:?}"), "convert it to PNG")),
-        Err(_) => {
-            Err(place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file"))
+        Ok(ImageFormat::Bmp) => {
+            let decoder = BmpDecoder::new(reader).map_err(|error| explain(&error, "BMP", place))?;
+            decode_with(decoder, "BMP", place)
+        }
+        Ok(ImageFormat::WebP) => {
+            let decoder = WebPDecoder::new(reader).map_err(|error| explain(&error, "WebP", place))?;
+            decode_with(decoder, "WebP", place)
+        }
+        _ if known::name(head).is_none() && is_tga(place) => {
+            let decoder = TgaDecoder::new(reader).map_err(|error| explain(&error, "TGA", place))?;
+            decode_with(decoder, "TGA", place)
+        }
+        other => {
+            let other = other.ok().map(|format| format!("{format:?}"));
+            let found = known::name(head).map(str::to_owned).or(other);
+            let found = found.unwrap_or_else(|| "no known image format".to_owned());
+            Err(place.bad(format!("expected {FORMATS}, found {found}"), "convert it to PNG"))
         }
     }
+}
+
+/// By its name: a TGA begins with nothing of its own.
+fn is_tga(place: Place<'_>) -> bool {
+    place.path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"))
 }
 
 fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -> Result<Decoded, Error> {
@@ -58,7 +82,9 @@ fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -
     let (width, height) = decoder.dimensions();
     place.check_size(width.into(), height.into(), decoder.total_bytes())?;
     let notes = ignored(&mut decoder, place);
-    let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    let image = caught(|| DynamicImage::from_decoder(decoder))
+        .map_err(|_| place.invalid(format, "a contradiction in it"))?
+        .map_err(broken)?;
     let found = image.color();
     let raster = raster(image)
         .ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))?;

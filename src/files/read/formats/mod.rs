@@ -3,3 +3,4 @@
 pub mod gltf;
 pub mod mtl;
 pub mod mtlx;
+pub mod principled;

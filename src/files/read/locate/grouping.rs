@@ -8,7 +8,8 @@ use super::names::{Label, Role, words};
 use crate::error::Error;
 
 /// Extensions of the pictures that count, the better one of two last.
-const EXTENSIONS: [&str; 8] = ["jpg", "jpeg", "hdr", "png", "tif", "tiff", "npy", "exr"];
+const EXTENSIONS: [&str; 13] =
+    ["dds", "ktx2", "webp", "jpg", "jpeg", "bmp", "tga", "hdr", "png", "tif", "tiff", "npy", "exr"];
 /// The word of files that are maps by their numbers alone.
 pub const NUMBERED: &str = "0 to 3";
 

@@ -1,0 +1,184 @@
+//! The maps of a glTF material out of its textures and factors.
+
+use gltf::material::{NormalTexture, PbrMetallicRoughness, PbrSpecularGlossiness};
+use gltf::{Material, Texture};
+use rayon::prelude::*;
+
+use super::Scene;
+use crate::error::Error;
+use crate::files::read::formats::principled::{Field, reflectance, separated};
+use crate::files::read::locate::names::Role;
+use crate::files::read::options::Albedo;
+use crate::files::read::raster::Raster;
+use crate::files::read::samples::Samples;
+use crate::files::read::stored::{Pictures, Source};
+use crate::progress::Progress;
+
+/// The refractive index of a material that says none.
+const USUAL_IOR: f32 = 1.5;
+
+/// The pictures of a material, decoded.
+pub struct Surface<'a> {
+    scene: &'a Scene,
+    normal: Option<Source>,
+    /// Base colour or diffuse.
+    colour: Option<Source>,
+    /// Roughness and metallic, or specular and glossiness.
+    packed: Option<Source>,
+    /// The strength of the specular reflection, in alpha.
+    specular: Option<Source>,
+    specular_colour: Option<Source>,
+}
+
+impl<'a> Surface<'a> {
+    /// Decodes all textures at once; each is one step of `progress`.
+    pub fn load(scene: &'a Scene, material: &Material<'_>, progress: &Progress) -> Result<Self, Error> {
+        let normal = material.normal_texture().map(|t| t.texture());
+        let extension = material.specular();
+        let wanted = if let Some(gloss) = material.pbr_specular_glossiness() {
+            let diffuse = gloss.diffuse_texture().map(|t| t.texture());
+            let both = gloss.specular_glossiness_texture().map(|t| t.texture());
+            [
+                (normal, "normal map"),
+                (diffuse, "diffuse map"),
+                (both, "specular and glossiness map"),
+                (None, ""),
+                (None, ""),
+            ]
+        } else {
+            let pbr = material.pbr_metallic_roughness();
+            let base = pbr.base_color_texture().map(|t| t.texture());
+            let both = pbr.metallic_roughness_texture().map(|t| t.texture());
+            let strength = extension.as_ref().and_then(|s| s.specular_texture()).map(|t| t.texture());
+            let colour = extension.as_ref().and_then(|s| s.specular_color_texture()).map(|t| t.texture());
+            [
+                (normal, "normal map"),
+                (base, "base colour map"),
+                (both, "roughness and metallic map"),
+                (strength, "specular map"),
+                (colour, "specular colour map"),
+            ]
+        };
+        progress.begin(wanted.len() as u64);
+        let load = |(texture, what): (Option<Texture<'_>>, &str)| {
+            let source = texture.map(|texture| scene.picture(&texture, what)).transpose();
+            progress.step().and(source)
+        };
+        let mut loaded = wanted.into_par_iter().map(load).collect::<Result<Vec<_>, _>>()?.into_iter();
+        let mut next = || loaded.next().flatten();
+        let normal = next().map(|source| scaled(source, material.normal_texture()));
+        Ok(Self { scene, normal, colour: next(), packed: next(), specular: next(), specular_colour: next() })
+    }
+
+    /// Puts the maps into `pictures`; returns whether colours are linear.
+    pub fn put(mut self, material: &Material<'_>, pictures: &mut Pictures) -> Result<bool, Error> {
+        if let Some(normal) = self.normal.take() {
+            pictures.add(Role::Normal, normal);
+        }
+        match material.pbr_specular_glossiness() {
+            Some(gloss) => {
+                self.put_specular_glossiness(&gloss, pictures);
+                Ok(false)
+            }
+            None => self.put_metallic_roughness(material, pictures),
+        }
+    }
+
+    fn put_metallic_roughness(self, material: &Material<'_>, pictures: &mut Pictures) -> Result<bool, Error> {
+        let pbr = material.pbr_metallic_roughness();
+        let [roughness, metallic] = self.roughness_and_metallic(&pbr);
+        let [r, g, b, _] = pbr.base_color_factor();
+        let dielectric = self.dielectric(material)?;
+        pictures.add(Role::Roughness, roughness);
+        if dielectric.is(reflectance(USUAL_IOR)) {
+            pictures.add(Role::Metallic, metallic);
+            pictures.add(Role::Base, self.colour(self.colour.clone(), [r, g, b]));
+            return Ok(false);
+        }
+        let base = match &self.colour {
+            Some(source) => Field::of(source, Albedo::Srgb).times(Field::constant(&[r, g, b]))?,
+            None => Field::constant(&[r, g, b]),
+        };
+        let [diffuse, specular] = separated(base, Field::of(&metallic, Albedo::Linear), dielectric)?;
+        pictures.add(Role::Diffuse, diffuse.into_source(&self.scene.path, "base colour and metallic"));
+        pictures
+            .add(Role::Specular, specular.into_source(&self.scene.path, "KHR_materials_specular and _ior"));
+        Ok(true)
+    }
+
+    fn roughness_and_metallic(&self, pbr: &PbrMetallicRoughness<'_>) -> [Source; 2] {
+        let channel = |number: usize, factor: f32| match &self.packed {
+            Some(packed) => {
+                Source { raster: packed.raster.channel(number).scaled(&[factor]), ..packed.clone() }
+            }
+            None => Source::constant(&self.scene.path, &[factor]),
+        };
+        [channel(1, pbr.roughness_factor()), channel(2, pbr.metallic_factor())]
+    }
+
+    /// What the dielectric reflects at normal incidence: min(reflectance(ior) * colour, 1) * strength, by
+    /// KHR_materials_ior and KHR_materials_specular.
+    fn dielectric(&self, material: &Material<'_>) -> Result<Field, Error> {
+        let plain = Field::constant(&[reflectance(material.ior().unwrap_or(USUAL_IOR))]);
+        let Some(said) = material.specular() else { return Ok(plain) };
+        let mut colour = plain.times(Field::constant(&said.specular_color_factor()))?;
+        if let Some(source) = &self.specular_colour {
+            colour = colour.times(Field::of(source, Albedo::Srgb))?;
+        }
+        let mut strength = Field::constant(&[said.specular_factor()]);
+        // Alpha that is 1 everywhere is not kept.
+        if let Some((source, alpha)) = self.specular.as_ref().and_then(|s| Some((s, s.raster.alpha.clone()?)))
+        {
+            let raster = source.raster.of(alpha);
+            strength = strength.times(Field::of(&Source { raster, ..source.clone() }, Albedo::Linear))?;
+        }
+        colour.at_most_one().times(strength)
+    }
+
+    /// Diffuse, specular and glossiness of the extension `KHR_materials_pbrSpecularGlossiness`.
+    fn put_specular_glossiness(self, pbr: &PbrSpecularGlossiness<'_>, pictures: &mut Pictures) {
+        let factor = pbr.glossiness_factor();
+        let gloss = match &self.packed {
+            // Alpha that is 1 everywhere is not kept.
+            Some(Source { raster, .. }) => match raster.alpha.clone() {
+                Some(alpha) => raster.of(alpha).scaled(&[factor]),
+                None => Raster::constant("alpha", &[factor]),
+            },
+            None => Raster::constant("factor", &[factor]),
+        };
+        let file = self.packed.as_ref().map_or(&self.scene.path, |source| &source.file).clone();
+        let [r, g, b, _] = pbr.diffuse_factor();
+        pictures.add(Role::Diffuse, self.colour(self.colour.clone(), [r, g, b]));
+        pictures.add(Role::Specular, self.colour(self.packed.clone(), pbr.specular_factor()));
+        pictures.add(Role::Roughness, Source { raster: gloss, file, part: "alpha".to_owned() });
+    }
+
+    /// The sRGB picture of a colour times a linear factor, in sRGB.
+    fn colour(&self, source: Option<Source>, factor: [f32; 3]) -> Source {
+        let source = source.unwrap_or_else(|| Source::constant(&self.scene.path, &[1.0; 3]));
+        source.times(factor, Albedo::Srgb)
+    }
+}
+
+/// The normals of a texture whose x and y are scaled, of length 1 again.
+fn scaled(source: Source, texture: Option<NormalTexture<'_>>) -> Source {
+    let scale = texture.map_or(1.0, |texture| f64::from(texture.scale()));
+    if scale == 1.0 || source.raster.channels.len() < 3 {
+        return source;
+    }
+    scaled_by(source, scale)
+}
+
+/// Normals stored as (n + 1) / 2 with x and y times `scale`, of length 1 again, stored likewise as floats.
+pub fn scaled_by(source: Source, scale: f64) -> Source {
+    let raster = &source.raster;
+    let texel = |index: usize| {
+        let [x, y, z] = raster.rgb(index).map(|c| 2.0 * c - 1.0);
+        let n = [scale * x, scale * y, z];
+        let length = n.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+        n.map(|x| (0.5 * x / length + 0.5) as f32)
+    };
+    let texels: Vec<[f32; 3]> = (0..raster.width * raster.height).into_par_iter().map(texel).collect();
+    let channels = Samples::interleaved(texels.as_flattened().to_vec(), 3);
+    Source { raster: Raster { channels, alpha: None, ..raster.without_samples() }, ..source }
+}
