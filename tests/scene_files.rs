@@ -1,5 +1,7 @@
 //! Materials of files that name their textures: glTF, MTL and MaterialX.
 
+mod extensions;
+mod materialx;
 pub mod mtl;
 
 use std::path::Path;

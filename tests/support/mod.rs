@@ -8,4 +8,5 @@ pub mod gpu;
 pub mod pictures;
 pub mod png;
 pub mod points;
+pub mod textures;
 pub mod tolerance;

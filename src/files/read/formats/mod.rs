@@ -3,4 +3,5 @@
 pub mod gltf;
 pub mod mtl;
 pub mod mtlx;
-pub mod principled;
+mod principled;
+mod scaled_normals;

@@ -1,16 +1,16 @@
 //! The maps of a glTF material out of its textures and factors.
 
-use gltf::material::{NormalTexture, PbrMetallicRoughness, PbrSpecularGlossiness};
+use gltf::material::{PbrMetallicRoughness, PbrSpecularGlossiness};
 use gltf::{Material, Texture};
 use rayon::prelude::*;
 
 use super::Scene;
 use crate::error::Error;
 use crate::files::read::formats::principled::{Field, reflectance, separated};
+use crate::files::read::formats::scaled_normals::scaled;
 use crate::files::read::locate::names::Role;
 use crate::files::read::options::Albedo;
 use crate::files::read::raster::Raster;
-use crate::files::read::samples::Samples;
 use crate::files::read::stored::{Pictures, Source};
 use crate::progress::Progress;
 
@@ -66,7 +66,10 @@ impl<'a> Surface<'a> {
         };
         let mut loaded = wanted.into_par_iter().map(load).collect::<Result<Vec<_>, _>>()?.into_iter();
         let mut next = || loaded.next().flatten();
-        let normal = next().map(|source| scaled(source, material.normal_texture()));
+        let normal = next().map(|source| {
+            let scale = material.normal_texture().map_or(1.0, |texture| f64::from(texture.scale()));
+            scaled(source, scale)
+        });
         Ok(Self { scene, normal, colour: next(), packed: next(), specular: next(), specular_colour: next() })
     }
 
@@ -158,27 +161,4 @@ impl<'a> Surface<'a> {
         let source = source.unwrap_or_else(|| Source::constant(&self.scene.path, &[1.0; 3]));
         source.times(factor, Albedo::Srgb)
     }
-}
-
-/// The normals of a texture whose x and y are scaled, of length 1 again.
-fn scaled(source: Source, texture: Option<NormalTexture<'_>>) -> Source {
-    let scale = texture.map_or(1.0, |texture| f64::from(texture.scale()));
-    if scale == 1.0 || source.raster.channels.len() < 3 {
-        return source;
-    }
-    scaled_by(source, scale)
-}
-
-/// Normals stored as (n + 1) / 2 with x and y times `scale`, of length 1 again, stored likewise as floats.
-pub fn scaled_by(source: Source, scale: f64) -> Source {
-    let raster = &source.raster;
-    let texel = |index: usize| {
-        let [x, y, z] = raster.rgb(index).map(|c| 2.0 * c - 1.0);
-        let n = [scale * x, scale * y, z];
-        let length = n.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
-        n.map(|x| (0.5 * x / length + 0.5) as f32)
-    };
-    let texels: Vec<[f32; 3]> = (0..raster.width * raster.height).into_par_iter().map(texel).collect();
-    let channels = Samples::interleaved(texels.as_flattened().to_vec(), 3);
-    Source { raster: Raster { channels, alpha: None, ..raster.without_samples() }, ..source }
 }
