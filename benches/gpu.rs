@@ -18,7 +18,7 @@ use svbrdf::math::vec3::Vec3;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::picture::camera::Camera;
-use svbrdf::picture::content::Shown;
+use svbrdf::picture::quantity::Quantity;
 use svbrdf::progress::Progress;
 use svbrdf::render::render;
 
@@ -61,7 +61,7 @@ impl Picture {
     }
 
     fn shade(&self, textures: &MaterialTextures) {
-        let params = ShadeParams { scene: SCENE, convention: PRINTED, shown: Shown::Rendering };
+        let params = ShadeParams { scene: SCENE, convention: PRINTED, quantity: Quantity::Rendering };
         self.shading.draw(self.gpu, textures, &params, &self.target);
         self.wait();
     }
@@ -112,7 +112,7 @@ fn display_params() -> DisplayParams {
     DisplayParams {
         camera,
         exposure_ev: 0.0,
-        mode: DisplayMode::Shown,
+        mode: DisplayMode::Value,
         encoding: Encoding::Radiance,
         show_clipping: false,
         epsilon: 0.01,

@@ -1,6 +1,6 @@
 // Pass 2: one fragment a screen pixel. What the camera sees of the shaded texels, encoded for the screen.
 
-const MODE_SHOWN = 0u;
+const MODE_VALUE = 0u;
 const MODE_WIPE = 1u;
 const MODE_DIFFERENCE = 2u;
 // The log difference that takes the colour map's last colour at exposure 0.

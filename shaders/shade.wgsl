@@ -1,15 +1,15 @@
 // Pass 1: one fragment a texel of the map. Algorithm 3, or one of the maps, as linear floats.
 
-const SHOWN_RENDERING = 0u;
-const SHOWN_NORMAL = 1u;
-const SHOWN_DIFFUSE = 2u;
-const SHOWN_SPECULAR = 3u;
-const SHOWN_ROUGHNESS = 4u;
+const QUANTITY_RENDERING = 0u;
+const QUANTITY_NORMAL = 1u;
+const QUANTITY_DIFFUSE = 2u;
+const QUANTITY_SPECULAR = 3u;
+const QUANTITY_ROUGHNESS = 4u;
 
 struct Shading {
     rays: Rays,
     model: Model,
-    shown: u32,
+    quantity: u32,
     // The largest number that the target holds.
     largest: f32,
 }
@@ -26,11 +26,11 @@ fn load_texel(place: vec2u) -> Texel {
 
 fn shade_texel(place: vec2u) -> vec3f {
     let texel = load_texel(place);
-    switch shading.shown {
-        case SHOWN_NORMAL { return texel.normal * 0.5 + 0.5; }
-        case SHOWN_DIFFUSE { return texel.diffuse; }
-        case SHOWN_SPECULAR { return texel.specular; }
-        case SHOWN_ROUGHNESS { return vec3f(texel.roughness); }
+    switch shading.quantity {
+        case QUANTITY_NORMAL { return texel.normal * 0.5 + 0.5; }
+        case QUANTITY_DIFFUSE { return texel.diffuse; }
+        case QUANTITY_SPECULAR { return texel.specular; }
+        case QUANTITY_ROUGHNESS { return vec3f(texel.roughness); }
         default {}
     }
     let c = position(place.x, place.y, textureDimensions(normal_roughness));

@@ -35,7 +35,7 @@
 //! | [`loss`] | Algorithm 1: plain and generic, and fused for f32; standard errors |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`picture::tone`], [`picture::colour_map`], [`picture::export`] | what a screen shows, of radiance and of differences; pictures as PNG and EXR files |
-//! | [`picture::camera`], [`picture::content`] | where in a pane the material is seen, and what of it |
+//! | [`picture::camera`], [`picture::quantity`] | where in a pane the material is seen; rendering or which map |
 //! | [`report`] | losses with what gives them a meaning, as text |
 //! | [`progress`], [`error`] | long work watched and cancelled; one error variant a cause |
 #![cfg_attr(

@@ -2,7 +2,7 @@
 
 mod backend;
 mod ends;
-mod kept;
+mod sidecar;
 mod loss;
 mod materials;
 mod notes;

@@ -2,7 +2,7 @@
 
 mod conventions;
 pub mod decoders;
-mod kept;
+mod sidecar;
 mod killed;
 mod normals;
 mod options;

@@ -266,7 +266,7 @@ fn what_cannot_be_computed_is_an_error() {
     let progress = Progress::default();
     let sizes = losses_f32(&gt, &[&other], &scenes(1, 1, c), c, &progress);
     assert!(matches!(sizes, Err(Error::SizesDiffer { .. })));
-    assert!(matches!(losses_f32(&gt, &[&gt], &[], c, &progress), Err(Error::Usage(_))));
+    assert!(matches!(losses_f32(&gt, &[&gt], &[], c, &progress), Err(Error::InvalidRequest(_))));
     assert_eq!(losses_f32(&gt, &[], &scenes(1, 1, c), c, &progress).unwrap(), []);
     progress.cancel();
     assert!(matches!(losses_f32(&gt, &[&gt], &scenes(1, 1, c), c, &progress), Err(Error::Cancelled)));

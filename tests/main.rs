@@ -16,6 +16,7 @@ mod golden_loss;
 mod golden_points;
 #[cfg(feature = "gpu")]
 mod gpu_parity;
+mod layering;
 mod mutations;
 mod physics;
 mod reading;

@@ -32,7 +32,7 @@ fn layouts() -> Vec<Layout> {
     vec![
         layout!(Model { intensity, roughness_floor, light_z_floor, clamp_n_dot_h, d_floor, g_floor }),
         layout!(Rays { view, near, light }),
-        layout!(Shading { rays, model, shown, largest }),
+        layout!(Shading { rays, model, quantity, largest }),
         layout!(Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
         layout!(Display { camera, background, encoding, exposure, epsilon, wipe, mode, show_clipping }),
         layout!(Band { model, size, first, texels, stride, blocks, predictions, epsilon }),

@@ -10,7 +10,7 @@ use crate::image::Image;
 use crate::material::Material;
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 
 /// A graphics device, its queue, and what is known about it. Clones share the device.
 #[derive(Clone, Debug)]
@@ -86,7 +86,7 @@ impl Gpu {
         let textures = MaterialTextures::upload(self, material)?;
         let shading = Shading::new(self)?;
         let target = shading.target(self, material.size())?;
-        let params = ShadeParams { scene: *scene, convention: *convention, shown: Shown::Rendering };
+        let params = ShadeParams { scene: *scene, convention: *convention, quantity: Quantity::Rendering };
         shading.draw(self, &textures, &params, &target);
         target.read_back(self)
     }

@@ -10,7 +10,7 @@ use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, unifo
 use super::{Gpu, Shaded, shaders, uniforms};
 use crate::error::Error;
 use crate::picture::camera::Camera;
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 
 /// How a pane shows its pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct DisplayParams {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DisplayMode {
     /// The first.
-    Shown,
+    Value,
     /// The reference left of this x of the pane, which runs from -1 to 1, and the first right of it.
     Wipe(f32),
     /// How far they differ, as a colour of [`heat`](crate::picture::colour_map::heat): of renderings (of [`Encoding::Radiance`])
@@ -52,12 +52,12 @@ pub enum Encoding {
     Data,
 }
 
-impl From<Shown> for Encoding {
-    fn from(shown: Shown) -> Self {
-        match shown {
-            Shown::Rendering => Self::Radiance,
-            Shown::Diffuse | Shown::Specular => Self::Albedo,
-            Shown::Normal | Shown::Roughness => Self::Data,
+impl From<Quantity> for Encoding {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Rendering => Self::Radiance,
+            Quantity::Diffuse | Quantity::Specular => Self::Albedo,
+            Quantity::Normal | Quantity::Roughness => Self::Data,
         }
     }
 }

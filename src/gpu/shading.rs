@@ -13,7 +13,7 @@ use super::{Gpu, MaterialTextures, shaders, uniforms};
 use crate::error::Error;
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 
 /// The largest 16-bit float.
 const LARGEST_F16: f32 = 65504.0;
@@ -23,7 +23,7 @@ const LARGEST_F16: f32 = 65504.0;
 pub struct ShadeParams {
     pub scene: Scene,
     pub convention: Convention,
-    pub shown: Shown,
+    pub quantity: Quantity,
 }
 
 /// The pipeline of pass 1.

@@ -10,7 +10,7 @@ use crate::math::vec3::Vec3;
 use crate::model::brdf;
 use crate::model::scene::{self, Kind};
 use crate::picture::camera;
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 
 /// `Model` of brdf.wgsl.
 #[repr(C)]
@@ -68,7 +68,7 @@ impl From<&scene::Scene> for Rays {
 pub struct Shading {
     pub rays: Rays,
     pub model: Model,
-    pub shown: u32,
+    pub quantity: u32,
     pub largest: f32,
     pub pad: [u32; 2],
 }
@@ -76,15 +76,15 @@ pub struct Shading {
 impl Shading {
     /// For a target whose largest number is `largest`.
     pub(super) fn new(params: &ShadeParams, largest: f32) -> Self {
-        let shown = match params.shown {
-            Shown::Rendering => 0,
-            Shown::Normal => 1,
-            Shown::Diffuse => 2,
-            Shown::Specular => 3,
-            Shown::Roughness => 4,
+        let quantity = match params.quantity {
+            Quantity::Rendering => 0,
+            Quantity::Normal => 1,
+            Quantity::Diffuse => 2,
+            Quantity::Specular => 3,
+            Quantity::Roughness => 4,
         };
         let model = Model::from(&brdf::Model::from(&params.convention));
-        Self { rays: Rays::from(&params.scene), model, shown, largest, pad: [0; 2] }
+        Self { rays: Rays::from(&params.scene), model, quantity, largest, pad: [0; 2] }
     }
 }
 
@@ -182,7 +182,7 @@ pub struct Display {
 impl From<&DisplayParams> for Display {
     fn from(p: &DisplayParams) -> Self {
         let (mode, wipe) = match p.mode {
-            DisplayMode::Shown => (0, 0.0),
+            DisplayMode::Value => (0, 0.0),
             DisplayMode::Wipe(x) => (1, x),
             DisplayMode::Difference => (2, 0.0),
         };

@@ -64,16 +64,16 @@ impl LossParams {
     /// The scenes that these parameters name.
     ///
     /// # Errors
-    /// [`Error::Usage`] without scenes or with more than [`LossParams::MAX_SCENES`].
+    /// [`Error::InvalidRequest`] without scenes or with more than [`LossParams::MAX_SCENES`].
     pub fn scenes(&self) -> Result<Vec<Scene>, Error> {
         let count = self.near.saturating_add(self.distant);
         if count == 0 {
-            return Err(Error::Usage(
+            return Err(Error::InvalidRequest(
                 "a loss needs at least one scene; ask for more near-field or distant scenes".to_owned(),
             ));
         }
         if count > Self::MAX_SCENES {
-            return Err(Error::Usage(format!(
+            return Err(Error::InvalidRequest(format!(
                 "{count} scenes are more than {}; ask for fewer",
                 Self::MAX_SCENES
             )));
@@ -153,7 +153,7 @@ pub type Losses<T> = fn(
 /// All predictions see the same scenes. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::Usage`] without scenes, [`Error::Cancelled`].
+/// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::InvalidRequest`] without scenes, [`Error::Cancelled`].
 pub fn losses<T: Real>(
     ground_truth: &Material<T>,
     predictions: &[&Material<T>],
@@ -243,7 +243,7 @@ pub(crate) fn check<T: Real>(
     scenes: &[Scene],
 ) -> Result<(), Error> {
     if scenes.is_empty() {
-        return Err(Error::Usage("a loss needs at least one scene".to_owned()));
+        return Err(Error::InvalidRequest("a loss needs at least one scene".to_owned()));
     }
     for scene in scenes {
         scene.check().map_err(|problem| Error::UnusableScene { problem })?;
@@ -267,6 +267,6 @@ pub fn check_same_size<T: Real>(ground_truth: &Material<T>, prediction: &Materia
         first_size: ground_truth.size(),
         second: format!("prediction {}", prediction.name()),
         second_size: prediction.size(),
-        remedy: "bring them to one size with --resize-to gt, pred or a width",
+        remedy: "resize them to one size",
     })
 }

@@ -2,6 +2,6 @@
 
 pub mod camera;
 pub mod colour_map;
-pub mod content;
 pub mod export;
+pub mod quantity;
 pub mod tone;

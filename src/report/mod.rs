@@ -3,7 +3,7 @@
 mod names;
 mod text;
 
-pub use names::told_apart;
+pub use names::distinct_names;
 
 use crate::loss::{Estimate, Loss, Texels};
 use crate::model::convention::Convention;
@@ -31,11 +31,6 @@ pub struct Report {
 }
 
 impl Report {
-    /// A table for people, with its last line break.
-    pub fn text(&self) -> String {
-        text::write(self)
-    }
-
     /// How much larger each further loss is than the first, on the same scenes.
     pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
         let Some((first, others)) = self.losses.split_first() else { return Vec::new() };

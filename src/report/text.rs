@@ -7,13 +7,16 @@ use crate::model::scene::Kind;
 
 const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interval"];
 
-pub(super) fn write(report: &Report) -> String {
-    let mut rows = vec![HEADINGS.map(str::to_owned)];
-    rows.extend(report.losses.iter().map(cells));
-    let widths: [usize; 4] =
-        std::array::from_fn(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0));
-    let lines: String = rows.iter().map(|row| line(row, widths)).collect();
-    format!("{}\n{lines}{}", header(report), differences(report))
+impl Report {
+    /// A table for people, with its last line break.
+    pub fn text(&self) -> String {
+        let mut rows = vec![HEADINGS.map(str::to_owned)];
+        rows.extend(self.losses.iter().map(cells));
+        let widths: [usize; 4] =
+            std::array::from_fn(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0));
+        let lines: String = rows.iter().map(|row| line(row, widths)).collect();
+        format!("{}\n{lines}{}", header(self), differences(self))
+    }
 }
 
 /// What the scenes have in common cancels in a difference: its error is its own.

@@ -2,7 +2,9 @@
 
 use std::time::Instant;
 
-use super::{Choice, Family, Pair, Point, Reference, Study};
+use super::choice::{Choice, Family};
+use super::pair::Pair;
+use super::result::{Point, Reference, Study};
 use crate::error::Error;
 use crate::files::write::{self, Depth};
 use crate::loss::{Draw, Estimate, Loss, Losses, Texels, losses_of, losses_of_f32};
@@ -70,7 +72,7 @@ impl Drawn {
 
 /// The loss of the one prediction.
 fn the_one(losses: Vec<Loss>) -> Result<Loss, Error> {
-    let none = || Error::Usage("a study needs a prediction".to_owned());
+    let none = || Error::InvalidRequest("a study needs a prediction".to_owned());
     losses.into_iter().next().ok_or_else(none)
 }
 
@@ -248,7 +250,7 @@ impl<'a> Bench<'a> {
 fn kernel<'a>(pair: &Pair<'a>, family: Family) -> Result<Kernel<'a>, Error> {
     let Pair { ground_truth, prediction, convention, gpu } = *pair;
     let of_files = |depth| -> Result<Kernel<'a>, Error> {
-        let [truth, prediction] = [write::held(ground_truth, depth)?, write::held(prediction, depth)?];
+        let [truth, prediction] = [write::after_round_trip(ground_truth, depth)?, write::after_round_trip(prediction, depth)?];
         Ok(Box::new(move |drawn, p| drawn.loss(losses_of_f32, &truth, &prediction, &convention, p)))
     };
     Ok(match (family, gpu) {

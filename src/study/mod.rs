@@ -1,7 +1,7 @@
 //! Speed against accuracy: what each setting of the loss costs on this machine, and how far off it is for this pair.
 //!
 //! ```no_run
-//! use svbrdf::convention::Convention;
+//! use svbrdf::model::convention::Convention;
 //! use svbrdf::progress::Progress;
 //! use svbrdf::{samples, study};
 //!
@@ -25,121 +25,18 @@
 
 mod choice;
 mod measure;
+mod pair;
 pub mod plot;
+mod result;
 pub mod text;
 
 pub use choice::{Backend, Choice, Family};
-
-use std::fmt;
+pub use pair::{OnGpu, Pair};
+pub use result::{Point, Reference, Study};
 
 use crate::error::Error;
-use crate::files::write::Depth;
-use crate::loss::Loss;
-use crate::material::Material;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
 use crate::progress::Progress;
 use measure::Bench;
-
-/// Errors below this many standard errors of the reference are not told from 0.
-const RESOLVED: f64 = 3.0;
-
-/// Errors that differ by less are one: f64 or an adapter moves all losses of a choice by next to nothing.
-const SAME: f64 = 0.99;
-
-/// The loss on a graphics adapter: [`crate::loss::losses_f32`] of one prediction, elsewhere.
-pub type OnGpu<'a> =
-    dyn Fn(&Material<f32>, &Material<f32>, &[Scene], &Convention, &Progress) -> Result<Vec<Loss>, Error> + 'a;
-
-/// What is studied, and what with.
-#[derive(Clone, Copy)]
-pub struct Pair<'a> {
-    pub ground_truth: &'a Material<f32>,
-    pub prediction: &'a Material<f32>,
-    pub convention: Convention,
-    /// `None` where there is no adapter.
-    pub gpu: Option<&'a OnGpu<'a>>,
-}
-
-impl fmt::Debug for Pair<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names = (self.ground_truth.name(), self.prediction.name());
-        f.debug_struct("Pair")
-            .field("names", &names)
-            .field("gpu", &self.gpu.is_some())
-            .finish_non_exhaustive()
-    }
-}
-
-/// What errors are measured against: the loss over 8 times the scenes of any choice and texels of their own, from another
-/// seed, in f32; plus what f64 adds to it on a few. Choices on all texels show that these are no worse.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reference {
-    pub loss: f64,
-    /// Relative standard error of `loss`.
-    pub error: f64,
-    pub scenes: usize,
-}
-
-/// A choice that was measured.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
-    pub choice: Choice,
-    /// Median time of one loss. That of stored maps is the time of float ones, which is what they are once read.
-    pub seconds: f64,
-    /// Root mean square of (loss - reference) / reference over `seeds`.
-    pub error: f64,
-    /// Mean relative difference from f32 on the CPU and float maps over the same scenes.
-    pub shift: f64,
-    /// How many seeds `error` is over.
-    pub seeds: usize,
-    /// How many times the choice was run. Where these are fewer than the seeds, the other losses are those of f32 on
-    /// the CPU and float maps over the same scenes, plus `shift`.
-    pub runs: usize,
-    /// Whether every setting that is as fast is less accurate, by more than 1 in 100. Maps are no setting: their points never are.
-    pub pareto: bool,
-}
-
-/// All that was measured.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Study {
-    /// Of the ground truth and of the prediction.
-    pub names: [String; 2],
-    /// Width and height in texels.
-    pub size: [usize; 2],
-    pub convention: Convention,
-    /// Of the CPU.
-    pub threads: usize,
-    pub reference: Reference,
-    pub points: Vec<Point>,
-    /// What was not measured, and why.
-    pub left_out: Vec<String>,
-}
-
-impl Study {
-    fn add(&mut self, point: Point) {
-        self.points.push(point);
-        mark(&mut self.points);
-    }
-
-    /// The fastest setting whose error is at most `error`.
-    pub fn cheapest(&self, error: f64) -> Option<&Point> {
-        let enough = self.points.iter().filter(|p| p.pareto && p.error <= error);
-        enough.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
-    }
-
-    /// The points of the Pareto front, the fastest first.
-    pub fn front(&self) -> Vec<&Point> {
-        let mut front: Vec<_> = self.points.iter().filter(|p| p.pareto).collect();
-        front.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-        front
-    }
-
-    /// The least error that the reference can tell from none.
-    pub fn least_error(&self) -> f64 {
-        RESOLVED * self.reference.error
-    }
-}
 
 /// Measures every choice for `pair`, unless one loss would take too long; `update` sees the study after each point.
 ///
@@ -163,76 +60,4 @@ pub fn run(pair: &Pair<'_>, progress: &Progress, mut update: impl FnMut(&Study))
         bench.family(family, &mut study, &mut update)?;
     }
     Ok(study)
-}
-
-/// Marks the points of the Pareto front: from the fastest on, each that is more accurate than all before it.
-fn mark(points: &mut [Point]) {
-    let mut settings = Vec::new();
-    for point in points {
-        point.pareto = false;
-        if point.choice.maps == Depth::Float {
-            settings.push(point);
-        }
-    }
-    settings.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then(a.error.total_cmp(&b.error)));
-    let mut least = f64::INFINITY;
-    for point in settings {
-        point.pareto = point.error < SAME * least;
-        if point.pareto {
-            least = point.error;
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn point(seconds: f64, error: f64, family: Family) -> Point {
-        let Some(choice) = family.choices().next() else { panic!("no choice") };
-        Point { choice, seconds, error, shift: 0.0, seeds: 1, runs: 1, pareto: false }
-    }
-
-    fn marks(points: &[Point]) -> Vec<bool> {
-        let mut points = points.to_vec();
-        mark(&mut points);
-        points.iter().map(|p| p.pareto).collect()
-    }
-
-    #[test]
-    fn the_front_is_what_nothing_beats() {
-        let p = |seconds, error| point(seconds, error, Family::Sobol);
-        let good = [p(1.0, 0.1), p(2.0, 0.2), p(3.0, 0.01), p(3.0, 0.02), p(0.5, 0.1), p(4.0, 0.01)];
-        assert_eq!(marks(&good), [false, false, true, false, true, false]);
-        // The same error but for the rounding of f64 is not worth its time.
-        assert_eq!(marks(&[p(1.0, 0.1), p(40.0, 0.099_999)]), [true, false]);
-        // A planted fault: one point too good to be true takes the whole front.
-        let faulty = [&good[..], &[p(0.4, 0.001)]].concat();
-        assert_eq!(marks(&faulty), [false, false, false, false, false, false, true]);
-    }
-
-    #[test]
-    fn maps_are_no_setting() {
-        let points = [point(1.0, 0.1, Family::Sobol), point(0.5, 0.05, Family::EightBitMaps)];
-        assert_eq!(marks(&points), [true, false]);
-    }
-
-    #[test]
-    fn the_cheapest_is_on_the_front_and_good_enough() {
-        let mut points: Vec<_> = [(1.0, 0.1), (2.0, 0.02), (4.0, 0.005)]
-            .map(|(seconds, error)| point(seconds, error, Family::Sobol))
-            .into();
-        mark(&mut points);
-        let study = Study {
-            names: Default::default(),
-            size: [1, 1],
-            convention: Convention::default(),
-            threads: 1,
-            reference: Reference { loss: 1.0, error: 1e-4, scenes: 24 },
-            points,
-            left_out: Vec::new(),
-        };
-        let seconds = |error| study.cheapest(error).map(|p| p.seconds);
-        assert_eq!([0.1, 0.03, 0.01, 0.001].map(seconds), [Some(1.0), Some(2.0), Some(4.0), None]);
-    }
 }

@@ -11,7 +11,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 
-use super::{Family, Point, Study};
+use super::choice::Family;
+use super::result::{Point, Study};
 use crate::error::Error;
 use crate::files::atomic::Destination;
 use crate::progress::Progress;
@@ -29,7 +30,7 @@ type Pixel = (i32, i32);
 
 /// The kinds of files that plots are written into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum PlotFormat {
     Svg,
     Png,
 }
@@ -39,10 +40,10 @@ pub enum Format {
 /// # Errors
 /// [`Error::UnknownName`] for an extension other than svg and png, [`Error::Unwritable`] where its folder is missing or
 /// it is itself a folder.
-pub fn destination(path: &Path) -> Result<Destination<Format>, Error> {
+pub fn destination(path: &Path) -> Result<Destination<PlotFormat>, Error> {
     let format = |extension: &str| match extension {
-        "svg" => Some(Format::Svg),
-        "png" => Some(Format::Png),
+        "svg" => Some(PlotFormat::Svg),
+        "png" => Some(PlotFormat::Png),
         _ => None,
     };
     Destination::among(path, format, "extension of a plot", ".svg, .png")
@@ -52,10 +53,10 @@ pub fn destination(path: &Path) -> Result<Destination<Format>, Error> {
 ///
 /// # Errors
 /// [`Error::Unwritable`], [`Error::Cancelled`].
-pub fn write(study: &Study, destination: &Destination<Format>, progress: &Progress) -> Result<(), Error> {
+pub fn write(study: &Study, destination: &Destination<PlotFormat>, progress: &Progress) -> Result<(), Error> {
     destination.replace(progress, |file| match destination.format {
-        Format::Svg => file.write_all(svg(study)?.as_bytes()),
-        Format::Png => png(file, &rgb(study)?),
+        PlotFormat::Svg => file.write_all(svg(study)?.as_bytes()),
+        PlotFormat::Png => png(file, &rgb(study)?),
     })
 }
 

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use super::{Backend, Family, Point, Study};
+use super::choice::{Backend, Family};
+use super::result::{Point, Study};
 use crate::error::Error;
 use crate::files::write::Depth;
 use crate::loss::Precision;

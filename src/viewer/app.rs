@@ -1,4 +1,4 @@
-//! The application: owns the model, polls the workers, draws the panels, carries out what they return.
+//! The application: owns the model, polls the workers, draws the panels, carries out their commands.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -6,11 +6,13 @@ use std::time::Instant;
 use eframe::egui;
 use eframe::egui::util::undoer::{self, Undoer};
 
-use super::command::Command;
+use super::command::{Command, LossCommand, MaterialsCommand, WindowCommand};
 use super::gpu_view::GpuView;
 use super::loaded::Rules;
 use super::loss_request::LossRequest;
 use super::loss_run::LossRun;
+use super::message::Message;
+use super::options::ViewerOptions;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
 use super::settings::{self, Settings};
@@ -19,20 +21,20 @@ use super::state::ViewState;
 use super::study::StudyRun;
 use super::viewport::Viewport;
 use super::watch::Watch;
-use super::worker::Job;
-use super::{ViewerOptions, keys, theme};
+use super::worker::Task;
+use super::{keys, theme};
 use crate::files::read::ReadOptions;
 use crate::loss::Loss;
 use crate::material::Material;
 use crate::study::Study;
 
-/// The viewer. What it shows is public for tests; what changes it are [`Command`]s.
+/// The viewer. Only [`Command`]s change it.
 #[derive(Debug)]
 pub struct App {
     pub state: ViewState,
     pub settings: Settings,
-    /// The settings as they were stored last.
-    kept: Settings,
+    /// The settings as last stored.
+    stored: Settings,
     pub(super) slots: Slots,
     pub(super) undoer: Undoer<ViewState>,
     pub(super) loss: LossRun,
@@ -41,21 +43,21 @@ pub struct App {
     pub(super) gpu: Option<GpuView>,
     pub(super) viewport: Viewport,
     pub(super) watch: Watch,
-    pub(super) browsing: Option<Job<Vec<PathBuf>>>,
-    pub(super) saving: Option<Job<PathBuf>>,
+    pub(super) browsing: Option<Task<Vec<PathBuf>>>,
+    pub(super) saving: Option<Task<PathBuf>>,
     pub(super) open_window: Option<OpenWindow>,
     pub(super) save_window: Option<SaveWindow>,
     pub(super) help: bool,
     pub(super) swapped: bool,
-    /// How materials were read that were opened last, which the open window offers again.
+    /// How the last materials were read: what the open dialog starts with.
     pub(super) read: ReadOptions,
-    /// What went wrong or was done, the latest last, until a person has read it.
-    messages: Vec<String>,
+    /// What went wrong or was done, the latest last, until it is dismissed.
+    messages: Vec<Message>,
     pub(super) frame_ms: f32,
 }
 
 impl App {
-    /// Starts to read what `options` names; the window is there before it has been read.
+    /// Starts to read the materials that `options` names, and returns before they have been read.
     pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
         theme::install(&cc.egui_ctx);
         let settings: Settings =
@@ -64,7 +66,7 @@ impl App {
         let gpu = match cc.wgpu_render_state.as_ref().map(GpuView::new) {
             Some(Ok(gpu)) => Some(gpu),
             Some(Err(error)) => {
-                messages.push(error.to_string());
+                messages.push(Message::Failed(error));
                 None
             }
             None => None,
@@ -72,7 +74,7 @@ impl App {
         let undo = undoer::Settings { stable_time: 0.4, ..Default::default() };
         let mut app = Self {
             state: ViewState::default(),
-            kept: settings.clone(),
+            stored: settings.clone(),
             settings,
             slots: Slots::default(),
             undoer: Undoer::with_settings(undo),
@@ -108,21 +110,21 @@ impl App {
         self.slots.open(ctx, gpu, sources, Target::Everything);
     }
 
-    /// What is asked of the loss: by the settings, in the convention that is rendered.
+    /// The loss that the settings ask for, in the convention of the renderings.
     pub(super) fn loss_request(&self) -> LossRequest {
         self.settings.loss.request(self.state.convention())
     }
 
-    /// The losses of the predictions, where they have been computed to the end for what is shown now.
+    /// The losses of the predictions, once they are complete for the current materials and settings.
     pub fn losses(&self) -> Option<&[Loss]> {
         self.loss.finished(&self.slots, &self.loss_request())
     }
 
-    /// What has been measured of the chosen pair, and whether that is all.
+    /// The study of the chosen pair as far as it has got, and whether it is complete.
     pub fn study(&self) -> Option<(&Study, bool)> {
         let (study, current) =
-            self.study.shown(&self.slots, self.state.prediction, &self.state.convention())?;
-        current.then_some((study, self.study.job().is_none()))
+            self.study.measured(&self.slots, self.state.prediction, &self.state.convention())?;
+        current.then_some((study, self.study.task().is_none()))
     }
 
     /// The names of the materials, the ground truth first.
@@ -140,39 +142,44 @@ impl App {
         !self.slots.openings.is_empty()
     }
 
-    /// What the window tells the person: errors and what was done.
-    pub fn messages(&self) -> &[String] {
+    /// The texts of the messages in the window: errors and results, the latest last.
+    pub fn messages(&self) -> Vec<String> {
+        self.messages.iter().map(Message::to_string).collect()
+    }
+
+    /// The messages in the window, the latest last.
+    pub(super) fn message_list(&self) -> &[Message] {
         &self.messages
     }
 
-    /// Tells the person something; what has been said before moves to the end.
-    pub(super) fn say(&mut self, messages: impl IntoIterator<Item = String>) {
+    /// Adds messages; a repeated one moves to the end.
+    pub(super) fn report(&mut self, messages: impl IntoIterator<Item = Message>) {
         for message in messages {
-            self.messages.retain(|said| *said != message);
+            let text = message.to_string();
+            self.messages.retain(|earlier| earlier.to_string() != text);
             self.messages.push(message);
         }
     }
 
-    /// Takes what was said off the window.
-    pub(super) fn dismiss(&mut self) {
+    pub(super) fn dismiss_messages(&mut self) {
         self.messages.clear();
     }
 
-    /// Takes over what the workers have finished.
+    /// Takes over the results of the workers.
     fn poll(&mut self, ctx: &egui::Context) {
-        let errors = self.slots.poll(ctx);
-        self.say(errors);
+        let problems = self.slots.poll(ctx);
+        self.report(problems);
         let opened = std::mem::take(&mut self.slots.opened);
         opened.iter().rev().for_each(|path| self.settings.remember(path));
         let error = self.study.poll(ctx);
-        self.say(error);
+        self.report(error.map(Message::Failed));
         let fault = self.gpu.as_ref().and_then(|g| g.gpu.take_fault());
-        self.say(fault.map(|error| error.to_string()));
+        self.report(fault.map(Message::Failed));
         if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
             self.saving = None;
-            self.say([match result {
-                Ok(path) => format!("Saved {}", std::path::absolute(&path).unwrap_or(path).display()),
-                Err(error) => error.to_string(),
+            self.report([match result {
+                Ok(path) => Message::Saved(std::path::absolute(&path).unwrap_or(path)),
+                Err(error) => Message::Failed(error),
             }]);
         }
         if let Some(result) = self.browsing.as_ref().and_then(|job| job.poll(ctx)) {
@@ -191,35 +198,36 @@ impl App {
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
-        let escape = match (self.help, &self.open_window, &self.save_window) {
-            (true, _, _) => Command::SetHelp(false),
-            (_, Some(_), _) => Command::ShowOpen(false),
-            (_, _, Some(_)) => Command::ShowSave(false),
-            _ if self.study_window => Command::ShowStudy(false),
-            _ => Command::CancelLoss,
+        let escape: Command = match (self.help, &self.open_window, &self.save_window) {
+            (true, _, _) => WindowCommand::ShowHelp(false).into(),
+            (_, Some(_), _) => WindowCommand::ShowOpen(false).into(),
+            (_, _, Some(_)) => WindowCommand::ShowSave(false).into(),
+            _ if self.study_window => LossCommand::ShowStudy(false).into(),
+            _ => LossCommand::Cancel.into(),
         };
         let now = keys::Context { enter_is_free: ctx.memory(|m| m.focused()).is_none(), escape: &escape };
         keys::commands(ctx, now)
     }
 
-    /// Stores changed settings at once, not only at the end: programs are killed, too.
-    fn keep_settings(&mut self, ctx: &egui::Context, storage: Option<&mut (dyn eframe::Storage + 'static)>) {
-        if self.settings == self.kept || ctx.input(|i| i.pointer.any_down()) {
+    /// Stores changed settings at once: a program that is killed stores nothing at its end.
+    fn store_settings(&mut self, ctx: &egui::Context, storage: Option<&mut (dyn eframe::Storage + 'static)>) {
+        if self.settings == self.stored || ctx.input(|i| i.pointer.any_down()) {
             return;
         }
-        self.kept = self.settings.clone();
+        self.stored = self.settings.clone();
         if let Some(storage) = storage {
             eframe::set_value(storage, settings::KEY, &self.settings);
             storage.flush();
         }
     }
 
-    /// Files that were dropped on the window.
+    /// Opens the files that were dropped on the window.
     fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
         let paths: Vec<PathBuf> =
             ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
         let replace = self.slots.only_built_in();
-        (!paths.is_empty()).then_some(Command::Open { paths, replace, read: ReadOptions::AUTO })
+        (!paths.is_empty())
+            .then_some(MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO }.into())
     }
 }
 
@@ -231,13 +239,13 @@ impl eframe::App for App {
         self.poll(&ctx);
         let mut commands = self.keys(&ctx);
         commands.extend(self.dropped(&ctx));
-        commands.extend(self.show(ui));
+        commands.extend(self.draw(ui));
         for command in commands {
             self.apply(&ctx, command);
             ctx.request_repaint();
         }
         self.undoer.feed_state(ctx.input(|i| i.time), &self.state);
-        self.keep_settings(&ctx, frame.storage_mut());
+        self.store_settings(&ctx, frame.storage_mut());
         self.frame_ms = start.elapsed().as_secs_f32() * 1e3;
     }
 

@@ -1,16 +1,16 @@
-//! Where the panes lie.
+//! The arrangement of the panes.
 
 use eframe::egui::{self, Rect, Vec2, vec2};
 
 use crate::material::Grid;
 
-/// Height of the line above a pane that names what it shows.
+/// Height of the title above a pane.
 pub const TITLE: f32 = 24.0;
 /// Room between two panes.
 const GAP: f32 = 6.0;
 
-/// Splits `area` into `count` cells, in as many columns as leave the material largest. All have one size, in whole pixels
-/// of which a point has `scale`: only then are the pictures in them the same, pixel by pixel.
+/// Splits `area` into `count` cells, in the number of columns that shows the material largest. All have the same size in
+/// whole pixels (`scale` pixels per point): only then are equal pictures equal pixel by pixel.
 pub fn cells(area: Rect, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
     let whole = |v: Vec2| (v * scale).floor() / scale;
     let area = Rect::from_min_max(((area.min.to_vec2() * scale).ceil() / scale).to_pos2(), area.max);
@@ -36,7 +36,7 @@ fn cell_size(area: Rect, columns: usize, rows: usize) -> Vec2 {
     ((area.size() - gaps) / vec2(columns as f32, rows as f32)).max(Vec2::splat(TITLE + 8.0))
 }
 
-/// The rectangle moved onto whole physical pixels: the shader's pixels are then the screen's.
+/// The rectangle rounded to whole physical pixels, so that the shader's pixels are the screen's.
 pub fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
     let scale = ui.pixels_per_point();
     let round = |p: egui::Pos2| (p.to_vec2() * scale).round() / scale;

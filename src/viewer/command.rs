@@ -1,76 +1,101 @@
 //! What a person can do, as values: panels and keys return commands, the application carries them out.
+//!
+//! One enum per part of the application, so that the compiler asks for every arm.
 
 use std::path::PathBuf;
 
 use super::loss_request::LossSettings;
-use super::panels::study::Setting;
-use super::state::{End, Layout};
+use super::sampling::Sampling;
+use super::state::{Endpoint, Layout};
 use crate::files::read::ReadOptions;
 use crate::model::scene::Scene;
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 
 /// One act. Nothing else changes the model.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
-    /// Open materials: the first as ground truth where there is none or where `replace` is set, the others as predictions.
+    Materials(MaterialsCommand),
+    Scene(SceneCommand),
+    Display(DisplayCommand),
+    Loss(LossCommand),
+    Window(WindowCommand),
+}
+
+/// Files and materials.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialsCommand {
+    /// Opens materials: the first as ground truth where there is none or where `replace` is set, the others as
+    /// predictions.
     Open {
         paths: Vec<PathBuf>,
         replace: bool,
         read: ReadOptions,
     },
-    /// Ask for files or a folder with the system's dialog; what is chosen fills the open window's path field.
-    Browse {
-        folder: bool,
-    },
-    ShowOpen(bool),
     OpenBuiltIn,
+    /// Reads all files again.
     Reload,
-    /// Read material `slot` again under other assumptions.
+    /// Reads the material in slot `slot` again under other assumptions.
     ReadAs {
         slot: usize,
         read: ReadOptions,
     },
-    /// Keep what is said about material `slot` in a file beside it.
-    Keep {
+    /// Saves the assumptions specified for the material in slot `slot` in a sidecar file.
+    SaveAssumptions {
         slot: usize,
     },
-    ClosePrediction(usize),
+    /// Closes the prediction in this slot.
+    Close(usize),
+    /// Makes the material in this slot the ground truth.
     MakeGroundTruth(usize),
+    /// Whether files that change on disk are read again.
     SetWatch(bool),
-    /// Resize predictions that are opened from now on to the ground truth.
+    /// Whether predictions opened from now on are resized to the ground truth.
     SetFit(bool),
+}
 
-    SetScene(Scene),
-    SetFoot(End, [f64; 2]),
+/// Light, view and convention.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SceneCommand {
+    Set(Scene),
+    /// Moves an endpoint so that its projection onto the plane is at (x, y).
+    MoveOverPlane(Endpoint, [f64; 2]),
+    /// Moves the light so that its mirror highlight is at (x, y) of the plane.
     PutHighlight([f64; 2]),
-    ScaleHeight(End, f64),
-    ScaleDistance(End, f64),
+    ScaleHeight(Endpoint, f64),
+    ScaleDistance(Endpoint, f64),
     Orbit {
-        end: End,
+        endpoint: Endpoint,
         /// Radians about the upright axis y.
         sideways: f64,
         /// Radians towards it.
         upwards: f64,
     },
     ToggleHighlightFollows,
-    CopyScene,
-    PasteScene(String),
+    SetConvention(&'static str),
+    /// Puts the scene on the clipboard as a scene file.
+    Copy,
+    /// Takes the scene from this text of the clipboard.
+    Paste(String),
+}
 
-    SetShown(Shown),
-    CycleShown(isize),
+/// What the panes show, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DisplayCommand {
+    SetQuantity(Quantity),
+    CycleQuantity(isize),
     SetLayout(Layout),
     CycleLayout,
     ToggleProjection,
     SetExposure(f32),
     StepExposure(f32),
-    Normalize,
+    /// Sets the exposure at which the brightest 1% of the ground truth just clips.
+    AutoExposure,
     ToggleClipping,
     SetWipe(f32),
-    SetConvention(&'static str),
     ChoosePrediction(usize),
-    SwapSides,
-
-    /// Magnify by a factor about a point of the pane (x right, y up in [-1, 1]).
+    /// Ground truth and chosen prediction change places.
+    Swap,
+    /// Magnifies by a factor about a point of the pane (x right, y up in [-1, 1]).
     Zoom {
         factor: f32,
         at: [f32; 2],
@@ -81,24 +106,68 @@ pub enum Command {
     Reset,
     Undo,
     Redo,
+}
 
-    ComputeLoss,
-    CancelLoss,
-    SetAutoLoss(bool),
-    SetLoss(LossSettings),
-    CopyLoss,
-
+/// The loss and the study.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LossCommand {
+    Compute,
+    Cancel,
+    /// Whether the loss is computed again after every change.
+    SetAuto(bool),
+    SetSettings(LossSettings),
+    /// Puts the losses on the clipboard as text.
+    Copy,
     ShowStudy(bool),
     StartStudy,
     CancelStudy,
-    /// Set the loss to what was clicked in the study.
-    ChooseSetting(Setting),
+    /// Sets the loss to the scenes and texels of a point of the study.
+    UseSampling(Sampling),
+}
 
+/// The window itself and its dialogs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WindowCommand {
+    ShowOpen(bool),
+    /// Asks for files or folders with the system's dialog; the choice goes into the open dialog's path field.
+    Browse {
+        folder: bool,
+    },
     ShowSave(bool),
-    /// Write the view to this file, as `svbrdf render` does.
+    /// Writes the view to this file, as `svbrdf render` does.
     SaveView(PathBuf),
     SetDark(bool),
     ToggleSidePanel,
-    SetHelp(bool),
-    DismissMessage,
+    ShowHelp(bool),
+    DismissMessages,
+}
+
+impl From<MaterialsCommand> for Command {
+    fn from(command: MaterialsCommand) -> Self {
+        Self::Materials(command)
+    }
+}
+
+impl From<SceneCommand> for Command {
+    fn from(command: SceneCommand) -> Self {
+        Self::Scene(command)
+    }
+}
+
+impl From<DisplayCommand> for Command {
+    fn from(command: DisplayCommand) -> Self {
+        Self::Display(command)
+    }
+}
+
+impl From<LossCommand> for Command {
+    fn from(command: LossCommand) -> Self {
+        Self::Loss(command)
+    }
+}
+
+impl From<WindowCommand> for Command {
+    fn from(command: WindowCommand) -> Self {
+        Self::Window(command)
+    }
 }

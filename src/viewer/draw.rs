@@ -1,31 +1,32 @@
-//! The whole window, drawn: each part is given what it shows, and returns what a person did.
+//! The whole window, drawn: each part is given what it shows and returns commands.
 
 use eframe::egui;
 
 use super::app::App;
-use super::command::Command;
+use super::command::{Command, WindowCommand};
 use super::panels;
 use super::panels::loss::LossPanel;
 use super::panels::materials::MaterialsPanel;
 use super::panels::scene::ScenePanel;
 use super::panels::status::StatusBar;
-use super::panels::study::{self, Setting, StudyWindow};
+use super::panels::study::{self, StudyWindow};
 use super::panels::top::TopBar;
+use super::panes::Scenery;
+use super::sampling::Sampling;
 use super::save;
-use super::viewport::Scenery;
 
-/// Width of the side panel: what is in it does not fit into less.
+/// Least width of the side panel, in points: its contents do not fit into less.
 const SIDE: f32 = 320.0;
 
 impl App {
-    /// Draws everything; what a person does in it is returned.
-    pub(super) fn show(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
+    /// Draws everything and returns the commands of the person.
+    pub(super) fn draw(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         egui::Panel::top("top").show(ui, |ui| commands.extend(self.top(ui)));
         egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
-        if !self.messages().is_empty() {
+        if !self.message_list().is_empty() {
             egui::Panel::bottom("messages")
-                .show(ui, |ui| commands.extend(panels::messages::ui(ui, self.messages())));
+                .show(ui, |ui| commands.extend(panels::messages::ui(ui, self.message_list())));
         }
         let mut side_panel = self.settings.side_panel;
         egui::Panel::right("side")
@@ -33,7 +34,7 @@ impl App {
             .size_range(SIDE..=(0.4 * ui.available_width()).max(SIDE))
             .show_collapsible(ui, &mut side_panel, |ui| commands.extend(self.side(ui)));
         if side_panel != self.settings.side_panel {
-            commands.push(Command::ToggleSidePanel);
+            commands.push(WindowCommand::ToggleSidePanel.into());
         }
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
         commands.extend(self.windows(ui.ctx()));
@@ -120,8 +121,8 @@ impl App {
     fn study_window(&self, ctx: &egui::Context) -> Vec<Command> {
         let window = StudyWindow {
             run: &self.study,
-            shown: self.study.shown(&self.slots, self.state.prediction, &self.state.convention()),
-            current: Setting::of(&self.settings.loss),
+            measured: self.study.measured(&self.slots, self.state.prediction, &self.state.convention()),
+            current: Sampling::of(&self.settings.loss),
         };
         window.ui(ctx)
     }

@@ -1,10 +1,10 @@
-//! What the mouse does in a pane: one gesture, decided when a button goes down, never two things at once.
+//! Mouse gestures in a pane. The press decides the gesture, which then does one thing.
 
 use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
 
-use super::command::Command;
+use super::command::{Command, DisplayCommand, SceneCommand};
 use super::handles::{self, REACH};
-use super::state::{self, End, Layout, Projection, ViewState};
+use super::state::{self, Endpoint, Layout, Projection, ViewState};
 use crate::model::scene::Kind;
 use crate::picture::camera::Camera;
 
@@ -15,7 +15,7 @@ const SCALE_STEP: f64 = 1.1;
 /// Factor of the magnification per notch of the wheel.
 const ZOOM_STEP: f32 = 1.15;
 
-/// What the drag that is going on does.
+/// What the current drag does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {
     Light,
@@ -27,7 +27,7 @@ pub enum Gesture {
     Wipe,
 }
 
-/// A pane as the mouse meets it.
+/// A pane under the mouse.
 #[derive(Clone, Copy, Debug)]
 pub struct Target<'a> {
     pub rect: Rect,
@@ -54,11 +54,11 @@ impl Target<'_> {
         }
     }
 
-    /// What a left press takes hold of: the sun first, then the eye, then the wipe line; otherwise it moves the light.
+    /// What a left press grabs: the sun first, then the eye, then the wipe line; elsewhere it moves the light.
     fn grabbed(&self, pos: Pos2) -> Gesture {
-        if self.over(End::Light, pos) {
+        if self.over(Endpoint::Light, pos) {
             Gesture::Light
-        } else if self.state.projection == Projection::Flat && self.over(End::View, pos) {
+        } else if self.state.projection == Projection::Flat && self.over(Endpoint::View, pos) {
             Gesture::View
         } else if self.over_wipe(pos) {
             Gesture::Wipe
@@ -67,9 +67,9 @@ impl Target<'_> {
         }
     }
 
-    fn over(&self, end: End, pos: Pos2) -> bool {
-        let foot = state::foot(&self.state.scene, end);
-        handles::pos_from_plane(self.camera, self.rect, foot).is_some_and(|(at, _)| at.distance(pos) <= REACH)
+    fn over(&self, endpoint: Endpoint, pos: Pos2) -> bool {
+        let at = state::over_plane(&self.state.scene, endpoint);
+        handles::pos_from_plane(self.camera, self.rect, at).is_some_and(|(at, _)| at.distance(pos) <= REACH)
     }
 
     fn over_wipe(&self, pos: Pos2) -> bool {
@@ -82,7 +82,7 @@ impl Target<'_> {
         match self.grabbed(pos) {
             Gesture::Wipe => egui::CursorIcon::ResizeHorizontal,
             Gesture::View => egui::CursorIcon::Grab,
-            _ if self.over(End::Light, pos) => egui::CursorIcon::Grab,
+            _ if self.over(Endpoint::Light, pos) => egui::CursorIcon::Grab,
             _ => egui::CursorIcon::Crosshair,
         }
     }
@@ -91,26 +91,28 @@ impl Target<'_> {
     fn carry_on(&self, gesture: Gesture, pos: Pos2, delta: Vec2) -> Option<Command> {
         let [x, y] = handles::ndc_from_pos(self.rect, pos);
         let plane = || self.camera.plane_from_ndc(x, y).map(|p| p.map(f64::from));
+        let over_plane = |endpoint| plane().map(|p| SceneCommand::MoveOverPlane(endpoint, p).into());
         let (sideways, upwards) = (f64::from(delta.x) * ORBIT_SPEED, -f64::from(delta.y) * ORBIT_SPEED);
         match gesture {
             Gesture::Light if self.highlight_follows && self.state.scene.kind == Kind::Near => {
-                plane().map(Command::PutHighlight)
+                plane().map(|p| SceneCommand::PutHighlight(p).into())
             }
-            Gesture::Light => plane().map(|p| Command::SetFoot(End::Light, p)),
-            Gesture::View => plane().map(|p| Command::SetFoot(End::View, p)),
-            // The material follows the pointer, so the view goes the other way.
-            Gesture::OrbitView => {
-                Some(Command::Orbit { end: End::View, sideways: -sideways, upwards: -upwards })
-            }
-            Gesture::OrbitLight => Some(Command::Orbit { end: End::Light, sideways, upwards }),
+            Gesture::Light => over_plane(Endpoint::Light),
+            Gesture::View => over_plane(Endpoint::View),
+            // The material follows the pointer, so the view moves the other way.
+            Gesture::OrbitView => Some(orbit(Endpoint::View, -sideways, -upwards)),
+            Gesture::OrbitLight => Some(orbit(Endpoint::Light, sideways, upwards)),
             Gesture::LightDistance => {
-                Some(Command::ScaleDistance(End::Light, SCALE_STEP.powf(-f64::from(delta.y) / 25.0)))
+                let factor = SCALE_STEP.powf(-f64::from(delta.y) / 25.0);
+                Some(SceneCommand::ScaleDistance(Endpoint::Light, factor).into())
             }
             Gesture::Pan => {
                 let by = delta / (self.rect.size() * 0.5);
-                Some(Command::Pan([by.x, -by.y]))
+                Some(DisplayCommand::Pan([by.x, -by.y]).into())
             }
-            Gesture::Wipe => Some(Command::SetWipe((pos.x - self.rect.left()) / self.rect.width())),
+            Gesture::Wipe => {
+                Some(DisplayCommand::SetWipe((pos.x - self.rect.left()) / self.rect.width()).into())
+            }
         }
     }
 
@@ -132,16 +134,20 @@ impl Target<'_> {
                 .map(|(notches, modifiers)| {
                     let factor = SCALE_STEP.powf(f64::from(notches));
                     if modifiers.shift {
-                        Command::ScaleHeight(End::Light, factor)
+                        SceneCommand::ScaleHeight(Endpoint::Light, factor).into()
                     } else if modifiers.alt {
-                        Command::ScaleHeight(End::View, factor)
+                        SceneCommand::ScaleHeight(Endpoint::View, factor).into()
                     } else {
-                        Command::Zoom { factor: ZOOM_STEP.powf(notches), at }
+                        DisplayCommand::Zoom { factor: ZOOM_STEP.powf(notches), at }.into()
                     }
                 })
                 .collect()
         })
     }
+}
+
+fn orbit(endpoint: Endpoint, sideways: f64, upwards: f64) -> Command {
+    SceneCommand::Orbit { endpoint, sideways, upwards }.into()
 }
 
 /// The commands of the mouse over one pane; `current` is the gesture that is going on in any pane.

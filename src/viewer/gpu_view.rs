@@ -1,4 +1,4 @@
-//! The graphics adapter's side of the panes: shades what has changed, draws what is seen.
+//! The panes on the graphics adapter: shading of what has changed, and drawing.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ struct Entry {
     drawn: Option<ShadeParams>,
 }
 
-/// Everything on the adapter except the materials' textures, which live with the materials.
+/// The passes and the shaded materials. The materials' textures are part of the materials.
 pub struct GpuView {
     pub gpu: Gpu,
     shading: Shading,
@@ -33,15 +33,15 @@ impl GpuView {
         Ok(Self { gpu, shading, display, shaded: HashMap::new() })
     }
 
-    /// Shades the material of `slot` unless it already is, with these parameters.
+    /// Shades the material of `slot`, unless it has been shaded with these parameters.
     ///
     /// # Errors
-    /// A sentence for the pane, where the adapter cannot hold the material.
+    /// A text for the pane, where the adapter cannot hold the material.
     pub fn shade(&mut self, slot: &Slot, params: ShadeParams) -> Result<(), String> {
         let textures = match &slot.loaded.textures {
             Some(Ok(textures)) => textures,
             Some(Err(problem)) => return Err(problem.clone()),
-            None => return Err("this material was opened before there was an adapter; reload it".to_owned()),
+            None => return Err("This material has no textures: reload it".to_owned()),
         };
         let entry = match self.shaded.entry(slot.id) {
             std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
@@ -58,12 +58,12 @@ impl GpuView {
         Ok(())
     }
 
-    /// Frees what was shaded for materials that are no longer here.
+    /// Frees the shaded pictures of closed materials.
     pub fn keep_only(&mut self, slots: &[Slot]) {
         self.shaded.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
     }
 
-    /// Draws `shown`, compared with `reference` where the mode compares, into `rect`; both must have been shaded.
+    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded.
     pub fn paint(
         &self,
         painter: &egui::Painter,
@@ -80,7 +80,7 @@ impl GpuView {
     }
 }
 
-/// One pane of one frame, inside egui's render pass.
+/// One pane of one frame, in egui's render pass.
 struct DrawPane {
     display: Arc<Display>,
     pane: Pane,

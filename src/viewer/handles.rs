@@ -1,4 +1,4 @@
-//! The sun and the eye: where light and view stand over the material, to be seen and dragged.
+//! The handles of light (a sun) and view (an eye) over the material, and of the wipe line.
 
 use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2};
 
@@ -6,7 +6,7 @@ use super::theme;
 use crate::math::vec3::Vec3;
 use crate::picture::camera::Camera;
 
-/// Within this distance, in points, of a handle or the wipe line a press takes hold of it.
+/// Distance, in points, within which a press grabs a handle or the wipe line.
 pub const REACH: f32 = 12.0;
 /// Radius of the sun's disc, in points.
 const RADIUS: f32 = 6.0;
@@ -22,8 +22,7 @@ pub fn ndc_from_pos(rect: Rect, pos: Pos2) -> [f32; 2] {
     [offset.x, -offset.y]
 }
 
-/// Where the point (x, y) of the plane is on the screen, drawn back to the pane's edge where it lies outside; and
-/// whether it does.
+/// The point (x, y) of the plane on the screen, clamped to the pane; and whether it lies outside of it.
 pub fn pos_from_plane(camera: &Camera, rect: Rect, [x, y]: [f64; 2]) -> Option<(Pos2, bool)> {
     let ndc = camera.ndc_from_point(Vec3::new(x as f32, y as f32, 0.0))?;
     let pos = pos_from_ndc(rect, ndc);

@@ -1,13 +1,13 @@
-//! The keys: one table that is obeyed, and shown by `?`.
+//! The keys: a table of commands, and the help that `?` shows.
 
 use eframe::egui::{self, Key, Modifiers};
 
-use super::command::Command;
+use super::command::{Command, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand};
 
-/// Every gesture and key, for the help window and the README: (what to do, what it does).
+/// Every gesture and key with its effect, for the help window and the README.
 pub const HELP: &[(&str, &str)] = &[
-    ("left-drag", "move the light (its x, y follow the pointer)"),
-    ("right-drag", "move the view (in perspective: orbit it)"),
+    ("left-drag", "move the light: its x and y follow the pointer"),
+    ("right-drag", "move the view; in perspective, orbit it"),
     ("Shift + wheel", "height of the light"),
     ("Alt + wheel", "height of the view"),
     ("Ctrl + Shift + left-drag", "orbit the light"),
@@ -16,36 +16,36 @@ pub const HELP: &[(&str, &str)] = &[
     ("wheel", "zoom at the pointer"),
     ("middle-drag, Space + left-drag", "pan"),
     ("F / 0 / R", "fit / one texel per pixel / reset light, view, zoom, exposure and clipping marks"),
-    ("G (hold)", "peek at the ground truth in every pane"),
+    ("G (hold)", "show the ground truth in every pane"),
     ("X", "swap prediction and ground truth"),
     ("1 .. 9", "choose the prediction"),
     ("C", "layout: side by side, wipe, single, log difference"),
     ("P", "flat / perspective"),
-    ("M / Shift + M", "next / previous map shown"),
+    ("M / Shift + M", "next / previous of rendering and maps"),
     ("E / Shift + E", "exposure up / down by 0.5 EV"),
-    ("N", "normalize the exposure to the ground truth"),
+    ("N", "automatic exposure: the brightest 1% of the ground truth clips"),
     ("L", "mark clipped pixels, on / off"),
     ("Enter", "compute the loss"),
-    ("Esc", "close a window, or cancel the loss"),
+    ("Esc", "close a dialog, or cancel the loss"),
     ("B", "side panel, on / off"),
-    ("Ctrl + O / Ctrl + S", "open / save the view as a picture"),
+    ("Ctrl + O / Ctrl + S", "open materials / save the view as a picture"),
     ("Ctrl + R", "read all files again"),
     ("Ctrl + Z / Ctrl + Shift + Z", "undo / redo light, view and display"),
     ("Ctrl + C / Ctrl + V", "copy / paste the scene as JSON"),
-    ("double-click a number", "back to its default"),
+    ("double-click a number", "reset it to its default"),
     ("?", "this help"),
 ];
 
-/// What the command of a key depends on.
+/// What the commands of the keys depend on.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
-    /// Whether no button has the focus, which Enter would press.
+    /// Whether Enter computes the loss: no widget has the focus.
     pub enter_is_free: bool,
-    /// What Escape does.
+    /// The command of Escape.
     pub escape: &'a Command,
 }
 
-/// The commands of the keys pressed in this frame. While a text field has the focus there are none.
+/// The commands of the keys pressed in this frame; none while a text field has the focus.
 pub fn commands(ctx: &egui::Context, now: Context<'_>) -> Vec<Command> {
     if ctx.text_edit_focused() {
         return Vec::new();
@@ -62,47 +62,51 @@ pub fn commands(ctx: &egui::Context, now: Context<'_>) -> Vec<Command> {
     commands
 }
 
-/// Copy and paste reach a program as events of their own, and `?` is another key on every keyboard.
+/// Copy and paste arrive as events, and `?` is on another key of every keyboard.
 fn event_command(event: &egui::Event) -> Option<Command> {
     match event {
-        egui::Event::Copy => Some(Command::CopyScene),
-        egui::Event::Paste(text) => Some(Command::PasteScene(text.clone())),
-        egui::Event::Text(text) if text == "?" => Some(Command::SetHelp(true)),
+        egui::Event::Copy => Some(SceneCommand::Copy.into()),
+        egui::Event::Paste(text) => Some(SceneCommand::Paste(text.clone()).into()),
+        egui::Event::Text(text) if text == "?" => Some(WindowCommand::ShowHelp(true).into()),
         _ => None,
     }
 }
 
-/// Longer chords first: `count_and_consume_key` takes a shorter one for them.
+/// Longer chords first: `count_and_consume_key` takes the first that is contained in the one pressed.
 fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
-    use Command as C;
     let none = Modifiers::NONE;
-    let mut table = vec![
-        (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, C::Redo),
-        (Modifiers::COMMAND, Key::Z, C::Undo),
-        (Modifiers::COMMAND, Key::O, C::ShowOpen(true)),
-        (Modifiers::COMMAND, Key::S, C::ShowSave(true)),
-        (Modifiers::COMMAND, Key::R, C::Reload),
-        (Modifiers::SHIFT, Key::M, C::CycleShown(-1)),
-        (Modifiers::SHIFT, Key::E, C::StepExposure(-0.5)),
-        (none, Key::M, C::CycleShown(1)),
-        (none, Key::E, C::StepExposure(0.5)),
-        (none, Key::N, C::Normalize),
-        (none, Key::C, C::CycleLayout),
-        (none, Key::P, C::ToggleProjection),
-        (none, Key::L, C::ToggleClipping),
-        (none, Key::H, C::ToggleHighlightFollows),
-        (none, Key::B, C::ToggleSidePanel),
-        (none, Key::X, C::SwapSides),
-        (none, Key::F, C::Fit),
-        (none, Key::Num0, C::OneToOne),
-        (none, Key::R, C::Reset),
+    let mut table: Vec<(Modifiers, Key, Command)> = vec![
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, DisplayCommand::Redo.into()),
+        (Modifiers::COMMAND, Key::Z, DisplayCommand::Undo.into()),
+        (Modifiers::COMMAND, Key::O, WindowCommand::ShowOpen(true).into()),
+        (Modifiers::COMMAND, Key::S, WindowCommand::ShowSave(true).into()),
+        (Modifiers::COMMAND, Key::R, MaterialsCommand::Reload.into()),
+        (Modifiers::SHIFT, Key::M, DisplayCommand::CycleQuantity(-1).into()),
+        (Modifiers::SHIFT, Key::E, DisplayCommand::StepExposure(-0.5).into()),
+        (none, Key::M, DisplayCommand::CycleQuantity(1).into()),
+        (none, Key::E, DisplayCommand::StepExposure(0.5).into()),
+        (none, Key::N, DisplayCommand::AutoExposure.into()),
+        (none, Key::C, DisplayCommand::CycleLayout.into()),
+        (none, Key::P, DisplayCommand::ToggleProjection.into()),
+        (none, Key::L, DisplayCommand::ToggleClipping.into()),
+        (none, Key::H, SceneCommand::ToggleHighlightFollows.into()),
+        (none, Key::B, WindowCommand::ToggleSidePanel.into()),
+        (none, Key::X, DisplayCommand::Swap.into()),
+        (none, Key::F, DisplayCommand::Fit.into()),
+        (none, Key::Num0, DisplayCommand::OneToOne.into()),
+        (none, Key::R, DisplayCommand::Reset.into()),
         (none, Key::Escape, now.escape.clone()),
     ];
     let digits =
         [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
     if now.enter_is_free {
-        table.push((none, Key::Enter, C::ComputeLoss));
+        table.push((none, Key::Enter, LossCommand::Compute.into()));
     }
-    table.extend(digits.into_iter().enumerate().map(|(i, key)| (none, key, C::ChoosePrediction(i))));
+    table.extend(
+        digits
+            .into_iter()
+            .enumerate()
+            .map(|(i, key)| (none, key, DisplayCommand::ChoosePrediction(i).into())),
+    );
     table
 }

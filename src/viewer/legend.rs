@@ -1,10 +1,10 @@
-//! What the colours of a difference mean.
+//! The legend of a difference.
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Rect, Stroke, StrokeKind, pos2, vec2};
 
 use super::state::ViewState;
 use crate::picture::colour_map::{FULL_DIFFERENCE, heat};
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 
 /// Colours in the bar.
 const STEPS: usize = 64;
@@ -13,7 +13,7 @@ const STEPS: usize = 64;
 ///
 /// Of renderings it is one of natural logarithms, and the exposure makes small ones visible; of maps it is plain.
 pub fn largest(state: &ViewState) -> f32 {
-    if state.shown == Shown::Rendering { FULL_DIFFERENCE * (-state.exposure_ev).exp2() } else { 1.0 }
+    if state.quantity == Quantity::Rendering { FULL_DIFFERENCE * (-state.exposure_ev).exp2() } else { 1.0 }
 }
 
 /// Paints the bar into the lower left corner of a pane.
@@ -32,7 +32,7 @@ pub fn paint(painter: &Painter, rect: Rect, state: &ViewState) {
         painter.rect_filled(step, 0.0, Color32::from_rgb(r, g, b));
     }
     painter.rect_stroke(bar, 0.0, Stroke::new(1.0, Color32::from_gray(150)), StrokeKind::Outside);
-    let what = if state.shown == Shown::Rendering { "|ln|" } else { "difference" };
+    let what = if state.quantity == Quantity::Rendering { "|ln|" } else { "difference" };
     let words = [
         (Align2::LEFT_TOP, bar.left_bottom(), "0".to_owned()),
         (Align2::CENTER_TOP, bar.center_bottom(), what.to_owned()),

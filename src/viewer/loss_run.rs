@@ -8,7 +8,7 @@ use eframe::egui;
 use super::loaded::Loaded;
 use super::loss_request::LossRequest;
 use super::slots::Slots;
-use super::worker::Job;
+use super::worker::Task;
 use crate::loss::adaptive::{Goal, Reached};
 use crate::loss::{Estimate, Loss};
 use crate::material::Material;
@@ -36,7 +36,7 @@ struct Update {
 #[derive(Debug)]
 struct Running {
     key: Key,
-    job: Job<()>,
+    job: Task<()>,
     latest: Arc<Mutex<Option<Update>>>,
     /// Scenes of the latest update; 0 before the first.
     scenes: usize,
@@ -195,7 +195,7 @@ impl LossRun {
         let request = request.clone();
         let latest = Arc::new(Mutex::new(None));
         let (left, seen) = (latest.clone(), ctx.clone());
-        let job = Job::start(ctx, move |progress| {
+        let job = Task::start(ctx, move |progress| {
             let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
             let start = Instant::now();
             let (ground_truth, predictions) = (materials[0], &materials[1..]);

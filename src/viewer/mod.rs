@@ -1,6 +1,6 @@
 //! The window: ground truth and predictions side by side under a light and a view that a person drags.
 //!
-//! Panels and keys return [`command::Command`]s; [`app::App`] carries them out; slow work runs in [`worker::Job`]s.
+//! Panels and keys return [`command::Command`]s; [`app::App`] carries them out; slow work runs in [`worker::Task`]s.
 
 pub mod app;
 mod apply;
@@ -14,9 +14,13 @@ pub mod legend;
 mod loaded;
 mod loss_request;
 mod loss_run;
+pub mod message;
+mod options;
 mod panels;
+mod panes;
 
 mod draw;
+mod sampling;
 mod save;
 mod settings;
 mod slots;
@@ -29,29 +33,15 @@ mod watch;
 pub mod worker;
 
 use std::panic::AssertUnwindSafe;
-use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuError, WgpuSetup, WgpuSetupCreateNew};
 
 use crate::error::Error;
-use crate::files::read::ReadOptions;
 use crate::gpu::Gpu;
 
-/// What the window starts with.
-#[derive(Clone, Debug, Default)]
-pub struct ViewerOptions {
-    /// `None` for the built-in pair.
-    pub ground_truth: Option<PathBuf>,
-    pub predictions: Vec<PathBuf>,
-    pub ground_truth_read: ReadOptions,
-    pub prediction_read: ReadOptions,
-    /// Guesses about materials are errors.
-    pub strict: bool,
-    /// Predictions of another size are resized to the ground truth.
-    pub fit: bool,
-}
+pub use options::ViewerOptions;
 
 /// Opens the window and returns when it is closed.
 ///

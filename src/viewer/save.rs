@@ -1,4 +1,4 @@
-//! The view as a picture, written by the core on a worker: what `svbrdf render` writes for the same numbers.
+//! Saving the view as a picture on a worker, as `svbrdf render` does.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,12 +8,12 @@ use eframe::egui;
 use super::loaded::Loaded;
 use super::slots::Slots;
 use super::state::{Layout, ViewState};
-use super::worker::Job;
+use super::worker::Task;
 use crate::files::atomic::Destination;
 use crate::picture::export::{Provenance, Shows};
 use crate::render;
 
-/// What a layout is saved as.
+/// The content of the saved picture.
 pub fn shows(layout: Layout) -> Shows {
     match layout {
         Layout::Difference => Shows::LogDifference,
@@ -21,8 +21,8 @@ pub fn shows(layout: Layout) -> Shows {
     }
 }
 
-/// Starts to render all materials and to write them, or the differences of the predictions, side by side to `path`.
-pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBuf) -> Job<PathBuf> {
+/// Starts to write the renderings of all materials, or the differences of the predictions, side by side to `path`.
+pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBuf) -> Task<PathBuf> {
     let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|s| s.loaded.clone()).collect();
     let provenance = Provenance {
         shows: if materials.len() > 1 { shows(state.layout) } else { Shows::Radiance },
@@ -32,7 +32,7 @@ pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBu
         sources: slots.slots.iter().map(|slot| slot.name().to_owned()).collect(),
         renderer: "CPU, f32".to_owned(),
     };
-    Job::start(ctx, move |progress| {
+    Task::start(ctx, move |progress| {
         let destination = Destination::new(&path)?;
         let render = |loaded: &Arc<Loaded>| {
             render::render_f32(&loaded.material, &provenance.scene, &provenance.convention, progress)

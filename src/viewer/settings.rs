@@ -1,4 +1,4 @@
-//! What is remembered from one start to the next.
+//! The settings that persist from one start to the next.
 
 use std::path::{Path, PathBuf};
 
@@ -6,25 +6,25 @@ use serde::{Deserialize, Serialize};
 
 use super::loss_request::LossSettings;
 
-/// Under this key the settings are stored.
+/// The key of the settings in the storage.
 pub const KEY: &str = "settings";
-/// How many opened materials are remembered.
+/// Number of recent materials.
 const RECENT: usize = 12;
 
-/// Persisted; every field has a default, so that settings of an older version still load.
+/// Persistent settings. Every field has a default, so that the settings of older versions load.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
     pub dark: bool,
     pub side_panel: bool,
-    /// Whether a left-drag puts the highlight, not the light, under the pointer.
+    /// Whether a left-drag moves the highlight under the pointer, instead of the light.
     pub highlight_follows: bool,
-    /// Whether the loss is computed again whenever something that it depends on changes.
+    /// Whether the loss is computed again after every change.
     pub auto_loss: bool,
     pub loss: LossSettings,
-    /// Whether files that change on the disk are read again.
+    /// Whether files that change on disk are read again.
     pub watch: bool,
-    /// Materials opened before, the latest first.
+    /// Recently opened materials, the latest first.
     pub recent: Vec<PathBuf>,
 }
 
@@ -43,7 +43,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Puts `path` first among the recent ones, in a form that holds wherever the program is started next.
+    /// Puts `path` first among the recent materials, as an absolute path.
     pub fn remember(&mut self, path: &Path) {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         self.recent.retain(|p| *p != path);
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn settings_are_the_same_when_they_are_stored_and_loaded() {
+    fn stored_settings_load_unchanged() {
         let settings = Settings { dark: false, recent: vec!["a b.png".into()], ..Settings::default() };
         let mut memory = Memory::default();
         eframe::set_value(&mut memory, KEY, &settings);

@@ -1,4 +1,4 @@
-//! The materials in the window: read on a worker, kept whole, replaced only by what has been read.
+//! The materials in the window. They are read on a worker, and replaced once the new ones have been read.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -6,20 +6,20 @@ use std::sync::Arc;
 use eframe::egui;
 
 use super::loaded::{Loaded, Origin, Reader, Rules, file_name, loaded};
-use super::worker::Job;
+use super::message::{Message, SizeMismatch};
+use super::worker::Task;
 use crate::error::Error;
-use crate::files::read::{self, Kept, ReadOptions};
+use crate::files::read::{self, Sidecar, ReadOptions};
 use crate::gpu::Gpu;
-use crate::loss;
-use crate::report::told_apart;
+use crate::report::distinct_names;
 use crate::samples;
 
-/// A material in the window, with a number that no other one ever had: the key of everything derived from it.
+/// A material in the window. Its id is never used again: it is the key of everything derived from the material.
 #[derive(Clone, Debug)]
 pub struct Slot {
     pub id: u64,
     pub loaded: Arc<Loaded>,
-    /// What tells it from the others.
+    /// Its name, unique among the slots.
     name: String,
 }
 
@@ -34,7 +34,7 @@ impl Slot {
     }
 }
 
-/// What becomes of materials that are being read.
+/// Where materials go once they have been read.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// The first replaces the ground truth, the others the predictions.
@@ -50,16 +50,16 @@ pub enum Target {
 pub struct Opening {
     pub what: String,
     target: Target,
-    pub job: Job<Vec<Result<Loaded, Error>>>,
+    pub task: Task<Vec<Result<Loaded, Error>>>,
 }
 
-/// The ground truth first, then the predictions; and what is still being read.
+/// The ground truth first, then the predictions; and the materials that are still being read.
 #[derive(Debug, Default)]
 pub struct Slots {
     pub slots: Vec<Slot>,
     pub openings: Vec<Opening>,
     pub rules: Rules,
-    /// What has been opened by a path since this was last taken.
+    /// The paths that have been opened since they were last taken.
     pub opened: Vec<PathBuf>,
     next_id: u64,
 }
@@ -73,12 +73,12 @@ impl Slots {
         self.slots.get(1..).unwrap_or_default()
     }
 
-    /// Whether nothing but the built-in pair is here: then what a person opens replaces it.
+    /// Whether there is only the built-in pair, which the first opened material replaces.
     pub fn only_built_in(&self) -> bool {
         self.slots.iter().all(|s| s.loaded.origin == Origin::BuiltIn)
     }
 
-    /// Starts to read `sources`, each under its options.
+    /// Starts to read `sources`, each with its options.
     pub fn open(
         &mut self,
         ctx: &egui::Context,
@@ -88,17 +88,17 @@ impl Slots {
     ) {
         let mut reader = self.reader(gpu, &target);
         let what = sources.iter().map(|(p, _)| file_name(p)).collect::<Vec<_>>().join(", ");
-        let job = Job::start(ctx, move |progress| {
+        let task = Task::start(ctx, move |progress| {
             let one = |(path, options): (PathBuf, ReadOptions)| {
                 let read = read::read::<f32>(&path, &options, progress)?;
                 reader.take(path, options, read)
             };
             Ok(sources.into_iter().map(one).collect())
         });
-        self.openings.push(Opening { what, target, job });
+        self.openings.push(Opening { what, target, task });
     }
 
-    /// A reader of what goes to `target`.
+    /// A reader of the materials for `target`.
     fn reader(&self, gpu: Option<&Gpu>, target: &Target) -> Reader {
         let ground_truth = self.ground_truth().filter(|ground_truth| match target {
             Target::Everything => false,
@@ -112,21 +112,21 @@ impl Slots {
     /// Starts to read the built-in pair.
     pub fn open_built_in(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>) {
         let gpu = gpu.cloned();
-        let job = Job::start(ctx, move |_| {
+        let task = Task::start(ctx, move |_| {
             let samples = samples::load::<f32>()?;
             let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
             Ok(all
                 .map(|read| Ok(loaded(Origin::BuiltIn, ReadOptions::default(), read, gpu.as_ref())))
                 .collect())
         });
-        self.openings.push(Opening { what: "built-in pair".to_owned(), target: Target::Everything, job });
+        self.openings.push(Opening { what: "built-in pair".to_owned(), target: Target::Everything, task });
     }
 
-    /// Takes over what has been read since the last call; returns the errors, for the user.
-    pub fn poll(&mut self, ctx: &egui::Context) -> Vec<String> {
-        let mut errors = Vec::new();
+    /// Takes over the materials that have been read since the last call; returns what went wrong.
+    pub fn poll(&mut self, ctx: &egui::Context) -> Vec<Message> {
+        let mut problems = Vec::new();
         let mut finished = Vec::new();
-        self.openings.retain(|opening| match opening.job.poll(ctx) {
+        self.openings.retain(|opening| match opening.task.poll(ctx) {
             None => true,
             Some(result) => {
                 finished.push((opening.target.clone(), result));
@@ -135,42 +135,42 @@ impl Slots {
         });
         for (target, result) in finished {
             let all = result.unwrap_or_else(|e| vec![Err(e)]);
-            self.place(target, all, &mut errors);
+            self.place(target, all, &mut problems);
         }
-        errors
+        problems
     }
 
-    fn place(&mut self, target: Target, all: Vec<Result<Loaded, Error>>, errors: &mut Vec<String>) {
+    fn place(&mut self, target: Target, all: Vec<Result<Loaded, Error>>, problems: &mut Vec<Message>) {
         let mut loaded: Vec<Loaded> = Vec::new();
         let failed_first = matches!(all.first(), Some(Err(_)));
         for result in all {
             match result {
                 Ok(one) => loaded.push(one),
                 Err(Error::Cancelled) => {}
-                Err(error) => errors.push(error.to_string()),
+                Err(error) => problems.push(Message::Failed(error)),
             }
         }
         match target {
-            // Without its ground truth a prediction is no prediction: keep what was there.
+            // Predictions need their ground truth: the materials in the window stay.
             Target::Everything if failed_first || loaded.is_empty() => {
-                let left = loaded.iter().map(|one| one.material.name()).collect::<Vec<_>>().join(", ");
-                if !left.is_empty() {
-                    errors.push(format!("without its ground truth this was not opened either: {left}"));
+                let names: Vec<_> = loaded.iter().map(|one| one.material.name().to_owned()).collect();
+                if !names.is_empty() {
+                    problems.push(Message::NotOpened(names));
                 }
             }
             Target::Everything => {
                 self.slots.clear();
-                loaded.into_iter().for_each(|one| self.add(one, errors));
+                loaded.into_iter().for_each(|one| self.add(one, problems));
             }
-            Target::Predictions => loaded.into_iter().for_each(|one| self.add(one, errors)),
-            Target::Again(id) => loaded.into_iter().for_each(|one| self.replace(id, one, errors)),
+            Target::Predictions => loaded.into_iter().for_each(|one| self.add(one, problems)),
+            Target::Again(id) => loaded.into_iter().for_each(|one| self.replace(id, one, problems)),
         }
-        self.tell_apart();
+        self.rename();
     }
 
-    fn add(&mut self, loaded: Loaded, errors: &mut Vec<String>) {
-        if let Some(misfit) = self.ground_truth().and_then(|ground_truth| misfit(ground_truth, &loaded)) {
-            return errors.push(misfit);
+    fn add(&mut self, loaded: Loaded, problems: &mut Vec<Message>) {
+        if let Some(sizes) = self.ground_truth().and_then(|ground_truth| mismatch(ground_truth, &loaded)) {
+            return problems.push(Message::Refused(sizes));
         }
         if let Origin::Path(path) = &loaded.origin {
             self.opened.push(path.clone());
@@ -179,24 +179,24 @@ impl Slots {
         self.slots.push(Slot::new(id, loaded));
     }
 
-    /// Puts `loaded` in the place of the slot `id`. A ground truth of another size sends the predictions away.
-    fn replace(&mut self, id: u64, loaded: Loaded, errors: &mut Vec<String>) {
+    /// Replaces the material of the slot `id`. A ground truth of another size closes the predictions.
+    fn replace(&mut self, id: u64, loaded: Loaded, problems: &mut Vec<Message>) {
         let Some(index) = self.slots.iter().position(|s| s.id == id) else { return };
         let new = Slot::new(self.new_id(), loaded);
         if index == 0 {
-            let misfits = self.predictions().iter().filter_map(|s| misfit(&new, &s.loaded));
-            errors.extend(misfits.map(|text| format!("a prediction was closed: {text}")));
-            self.slots.retain(|s| s.id == id || misfit(&new, &s.loaded).is_none());
-        } else if let Some(text) = self.ground_truth().and_then(|gt| misfit(gt, &new.loaded)) {
-            return errors.push(text);
+            let mismatches = self.predictions().iter().filter_map(|s| mismatch(&new, &s.loaded));
+            problems.extend(mismatches.map(Message::Closed));
+            self.slots.retain(|s| s.id == id || mismatch(&new, &s.loaded).is_none());
+        } else if let Some(sizes) = self.ground_truth().and_then(|gt| mismatch(gt, &new.loaded)) {
+            return problems.push(Message::Refused(sizes));
         }
         self.slots[index] = new;
     }
 
-    /// Gives every slot a name of its own.
-    fn tell_apart(&mut self) {
+    /// Gives every slot a unique name.
+    fn rename(&mut self) {
         let named: Vec<_> = self.slots.iter().map(|s| (s.loaded.material.name(), s.loaded.path())).collect();
-        let names = told_apart(&named);
+        let names = distinct_names(&named);
         self.slots.iter_mut().zip(names).for_each(|(slot, name)| slot.name = name);
     }
 
@@ -205,7 +205,7 @@ impl Slots {
         self.next_id
     }
 
-    /// Reads again what came from files: all of them, or those whose index is given.
+    /// Reads materials from files again: all of them, or those of the given indices.
     pub fn reload(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, only: Option<&[usize]>) {
         for index in 0..self.slots.len() {
             if only.is_none_or(|only| only.contains(&index)) {
@@ -225,19 +225,19 @@ impl Slots {
         self.open(ctx, gpu, vec![(path, options)], target);
     }
 
-    /// Reads the material at `index` again under other options, which now stand alone.
+    /// Reads the material at `index` again with these options alone.
     pub fn read_as(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, options: ReadOptions) {
         let Some((path, target)) = self.again(index) else { return };
         let (asked, what) = (self.slots[index].loaded.asked, file_name(&path));
         let mut reader = self.reader(gpu, &target);
-        let job = Job::start(ctx, move |progress| {
+        let task = Task::start(ctx, move |progress| {
             let read = read::read_as::<f32>(&path, &options, progress);
             Ok(vec![read.and_then(|read| reader.take(path, asked, read))])
         });
-        self.openings.push(Opening { what, target, job });
+        self.openings.push(Opening { what, target, task });
     }
 
-    /// Where the material at `index` came from, and its place; it is not read twice at once.
+    /// Path and target of the material at `index`, to read it again; a reading of it that is under way is cancelled.
     fn again(&mut self, index: usize) -> Option<(PathBuf, Target)> {
         let slot = self.slots.get(index)?;
         let Origin::Path(path) = &slot.loaded.origin else { return None };
@@ -246,14 +246,19 @@ impl Slots {
         Some((path, target))
     }
 
-    /// Keeps what is said about the material at `index` in a file beside it, and opens it again.
+    /// Saves the assumptions specified for the material at `index` in a sidecar file, and opens it again.
     ///
     /// # Errors
-    /// Those of [`Kept`].
-    pub fn keep(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize) -> Result<(), Error> {
+    /// Those of [`Sidecar`].
+    pub fn save_assumptions(
+        &mut self,
+        ctx: &egui::Context,
+        gpu: Option<&Gpu>,
+        index: usize,
+    ) -> Result<(), Error> {
         let Some(slot) = self.slots.get(index) else { return Ok(()) };
         let Origin::Path(path) = &slot.loaded.origin else { return Ok(()) };
-        Kept { options: slot.loaded.read, ..Kept::of(path)? }.write(path)?;
+        Sidecar { options: slot.loaded.read, ..Sidecar::load(path)? }.save(path)?;
         self.open_again(ctx, gpu, index, ReadOptions::AUTO);
         Ok(())
     }
@@ -262,7 +267,7 @@ impl Slots {
     pub fn close(&mut self, index: usize) {
         if index > 0 && index < self.slots.len() {
             self.slots.remove(index);
-            self.tell_apart();
+            self.rename();
         }
     }
 
@@ -274,14 +279,13 @@ impl Slots {
     }
 }
 
-/// Why `prediction` cannot stand beside the ground truth, for the user.
-fn misfit(ground_truth: &Slot, prediction: &Loaded) -> Option<String> {
-    let [a, b] = [&ground_truth.loaded.material, &prediction.material];
-    loss::check_same_size(a, b).err()?;
-    let [[w, h], [gt_w, gt_h]] = [b.size(), a.size()];
-    Some(format!(
-        "{} is {w} x {h}, the ground truth {} is {gt_w} x {gt_h}: tick \"Fit sizes\" under Materials, and open it again",
-        b.name(),
-        a.name()
-    ))
+/// The two sizes, where `prediction` has not that of the ground truth.
+fn mismatch(ground_truth: &Slot, prediction: &Loaded) -> Option<SizeMismatch> {
+    let [gt, prediction] = [&ground_truth.loaded.material, &prediction.material];
+    (gt.size() != prediction.size()).then(|| SizeMismatch {
+        prediction: prediction.name().to_owned(),
+        prediction_size: prediction.size(),
+        ground_truth: gt.name().to_owned(),
+        ground_truth_size: gt.size(),
+    })
 }

@@ -1,24 +1,24 @@
-//! What the panes show and how: everything that Ctrl+Z undoes.
+//! What the panes show, and how: everything that undo covers.
 
 use serde::{Deserialize, Serialize};
 
 use crate::math::vec3::Vec3;
 use crate::model::convention::{self, Convention};
 use crate::model::scene::{Kind, Scene};
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 
-/// Lowest height of a light or a view that the window lets a person set: the plane itself shows nothing.
+/// Least height of a light or a view in the window: from within the plane nothing is seen.
 pub const LOWEST: f64 = 0.01;
-/// Farthest coordinate that the window lets a person set.
+/// Largest coordinate of a light or a view in the window.
 pub const FARTHEST: f64 = 1000.0;
 
 /// How the panes are arranged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Layout {
-    /// The ground truth and every prediction, each in a pane of its own.
+    /// The ground truth and every prediction, each in its own pane.
     #[default]
     SideBySide,
-    /// Ground truth and chosen prediction in one pane, left and right of a line.
+    /// Ground truth left and chosen prediction right of a line, in one pane.
     Wipe,
     /// The chosen prediction alone.
     Single,
@@ -39,43 +39,44 @@ impl Layout {
     }
 }
 
-/// How the material lies in a pane.
+/// How the material is projected into a pane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Projection {
-    /// As a texture, the way the loss sees it.
+    /// As a flat texture, texel by texel.
     #[default]
     Flat,
-    /// As the plane that it is, seen from P_V.
+    /// As a plane, seen from the view position.
     Perspective,
 }
 
-/// What the key that toggles the projection leads to.
-pub fn other_projection(projection: Projection) -> Projection {
-    match projection {
-        Projection::Flat => Projection::Perspective,
-        Projection::Perspective => Projection::Flat,
+impl Projection {
+    pub fn other(self) -> Self {
+        match self {
+            Self::Flat => Self::Perspective,
+            Self::Perspective => Self::Flat,
+        }
     }
 }
 
-/// Light, view and display: one value, so that undo is to go back to an earlier one.
+/// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ViewState {
     pub scene: Scene,
-    pub shown: Shown,
+    pub quantity: Quantity,
     pub layout: Layout,
     pub projection: Projection,
     /// Exposure in stops: radiance is multiplied by 2^exposure_ev.
     pub exposure_ev: f32,
     pub show_clipping: bool,
-    /// Where the wipe line stands: 0 at the left edge of the pane, 1 at the right.
+    /// Position of the wipe line: 0 at the left edge of the pane, 1 at the right.
     pub wipe: f32,
-    /// Magnification; 1 fits the material into its pane.
+    /// Magnification; at 1 the material fits its pane.
     pub zoom: f32,
-    /// Where the middle of the unmoved picture stands in its pane, x right and y up in [-1, 1].
+    /// Where the centre of the picture is in its pane, x right and y up in [-1, 1].
     pub pan: [f32; 2],
-    /// The name of the convention that is rendered and that the loss is computed in.
+    /// The name of the convention of renderings and loss.
     pub convention: String,
-    /// Which prediction is compared where one is: its index among the predictions.
+    /// The chosen prediction: its index among the predictions.
     pub prediction: usize,
 }
 
@@ -83,7 +84,7 @@ impl Default for ViewState {
     fn default() -> Self {
         Self {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
-            shown: Shown::Rendering,
+            quantity: Quantity::Rendering,
             layout: Layout::SideBySide,
             projection: Projection::Flat,
             exposure_ev: 0.0,
@@ -98,17 +99,17 @@ impl Default for ViewState {
 }
 
 impl ViewState {
-    /// The convention named; the default where a stored name is no longer known.
+    /// The convention of that name; the default where the name is not known.
     pub fn convention(&self) -> Convention {
         self.convention.parse().unwrap_or_default()
     }
 
-    /// Puts back the light, the view and the display, but not which prediction, layout or convention is looked at.
+    /// The default light, view and display, with the prediction, layout and convention of now.
     #[must_use]
     pub fn reset(&self) -> Self {
         Self {
             layout: self.layout,
-            shown: self.shown,
+            quantity: self.quantity,
             projection: self.projection,
             convention: self.convention.clone(),
             prediction: self.prediction,
@@ -117,45 +118,46 @@ impl ViewState {
     }
 }
 
-/// Either end of a scene: what a gesture moves.
+/// Either endpoint of a scene: what a gesture moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum Endpoint {
     Light,
     View,
 }
 
-/// The position (or direction) of one end of the scene.
-pub fn end(scene: &Scene, end: End) -> [f64; 3] {
-    match end {
-        End::Light => scene.light,
-        End::View => scene.view,
+/// The position (or direction) of one endpoint of the scene.
+pub fn endpoint(scene: &Scene, which: Endpoint) -> [f64; 3] {
+    match which {
+        Endpoint::Light => scene.light,
+        Endpoint::View => scene.view,
     }
 }
 
-/// Puts one end of the scene at `p`, kept above the plane and within reach.
-pub fn set_end(scene: &mut Scene, end: End, p: [f64; 3]) {
+/// Puts one endpoint of the scene at `p`, clamped to above the plane and within reach.
+pub fn set_endpoint(scene: &mut Scene, which: Endpoint, p: [f64; 3]) {
     if p.iter().any(|c| !c.is_finite()) {
         return;
     }
     let [x, y, z] = p;
     let p = [x.clamp(-FARTHEST, FARTHEST), y.clamp(-FARTHEST, FARTHEST), z.clamp(LOWEST, FARTHEST)];
-    match end {
-        End::Light => scene.light = p,
-        End::View => scene.view = p,
+    match which {
+        Endpoint::Light => scene.light = p,
+        Endpoint::View => scene.view = p,
     }
 }
 
-/// Where the handle of an end lies in the plane: below a position; for a direction, its (x, y) on the unit hemisphere.
-pub fn foot(scene: &Scene, which: End) -> [f64; 2] {
-    let p = Vec3::from(end(scene, which));
+/// The projection of an endpoint onto the plane, where its handle is: of a direction, its (x, y) on the unit hemisphere.
+pub fn over_plane(scene: &Scene, which: Endpoint) -> [f64; 2] {
+    let p = Vec3::from(endpoint(scene, which));
     let p = if scene.kind == Kind::Distant { p.normalize() } else { p };
     [p.x, p.y]
 }
 
-/// Moves an end so that its foot is at (x, y): a position keeps its height, a direction stays on the hemisphere.
-pub fn set_foot(scene: &mut Scene, which: End, [x, y]: [f64; 2]) {
+/// Moves an endpoint so that its projection onto the plane is (x, y): a position keeps its height, a direction stays
+/// on the hemisphere.
+pub fn move_over_plane(scene: &mut Scene, which: Endpoint, [x, y]: [f64; 2]) {
     let p = match scene.kind {
-        Kind::Near => [x, y, end(scene, which)[2]],
+        Kind::Near => [x, y, endpoint(scene, which)[2]],
         Kind::Distant => {
             let rim = (1.0 - LOWEST * LOWEST).sqrt();
             let shrink = (rim / x.hypot(y)).min(1.0);
@@ -163,37 +165,37 @@ pub fn set_foot(scene: &mut Scene, which: End, [x, y]: [f64; 2]) {
             [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()]
         }
     };
-    set_end(scene, which, p);
+    set_endpoint(scene, which, p);
 }
 
-/// Multiplies the height of an end by `factor`.
-pub fn scale_height(scene: &mut Scene, which: End, factor: f64) {
-    let [x, y, z] = end(scene, which);
-    set_end(scene, which, [x, y, z * factor]);
+/// Multiplies the height of an endpoint by `factor`.
+pub fn scale_height(scene: &mut Scene, which: Endpoint, factor: f64) {
+    let [x, y, z] = endpoint(scene, which);
+    set_endpoint(scene, which, [x, y, z * factor]);
 }
 
-/// Multiplies the distance of an end from the middle of the material by `factor`.
-pub fn scale_distance(scene: &mut Scene, which: End, factor: f64) {
-    let p = end(scene, which);
-    set_end(scene, which, p.map(|c| c * factor));
+/// Multiplies the distance of an endpoint from the middle of the material by `factor`.
+pub fn scale_distance(scene: &mut Scene, which: Endpoint, factor: f64) {
+    let p = endpoint(scene, which);
+    set_endpoint(scene, which, p.map(|c| c * factor));
 }
 
-/// Turns an end about the middle of the material, which hangs like a picture on a wall: by `sideways` about the
-/// upright axis y, and by `upwards` towards it, both in radians. The distance stays, and so does what is up on the screen.
-pub fn orbit(scene: &mut Scene, which: End, sideways: f64, upwards: f64) {
+/// Turns an endpoint about the middle of the material: by `sideways` about the upright axis y of the screen, and by
+/// `upwards` towards it, both in radians. The distance stays.
+pub fn orbit(scene: &mut Scene, which: Endpoint, sideways: f64, upwards: f64) {
     const STEEPEST: f64 = std::f64::consts::FRAC_PI_2 - 1e-3;
-    let p = Vec3::from(end(scene, which));
+    let p = Vec3::from(endpoint(scene, which));
     let length = p.length();
     let longitude = (p.x.atan2(p.z) + sideways).clamp(-STEEPEST, STEEPEST);
     let latitude = ((p.y / length).asin() + upwards).clamp(-STEEPEST, STEEPEST);
     let (x, y) = (latitude.cos() * longitude.sin(), latitude.sin());
     let z = (latitude.cos() * longitude.cos()).max(LOWEST / length).min(1.0);
     let shrink = ((1.0 - z * z) / (x * x + y * y).max(f64::MIN_POSITIVE)).sqrt();
-    set_end(scene, which, [x * shrink, y * shrink, z].map(|c| c * length));
+    set_endpoint(scene, which, [x * shrink, y * shrink, z].map(|c| c * length));
 }
 
-/// Puts the light where the flat surface mirrors it into the view at the point (x, y) of the plane, at the height that
-/// it has. From a distant view the highlight is everywhere, wherever the point is.
+/// Puts the light where a flat surface mirrors it into the view at the point (x, y) of the plane; the light keeps its
+/// height. A distant light mirrored into a distant view is so at every point.
 pub fn put_highlight(scene: &mut Scene, [x, y]: [f64; 2]) {
     let [view_x, view_y, view_z] = scene.view;
     let light = match scene.kind {
@@ -203,7 +205,7 @@ pub fn put_highlight(scene: &mut Scene, [x, y]: [f64; 2]) {
             [x + (x - view_x) * reach, y + (y - view_y) * reach, scene.light[2]]
         }
     };
-    set_end(scene, End::Light, light);
+    set_endpoint(scene, Endpoint::Light, light);
 }
 
 #[cfg(test)]
@@ -228,26 +230,26 @@ mod tests {
         let mut scene = ViewState::default().scene;
         let before = Vec3::from(scene.light).length();
         for _ in 0..100 {
-            orbit(&mut scene, End::Light, 0.3, -0.2);
+            orbit(&mut scene, Endpoint::Light, 0.3, -0.2);
             assert!(scene.light[2] >= LOWEST && scene.light[0] > 0.0);
             assert!((Vec3::from(scene.light).length() - before).abs() < 1e-9);
         }
     }
 
     #[test]
-    fn the_foot_of_a_direction_stays_on_the_hemisphere() {
+    fn a_direction_that_is_moved_over_the_plane_stays_on_the_hemisphere() {
         let mut scene = Scene { kind: Kind::Distant, ..ViewState::default().scene };
-        set_foot(&mut scene, End::Light, [3.0, 4.0]);
+        move_over_plane(&mut scene, Endpoint::Light, [3.0, 4.0]);
         assert!((Vec3::from(scene.light).length() - 1.0).abs() < 1e-4);
-        set_foot(&mut scene, End::Light, [0.3, -0.2]);
-        let [x, y] = foot(&scene, End::Light);
+        move_over_plane(&mut scene, Endpoint::Light, [0.3, -0.2]);
+        let [x, y] = over_plane(&scene, Endpoint::Light);
         assert!((x - 0.3).abs() < 1e-12 && (y + 0.2).abs() < 1e-12);
     }
 
     #[test]
     fn a_value_that_is_not_finite_moves_nothing() {
         let mut scene = ViewState::default().scene;
-        set_end(&mut scene, End::View, [f64::NAN, 0.0, 1.0]);
+        set_endpoint(&mut scene, Endpoint::View, [f64::NAN, 0.0, 1.0]);
         assert_eq!(scene, ViewState::default().scene);
     }
 }

@@ -1,27 +1,28 @@
-//! The study in the window: measured on a worker, shown as it grows.
+//! The study in the window: measured on a worker, updated as it grows.
 
 use std::sync::mpsc::{self, Receiver};
 
 use eframe::egui;
 
 use super::slots::Slots;
-use super::worker::Job;
+use super::worker::Task;
+use crate::error::Error;
 use crate::model::convention::Convention;
 use crate::study::{self, Pair, Study};
 
-/// What a study holds for: the ids of the ground truth and of the prediction, and the convention.
+/// What a study depends on: the ids of ground truth and prediction, and the convention.
 type Key = ([u64; 2], &'static str);
 
-/// The study that is being measured, and what is known of it or of an earlier one.
+/// The running study, and the results of it or of an earlier one.
 #[derive(Debug, Default)]
 pub struct StudyRun {
     running: Option<Running>,
-    shown: Option<Shown>,
+    measured: Option<Measured>,
 }
 
-/// What has been measured, all of it or a part.
+/// The measurements, complete or so far.
 #[derive(Debug)]
-struct Shown {
+struct Measured {
     key: Key,
     study: Study,
     complete: bool,
@@ -30,23 +31,28 @@ struct Shown {
 #[derive(Debug)]
 struct Running {
     key: Key,
-    job: Job<Study>,
+    task: Task<Study>,
     growing: Receiver<Study>,
 }
 
 impl StudyRun {
-    /// What has been measured, and whether it is about the materials of now.
-    pub fn shown(&self, slots: &Slots, prediction: usize, convention: &Convention) -> Option<(&Study, bool)> {
+    /// What has been measured, and whether it is of the current materials.
+    pub fn measured(
+        &self,
+        slots: &Slots,
+        prediction: usize,
+        convention: &Convention,
+    ) -> Option<(&Study, bool)> {
         let now = key(slots, prediction, convention);
-        self.shown.as_ref().map(|shown| (&shown.study, Some(shown.key) == now))
+        self.measured.as_ref().map(|measured| (&measured.study, Some(measured.key) == now))
     }
 
-    /// The running job, for its progress.
-    pub fn job(&self) -> Option<&Job<Study>> {
-        self.running.as_ref().map(|running| &running.job)
+    /// The running study, for its progress.
+    pub fn task(&self) -> Option<&Task<Study>> {
+        self.running.as_ref().map(|running| &running.task)
     }
 
-    /// Starts to measure `prediction` against the ground truth, unless this has been done or is being done.
+    /// Starts to measure `prediction` against the ground truth, unless that is done or running.
     pub fn keep_up(
         &mut self,
         ctx: &egui::Context,
@@ -57,14 +63,14 @@ impl StudyRun {
         let now = key(slots, prediction, convention);
         let known = [
             self.running.as_ref().map(|r| r.key),
-            self.shown.as_ref().filter(|shown| shown.complete).map(|shown| shown.key),
+            self.measured.as_ref().filter(|measured| measured.complete).map(|measured| measured.key),
         ];
         if !known.contains(&now) {
             self.start(ctx, slots, prediction, convention);
         }
     }
 
-    /// Starts to measure; a running study is given up for it.
+    /// Starts to measure; a running study is cancelled.
     pub fn start(&mut self, ctx: &egui::Context, slots: &Slots, prediction: usize, convention: &Convention) {
         self.running = None;
         let Some(key) = key(slots, prediction, convention) else { return };
@@ -72,36 +78,36 @@ impl StudyRun {
         let convention = *convention;
         let (sender, growing) = mpsc::channel();
         let seen = ctx.clone();
-        let job = Job::start(ctx, move |progress| {
-            // The window's loss is computed on the CPU.
+        let task = Task::start(ctx, move |progress| {
+            // The window computes its loss on the CPU.
             let (ground_truth, prediction) = (&ground_truth.material, &prediction.material);
             let pair = Pair { ground_truth, prediction, convention, gpu: None };
             study::run(&pair, progress, |study| {
-                // Nobody looks any more where the window has dropped this job.
+                // Where the window has dropped this task, the result is not wanted.
                 let _ = sender.send(study.clone());
                 seen.request_repaint();
             })
         });
-        self.running = Some(Running { key, job, growing });
+        self.running = Some(Running { key, task, growing });
     }
 
-    /// Takes over what has been measured since the last call; returns the error of a failed study, for the user.
-    pub fn poll(&mut self, ctx: &egui::Context) -> Option<String> {
+    /// Takes over what has been measured since the last call; returns the error of a failed study.
+    pub fn poll(&mut self, ctx: &egui::Context) -> Option<Error> {
         let running = self.running.as_ref()?;
         let latest = running.growing.try_iter().last();
-        let result = running.job.poll(ctx);
+        let result = running.task.poll(ctx);
         let key = running.key;
         if let Some(study) = latest {
-            self.shown = Some(Shown { key, study, complete: false });
+            self.measured = Some(Measured { key, study, complete: false });
         }
         let result = result?;
         self.running = None;
         match result {
             Ok(study) => {
-                self.shown = Some(Shown { key, study, complete: true });
+                self.measured = Some(Measured { key, study, complete: true });
                 None
             }
-            Err(problem) => Some(problem.to_string()),
+            Err(error) => Some(error),
         }
     }
 

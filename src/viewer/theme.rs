@@ -1,8 +1,8 @@
-//! Colours: a neutral, quiet window, so that the materials are the only colour in it; one accent.
+//! Colours: neutral grays, so that they do not tint the materials, and one accent.
 
 use eframe::egui::{self, Color32, Stroke, Theme, Visuals};
 
-/// The one accent colour: what is chosen, what belongs to the ground truth.
+/// The accent colour: of the selection and of the ground truth.
 const ACCENT: Color32 = Color32::from_rgb(0xe0, 0x93, 0x2f);
 /// The accent colour as text on light gray.
 const DARK_ACCENT: Color32 = Color32::from_rgb(0x9a, 0x52, 0x00);
@@ -12,7 +12,7 @@ pub const SUN: Color32 = Color32::from_rgb(0xff, 0xd2, 0x4a);
 pub const EYE: Color32 = Color32::from_rgb(0xf5, 0xf5, 0xf5);
 const PROBLEM: Color32 = Color32::from_rgb(0xef, 0x7f, 0x71);
 const DARK_PROBLEM: Color32 = Color32::from_rgb(0xa3, 0x1d, 0x10);
-/// What is unsure, as text on dark and on light gray.
+/// The colours of warnings, as text on dark and on light gray.
 const UNSURE: Color32 = Color32::from_rgb(0xff, 0x9f, 0x43);
 const DARK_UNSURE: Color32 = Color32::from_rgb(0x8f, 0x40, 0x00);
 
@@ -21,24 +21,24 @@ pub fn accent(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { ACCENT } else { DARK_ACCENT }
 }
 
-/// What is wrong, readable on the theme's grays.
+/// The colour of errors, readable on the theme's grays.
 pub fn problem(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { PROBLEM } else { DARK_PROBLEM }
 }
 
-/// What surrounds the images: mid-gray, without tint.
+/// The neutral gray around the images.
 pub fn surround(dark: bool) -> Color32 {
     Color32::from_gray(if dark { 0x4b } else { 0x8c })
 }
 
-/// Sets both themes once; `dark` is chosen later, by the person.
+/// Installs both themes; [`choose`] selects one.
 pub fn install(ctx: &egui::Context) {
     ctx.set_visuals_of(Theme::Dark, visuals(Visuals::dark(), [0x23, 0x2e, 0x3c], 0xe6));
     ctx.set_visuals_of(Theme::Light, visuals(Visuals::light(), [0xea, 0xdd, 0xcc], 0x16));
     ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(8.0, 5.0);
         style.spacing.button_padding = egui::vec2(7.0, 3.0);
-        // Scroll bars cover no numbers.
+        // Scroll bars beside the numbers, not over them.
         style.spacing.scroll.floating_allocated_width = style.spacing.scroll.bar_width;
         style.interaction.selectable_labels = true;
         style.text_styles.insert(egui::TextStyle::Small, egui::FontId::proportional(11.0));

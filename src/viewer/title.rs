@@ -1,14 +1,14 @@
-//! The line above a pane that names what it shows.
+//! The title above a pane.
 
 use eframe::egui::{self, FontId, Rect, Sense, vec2};
 
-use super::command::Command;
+use super::command::{Command, DisplayCommand};
+use super::panes::{Content, Scenery};
 use super::state::Layout;
 use super::theme;
-use super::viewport::{Content, Scenery};
 use crate::gpu::DisplayMode;
 
-/// The line above a pane. A click on a prediction's chooses it.
+/// The title of a pane. A click on that of a prediction chooses it.
 pub fn title_bar(
     ui: &egui::Ui,
     scenery: &Scenery<'_>,
@@ -16,22 +16,22 @@ pub fn title_bar(
     content: Content,
     rect: Rect,
 ) -> Option<Command> {
-    let prediction = content.shown.checked_sub(1);
-    let chosen = content.shown == scenery.chosen() && content.shown != 0;
+    let prediction = content.slot.checked_sub(1);
+    let chosen = content.slot == scenery.chosen() && content.slot != 0;
     let text = match content.mode {
-        DisplayMode::Shown => scenery.title(content.shown),
+        DisplayMode::Value => scenery.title(content.slot),
         DisplayMode::Wipe(_) => {
-            format!("{}   |   {}", scenery.title(content.reference), scenery.title(content.shown))
+            format!("{}   |   {}", scenery.title(content.reference), scenery.title(content.slot))
         }
         DisplayMode::Difference => {
-            format!("|ln| difference of {} from the ground truth", scenery.title(content.shown))
+            format!("|ln| difference of {} from the ground truth", scenery.title(content.slot))
         }
     };
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
-    let colour = if content.shown == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
+    let colour = if content.slot == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
     let font = FontId::proportional(13.5);
     let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
         .into_galley(ui, Some(egui::TextWrapMode::Truncate), rect.width() - 16.0, font);
@@ -43,5 +43,5 @@ pub fn title_bar(
         painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
     }
     let response = if elided { response.on_hover_text(text) } else { response };
-    prediction.filter(|_| response.clicked()).map(Command::ChoosePrediction)
+    prediction.filter(|_| response.clicked()).map(|index| DisplayCommand::ChoosePrediction(index).into())
 }

@@ -1,4 +1,4 @@
-//! The panes: which there are, where they lie, what each shows.
+//! The panes, drawn, and what the mouse does in them.
 
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2};
 
@@ -8,31 +8,16 @@ use super::gestures::{self, Gesture, Target};
 use super::gpu_view::GpuView;
 use super::handles;
 use super::legend;
-use super::slots::Slot;
-use super::state::{self, End, Layout, Projection, ViewState};
+use super::panes::{Content, Scenery};
+use super::state::{self, Endpoint, Projection, ViewState};
 use super::theme;
 use super::title::title_bar;
 use crate::gpu::{DisplayMode, DisplayParams, ShadeParams};
 use crate::material::Grid;
 use crate::picture::camera::Camera;
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 
-/// What the panes need to know, for one frame.
-#[derive(Debug)]
-pub struct Scenery<'a> {
-    pub slots: &'a [Slot],
-    pub state: &'a ViewState,
-    pub dark: bool,
-    pub highlight_follows: bool,
-    /// Whether every pane shows the ground truth for the moment.
-    pub peek: bool,
-    /// Whether the chosen prediction and the ground truth have changed places.
-    pub swapped: bool,
-    /// Whether materials are being read.
-    pub reading: bool,
-}
-
-/// What outlives a frame.
+/// The state of the panes between frames.
 #[derive(Debug, Default)]
 pub struct Viewport {
     gesture: Option<Gesture>,
@@ -42,64 +27,8 @@ pub struct Viewport {
     pane_pixels: Vec2,
 }
 
-/// One pane: the slot it shows, the slot it is compared with, and how.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Content {
-    pub shown: usize,
-    pub reference: usize,
-    pub mode: DisplayMode,
-}
-
-impl Scenery<'_> {
-    /// The slot that the chosen prediction is in; the ground truth's where there is no prediction.
-    pub fn chosen(&self) -> usize {
-        (self.state.prediction + 1).min(self.slots.len().saturating_sub(1))
-    }
-
-    /// The slot that is seen where slot `index` would be.
-    fn seen(&self, index: usize) -> usize {
-        match index {
-            _ if self.peek => 0,
-            0 if self.swapped => self.chosen(),
-            i if self.swapped && i == self.chosen() => 0,
-            i => i,
-        }
-    }
-
-    fn contents(&self) -> Vec<Content> {
-        let alone = |shown, mode| Content { shown, reference: 0, mode };
-        let chosen = self.seen(self.chosen());
-        match self.state.layout {
-            Layout::SideBySide => {
-                (0..self.slots.len()).map(|i| alone(self.seen(i), DisplayMode::Shown)).collect()
-            }
-            Layout::Single => vec![alone(chosen, DisplayMode::Shown)],
-            Layout::Difference => vec![alone(chosen, DisplayMode::Difference)],
-            Layout::Wipe => vec![Content {
-                shown: chosen,
-                reference: self.seen(0),
-                mode: DisplayMode::Wipe(self.state.wipe * 2.0 - 1.0),
-            }],
-        }
-    }
-
-    fn camera(&self, grid: Grid, aspect: f32) -> Camera {
-        let fitted = match self.state.projection {
-            Projection::Flat => Camera::flat(grid, aspect),
-            Projection::Perspective => Camera::of_scene(&self.state.scene, grid, aspect),
-        };
-        fitted.zoomed(self.state.zoom, self.state.pan)
-    }
-
-    /// The name of slot `index` as titles give it.
-    pub fn title(&self, index: usize) -> String {
-        let name = self.slots[index].name();
-        if index == 0 { format!("GROUND TRUTH  {name}") } else { format!("{index}  {name}") }
-    }
-}
-
 impl Viewport {
-    /// Shows the panes and returns what a person does in them.
+    /// Draws the panes and returns the commands of the mouse in them.
     pub fn ui(
         &mut self,
         ui: &mut egui::Ui,
@@ -110,14 +39,14 @@ impl Viewport {
         ui.painter().rect_filled(area, 0.0, theme::surround(scenery.dark));
         self.hovered = None;
         let Some(gpu) = gpu else {
-            note(ui, area, "No graphics adapter: nothing can be drawn. The loss works.");
+            note(ui, area, "No graphics adapter: materials cannot be drawn. The loss can be computed.");
             return Vec::new();
         };
         if scenery.slots.is_empty() {
             let text = if scenery.reading {
                 "Reading..."
             } else {
-                "Open a material: Ctrl+O, or drop files or folders here."
+                "Open a material with Ctrl+O, or drop files or folders here."
             };
             note(ui, area, text);
             return Vec::new();
@@ -152,7 +81,7 @@ impl Viewport {
         self.pane_pixels = rect.size() * ui.pixels_per_point();
 
         let response = ui.interact(rect, ui.scope_id().with(("pane", number)), Sense::drag());
-        let label = format!("Pane {}", scenery.title(content.shown));
+        let label = format!("Pane {}", scenery.title(content.slot));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
         self.paint(ui, scenery, gpu, content, rect, camera);
@@ -188,12 +117,12 @@ impl Viewport {
             camera,
             exposure_ev: state.exposure_ev,
             mode: content.mode,
-            encoding: state.shown.into(),
+            encoding: state.quantity.into(),
             show_clipping: state.show_clipping,
             epsilon: state.convention().epsilon as f32,
             background: [background[0], background[1], background[2]],
         };
-        let ids = [content.shown, content.reference].map(|i| scenery.slots[i].id);
+        let ids = [content.slot, content.reference].map(|i| scenery.slots[i].id);
         gpu.paint(&painter, rect, ids, params);
         if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.wipe);
@@ -201,7 +130,7 @@ impl Viewport {
         if content.mode == DisplayMode::Difference {
             legend::paint(&painter, rect, state);
         }
-        if state.shown == Shown::Rendering {
+        if state.quantity == Quantity::Rendering {
             paint_handles(&painter, rect, &camera, state);
         }
     }
@@ -216,13 +145,13 @@ impl Viewport {
     }
 }
 
-/// Shades every material that a pane shows.
+/// Shades every material in a pane.
 fn shade(gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
     let state = scenery.state;
-    let params = ShadeParams { scene: state.scene, convention: state.convention(), shown: state.shown };
+    let params = ShadeParams { scene: state.scene, convention: state.convention(), quantity: state.quantity };
     gpu.keep_only(scenery.slots);
     for content in scenery.contents() {
-        for index in [content.shown, content.reference] {
+        for index in [content.slot, content.reference] {
             gpu.shade(&scenery.slots[index], params)?;
         }
     }
@@ -232,17 +161,18 @@ fn shade(gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
 fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState) {
     if state.projection == Projection::Flat
         && let Some((at, outside)) =
-            handles::pos_from_plane(camera, rect, state::foot(&state.scene, End::View))
+            handles::pos_from_plane(camera, rect, state::over_plane(&state.scene, Endpoint::View))
     {
         handles::paint_eye(painter, at, outside);
     }
-    if let Some((at, outside)) = handles::pos_from_plane(camera, rect, state::foot(&state.scene, End::Light))
+    if let Some((at, outside)) =
+        handles::pos_from_plane(camera, rect, state::over_plane(&state.scene, Endpoint::Light))
     {
         handles::paint_sun(painter, at, outside);
     }
 }
 
-/// A sentence in the middle of an empty area.
+/// A text in the middle of an empty area.
 fn note(ui: &egui::Ui, area: Rect, text: &str) {
     let galley = ui.painter().layout(
         text.to_owned(),

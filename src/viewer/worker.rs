@@ -1,4 +1,4 @@
-//! Slow work off the window's thread.
+//! Slow work, off the window's thread.
 
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
@@ -9,18 +9,18 @@ use eframe::egui;
 use crate::error::Error;
 use crate::progress::Progress;
 
-/// How often a running job is looked at for its progress.
+/// How often the progress of a running task is looked at.
 const LOOK_AGAIN: Duration = Duration::from_millis(80);
 
-/// One piece of work on a thread of its own. Dropping it asks the work to stop: the latest request wins.
+/// One piece of work on its own thread. Dropping it cancels the work: the latest request wins.
 #[derive(Debug)]
-pub struct Job<T> {
+pub struct Task<T> {
     progress: Arc<Progress>,
     result: Receiver<Result<T, Error>>,
     started: Instant,
 }
 
-impl<T: Send + 'static> Job<T> {
+impl<T: Send + 'static> Task<T> {
     /// Starts `work`; the window is drawn again when it ends.
     pub fn start(
         ctx: &egui::Context,
@@ -31,14 +31,14 @@ impl<T: Send + 'static> Job<T> {
         let (ctx, seen) = (ctx.clone(), progress.clone());
         ctx.request_repaint_after(LOOK_AGAIN);
         std::thread::spawn(move || {
-            // The window may have dropped this job: then nobody wants the result.
+            // Where the window has dropped this task, the result is not wanted.
             let _ = sender.send(work(&seen));
             ctx.request_repaint();
         });
         Self { progress, result, started: Instant::now() }
     }
 
-    /// The result, once: `None` while the work goes on. A worker that died without a word is an error.
+    /// The result, once; `None` while the work goes on. A worker that ends without a result is an error.
     pub fn poll(&self, ctx: &egui::Context) -> Option<Result<T, Error>> {
         match self.result.try_recv() {
             Ok(result) => Some(result),
@@ -46,8 +46,8 @@ impl<T: Send + 'static> Job<T> {
                 ctx.request_repaint_after(LOOK_AGAIN);
                 None
             }
-            Err(TryRecvError::Disconnected) => Some(Err(Error::Usage(
-                "the work ended without a result, which is a mistake of this program; please report it"
+            Err(TryRecvError::Disconnected) => Some(Err(Error::Internal(
+                "the work ended without a result"
                     .to_owned(),
             ))),
         }
@@ -68,7 +68,7 @@ impl<T: Send + 'static> Job<T> {
     }
 }
 
-impl<T> Drop for Job<T> {
+impl<T> Drop for Task<T> {
     fn drop(&mut self) {
         self.progress.cancel();
     }

@@ -50,7 +50,7 @@ fn of_several_exemplars_one_is_chosen() {
     let second = open_as(&path, &ReadOptions { exemplar: Some(1), ..ReadOptions::default() });
     assert_same(&open(&path), EIGHT_BITS);
     assert!((second.material.texel(5).diffuse[0] - 0.2).abs() < 1e-12);
-    assert!(second.notes.iter().any(|note| note.contains("holds 2 materials")));
+    assert!(second.notes.iter().any(|note| note.to_string().contains("holds 2 materials")));
     let third = ReadOptions { exemplar: Some(2), ..ReadOptions::default() };
     let refused = read::<f64>(&path, &third, &Progress::default()).unwrap_err().to_string();
     assert!(refused.contains("an exemplar from 0 to 1"), "{refused}");

@@ -10,7 +10,7 @@ use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::picture::camera::Camera;
-use svbrdf::picture::content::Shown;
+use svbrdf::picture::quantity::Quantity;
 
 use crate::support::gpu::{bumpy, gpu, picture};
 
@@ -83,7 +83,7 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
     let shading = Shading::new(&half).expect("compiled");
     let textures = MaterialTextures::upload(&half, &mirror()).expect("uploaded");
     let target = shading.target(&half, [2, 2]).expect("created");
-    let params = ShadeParams { scene, convention: PRINTED, shown: Shown::Rendering };
+    let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering };
     shading.draw(&half, &textures, &params, &target);
     let camera = Camera {
         origin: Vec3::new(0.0, 0.0, 1.0),
@@ -97,7 +97,7 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
         camera,
         // Brings the largest 16-bit number, and nothing larger, just below 1.
         exposure_ev: -16.0,
-        mode: DisplayMode::Shown,
+        mode: DisplayMode::Value,
         encoding: Encoding::Radiance,
         show_clipping: true,
         epsilon: 0.01,

@@ -10,7 +10,7 @@ use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::picture::camera::Camera;
 use svbrdf::picture::colour_map::heat;
-use svbrdf::picture::content::Shown;
+use svbrdf::picture::quantity::Quantity;
 
 use crate::support::gpu::{Picture, bumpy, gpu, gpu_f32, picture};
 use crate::support::tolerance::SCREEN_LEVELS;
@@ -20,11 +20,11 @@ const BACKGROUND: [f32; 3] = [0.2, 0.4, 0.6];
 /// Light and view straight above.
 const ABOVE: Scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] };
 
-fn shaded(gpu: &Gpu, material: &Material<f32>, shown: Shown) -> Shaded {
+fn shaded(gpu: &Gpu, material: &Material<f32>, quantity: Quantity) -> Shaded {
     let shading = Shading::new(gpu).expect("compiled");
     let textures = MaterialTextures::upload(gpu, material).expect("uploaded");
     let target = shading.target(gpu, material.size()).expect("created");
-    shading.draw(gpu, &textures, &ShadeParams { scene: ABOVE, convention: PRINTED, shown }, &target);
+    shading.draw(gpu, &textures, &ShadeParams { scene: ABOVE, convention: PRINTED, quantity }, &target);
     target
 }
 
@@ -46,11 +46,11 @@ fn whole([width, height]: [usize; 2]) -> Camera {
     flat([0.0; 2], width as f32 / scale, height as f32 / scale)
 }
 
-fn params(camera: Camera, shown: Shown) -> DisplayParams {
+fn params(camera: Camera, shown: Quantity) -> DisplayParams {
     DisplayParams {
         camera,
         exposure_ev: 0.0,
-        mode: DisplayMode::Shown,
+        mode: DisplayMode::Value,
         encoding: Encoding::from(shown),
         show_clipping: false,
         epsilon: 0.01,
@@ -96,7 +96,7 @@ fn known_values_are_encoded_as_the_standard_says() {
     let Some(gpu) = gpu() else { return };
     let known = [(0.0, 0, 0), (0.002, 7, 1), (0.2, 124, 51), (0.5, 188, 128), (1.0, 255, 255)];
     for (value, as_albedo, as_data) in known {
-        for (shown, level) in [(Shown::Diffuse, as_albedo), (Shown::Roughness, as_data)] {
+        for (shown, level) in [(Quantity::Diffuse, as_albedo), (Quantity::Roughness, as_data)] {
             let shaded = shaded(gpu, &gray(value), shown);
             let picture = picture(gpu, [4, 4], &shaded, &shaded, &params(whole([4, 4]), shown));
             assert!(picture.at(1, 1)[0].abs_diff(level) <= SCREEN_LEVELS, "{value}: {:?}", picture.at(1, 1));
@@ -109,9 +109,9 @@ fn radiance_is_exposed_before_it_is_encoded() {
     let Some(gpu) = gpu_f32() else { return };
     let material = gray(0.3);
     let on_gpu = gpu.render(&material, &ABOVE, &PRINTED).expect("rendered").pixels[0];
-    let shaded = shaded(gpu, &material, Shown::Rendering);
+    let shaded = shaded(gpu, &material, Quantity::Rendering);
     for exposure_ev in [-3.0_f32, 0.0, 1.0, 2.0] {
-        let params = DisplayParams { exposure_ev, ..params(whole([4, 4]), Shown::Rendering) };
+        let params = DisplayParams { exposure_ev, ..params(whole([4, 4]), Quantity::Rendering) };
         let picture = picture(gpu, [4, 4], &shaded, &shaded, &params);
         let expected = on_gpu.map(|x| srgb(f64::from(x * exposure_ev.exp2())));
         assert!(close(picture.at(2, 1), levels(expected)), "{exposure_ev}: {:?}", picture.at(2, 1));
@@ -123,10 +123,10 @@ fn every_texel_is_crisp_and_in_its_place_when_magnified() {
     let Some(gpu) = gpu() else { return };
     for size in [[5, 3], [4, 4], [1, 1], [1, 3], [3, 1], [16, 9]] {
         let material = bumpy(size[0], size[1]);
-        let shaded = shaded(gpu, &material, Shown::Diffuse);
+        let shaded = shaded(gpu, &material, Quantity::Diffuse);
         for zoom in [1, 2, 3, 7] {
             let pane = size.map(|side| (side * zoom) as u32);
-            let picture = picture(gpu, pane, &shaded, &shaded, &params(whole(size), Shown::Diffuse));
+            let picture = picture(gpu, pane, &shaded, &shaded, &params(whole(size), Quantity::Diffuse));
             let expected = |column: usize, row: usize| {
                 Some(levels(diffuse(&material, column / zoom, row / zoom).map(srgb)))
             };
@@ -140,8 +140,8 @@ fn every_texel_is_crisp_and_in_its_place_when_magnified() {
 fn the_comparison_of_pictures_goes_red_on_planted_faults() {
     let Some(gpu) = gpu() else { return };
     let material = bumpy(6, 6);
-    let shaded = shaded(gpu, &material, Shown::Diffuse);
-    let picture = picture(gpu, [6, 6], &shaded, &shaded, &params(whole([6, 6]), Shown::Diffuse));
+    let shaded = shaded(gpu, &material, Quantity::Diffuse);
+    let picture = picture(gpu, [6, 6], &shaded, &shaded, &params(whole([6, 6]), Quantity::Diffuse));
     let planted = |from: fn(usize, usize) -> (usize, usize)| {
         let texel = |(column, row): (usize, usize)| levels(diffuse(&material, column, row).map(srgb));
         faults(&picture, |column, row| Some(texel(from(column, row))))
@@ -166,8 +166,8 @@ fn a_perspective_view_shows_what_the_camera_says() {
     };
     let (size, pane) = ([6, 4], [200, 160]);
     let material = bumpy(size[0], size[1]);
-    let shaded = shaded(gpu, &material, Shown::Diffuse);
-    let picture = picture(gpu, pane, &shaded, &shaded, &params(camera, Shown::Diffuse));
+    let shaded = shaded(gpu, &material, Quantity::Diffuse);
+    let picture = picture(gpu, pane, &shaded, &shaded, &params(camera, Quantity::Diffuse));
     let background = levels(BACKGROUND.map(f64::from));
     let expected = |column: usize, row: usize| {
         let x = (2 * column + 1) as f32 / pane[0] as f32 - 1.0;
@@ -214,8 +214,8 @@ fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
         [([8, 8], [2, 2]), ([6, 9], [4, 6]), ([7, 7], [3, 3]), ([32, 32], [2, 2]), ([90, 60], [9, 6])]
     {
         let material = bumpy(size[0], size[1]);
-        let shaded = shaded(gpu, &material, Shown::Diffuse);
-        let params = params(whole(size), Shown::Diffuse);
+        let shaded = shaded(gpu, &material, Quantity::Diffuse);
+        let params = params(whole(size), Quantity::Diffuse);
         let picture = picture(gpu, pane.map(|side| side as u32), &shaded, &shaded, &params);
         let faults = faults(&picture, |c, r| Some(levels(box_average(&material, pane, c, r).map(srgb))));
         assert!(faults.is_empty(), "{size:?} in {pane:?}: {faults:#?}");
@@ -226,8 +226,8 @@ fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
 fn a_very_large_map_is_averaged_with_a_stride() {
     let Some(gpu) = gpu() else { return };
     let material = bumpy(400, 400);
-    let shaded = shaded(gpu, &material, Shown::Diffuse);
-    let picture = picture(gpu, [4, 4], &shaded, &shaded, &params(whole([400, 400]), Shown::Diffuse));
+    let shaded = shaded(gpu, &material, Quantity::Diffuse);
+    let picture = picture(gpu, [4, 4], &shaded, &shaded, &params(whole([400, 400]), Quantity::Diffuse));
     for (column, row) in [(0, 0), (3, 0), (0, 3), (3, 3)] {
         let expected = levels(box_average(&material, [4, 4], column, row).map(srgb));
         let got = picture.at(column, row);
@@ -239,10 +239,10 @@ fn a_very_large_map_is_averaged_with_a_stride() {
 #[test]
 fn a_wipe_shows_the_reference_on_the_left() {
     let Some(gpu) = gpu() else { return };
-    let white = shaded(gpu, &gray(1.0), Shown::Diffuse);
-    let black = shaded(gpu, &gray(0.0), Shown::Diffuse);
+    let white = shaded(gpu, &gray(1.0), Quantity::Diffuse);
+    let black = shaded(gpu, &gray(0.0), Quantity::Diffuse);
     for (x, reference_columns) in [(-1.0, 0), (-0.5, 2), (0.0, 4), (0.5, 6), (1.0, 8)] {
-        let params = DisplayParams { mode: DisplayMode::Wipe(x), ..params(whole([4, 4]), Shown::Diffuse) };
+        let params = DisplayParams { mode: DisplayMode::Wipe(x), ..params(whole([4, 4]), Quantity::Diffuse) };
         let picture = picture(gpu, [8, 8], &white, &black, &params);
         let expected = |column: usize, _| Some([if column < reference_columns { 0 } else { 255 }; 3]);
         assert_eq!(faults(&picture, expected), Vec::<String>::new(), "wipe at {x}");
@@ -252,9 +252,9 @@ fn a_wipe_shows_the_reference_on_the_left() {
 #[test]
 fn the_difference_of_a_picture_to_itself_is_the_colour_map_s_zero() {
     let Some(gpu) = gpu() else { return };
-    for shown in Shown::ALL {
-        let shaded = shaded(gpu, &bumpy(8, 8), shown);
-        let params = DisplayParams { mode: DisplayMode::Difference, ..params(whole([8, 8]), shown) };
+    for quantity in Quantity::ALL {
+        let shaded = shaded(gpu, &bumpy(8, 8), quantity);
+        let params = DisplayParams { mode: DisplayMode::Difference, ..params(whole([8, 8]), quantity) };
         let picture = picture(gpu, [16, 16], &shaded, &shaded, &params);
         let zero = levels(heat(0.0).map(f64::from));
         assert_eq!(faults(&picture, |_, _| Some(zero)), Vec::<String>::new());
@@ -268,10 +268,10 @@ fn a_difference_is_that_of_the_logarithms_for_renderings_and_plain_for_maps() {
     let radiance = |m| f64::from(gpu.render(m, &ABOVE, &PRINTED).expect("rendered").pixels[0][0]);
     let logarithmic = (radiance(&light) + 0.01).ln() - (radiance(&dark) + 0.01).ln();
     for (shown, exposure_ev, amount) in [
-        (Shown::Rendering, 0.0, logarithmic.abs() / 2.0),
-        (Shown::Rendering, -1.0, logarithmic.abs() / 4.0),
-        (Shown::Diffuse, 0.0, 0.6),
-        (Shown::Roughness, 3.0, 0.6),
+        (Quantity::Rendering, 0.0, logarithmic.abs() / 2.0),
+        (Quantity::Rendering, -1.0, logarithmic.abs() / 4.0),
+        (Quantity::Diffuse, 0.0, 0.6),
+        (Quantity::Roughness, 3.0, 0.6),
     ] {
         let pictures = [&light, &dark].map(|m| shaded(gpu, m, shown));
         let mode = DisplayMode::Difference;
@@ -288,8 +288,9 @@ fn a_difference_is_that_of_the_logarithms_for_renderings_and_plain_for_maps() {
 fn clipped_pixels_are_striped_on_demand() {
     let Some(gpu) = gpu() else { return };
     let striped = |value: f32, exposure_ev: f32, show_clipping: bool| {
-        let shaded = shaded(gpu, &gray(value), Shown::Rendering);
-        let params = DisplayParams { exposure_ev, show_clipping, ..params(whole([4, 4]), Shown::Rendering) };
+        let shaded = shaded(gpu, &gray(value), Quantity::Rendering);
+        let params =
+            DisplayParams { exposure_ev, show_clipping, ..params(whole([4, 4]), Quantity::Rendering) };
         let picture = picture(gpu, [16, 16], &shaded, &shaded, &params);
         picture.pixels.iter().filter(|p| p[0] != p[1] || p[1] != p[2]).count()
     };

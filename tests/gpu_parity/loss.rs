@@ -259,7 +259,7 @@ fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
     let below = Scene { light: [0.0, 0.0, -1.0], ..fine[0] };
     assert!(matches!(refused(&other, &fine), Error::SizesDiffer { .. }));
     assert!(matches!(refused(&material, &[below]), Error::UnusableScene { .. }));
-    assert!(matches!(refused(&material, &[]), Error::Usage(_)));
+    assert!(matches!(refused(&material, &[]), Error::InvalidRequest(_)));
 }
 
 #[test]

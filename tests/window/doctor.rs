@@ -72,12 +72,12 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
     assert_eq!(material(window.state(), 0), materials[0]);
     assert!(loss(&mut window) > 0.1);
-    window.get_by_label("albedo: srgb: as you said");
+    window.get_by_label("albedo: srgb: as specified");
     let after = panes.map(|rect| pixels(&mut window, rect));
     assert!(before[0] == after[0], "the pane of the ground truth stays");
     assert!(before[1] != after[1], "the pane of the prediction changes");
 
-    choose(&mut window, "albedo of guess", "auto: find out albedo");
+    choose(&mut window, "albedo of guess", "auto: infer albedo");
     wait(&mut window, "the material to be as before", |app| *app.materials().nth(1).unwrap() == materials[1]);
     assert_eq!(loss(&mut window), 0.0);
     assert!(pixels(&mut window, panes[1]) == before[1]);
@@ -93,7 +93,7 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
         ("albedo", "log0.01"),
         ("specular", "gamma2.2"),
         ("normal y", "down"),
-        ("normal code", "xy"),
+        ("normal encoding", "xy"),
         ("roughness", "gloss"),
         ("energy", "plain"),
     ] {
@@ -103,7 +103,7 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
         assert!(window.state().messages().is_empty(), "{choice}: {:?}", window.state().messages());
         assert!(loss(&mut window) > 0.0, "{choice}");
         let changed = material(window.state(), 0);
-        choose(&mut window, &format!("{what} of truth"), &format!("auto: find out {what}"));
+        choose(&mut window, &format!("{what} of truth"), &format!("auto: infer {what}"));
         wait(&mut window, "auto", |app| *app.materials().next().unwrap() != changed);
         assert!(material(window.state(), 0) == before, "{choice}, and back");
     }
@@ -128,7 +128,7 @@ fn a_click_on_another_workflow_changes_the_material() {
     let diffuse = |app: &App| app.materials().next().unwrap().planes().diffuse[0][0];
     assert!(diffuse(window.state()) > 0.4);
     for (choice, metallic) in
-        [("workflow metallic", true), ("workflow specular", false), ("auto: find out workflow", false)]
+        [("workflow metallic", true), ("workflow specular", false), ("auto: infer workflow", false)]
     {
         window.get_by_role_and_label(Role::ComboBox, &format!("workflow of {name}")).click();
         window.run_steps(4);
@@ -183,12 +183,12 @@ fn what_is_chosen_is_kept_with_the_material_by_a_click() {
     let kept = folder.path().join("guess.svbrdf.json");
     let Some(mut window) = on_two_strips(paths.clone()) else { return };
     let before = material(window.state(), 1);
-    assert!(window.query_by_label("Keep with guess").is_none(), "there is nothing to keep");
+    assert!(window.query_by_label("Save assumptions of guess").is_none(), "there is nothing to keep");
     choose(&mut window, "roughness of guess", "roughness gloss");
     wait(&mut window, "the material to be read again", |app| *app.materials().nth(1).unwrap() != before);
     let gloss = material(window.state(), 1);
     assert!(!kept.exists());
-    window.get_by_label("Keep with guess").click();
+    window.get_by_label("Save assumptions of guess").click();
     window.run_steps(2);
     wait(&mut window, "the material to be opened again", |app| !app.is_reading());
     let text = std::fs::read_to_string(&kept).unwrap();
@@ -197,14 +197,14 @@ fn what_is_chosen_is_kept_with_the_material_by_a_click() {
         serde_json::json!({"roughness": "gloss"})
     );
     window.get_by_label("roughness: gloss: as guess.svbrdf.json says");
-    assert!(window.query_by_label("Keep with guess").is_none(), "it is kept");
+    assert!(window.query_by_label("Save assumptions of guess").is_none(), "it is kept");
 
     // A new window opens it so; a drop-down wins over it, also over what it says.
     let Some(mut window) = on_two_strips(paths) else { return };
     assert!(material(window.state(), 1) == gloss);
-    choose(&mut window, "roughness of guess", "auto: find out roughness");
+    choose(&mut window, "roughness of guess", "auto: infer roughness");
     wait(&mut window, "auto", |app| *app.materials().nth(1).unwrap() == before);
-    window.get_by_label("Keep with guess").click();
+    window.get_by_label("Save assumptions of guess").click();
     wait(&mut window, "the material to be opened again", |app| !app.is_reading());
     assert_eq!(std::fs::read_to_string(&kept).unwrap(), "{}\n");
     assert!(material(window.state(), 1) == before);
@@ -225,6 +225,6 @@ fn what_the_maps_hold_is_listed_on_a_click() {
 #[test]
 fn nobody_is_said_to_have_said_what_is_built_in() {
     let Some(window) = built_in() else { return };
-    assert!(window.query_all_by_label_contains("as you said").next().is_none());
+    assert!(window.query_all_by_label_contains("as specified").next().is_none());
     assert!(window.query_all_by_label_contains("it was made so").count() >= 3);
 }

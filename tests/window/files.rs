@@ -140,7 +140,7 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
         } else {
             assert_eq!(window.state().names(), ["large"]);
             assert!(
-                window.state().messages()[0].contains("tick \"Fit sizes\""),
+                window.state().messages()[0].contains("Tick \"Fit sizes\""),
                 "{:?}",
                 window.state().messages()
             );

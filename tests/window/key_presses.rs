@@ -1,6 +1,6 @@
 //! What the keys do.
 
-use svbrdf::picture::content::Shown;
+use svbrdf::picture::quantity::Quantity;
 use svbrdf::viewer::keys;
 use svbrdf::viewer::state::{Layout, Projection};
 
@@ -17,7 +17,7 @@ fn every_letter_does_what_the_help_says() {
     expect(&mut window, egui::Key::C, "single", &|a| a.state.layout == Layout::Single);
     expect(&mut window, egui::Key::C, "difference", &|a| a.state.layout == Layout::Difference);
     expect(&mut window, egui::Key::C, "side by side", &|a| a.state.layout == Layout::SideBySide);
-    expect(&mut window, egui::Key::M, "normal", &|a| a.state.shown == Shown::Normal);
+    expect(&mut window, egui::Key::M, "normal", &|a| a.state.quantity == Quantity::Normal);
     expect(&mut window, egui::Key::P, "perspective", &|a| a.state.projection == Projection::Perspective);
     expect(&mut window, egui::Key::E, "brighter", &|a| a.state.exposure_ev == 0.5);
     expect(&mut window, egui::Key::Num2, "second prediction", &|a| a.state.prediction == 1);

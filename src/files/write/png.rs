@@ -16,7 +16,7 @@ use crate::progress::Progress;
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug)]
-enum Shown {
+enum WrittenMap {
     Normal,
     Diffuse,
     Specular,
@@ -28,7 +28,7 @@ enum Shown {
 
 /// The encoding of colours and roughness.
 #[derive(Clone, Copy, Debug)]
-struct Code {
+struct MapEncoding {
     diffuse: Albedo,
     specular: Albedo,
     roughness: Roughness,
@@ -36,7 +36,7 @@ struct Code {
     energy: Energy,
 }
 
-impl From<Preset> for Code {
+impl From<Preset> for MapEncoding {
     fn from(preset: Preset) -> Self {
         let ReadOptions { albedo, specular, roughness, normal_y, energy, .. } = preset.options();
         let diffuse = albedo.unwrap_or(Albedo::Linear);
@@ -45,18 +45,18 @@ impl From<Preset> for Code {
             specular: specular.unwrap_or(diffuse),
             roughness: roughness.unwrap_or(Roughness::R),
             normal_y: normal_y.unwrap_or(NormalY::Up),
-            energy: energy.unwrap_or(Energy::Deschaintre),
+            energy: energy.unwrap_or(Energy::Scaled),
         }
     }
 }
 
-impl Code {
+impl MapEncoding {
     const SRGB: Self = Self {
         diffuse: Albedo::Srgb,
         specular: Albedo::Srgb,
         roughness: Roughness::R,
         normal_y: NormalY::Up,
-        energy: Energy::Deschaintre,
+        energy: Energy::Scaled,
     };
     const MATERIAL_GAN: Self = Self {
         diffuse: Albedo::Gamma22,
@@ -73,26 +73,26 @@ impl Code {
     }
 
     /// (red, green, blue) in [0, 1] of the texel at `index`.
-    fn of(&self, material: &Material<f32>, shown: Shown, index: usize) -> [f64; 3] {
+    fn of(&self, material: &Material<f32>, map: WrittenMap, index: usize) -> [f64; 3] {
         let Planes { normal, diffuse, specular, roughness } = material.planes();
         let at = |planes: &[Vec<f32>; 3]| planes.each_ref().map(|plane| f64::from(plane[index]));
         let rough = || encoded_roughness(f64::from(roughness[index]), self.roughness);
         let colour = |rgb: [f64; 3], albedo| rgb.map(|value| encoded(value, albedo));
-        match shown {
-            Shown::Normal => {
+        match map {
+            WrittenMap::Normal => {
                 let [x, y, z] = at(normal);
                 let y = if self.normal_y == NormalY::Up { y } else { -y };
                 [x, y, z].map(|n| (0.5 * n + 0.5).clamp(0.0, 1.0))
             }
-            Shown::Diffuse if self.energy == Energy::Plain => {
+            WrittenMap::Diffuse if self.energy == Energy::Unscaled => {
                 let [d, s] = [at(diffuse), at(specular)];
                 colour([0, 1, 2].map(|c| d[c] * (1.0 - s[c])), self.diffuse)
             }
-            Shown::Diffuse => colour(at(diffuse), self.diffuse),
-            Shown::Specular => colour(at(specular), self.specular),
-            Shown::Roughness => [rough(); 3],
-            Shown::Base => colour(base_and_metallic(at(diffuse), at(specular)).0, self.diffuse),
-            Shown::Orm => [1.0, rough(), base_and_metallic(at(diffuse), at(specular)).1],
+            WrittenMap::Diffuse => colour(at(diffuse), self.diffuse),
+            WrittenMap::Specular => colour(at(specular), self.specular),
+            WrittenMap::Roughness => [rough(); 3],
+            WrittenMap::Base => colour(base_and_metallic(at(diffuse), at(specular)).0, self.diffuse),
+            WrittenMap::Orm => [1.0, rough(), base_and_metallic(at(diffuse), at(specular)).1],
         }
     }
 }
@@ -101,30 +101,30 @@ impl Code {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Picture<'a> {
     name: &'a str,
-    shown: Shown,
-    code: Code,
+    map: WrittenMap,
+    encoding: MapEncoding,
 }
 
-const fn picture(name: &str, shown: Shown, code: Code) -> Picture<'_> {
-    Picture { name, shown, code }
+const fn picture(name: &str, map: WrittenMap, encoding: MapEncoding) -> Picture<'_> {
+    Picture { name, map, encoding }
 }
 
 pub(crate) const PLAIN: [Picture<'_>; 4] = [
-    picture("normal_gl", Shown::Normal, Code::SRGB),
-    picture("diffuse", Shown::Diffuse, Code::SRGB),
-    picture("roughness", Shown::Roughness, Code::SRGB),
-    picture("specular", Shown::Specular, Code::SRGB),
+    picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
+    picture("diffuse", WrittenMap::Diffuse, MapEncoding::SRGB),
+    picture("roughness", WrittenMap::Roughness, MapEncoding::SRGB),
+    picture("specular", WrittenMap::Specular, MapEncoding::SRGB),
 ];
 pub(crate) const MATERIAL_GAN: [Picture<'_>; 4] = [
-    picture("nom", Shown::Normal, Code::MATERIAL_GAN),
-    picture("dif", Shown::Diffuse, Code::MATERIAL_GAN),
-    picture("rgh", Shown::Roughness, Code::MATERIAL_GAN),
-    picture("spe", Shown::Specular, Code::MATERIAL_GAN),
+    picture("nom", WrittenMap::Normal, MapEncoding::MATERIAL_GAN),
+    picture("dif", WrittenMap::Diffuse, MapEncoding::MATERIAL_GAN),
+    picture("rgh", WrittenMap::Roughness, MapEncoding::MATERIAL_GAN),
+    picture("spe", WrittenMap::Specular, MapEncoding::MATERIAL_GAN),
 ];
 pub(crate) const GLTF: [Picture<'_>; 3] = [
-    picture("normal_gl", Shown::Normal, Code::SRGB),
-    picture("basecolor", Shown::Base, Code::SRGB),
-    picture("occlusion_roughness_metallic", Shown::Orm, Code::SRGB),
+    picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
+    picture("basecolor", WrittenMap::Base, MapEncoding::SRGB),
+    picture("occlusion_roughness_metallic", WrittenMap::Orm, MapEncoding::SRGB),
 ];
 
 /// Four tiles in a row, as `like` orders and encodes them.
@@ -135,18 +135,18 @@ pub(crate) fn packed(
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    let (order, code) = (like.order().unwrap_or(Order::NDRS), Code::from(like));
+    let (order, encoding) = (like.order().unwrap_or(Order::NDRS), MapEncoding::from(like));
     let tiles = order.to_string();
     let [width, height] = material.size();
-    let shown = |letter| match letter {
-        'n' => Shown::Normal,
-        'd' => Shown::Diffuse,
-        'r' => Shown::Roughness,
-        _ => Shown::Specular,
+    let map = |letter| match letter {
+        'n' => WrittenMap::Normal,
+        'd' => WrittenMap::Diffuse,
+        'r' => WrittenMap::Roughness,
+        _ => WrittenMap::Specular,
     };
-    let shown: Vec<Shown> = tiles.chars().map(shown).collect();
-    let bytes = pixels(material, &shown, code, sixteen, progress)?;
-    let meaning = format!("packed {order}, {}", code.text());
+    let maps: Vec<WrittenMap> = tiles.chars().map(map).collect();
+    let bytes = pixels(material, &maps, encoding, sixteen, progress)?;
+    let meaning = format!("packed {order}, {}", encoding.text());
     write(file, [tiles.len() * width, height], sixteen, &meaning, &bytes)
 }
 
@@ -159,11 +159,11 @@ pub(crate) fn folder(
     progress: &Progress,
 ) -> io::Result<()> {
     let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(export::folder_of(path))?;
-    files.par_iter().try_for_each(|Picture { name, shown, code }| {
+    files.par_iter().try_for_each(|Picture { name, map, encoding }| {
         let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
-        let bytes = pixels(material, &[*shown], *code, sixteen, progress)?;
+        let bytes = pixels(material, &[*map], *encoding, sixteen, progress)?;
         let file = io::BufWriter::new(export::Watched::new(&mut file, progress));
-        write(file, material.size(), sixteen, &code.text(), &bytes)
+        write(file, material.size(), sixteen, &encoding.text(), &bytes)
     })?;
     export::check(progress)?;
     // Only an empty folder gives way to a rename.
@@ -177,8 +177,8 @@ pub(crate) fn folder(
 /// The samples of all rows, on all cores; in each row one tile beside the other.
 fn pixels(
     material: &Material<f32>,
-    tiles: &[Shown],
-    code: Code,
+    tiles: &[WrittenMap],
+    encoding: MapEncoding,
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<Vec<u8>> {
@@ -188,9 +188,9 @@ fn pixels(
     let mut bytes = vec![0; row_bytes * height];
     bytes.par_chunks_mut(row_bytes).enumerate().try_for_each(|(row, bytes)| {
         export::check(progress)?;
-        for (shown, tile) in tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
+        for (map, tile) in tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
             for (index, out) in (row * width..).zip(tile.chunks_exact_mut(pixel)) {
-                put(code.of(material, *shown, index), out);
+                put(encoding.of(material, *map, index), out);
             }
         }
         io::Result::Ok(())

@@ -33,7 +33,7 @@ const MAX_SUMS: usize = 1 << 20;
 /// 1e-18 of the plane, it is rendered as if it were that far above it; where R does not fit f32, as the largest number.
 ///
 /// # Errors
-/// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::Usage`] without scenes, [`Error::Cancelled`].
+/// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::InvalidRequest`] without scenes, [`Error::Cancelled`].
 pub fn losses_f32(
     ground_truth: &Material<f32>,
     predictions: &[&Material<f32>],

@@ -1,8 +1,8 @@
-//! Every key and gesture.
+//! The list of keys and gestures.
 
 use eframe::egui::{self, RichText};
 
-use crate::viewer::command::Command;
+use crate::viewer::command::{Command, WindowCommand};
 use crate::viewer::keys;
 
 /// The help window; closing it is a command.
@@ -25,5 +25,5 @@ pub fn ui(ctx: &egui::Context) -> Option<Command> {
                 });
             });
         });
-    (!open).then_some(Command::SetHelp(false))
+    (!open).then_some(WindowCommand::ShowHelp(false).into())
 }

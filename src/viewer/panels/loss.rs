@@ -1,4 +1,4 @@
-//! The sampled rendering loss: what is asked for, how far it is, what came out.
+//! The sampled rendering loss: its settings, its progress, its result.
 
 use std::time::Duration;
 
@@ -9,17 +9,17 @@ use crate::loss::Texels;
 use crate::loss::adaptive::Goal;
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
-use crate::viewer::command::Command;
+use crate::viewer::command::{Command, LossCommand};
 use crate::viewer::loss_request::{Ask, LossSettings};
 use crate::viewer::loss_run::{End, LossRun, Shown};
 use crate::viewer::slots::Slots;
 use crate::viewer::theme;
 
-/// Most scenes of one kind that the panel lets a person ask for.
+/// Most scenes of one kind.
 const MOST: usize = 100_000;
-/// The accuracies that it lets a person ask for, in percent of the loss.
+/// Range of the accuracy, in percent of the loss.
 const PERCENT: std::ops::RangeInclusive<f64> = 0.1..=20.0;
-/// The times that it lets a person ask for, in milliseconds.
+/// Range of the time, in milliseconds.
 const MILLISECONDS: std::ops::RangeInclusive<u64> = 16..=10_000;
 
 /// What the section shows.
@@ -38,7 +38,7 @@ impl LossPanel<'_> {
         let mut settings = self.settings.clone();
         request(ui, &mut settings);
         if settings != *self.settings {
-            commands.push(Command::SetLoss(settings));
+            commands.push(LossCommand::SetSettings(settings).into());
         }
         self.controls(ui, &mut commands);
         if self.slots.predictions().is_empty() {
@@ -64,29 +64,34 @@ impl LossPanel<'_> {
     fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         ui.horizontal_wrapped(|ui| {
             if self.run.busy().is_some() {
-                if ui.add(button("Cancel loss")).on_hover_text("Keep what is reached (Esc)").clicked() {
-                    commands.push(Command::CancelLoss);
+                if ui
+                    .add(button("Cancel loss"))
+                    .on_hover_text("Stop, and keep the result so far (Esc)")
+                    .clicked()
+                {
+                    commands.push(LossCommand::Cancel.into());
                 }
             } else {
                 let enabled = !self.slots.predictions().is_empty();
                 let compute = ui.add_enabled(enabled, button("Compute loss"));
                 if compute.on_hover_text("Enter").clicked() {
-                    commands.push(Command::ComputeLoss);
+                    commands.push(LossCommand::Compute.into());
                 }
             }
             let mut auto = self.auto;
-            ui.checkbox(&mut auto, "Auto").on_hover_text("Compute again after every change it depends on");
+            ui.checkbox(&mut auto, "Auto")
+                .on_hover_text("Compute again after every change of materials, settings or convention");
             if auto != self.auto {
-                commands.push(Command::SetAutoLoss(auto));
+                commands.push(LossCommand::SetAuto(auto).into());
             }
             let copy = ui.add_enabled(self.run.shown().is_some(), egui::Button::new("Copy"));
             if copy.on_hover_text("As text, as `svbrdf loss` prints it").clicked() {
-                commands.push(Command::CopyLoss);
+                commands.push(LossCommand::Copy.into());
             }
         });
     }
 
-    /// One line, always there, so that nothing below it jumps: how far the loss is, or what it took.
+    /// One line of constant height, so that the results below stay in place: the progress, or what the loss took.
     fn state(&self, ui: &mut egui::Ui) {
         if let Some((fraction, elapsed, reached)) = self.run.busy() {
             let doing = if reached { "refining" } else { "first scenes" };
@@ -102,7 +107,7 @@ impl LossPanel<'_> {
         let text = match self.run.shown() {
             None => RichText::new("Not computed yet."),
             Some((_, false)) if self.run.stale() => {
-                RichText::new("Out of date: materials or parameters have changed.")
+                RichText::new("Stale: materials or settings have changed.")
             }
             Some((shown, _)) => outcome(shown, ui.visuals()),
         };
@@ -110,7 +115,7 @@ impl LossPanel<'_> {
     }
 }
 
-/// What accuracy took how much, and whether that is what was asked for.
+/// The accuracy reached, what it took, and whether that meets the request.
 fn outcome(shown: &Shown, visuals: &egui::Visuals) -> RichText {
     let (near, distant) = (shown.report.count(Kind::Near), shown.report.count(Kind::Distant));
     let (error, elapsed) = (shown.relative_error(), shown.elapsed);
@@ -125,7 +130,7 @@ fn outcome(shown: &Shown, visuals: &egui::Visuals) -> RichText {
     }
 }
 
-/// Says so where the accuracy or the time that was asked for was not kept.
+/// The requested accuracy or time, where it was missed.
 fn missed(goal: Option<Goal>, relative_error: f64, elapsed: Duration) -> Option<String> {
     match goal? {
         Goal::RelativeError(target) if relative_error > target => {
@@ -136,18 +141,18 @@ fn missed(goal: Option<Goal>, relative_error: f64, elapsed: Duration) -> Option<
     }
 }
 
-/// Buttons that take each other's place have one width.
+/// A button of the width of the one that replaces it.
 fn button(text: &str) -> egui::Button<'_> {
     egui::Button::new(text).min_size(egui::vec2(90.0, 0.0))
 }
 
-/// What is asked for: how first, then the fields that matter for it.
+/// The settings of the loss: first what decides the number of scenes, then the fields of that choice.
 fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         for (ask, name, meaning) in [
-            (Ask::Scenes, "Scenes", "A number of scenes, such as the 6 + 3 of the papers"),
-            (Ask::Accuracy, "Accuracy", "As many scenes as it takes to know every loss this well"),
+            (Ask::Scenes, "Scenes", "A fixed number of scenes, such as the 6 + 3 of the papers"),
+            (Ask::Accuracy, "Accuracy", "As many scenes as this accuracy of every loss takes"),
             (Ask::Time, "Time", "As many scenes as fit into this time"),
         ] {
             ui.selectable_value(&mut settings.ask, ask, name).on_hover_text(meaning);
@@ -161,12 +166,12 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
     ui.horizontal_wrapped(|ui| {
         ui.label("Seed");
         super::number(ui, "Seed", &mut settings.seed, 0, |d| d.speed(0.2))
-            .on_hover_text("Names the scenes: the same seed draws the same ones");
+            .on_hover_text("The same seed gives the same scenes");
         if settings.ask == Ask::Scenes {
             ui.selectable_value(&mut settings.sampler, Sampler::Random, "random")
-                .on_hover_text("Independent scenes, as the papers draw them");
+                .on_hover_text("Independent random scenes, as in the papers");
             ui.selectable_value(&mut settings.sampler, Sampler::Sobol, "Sobol")
-                .on_hover_text("Scrambled Sobol sequences: less error from as many scenes");
+                .on_hover_text("Scrambled Sobol sequences: a smaller error for the same number of scenes");
         }
     });
 }
@@ -198,7 +203,7 @@ fn texels(ui: &mut egui::Ui, texels: &mut Texels) {
     super::number(ui, "Texels of each scene", &mut count, 0, |d| {
         d.speed(1.0).range(0..=MOST).custom_formatter(text).custom_parser(parsed)
     })
-    .on_hover_text("Compared in each scene, other ones in every scene; 0 or all: every texel of the map");
+    .on_hover_text("An independent random subset of texels per scene; 0 or all: every texel");
     *texels = if count == 0 { Texels::All } else { Texels::Sampled(count) };
 }
 
@@ -209,7 +214,8 @@ fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
         super::number(ui, "Accuracy", target, default, |d| {
             d.speed(0.01).range(PERCENT).max_decimals(2).prefix("+-").suffix("%")
         });
-        ui.label("at 95%").on_hover_text("Half of the 95% interval of every loss, as a share of it");
+        ui.label("at 95%")
+            .on_hover_text("Half the width of the 95% interval of every loss, relative to the loss");
     });
 }
 
@@ -221,7 +227,7 @@ fn time(ui: &mut egui::Ui, milliseconds: &mut u64) {
     });
 }
 
-/// A slider without its number, over a range of many sizes.
+/// A logarithmic slider without its number.
 fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) {
     ui.spacing_mut().slider_width = 80.0;
     let response = ui.add(slider.logarithmic(true).show_value(false));
@@ -233,7 +239,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_promise_that_was_not_kept_is_said_so() {
+    fn a_missed_accuracy_or_time_is_reported() {
         let of = |goal| missed(goal, 0.02, Duration::from_millis(50));
         assert_eq!(of(Some(Goal::RelativeError(0.01))), Some("Not within +-1.00%".to_owned()));
         assert_eq!(of(Some(Goal::Time(Duration::from_millis(16)))), Some("Not within 16 ms".to_owned()));

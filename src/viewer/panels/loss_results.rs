@@ -1,4 +1,4 @@
-//! The losses with their errors, and how much they differ.
+//! The losses with their errors, and their differences.
 
 use std::time::Duration;
 
@@ -6,17 +6,17 @@ use eframe::egui::{self, RichText, Sides};
 
 use crate::loss::{Estimate, Loss};
 use crate::model::sampler::Sampler;
-use crate::viewer::command::Command;
+use crate::viewer::command::{Command, DisplayCommand};
 use crate::viewer::loss_run::Shown;
 use crate::viewer::theme;
 
-/// Shows the losses; a click chooses the prediction that is compared, from which the differences are taken.
+/// The losses, and their differences from that of the chosen prediction; a click chooses another one.
 pub(super) fn ui(ui: &mut egui::Ui, shown: &Shown, chosen: usize) -> Vec<Command> {
     let mut commands = Vec::new();
     let losses = &shown.report.losses;
     for (index, loss) in losses.iter().enumerate() {
         if result(ui, index, loss, index == chosen).clicked() {
-            commands.push(Command::ChoosePrediction(index));
+            commands.push(DisplayCommand::ChoosePrediction(index).into());
         }
     }
     if let (Some(less), Some(differences)) = (losses.get(chosen), shown.differences.get(chosen)) {
@@ -35,34 +35,34 @@ pub(super) fn ui(ui: &mut egui::Ui, shown: &Shown, chosen: usize) -> Vec<Command
 fn result(ui: &mut egui::Ui, index: usize, loss: &Loss, chosen: bool) -> egui::Response {
     let name = format!("{}  {}", index + 1, loss.prediction);
     let left = |ui: &mut egui::Ui| {
-        let hover = format!("{}\nClick to compare this one", loss.prediction);
+        let hover = format!("{}\nClick to choose this prediction", loss.prediction);
         ui.selectable_label(chosen, name).on_hover_text(hover)
     };
     let right = |ui: &mut egui::Ui| {
         ui.label(RichText::new(accuracy(loss.estimate.relative_error95())).monospace())
-            .on_hover_text("Half of the 95% interval, as a share of the loss")
+            .on_hover_text("Half the width of the 95% interval, relative to the loss")
     };
     let (response, _) = Sides::new().shrink_left().truncate().show(ui, left, right);
     numbers(ui, ("loss result", index), "loss", &loss.estimate, "Mean over the scenes");
     response
 }
 
-/// How much larger the first loss is than the second, and whether that can be told from 0.
+/// The first loss minus the second, and whether that is significant.
 fn difference(ui: &mut egui::Ui, index: usize, [first, second]: &[String; 2], estimate: &Estimate) {
     ui.separator();
-    let name = format!("{first} less {second}");
+    let name = format!("{first} - {second}");
     let verdict = Verdict::of(estimate);
     let colour = match verdict {
         Verdict::Better => theme::accent(ui.visuals()),
         Verdict::Worse => theme::problem(ui.visuals()),
-        Verdict::NotToldApart => ui.visuals().weak_text_color(),
+        Verdict::NotSignificant => ui.visuals().weak_text_color(),
     };
     let left = |ui: &mut egui::Ui| ui.label(name);
     let right = |ui: &mut egui::Ui| {
         ui.label(RichText::new(verdict.text()).color(colour)).on_hover_text(verdict.meaning(first, second));
     };
     Sides::new().shrink_left().truncate().show(ui, left, right);
-    let meaning = "Mean of the differences over the scenes, which both have in common";
+    let meaning = "Mean of the differences over the scenes, which both share";
     numbers(ui, ("loss difference", index), "mean", estimate, meaning);
 }
 
@@ -72,7 +72,7 @@ fn numbers(ui: &mut egui::Ui, id: (&str, usize), label: &str, estimate: &Estimat
     egui::Grid::new(id).num_columns(2).spacing([6.0, 5.0]).show(ui, |ui| {
         ui.label(format!("  {label}"));
         ui.label(RichText::new(format!("{mean} +- {error}")).monospace().strong())
-            .on_hover_text(format!("{meaning} +- its standard error, which is due to the choice of scenes"));
+            .on_hover_text(format!("{meaning} +- its standard error over the scenes"));
         ui.end_row();
         ui.label("  95%");
         ui.label(RichText::new(interval).monospace());
@@ -80,12 +80,12 @@ fn numbers(ui: &mut egui::Ui, id: (&str, usize), label: &str, estimate: &Estimat
     });
 }
 
-/// What a difference says about its first prediction.
+/// What a difference says of its first prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Verdict {
     Better,
     Worse,
-    NotToldApart,
+    NotSignificant,
 }
 
 impl Verdict {
@@ -94,7 +94,7 @@ impl Verdict {
         match difference.interval95 {
             Some([_, high]) if high < 0.0 => Self::Better,
             Some([low, _]) if low > 0.0 => Self::Worse,
-            _ => Self::NotToldApart,
+            _ => Self::NotSignificant,
         }
     }
 
@@ -102,7 +102,7 @@ impl Verdict {
         match self {
             Self::Better => "better",
             Self::Worse => "worse",
-            Self::NotToldApart => "not told apart",
+            Self::NotSignificant => "no significant difference",
         }
     }
 
@@ -110,19 +110,19 @@ impl Verdict {
         match self {
             Self::Better => format!("{first} is closer to the ground truth than {second}"),
             Self::Worse => format!("{first} is farther from the ground truth than {second}"),
-            Self::NotToldApart => "The 95% interval does not exclude 0: ask for more scenes".to_owned(),
+            Self::NotSignificant => "The 95% interval includes 0: use more scenes".to_owned(),
         }
     }
 }
 
 fn summary(shown: &Shown) -> String {
     let report = &shown.report;
-    let drawn = match report.sampler {
+    let sampler = match report.sampler {
         Some(Sampler::Sobol) => "scrambled Sobol",
         _ => "random",
     };
     format!(
-        "convention {}, epsilon {}, {drawn} scenes of seed {}, {} on the {}",
+        "convention {}, epsilon {}, {sampler} scenes of seed {}, {} on the {}",
         report.convention.name,
         report.convention.epsilon,
         shown.request().params.seed,
@@ -131,7 +131,7 @@ fn summary(shown: &Shown) -> String {
     )
 }
 
-/// Half of an interval as a share of its mean, in percent with about three digits.
+/// Half the width of an interval relative to its mean, in percent with about three digits.
 pub(super) fn accuracy(share: f64) -> String {
     match 100.0 * share {
         percent if percent.is_infinite() => "error unknown".to_owned(),
@@ -140,7 +140,7 @@ pub(super) fn accuracy(share: f64) -> String {
     }
 }
 
-/// A time as people say it.
+/// A time with about three digits.
 pub(super) fn seconds(time: Duration) -> String {
     match time.as_secs_f64() {
         s if s < 0.01 => format!("{:.1} ms", s * 1e3),
@@ -158,9 +158,9 @@ mod tests {
         let of = |interval95| Verdict::of(&Estimate { mean: 0.0, standard_error: None, interval95 });
         assert_eq!(of(Some([-0.2, -0.1])), Verdict::Better);
         assert_eq!(of(Some([0.1, 0.2])), Verdict::Worse);
-        assert_eq!(of(Some([-0.1, 0.2])), Verdict::NotToldApart);
-        assert_eq!(of(Some([0.0, 0.0])), Verdict::NotToldApart);
-        assert_eq!(of(None), Verdict::NotToldApart);
+        assert_eq!(of(Some([-0.1, 0.2])), Verdict::NotSignificant);
+        assert_eq!(of(Some([0.0, 0.0])), Verdict::NotSignificant);
+        assert_eq!(of(None), Verdict::NotSignificant);
     }
 
     #[test]

@@ -1,9 +1,9 @@
-//! The materials in the window, and what was assumed in reading each.
+//! The materials in the window, and the assumptions in reading each.
 
 use eframe::egui::{self, RichText};
 
-use crate::files::read::{Certainty, Kept};
-use crate::viewer::command::Command;
+use crate::files::read::{Certainty, Sidecar};
+use crate::viewer::command::{Command, MaterialsCommand};
 use crate::viewer::loaded::Origin;
 use crate::viewer::slots::{Slot, Slots};
 use crate::viewer::theme;
@@ -20,28 +20,28 @@ impl MaterialsPanel<'_> {
         let mut commands = Vec::new();
         ui.horizontal_wrapped(|ui| {
             if ui.button("Reload").on_hover_text("Read all files again (Ctrl+R)").clicked() {
-                commands.push(Command::Reload);
+                commands.push(MaterialsCommand::Reload.into());
             }
             let mut watch = self.watch;
-            ui.checkbox(&mut watch, "Watch").on_hover_text("Read files again when they change on the disk");
+            ui.checkbox(&mut watch, "Watch").on_hover_text("Read files again when they change on disk");
             if watch != self.watch {
-                commands.push(Command::SetWatch(watch));
+                commands.push(MaterialsCommand::SetWatch(watch).into());
             }
             let mut fit = self.slots.rules.fit;
             ui.checkbox(&mut fit, "Fit sizes")
                 .on_hover_text("Resize predictions that are opened from now on to the ground truth");
             if fit != self.slots.rules.fit {
-                commands.push(Command::SetFit(fit));
+                commands.push(MaterialsCommand::SetFit(fit).into());
             }
             if ui.button("Built-in pair").clicked() {
-                commands.push(Command::OpenBuiltIn);
+                commands.push(MaterialsCommand::OpenBuiltIn.into());
             }
         });
         for opening in &self.slots.openings {
-            let text = format!("reading {}", opening.what);
-            ui.add(egui::ProgressBar::new(opening.job.fraction()).text(text));
+            let text = format!("Reading {}", opening.what);
+            ui.add(egui::ProgressBar::new(opening.task.fraction()).text(text));
             if ui.small_button("Cancel reading").clicked() {
-                opening.job.cancel();
+                opening.task.cancel();
             }
         }
         for (index, slot) in self.slots.slots.iter().enumerate() {
@@ -52,22 +52,22 @@ impl MaterialsPanel<'_> {
     }
 }
 
-/// The button that keeps what is chosen; without anything new there is nothing to keep.
-fn keep(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
+/// The button that saves the chosen assumptions, where they are not the saved ones.
+fn save_button(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
     let (Origin::Path(path), loaded) = (&slot.loaded.origin, &slot.loaded) else { return };
     if loaded.read == loaded.kept {
         return;
     }
-    let button = ui.button("Keep with the material");
-    let name = format!("Keep with {}", slot.name());
+    let button = ui.button("Save assumptions");
+    let name = format!("Save assumptions of {}", slot.name());
     button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-    let place = Kept::place(path);
-    let why = format!(
-        "Write what is chosen here into {}: it then holds whenever the material is opened",
+    let place = Sidecar::path_for(path);
+    let hover = format!(
+        "Write these assumptions to {}, which is read whenever the material is opened",
         place.display()
     );
-    if button.on_hover_text(why).clicked() {
-        commands.push(Command::Keep { slot: index });
+    if button.on_hover_text(hover).clicked() {
+        commands.push(MaterialsCommand::SaveAssumptions { slot: index }.into());
     }
 }
 
@@ -79,10 +79,10 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
         ui.label(RichText::new(role).color(colour).small());
         if index > 0 {
             if ui.small_button("Make ground truth").clicked() {
-                commands.push(Command::MakeGroundTruth(index));
+                commands.push(MaterialsCommand::MakeGroundTruth(index).into());
             }
             if ui.small_button("Close").clicked() {
-                commands.push(Command::ClosePrediction(index));
+                commands.push(MaterialsCommand::Close(index).into());
             }
         }
     });
@@ -99,9 +99,9 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
         let mut read = loaded.read;
         super::read_options(ui, slot.name(), &mut read, &loaded.assumptions);
         if read != loaded.read {
-            commands.push(Command::ReadAs { slot: index, read });
+            commands.push(MaterialsCommand::ReadAs { slot: index, read }.into());
         }
-        keep(ui, index, slot, commands);
+        save_button(ui, index, slot, commands);
     }
     for assumption in &loaded.assumptions {
         let text = RichText::new(assumption.to_string()).small();
@@ -109,7 +109,7 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
         ui.label(if unsure { text.color(ui.visuals().warn_fg_color) } else { text });
     }
     for note in &loaded.notes {
-        ui.label(RichText::new(note).small());
+        ui.label(RichText::new(note.to_string()).small());
     }
     ui.collapsing("As stored", |ui| {
         for map in &loaded.maps {

@@ -1,28 +1,28 @@
-//! The window that opens materials: by path, by the system's dialog, or again.
+//! The dialog that opens materials: by path, by the system's file dialog, or from the recent ones.
 
 use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
 use crate::files::read::ReadOptions;
-use crate::viewer::command::Command;
+use crate::viewer::command::{Command, MaterialsCommand, WindowCommand};
 
-/// What has been typed and chosen so far.
+/// The paths and choices so far.
 #[derive(Debug, Default)]
 pub struct OpenWindow {
     /// One path a line.
     pub text: String,
     pub as_predictions: bool,
     pub read: ReadOptions,
-    /// Whether the path field has had the focus that it gets when the window opens.
+    /// Whether the path field has been given the focus.
     focused: bool,
 }
 
-/// Height of what is below the materials that were opened before, and least height of these.
+/// Height below the list of recent materials, and least height of the list.
 const BELOW_RECENT: f32 = 230.0;
 const LEAST_RECENT: f32 = 60.0;
 
-/// The end of a path that fits into a line: there paths of one run differ.
+/// The end of a path that fits into a line: paths of one run differ in their ends.
 fn ending(ui: &egui::Ui, path: &str) -> String {
     let font = egui::TextStyle::Button.resolve(ui.style());
     let room = ui.available_width() - 2.0 * ui.spacing().button_padding.x - 8.0;
@@ -53,7 +53,7 @@ impl OpenWindow {
             .anchor(egui::Align2::CENTER_TOP, [0.0, 40.0])
             .show(ctx, |ui| {
                 self.paths(ui, &mut commands);
-                // What opens them stays in sight, however many there were before.
+                // The buttons stay visible, however long the list is.
                 let rest = ui.ctx().content_rect().bottom() - ui.cursor().top() - BELOW_RECENT;
                 egui::ScrollArea::vertical()
                     .max_height(rest.max(LEAST_RECENT))
@@ -62,7 +62,7 @@ impl OpenWindow {
                 self.choices(ui, &mut commands);
             });
         if !open {
-            commands.push(Command::ShowOpen(false));
+            commands.push(WindowCommand::ShowOpen(false).into());
         }
         commands
     }
@@ -79,10 +79,10 @@ impl OpenWindow {
         }
         ui.horizontal(|ui| {
             if ui.button("Browse files...").clicked() {
-                commands.push(Command::Browse { folder: false });
+                commands.push(WindowCommand::Browse { folder: false }.into());
             }
             if ui.button("Browse folders...").clicked() {
-                commands.push(Command::Browse { folder: true });
+                commands.push(WindowCommand::Browse { folder: true }.into());
             }
         });
     }
@@ -91,7 +91,7 @@ impl OpenWindow {
         if recent.is_empty() {
             return;
         }
-        ui.label(RichText::new("Opened before").weak());
+        ui.label(RichText::new("Recent").weak());
         for path in recent {
             let path = path.display().to_string();
             let shown = ending(ui, &path);
@@ -113,17 +113,19 @@ impl OpenWindow {
         ui.radio_value(
             &mut self.as_predictions,
             false,
-            "The first is the ground truth, the others predictions",
+            "The first is the ground truth, the others are predictions",
         );
-        ui.radio_value(&mut self.as_predictions, true, "All are further predictions");
-        super::read_options(ui, "what is opened", &mut self.read, &[]);
+        ui.radio_value(&mut self.as_predictions, true, "All are predictions");
+        super::read_options(ui, "the materials to open", &mut self.read, &[]);
         let paths: Vec<PathBuf> =
             self.text.lines().map(str::trim).filter(|l| !l.is_empty()).map(PathBuf::from).collect();
         let button = ui.add_enabled(!paths.is_empty(), egui::Button::new("Open these"));
         let entered = ui.input_mut(|i| i.consume_key(egui::Modifiers::COMMAND, egui::Key::Enter));
         if button.on_hover_text("Ctrl+Enter").clicked() || (entered && !paths.is_empty()) {
-            commands.push(Command::Open { paths, replace: !self.as_predictions, read: self.read });
-            commands.push(Command::ShowOpen(false));
+            commands.push(
+                MaterialsCommand::Open { paths, replace: !self.as_predictions, read: self.read }.into(),
+            );
+            commands.push(WindowCommand::ShowOpen(false).into());
         }
     }
 }

@@ -1,20 +1,20 @@
-//! The window that saves the view as a picture.
+//! The dialog that saves the view as a picture.
 
 use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
 use crate::picture::export::Shows;
-use crate::viewer::command::Command;
+use crate::viewer::command::{Command, WindowCommand};
 use crate::viewer::theme;
 
 /// The path typed so far.
 #[derive(Debug)]
 pub struct SaveWindow {
     pub path: String,
-    /// The path of a file that is there already, once a person has been told so.
+    /// The path of an existing file, once the dialog has said that it exists.
     replaces: Option<String>,
-    /// Whether the path field has had the focus that it gets when the window opens.
+    /// Whether the path field has been given the focus.
     focused: bool,
 }
 
@@ -25,7 +25,7 @@ impl Default for SaveWindow {
 }
 
 impl SaveWindow {
-    /// `shows` is what will be in the file.
+    /// `shows` is the content of the file.
     pub fn ui(&mut self, ctx: &egui::Context, shows: Shows) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut open = true;
@@ -47,32 +47,32 @@ impl SaveWindow {
                     Shows::LogDifference => "The log difference of every prediction",
                 };
                 let text = format!(
-                    "{what}, side by side, a pixel a texel, with light, view, exposure and convention in the file: \
-                     what `svbrdf render` writes for the same numbers."
+                    "{what}, side by side, one pixel per texel, with light, view, exposure and convention in the file's \
+                     metadata; the same as `svbrdf render` writes."
                 );
                 ui.label(RichText::new(text).small().weak());
                 let told = self.replaces.as_deref() == Some(self.path.trim());
                 if told {
-                    ui.colored_label(theme::problem(ui.visuals()), "This file exists already.");
+                    ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
                 }
                 if ui.button(if told { "Replace it" } else { "Save picture" }).clicked() || entered {
                     self.save(&mut commands);
                 }
             });
         if !open {
-            commands.push(Command::ShowSave(false));
+            commands.push(WindowCommand::ShowSave(false).into());
         }
         commands
     }
 
-    /// Saves, unless that would replace a file and nobody has been told yet.
+    /// Saves, unless that replaces a file and the dialog has not said so yet.
     fn save(&mut self, commands: &mut Vec<Command>) {
         let path = PathBuf::from(self.path.trim());
         if path.exists() && self.replaces.as_deref() != Some(self.path.trim()) {
             self.replaces = Some(self.path.trim().to_owned());
             return;
         }
-        commands.push(Command::SaveView(path));
-        commands.push(Command::ShowSave(false));
+        commands.push(WindowCommand::SaveView(path).into());
+        commands.push(WindowCommand::ShowSave(false).into());
     }
 }

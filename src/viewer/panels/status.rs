@@ -1,4 +1,4 @@
-//! The line at the bottom: the texel under the pointer in numbers, and what draws.
+//! The line at the bottom: the values of the texel under the pointer, and the graphics adapter.
 
 use eframe::egui::{self, RichText};
 
@@ -6,7 +6,7 @@ use crate::gpu::AdapterReport;
 use crate::material::Material;
 use crate::model::brdf::Model;
 use crate::model::convention::Convention;
-use crate::picture::content::Shown;
+use crate::picture::quantity::Quantity;
 use crate::render::render_texel;
 use crate::viewer::slots::Slot;
 use crate::viewer::state::ViewState;
@@ -27,7 +27,7 @@ impl StatusBar<'_> {
         ui.horizontal(|ui| {
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 ui.label(RichText::new(format!("{:5.1} ms", self.frame_ms)).monospace().weak())
-                    .on_hover_text("Time that the last frame took on the processor");
+                    .on_hover_text("CPU time of the last frame");
                 if let Some(adapter) = self.adapter {
                     let name = egui::Label::new(RichText::new(&adapter.name).weak()).truncate();
                     ui.add_sized([150.0, 16.0], name).on_hover_text(adapter.to_string());
@@ -57,7 +57,7 @@ impl StatusBar<'_> {
         {
             let got = value(prediction);
             text += &format!("  pred {}", numbers(&got));
-            if self.state.shown == Shown::Rendering {
+            if self.state.quantity == Quantity::Rendering {
                 text += &format!("  |ln| {:.4}", log_difference(&expected, &got, convention.epsilon));
             }
         }
@@ -65,7 +65,7 @@ impl StatusBar<'_> {
     }
 }
 
-/// What is shown of one texel, as the core computes it.
+/// The rendering or map at one texel, from the core.
 fn value(
     material: &Material<f32>,
     state: &ViewState,
@@ -74,14 +74,14 @@ fn value(
     row: usize,
 ) -> Vec<f32> {
     let texel = material.texel(row * material.width() + column);
-    match state.shown {
-        Shown::Rendering => {
+    match state.quantity {
+        Quantity::Rendering => {
             render_texel(material, &Model::from(convention), &state.scene.rays(), column, row).to_vec()
         }
-        Shown::Normal => texel.normal.to_array().to_vec(),
-        Shown::Diffuse => texel.diffuse.to_vec(),
-        Shown::Specular => texel.specular.to_vec(),
-        Shown::Roughness => vec![texel.roughness],
+        Quantity::Normal => texel.normal.to_array().to_vec(),
+        Quantity::Diffuse => texel.diffuse.to_vec(),
+        Quantity::Specular => texel.specular.to_vec(),
+        Quantity::Roughness => vec![texel.roughness],
     }
 }
 

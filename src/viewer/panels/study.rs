@@ -1,4 +1,4 @@
-//! Time against error: what each setting of the loss costs, the current one, and a click to take another.
+//! Time against error of the settings of the loss; a click on a point uses its setting.
 
 use eframe::egui::{self, Color32, Pos2, Rect, RichText, Sense, Vec2, vec2};
 use egui_plot::{
@@ -6,66 +6,30 @@ use egui_plot::{
 };
 
 use crate::files::write::Depth;
-use crate::loss::Texels;
-use crate::model::sampler::Sampler;
 use crate::study::{Choice, Family, Point, Study};
 use crate::text::{percent, time};
-use crate::viewer::command::Command;
-use crate::viewer::loss_request::{Ask, LossSettings};
+use crate::viewer::command::{Command, LossCommand};
+use crate::viewer::sampling::Sampling;
 use crate::viewer::study::StudyRun;
 
-/// How far from its middle a point is felt, in pixels.
+/// Radius of the clickable area of a point, in points of the screen.
 const REACH: f32 = 8.0;
 
 /// What the window shows.
 #[derive(Debug)]
 pub struct StudyWindow<'a> {
     pub run: &'a StudyRun,
-    /// What has been measured, and whether it is about the materials of now.
-    pub shown: Option<(&'a Study, bool)>,
-    /// `None` where the loss is asked for by an accuracy or a time.
-    pub current: Option<Setting>,
-}
-
-/// The part of a choice that the window's loss can be set to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Setting {
-    pub near: usize,
-    pub distant: usize,
-    pub sampler: Sampler,
-    pub texels: Texels,
-}
-
-impl Setting {
-    /// What the loss is set to, unless it chooses by itself.
-    pub fn of(settings: &LossSettings) -> Option<Self> {
-        let LossSettings { near, distant, sampler, texels, .. } = *settings;
-        (settings.ask == Ask::Scenes).then_some(Self { near, distant, sampler, texels })
-    }
-
-    /// The settings of the loss with this one in them.
-    pub fn put_into(self, settings: &LossSettings) -> LossSettings {
-        let Self { near, distant, sampler, texels } = self;
-        LossSettings { ask: Ask::Scenes, near, distant, sampler, texels, ..settings.clone() }
-    }
-}
-
-impl From<&Choice> for Setting {
-    fn from(choice: &Choice) -> Self {
-        Self {
-            near: choice.near(),
-            distant: choice.distant(),
-            sampler: choice.sampler,
-            texels: choice.texels,
-        }
-    }
+    /// What has been measured, and whether it is of the current materials.
+    pub measured: Option<(&'a Study, bool)>,
+    /// `None` where an accuracy or a time is requested.
+    pub current: Option<Sampling>,
 }
 
 /// Opens the window.
 pub fn button(ui: &mut egui::Ui, enabled: bool) -> Option<Command> {
     let button = ui.add_enabled(enabled, egui::Button::new("Study: time against error..."));
-    let hover = "Measures what accuracy costs for this pair on this machine, and lets you choose";
-    button.on_hover_text(hover).clicked().then_some(Command::ShowStudy(true))
+    let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
+    button.on_hover_text(hover).clicked().then_some(LossCommand::ShowStudy(true).into())
 }
 
 impl StudyWindow<'_> {
@@ -80,36 +44,36 @@ impl StudyWindow<'_> {
             .default_pos(ctx.content_rect().left_top() + vec2(40.0, 60.0))
             .show(ctx, |ui| {
                 self.controls(ui, &mut commands);
-                match self.shown {
+                match self.measured {
                     Some((study, _)) if !study.points.is_empty() => self.results(ui, study, &mut commands),
                     _ => {
                         ui.label(
-                            "The reference comes first: the loss over far more scenes than any setting has.",
+                            "Computing the reference: the loss over many more scenes than any setting samples.",
                         );
                         ui.allocate_space(ui.available_size());
                     }
                 }
             });
         if !open {
-            commands.push(Command::ShowStudy(false));
+            commands.push(LossCommand::ShowStudy(false).into());
         }
         commands
     }
 
     fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         ui.horizontal_wrapped(|ui| {
-            if let Some(job) = self.run.job() {
+            if let Some(task) = self.run.task() {
                 if ui.button("Cancel study").clicked() {
-                    commands.push(Command::CancelStudy);
+                    commands.push(LossCommand::CancelStudy.into());
                 }
-                let text = format!("{:.0} s", job.elapsed().as_secs_f32());
-                ui.add(egui::ProgressBar::new(job.fraction()).text(text).desired_width(110.0));
+                let text = format!("{:.0} s", task.elapsed().as_secs_f32());
+                ui.add(egui::ProgressBar::new(task.fraction()).text(text).desired_width(110.0));
             } else if ui.button("Measure again").clicked() {
-                commands.push(Command::StartStudy);
+                commands.push(LossCommand::StartStudy.into());
             }
-            match self.shown {
+            match self.measured {
                 Some((study, true)) => ui.label(about(study)),
-                Some((study, false)) => ui.weak(format!("Out of date: {}", about(study))),
+                Some((study, false)) => ui.weak(format!("Stale: {}", about(study))),
                 None => ui.label(""),
             };
         });
@@ -117,16 +81,13 @@ impl StudyWindow<'_> {
 
     fn results(&self, ui: &mut egui::Ui, study: &Study, commands: &mut Vec<Command>) {
         ui.horizontal_wrapped(|ui| {
-            ui.label("Cheapest for an error of");
+            ui.label("Fastest setting for an error of");
             for target in [0.1, 0.03, 0.01, 0.003] {
                 self.cheapest(ui, study, target, commands);
             }
         });
         let below = [
-            vec![
-                "Click a point to set the loss to its scenes and texels. The ring is the current setting."
-                    .to_owned(),
-            ],
+            vec!["Click a point to use its scenes and texels. The ring is the current setting.".to_owned()],
             study.variants(),
         ];
         let below = below.concat().join("\n");
@@ -134,24 +95,24 @@ impl StudyWindow<'_> {
         let height = ui.available_height() - lines as f32 * ui.text_style_height(&egui::TextStyle::Small);
         for (point, at) in self.plot(ui, study, height.max(200.0)) {
             if is_clicked(ui, point, at) {
-                commands.push(Command::ChooseSetting(Setting::from(&point.choice)));
+                commands.push(LossCommand::UseSampling(Sampling::from(&point.choice)).into());
             }
         }
         ui.label(RichText::new(below).weak().small());
     }
 
-    /// A button for the fastest setting that is good enough.
+    /// A button for the fastest setting with an error of at most `target`.
     fn cheapest(&self, ui: &mut egui::Ui, study: &Study, target: f64, commands: &mut Vec<Command>) {
         let Some(point) = study.cheapest(target) else {
             ui.add_enabled(false, egui::Button::new(format!("{}: -", percent(target))))
-                .on_disabled_hover_text("Nothing that has been tried is as good");
+                .on_disabled_hover_text("No measured setting has so small an error");
             return;
         };
-        let setting = Setting::from(&point.choice);
+        let setting = Sampling::from(&point.choice);
         let text = format!("{}: {}", percent(target), time(point.seconds));
         let button = ui.add(egui::Button::new(text).selected(Some(setting) == self.current));
         if button.on_hover_text(description(point)).clicked() {
-            commands.push(Command::ChooseSetting(setting));
+            commands.push(LossCommand::UseSampling(setting).into());
         }
     }
 
@@ -198,7 +159,7 @@ impl StudyWindow<'_> {
     }
 }
 
-/// The points of a family in its colour and shape. Maps get rings around what they change.
+/// The points of a family in its colour and shape. Quantized maps are rings around the points of float maps.
 fn markers(family: Family, places: Vec<[f64; 2]>, dark: bool) -> Points<'static> {
     let [r, g, b] = family.colour();
     let colour = Color32::from_rgb(r, g, b).lerp_to_gamma(Color32::WHITE, if dark { 0.3 } else { 0.0 });
@@ -216,7 +177,7 @@ fn markers(family: Family, places: Vec<[f64; 2]>, dark: bool) -> Points<'static>
     points.color(colour).allow_hover(false)
 }
 
-/// Whether a person clicks the point that is drawn at `at`. Under this name it is known to screen readers and tests.
+/// Whether the point drawn at `at` is clicked. Its accessible name are its options.
 fn is_clicked(ui: &mut egui::Ui, point: &Point, at: Pos2) -> bool {
     let area = Rect::from_center_size(at, Vec2::splat(2.0 * REACH));
     let name = point.choice.options();
@@ -244,9 +205,9 @@ fn place(point: &Point) -> [f64; 2] {
     [point.seconds.log10(), point.error.log10()]
 }
 
-/// Where a setting lies: on its point, or between the two points that have less and more scenes drawn in its way.
-fn place_of(study: &Study, setting: Setting) -> Option<[f64; 2]> {
-    let Setting { near, distant, sampler, texels } = setting;
+/// Where a setting lies: on its point, or between the points of its sampler with fewer and with more scenes.
+fn place_of(study: &Study, setting: Sampling) -> Option<[f64; 2]> {
+    let Sampling { near, distant, sampler, texels } = setting;
     let scenes = near + distant;
     let drawn = |scenes| Choice { scenes, sampler, texels, ..Choice::default() };
     let of_family = || study.points.iter().filter(|p| p.choice == drawn(p.choice.scenes));

@@ -1,9 +1,9 @@
-//! The bar on top: open, save, layout, what is shown, exposure, projection.
+//! The bar at the top: open, save, layout, map or rendering, exposure, projection.
 
 use eframe::egui;
 
-use crate::picture::content::Shown;
-use crate::viewer::command::Command;
+use crate::picture::quantity::Quantity;
+use crate::viewer::command::{Command, DisplayCommand, WindowCommand};
 use crate::viewer::state::{Layout, Projection, ViewState};
 
 /// What the bar shows.
@@ -33,33 +33,39 @@ impl TopBar<'_> {
     }
 
     fn files(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        button(ui, "Open", "Open materials (Ctrl+O)", commands, Command::ShowOpen(true));
-        button(ui, "Save", "Save this view as a picture (Ctrl+S)", commands, Command::ShowSave(true));
+        button(ui, "Open", "Open materials (Ctrl+O)", commands, WindowCommand::ShowOpen(true).into());
+        button(
+            ui,
+            "Save",
+            "Save this view as a picture (Ctrl+S)",
+            commands,
+            WindowCommand::ShowSave(true).into(),
+        );
     }
 
     fn choices(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let mut layout = self.state.layout;
         choice(ui, "Layout", "Layout (C)", &mut layout, &Layout::ALL, Layout::name);
         if layout != self.state.layout {
-            commands.push(Command::SetLayout(layout));
+            commands.push(DisplayCommand::SetLayout(layout).into());
         }
-        let mut shown = self.state.shown;
-        choice(ui, "Show", "What is shown (M, Shift+M)", &mut shown, &Shown::ALL, Shown::name);
-        if shown != self.state.shown {
-            commands.push(Command::SetShown(shown));
+        let mut quantity = self.state.quantity;
+        choice(ui, "Show", "Rendering or map (M, Shift+M)", &mut quantity, &Quantity::ALL, Quantity::name);
+        if quantity != self.state.quantity {
+            commands.push(DisplayCommand::SetQuantity(quantity).into());
         }
         let perspective = self.state.projection == Projection::Perspective;
         let toggle = ui
             .selectable_label(perspective, "Perspective")
-            .on_hover_text("The plane as seen from the view's position, or the flat texture (P)");
+            .on_hover_text("The plane seen from the view position, or the flat texture (P)");
         if toggle.clicked() {
-            commands.push(Command::ToggleProjection);
+            commands.push(DisplayCommand::ToggleProjection.into());
         }
         let swap = ui.selectable_label(self.swapped, "Swap").on_hover_text(
-            "Prediction and ground truth change places (X); hold G to peek at the ground truth",
+            "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
         );
         if swap.clicked() {
-            commands.push(Command::SwapSides);
+            commands.push(DisplayCommand::Swap.into());
         }
     }
 
@@ -67,49 +73,49 @@ impl TopBar<'_> {
         ui.label("EV");
         let mut ev = self.state.exposure_ev;
         super::number(ui, "Exposure", &mut ev, 0.0, |d| d.speed(0.05).range(-20.0..=20.0).fixed_decimals(1))
-            .on_hover_text("Exposure in stops: E is up, Shift+E is down by 0.5; double-click for 0");
+            .on_hover_text("Exposure in stops: E raises it by 0.5, Shift+E lowers it; double-click for 0");
         if ev != self.state.exposure_ev {
-            commands.push(Command::SetExposure(ev));
+            commands.push(DisplayCommand::SetExposure(ev).into());
         }
         button(
             ui,
-            "N",
-            "Normalize: the ground truth's brightest 1% just clips (N)",
+            "Auto EV",
+            "The exposure at which the brightest 1% of the ground truth just clips (N)",
             commands,
-            Command::Normalize,
+            DisplayCommand::AutoExposure.into(),
         );
         let clipping = ui
             .selectable_label(self.state.show_clipping, "Clip")
-            .on_hover_text("Mark pixels that are too bright or black (L)");
+            .on_hover_text("Mark clipped pixels: too bright (magenta) or black (blue) (L)");
         if clipping.clicked() {
-            commands.push(Command::ToggleClipping);
+            commands.push(DisplayCommand::ToggleClipping.into());
         }
     }
 
     fn position(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        button(ui, "Fit", "Fit the material into its pane (F)", commands, Command::Fit);
-        button(ui, "1:1", "One texel per pixel (0)", commands, Command::OneToOne);
+        button(ui, "Fit", "Fit the material into its pane (F)", commands, DisplayCommand::Fit.into());
+        button(ui, "1:1", "One texel per pixel (0)", commands, DisplayCommand::OneToOne.into());
         button(
             ui,
             "Reset",
-            "Light, view, zoom, exposure and clipping marks back to the start (R)",
+            "Reset light, view, zoom, exposure and clipping marks (R)",
             commands,
-            Command::Reset,
+            DisplayCommand::Reset.into(),
         );
-        button(ui, "Undo", "Undo (Ctrl+Z)", commands, Command::Undo);
-        button(ui, "Redo", "Redo (Ctrl+Shift+Z)", commands, Command::Redo);
+        button(ui, "Undo", "Undo (Ctrl+Z)", commands, DisplayCommand::Undo.into());
+        button(ui, "Redo", "Redo (Ctrl+Shift+Z)", commands, DisplayCommand::Redo.into());
     }
 
     fn window(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let light = ui.selectable_label(!self.dark, "Light theme").on_hover_text("Light or dark window");
+        let light = ui.selectable_label(!self.dark, "Light theme").on_hover_text("Light or dark theme");
         if light.clicked() {
-            commands.push(Command::SetDark(!self.dark));
+            commands.push(WindowCommand::SetDark(!self.dark).into());
         }
         let panel = ui.selectable_label(self.side_panel, "Panel").on_hover_text("Side panel (B)");
         if panel.clicked() {
-            commands.push(Command::ToggleSidePanel);
+            commands.push(WindowCommand::ToggleSidePanel.into());
         }
-        button(ui, "?", "Keys and mouse (?)", commands, Command::SetHelp(true));
+        button(ui, "?", "Keys and mouse (?)", commands, WindowCommand::ShowHelp(true).into());
     }
 }
 

@@ -100,7 +100,7 @@ fn escape_cancels_and_a_change_starts_again() {
     window.run_steps(3);
     enter(&mut window, "Near-field scenes", "12");
     enter(&mut window, "Distant scenes", "3");
-    window.get_by_label_contains("Out of date");
+    window.get_by_label_contains("Stale");
     window.get_by_label("Auto").click();
     wait(&mut window, "the loss", |app| app.losses().is_some());
     assert_eq!(window.state().losses().unwrap()[0].per_scene.len(), 15);

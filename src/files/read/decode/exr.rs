@@ -12,6 +12,7 @@ use super::dwa;
 use super::panics::caught;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
 use crate::error::Error;
+use crate::files::read::note::Note;
 use crate::files::read::raster::Raster;
 use crate::files::read::samples::Samples;
 
@@ -68,9 +69,7 @@ fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {
     let display = image.attributes.display_window;
     if image.attributes.chromaticities.is_some_and(|c| (c.red.0 - 0.64).abs() + (c.red.1 - 0.33).abs() > 0.01)
     {
-        decoded
-            .notes
-            .push("The EXR names other primaries than those of Rec. 709; its RGB is taken as it is.".into());
+        decoded.notes.push(Note::Primaries);
     }
     for part in image.layer_data {
         let size = [part.size.0, part.size.1];
@@ -143,23 +142,23 @@ fn windowed(
     data: IntegerBounds,
     display: IntegerBounds,
     name: &str,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> Raster {
     if data == display || raster.channels.iter().any(|c| !c.is_float()) {
         return raster;
     }
-    let whose = if name.is_empty() { "The picture".to_owned() } else { format!("Layer {name}") };
+    let layer = name.to_owned();
     let inside = display.size.0 <= MAX_SIDE && display.size.1 <= MAX_SIDE;
     if data.size == display.size || !inside {
-        notes
-            .push(format!("{whose} has a data window beside its display window; the data is used as it is."));
+        notes.push(Note::DataWindow { layer });
         return raster;
     }
-    notes.push(format!(
-        "{whose} has data for {} x {} of the {} x {} texels of its display window; the rest is 0.",
-        data.size.0, data.size.1, display.size.0, display.size.1
-    ));
     let (width, height) = (display.size.0, display.size.1);
+    notes.push(Note::PartialData {
+        layer,
+        data: [data.size.0, data.size.1],
+        display: [width, height],
+    });
     let place = |plane: &Samples| {
         let value = |index: usize| {
             let column = (index % width) as i64 + i64::from(display.position.0) - i64::from(data.position.0);

@@ -18,22 +18,23 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 
+use super::note::{Note, Subject};
 use super::raster::Raster;
 use crate::error::Error;
 pub use place::{Decoded, Layer};
 use place::{Place, alone};
 
-/// Decodes the file `path`, which is to be `what`, as in "normal map".
+/// Decodes the file `path`, which is expected to be `what`.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
-pub fn decode_file(path: &Path, what: &str) -> Result<Decoded, Error> {
+pub fn decode_file(path: &Path, what: Subject) -> Result<Decoded, Error> {
     let file = File::open(path).map_err(|source| Error::unreadable(path, source))?;
     decode(BufReader::new(file), path, what)
 }
 
 /// As [`decode_file`], from what `reader` gives; `path` is the name for messages.
-pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: &str) -> Result<Decoded, Error> {
+pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: Subject) -> Result<Decoded, Error> {
     let place = Place { path, what };
     let head = reader.fill_buf().map_err(|source| Error::unreadable(path, source))?;
     let begins = |magic: &[u8]| head.starts_with(magic);
@@ -58,7 +59,7 @@ pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: &str) -> Resul
 ///
 /// # Errors
 /// As [`decode_file`]; [`Error::BadImage`] where there are several.
-pub fn decode_one(path: &Path, what: &str) -> Result<(Raster, Vec<String>), Error> {
+pub fn decode_one(path: &Path, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
     let Decoded { mut layers, notes, .. } = decode_file(path, what)?;
     match layers.pop() {
         Some(only) if layers.is_empty() => Ok((only.raster, notes)),

@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use crate::error::Error;
+use crate::files::read::note::{Note, Subject};
 use crate::files::read::raster::Raster;
+use crate::files::read::role::Role;
 
 /// Largest side of a map: the largest that material libraries publish.
 pub(crate) const MAX_SIDE: usize = 16_384;
@@ -31,16 +33,15 @@ pub struct Decoded {
     pub native: bool,
     /// What this program wrote into a packed picture: its order and encoding.
     pub meaning: Option<String>,
-    /// What the user may want to know, one sentence each.
-    pub notes: Vec<String>,
+    /// What else was noticed.
+    pub notes: Vec<Note>,
 }
 
 /// Who is decoding what: for messages.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'a> {
     pub path: &'a Path,
-    /// As in "normal map".
-    pub what: &'a str,
+    pub what: Subject,
 }
 
 impl Place<'_> {
@@ -57,9 +58,14 @@ impl Place<'_> {
         self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
     }
 
-    /// Whether colour spaces mean nothing here, as far as is known.
+    /// Whether the picture is known to hold data, for which colour spaces mean nothing.
     pub fn is_data(self) -> bool {
-        ["normal", "roughness", "metallic"].iter().any(|map| self.what.contains(map))
+        match self.what {
+            Subject::Map(role) => {
+                role.packing().is_some() || matches!(role, Role::Normal | Role::Roughness | Role::Metallic)
+            }
+            _ => false,
+        }
     }
 
     pub fn truncated(self) -> Error {

@@ -9,7 +9,7 @@ use crate::files::read::interpret::transfer::linear;
 use crate::files::read::options::Albedo;
 use crate::files::read::raster::Raster;
 use crate::files::read::samples::Samples;
-use crate::files::read::stored::Source;
+use crate::files::read::stored::StoredMap;
 use crate::material::resize::{self, Filter};
 
 /// An input of a surface, linear: one value, or one for each texel. Of one channel or three.
@@ -27,7 +27,7 @@ impl Field {
     }
 
     /// The channels of a map, as colours stored as `space`.
-    pub fn of(source: &Source, space: Albedo) -> Self {
+    pub fn of(source: &StoredMap, space: Albedo) -> Self {
         let value = |v: f64| linear(if v.is_finite() { v.clamp(0.0, 1.0) } else { 0.0 }, space);
         let planes = source.raster.channels.iter().map(|plane| plane.decoded(value)).collect();
         Self { size: source.raster.size(), planes, whose: source.file.display().to_string() }
@@ -36,7 +36,7 @@ impl Field {
     /// Times `other`, texel by texel.
     ///
     /// # Errors
-    /// [`Error::SizesDiffer`] where the two have different shapes.
+    /// [`Error::MapSizesDiffer`] where the two have different shapes.
     pub fn times(self, other: Self) -> Result<Self, Error> {
         let mut both = [self, other];
         let size = common_size(&mut both)?;
@@ -71,11 +71,11 @@ impl Field {
     }
 
     /// As a map that `part` of the file `path` stands for.
-    pub fn into_source(self, path: &Path, part: &str) -> Source {
+    pub fn into_source(self, path: &Path, part: &str) -> StoredMap {
         let [width, height] = self.size;
         let channels = self.planes.into_iter().map(Samples::floats).collect();
         let raster = Raster { width, height, depth: "float", channels, alpha: None };
-        Source { raster, file: path.to_owned(), part: part.to_owned() }
+        StoredMap { raster, file: path.to_owned(), part: part.to_owned() }
     }
 }
 
@@ -87,12 +87,11 @@ fn common_size(fields: &mut [Field]) -> Result<[usize; 2], Error> {
     let (size, whose) = (largest.size, largest.whose.clone());
     for field in fields.iter_mut().filter(|field| field.size != [1, 1] && field.size != size) {
         if field.size[0] * size[1] != size[0] * field.size[1] {
-            return Err(Error::SizesDiffer {
+            return Err(Error::MapSizesDiffer {
                 first: whose,
                 first_size: size,
                 second: field.whose.clone(),
                 second_size: field.size,
-                remedy: "resize them so that the maps of a material have one shape",
             });
         }
         let resized = |plane| resize::plane(plane, field.size, size, Filter::Value);
@@ -111,7 +110,7 @@ pub fn reflectance(ior: f32) -> f32 {
 /// dielectric, each at most 1.
 ///
 /// # Errors
-/// [`Error::SizesDiffer`].
+/// [`Error::MapSizesDiffer`].
 pub fn separated(base: Field, metallic: Field, dielectric: Field) -> Result<[Field; 2], Error> {
     let mut all = [base, metallic, dielectric];
     let size = common_size(&mut all)?;
@@ -160,6 +159,6 @@ mod tests {
         };
         let product = field([2, 2]).times(field([4, 4])).unwrap();
         assert_eq!((product.size, product.planes[0][15]), ([4, 4], 0.25));
-        assert!(matches!(field([2, 4]).times(field([4, 4])), Err(Error::SizesDiffer { .. })));
+        assert!(matches!(field([2, 4]).times(field([4, 4])), Err(Error::MapSizesDiffer { .. })));
     }
 }

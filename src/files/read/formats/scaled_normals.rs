@@ -4,10 +4,10 @@ use rayon::prelude::*;
 
 use crate::files::read::raster::Raster;
 use crate::files::read::samples::Samples;
-use crate::files::read::stored::Source;
+use crate::files::read::stored::StoredMap;
 
 /// Normals stored as (n + 1) / 2 with x and y times `scale`, of length 1 again, stored likewise as floats.
-pub fn scaled(source: Source, scale: f64) -> Source {
+pub fn scaled(source: StoredMap, scale: f64) -> StoredMap {
     if scale == 1.0 || source.raster.channels.len() < 3 {
         return source;
     }
@@ -20,5 +20,5 @@ pub fn scaled(source: Source, scale: f64) -> Source {
     };
     let texels: Vec<[f32; 3]> = (0..raster.width * raster.height).into_par_iter().map(texel).collect();
     let channels = Samples::interleaved(texels.into_flattened(), 3);
-    Source { raster: Raster { channels, alpha: None, ..raster.without_samples() }, ..source }
+    StoredMap { raster: Raster { channels, alpha: None, ..raster.without_samples() }, ..source }
 }

@@ -2,14 +2,15 @@
 
 use rayon::prelude::*;
 
+use super::decide::decide;
 use super::detect;
-use super::encoding::decide;
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::options::{NormalCode as Code, NormalY, ReadOptions};
+use crate::files::read::options::{NormalEncoding, NormalY, ReadOptions};
 use crate::files::read::raster::Raster;
+use crate::files::read::reason::Reason;
 use crate::files::read::samples::Samples;
-use crate::files::read::stored::{Found, Source};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
 
@@ -17,7 +18,7 @@ use crate::math::real::Real;
 const SHORTEST: f64 = 1e-3;
 /// Below this correlation of the curl test an unlabelled map is taken to be y down.
 const DOWN: f64 = -0.3;
-/// Above this correlation it is taken to be y up for sure enough.
+/// Above this correlation it is taken to be y up.
 const UP: f64 = 0.1;
 
 /// Squared sine of the slope above which z is visibly below 1.
@@ -28,8 +29,8 @@ const STEEP: f64 = 0.05;
 /// # Errors
 /// [`Error::NotAMaterial`] where the map is gray.
 pub fn planes<T: Real>(
-    source: Source,
-    found: &mut Found,
+    source: StoredMap,
+    found: &mut StoredMaterial,
     options: &ReadOptions,
     size: [usize; 2],
 ) -> Result<[Vec<T>; 3], Error> {
@@ -42,16 +43,17 @@ pub fn planes<T: Real>(
             remedy: "give a normal map, not a height map".to_owned(),
         });
     }
-    let (code, why) = code_of(raster);
-    let sure = code == Code::Unsigned || raster.is_float();
+    let (encoding, why) = encoding_of(raster);
+    let sure = encoding == NormalEncoding::Unsigned || raster.is_float();
     let certainty = if sure { Certainty::Likely } else { Certainty::Unsure };
-    let code = decide(&mut found.assumptions, What::NormalCode, options.normal_code, None, || {
-        (code, why, certainty)
-    });
-    let y = normal_y(raster, code, found, options);
-    let (mut planes, missing) = decoded::<T>(raster, code, y);
+    let encoding =
+        decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, None, || {
+            (encoding, why, certainty)
+        });
+    let y = normal_y(raster, encoding, found, options);
+    let (mut planes, missing) = decoded::<T>(raster, encoding, y);
     if missing > 0 {
-        let why = format!("{missing} texels have a vector of no length, or none that is a number");
+        let why = Reason::NoDirection { count: missing };
         found.assumptions.push(Assumption::new(What::Values, "normal (0, 0, 1)", why, Certainty::Unsure));
     }
     let from = raster.size();
@@ -63,39 +65,37 @@ pub fn planes<T: Real>(
 }
 
 /// Normals of a material without a normal map.
-pub fn flat<T: Real>(found: &mut Found, size: [usize; 2]) -> [Vec<T>; 3] {
-    let why = "there is no normal map; the surface is taken to be flat";
-    found.assumptions.push(Assumption::new(What::Missing, "normal (0, 0, 1)", why, Certainty::Unsure));
+pub fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
+    let missing =
+        Assumption::new(What::Missing, "normal (0, 0, 1)", Reason::NoNormalMap, Certainty::Unsure);
+    found.assumptions.push(missing);
     [T::zero(), T::zero(), T::one()].map(|value| vec![value; size[0] * size[1]])
 }
 
-fn code_of(raster: &Raster) -> (Code, String) {
+fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
     let range = |plane: &Samples| {
         let values = raster.sampled().map(|i| plane.at(i));
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
     };
     let least = raster.channels.iter().map(|c| range(c).0).fold(0.0, f64::min);
     if raster.is_float() && least < -0.01 {
-        return (Code::Signed, format!("the least component is {least:.2}"));
+        return (NormalEncoding::Signed, Reason::LeastComponent(least));
     }
     if raster.channels.len() == 2 {
-        return (Code::Xy, "the map has two channels".to_owned());
+        return (NormalEncoding::Xy, Reason::TwoChannels);
     }
     let [x, _, z] = [0, 1, 2].map(|c| range(&raster.channels[c]));
     if let Some(alpha) = &raster.alpha
         && x.0 > 0.98
         && range(alpha).1 - range(alpha).0 > 0.05
     {
-        return (Code::Ag, "red is 1 everywhere, alpha varies".to_owned());
+        return (NormalEncoding::Ag, Reason::RedConstant);
     }
     let score = detect::normal_score(raster);
     if raster.is_float() {
         let signed = detect::signed_normal_score(raster);
         if signed > score {
-            return (
-                Code::Signed,
-                format!("{:.0} % of the texels have length 1 as they are", 100.0 * signed),
-            );
+            return (NormalEncoding::Signed, Reason::UnitLength { signed: true, share: signed });
         }
     }
     // Blue 1 everywhere is also what a flat map has: only slopes that it cannot have tell.
@@ -104,73 +104,68 @@ fn code_of(raster: &Raster) -> (Code, String) {
         x * x + y * y > STEEP
     };
     if z.1 < 0.02 || (z.0 > 0.98 && raster.sampled().any(steep)) {
-        return (Code::Xy, format!("blue is {:.0} everywhere", z.0.round()));
+        return (NormalEncoding::Xy, Reason::BlueConstant(z.0.round()));
     }
-    (Code::Unsigned, format!("{:.0} % of the texels have length 1 then", 100.0 * score))
+    (NormalEncoding::Unsigned, Reason::UnitLength { signed: false, share: score })
 }
 
 /// The vector at `index`, y as stored.
-fn vector(raster: &Raster, code: Code, index: usize) -> [f64; 3] {
+fn vector(raster: &Raster, encoding: NormalEncoding, index: usize) -> [f64; 3] {
     let mut stored = [0.0; 3];
-    stored.iter_mut().zip(components(raster, code)).for_each(|(value, plane)| *value = plane.at(index));
-    vector_of(stored, code, raster.channels.len() == 2)
+    stored.iter_mut().zip(components(raster, encoding)).for_each(|(value, plane)| *value = plane.at(index));
+    vector_of(stored, encoding, raster.channels.len() == 2)
 }
 
 /// The channels that hold x, y and, where it is stored, z.
-fn components(raster: &Raster, code: Code) -> impl Iterator<Item = &Samples> {
+fn components(raster: &Raster, encoding: NormalEncoding) -> impl Iterator<Item = &Samples> {
     let last = raster.channels.len() - 1;
-    let x = if code == Code::Ag { raster.alpha.as_ref() } else { None };
+    let x = if encoding == NormalEncoding::Ag { raster.alpha.as_ref() } else { None };
     let others = [1, 2].map(|c| &raster.channels[last.min(c)]);
     [x.unwrap_or(&raster.channels[0])].into_iter().chain(others)
 }
 
 /// The vector that is stored as (x, y, z), y as stored; of `two` channels z is not stored.
-fn vector_of([x, y, z]: [f64; 3], code: Code, two: bool) -> [f64; 3] {
+fn vector_of([x, y, z]: [f64; 3], encoding: NormalEncoding, two: bool) -> [f64; 3] {
     let signed = |value: f64| 2.0 * value - 1.0;
     let with_z = |x: f64, y: f64| [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()];
-    match code {
-        Code::Unsigned => [x, y, z].map(signed),
-        Code::Signed if two => with_z(x, y),
-        Code::Signed => [x, y, z],
-        Code::Xy | Code::Ag => with_z(signed(x), signed(y)),
+    match encoding {
+        NormalEncoding::Unsigned => [x, y, z].map(signed),
+        NormalEncoding::Signed if two => with_z(x, y),
+        NormalEncoding::Signed => [x, y, z],
+        NormalEncoding::Xy | NormalEncoding::Ag => with_z(signed(x), signed(y)),
     }
 }
 
-fn normal_y(raster: &Raster, code: Code, found: &mut Found, options: &ReadOptions) -> NormalY {
-    let curl = detect::curl(raster.width, raster.height, |index| vector(raster, code, index));
-    let measured = curl.map_or("the map has no slopes to tell by".to_owned(), |c| {
-        format!("the curl correlation is {c:+.2}")
-    });
-    let hint = found.hints.normal_y.take();
+fn normal_y(raster: &Raster, encoding: NormalEncoding, found: &mut StoredMaterial, options: &ReadOptions) -> NormalY {
+    let curl = detect::curl(raster.width, raster.height, |index| vector(raster, encoding, index));
+    let hint = found.inferred.normal_y.take();
     let named = hint.as_ref().is_some_and(|(.., certainty)| *certainty == Certainty::Sure);
     let of_preset = options.preset.and_then(|preset| preset.options().normal_y).filter(|_| !named);
     let given = options.normal_y.or(of_preset);
     if let (None, Some((y, why, _)), Some(curl)) = (given, &hint, curl)
         && ((*y == NormalY::Up && curl < DOWN) || (*y == NormalY::Down && curl > -DOWN))
     {
-        let why = format!("{why}, but {measured}: look at it");
+        let why = Reason::ContradictedBy(Box::new(why.clone()), Box::new(Reason::Curl(Some(curl))));
         found.assumptions.push(Assumption::new(What::NormalY, *y, why, Certainty::Unsure));
         return *y;
     }
     decide(&mut found.assumptions, What::NormalY, given, hint, || match curl {
-        Some(c) if c <= DOWN => {
-            (NormalY::Down, format!("{measured}: no surface with y up has it"), Certainty::Unsure)
-        }
-        Some(c) if c >= UP => (NormalY::Up, measured, Certainty::Likely),
-        None => (NormalY::Up, measured, Certainty::Likely),
-        Some(_) => (NormalY::Up, format!("most maps are so; {measured}"), Certainty::Unsure),
+        Some(c) if c <= DOWN => (NormalY::Down, Reason::CurlDown(c), Certainty::Unsure),
+        Some(c) if c >= UP => (NormalY::Up, Reason::Curl(curl), Certainty::Likely),
+        None => (NormalY::Up, Reason::Curl(None), Certainty::Likely),
+        Some(c) => (NormalY::Up, Reason::MostMapsUp(c), Certainty::Unsure),
     })
 }
 
 /// x, y up, z; and how many had no direction.
-fn decoded<T: Real>(raster: &Raster, code: Code, y: NormalY) -> ([Vec<T>; 3], usize) {
+fn decoded<T: Real>(raster: &Raster, encoding: NormalEncoding, y: NormalY) -> ([Vec<T>; 3], usize) {
     const CHUNK: usize = 1 << 12;
     let sign = if y == NormalY::Up { 1.0 } else { -1.0 };
     let count = raster.width * raster.height;
     let two = raster.channels.len() == 2;
     let [mut xs, mut ys, mut zs] = [0; 3].map(|_| vec![T::zero(); count]);
     let convert = |(number, ((xs, ys), zs)): (usize, ((&mut [T], &mut [T]), &mut [T]))| {
-        let stored: Vec<Vec<f64>> = components(raster, code)
+        let stored: Vec<Vec<f64>> = components(raster, encoding)
             .map(|plane| {
                 let mut chunk = vec![0.0; xs.len()];
                 plane.read(number * CHUNK, &mut chunk);
@@ -179,7 +174,7 @@ fn decoded<T: Real>(raster: &Raster, code: Code, y: NormalY) -> ([Vec<T>; 3], us
             .collect();
         let mut missing = 0;
         for index in 0..xs.len() {
-            let mut n = vector_of([0, 1, 2].map(|c| stored[c][index]), code, two);
+            let mut n = vector_of([0, 1, 2].map(|c| stored[c][index]), encoding, two);
             let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
             if !length.is_finite() || length < SHORTEST {
                 missing += 1;

@@ -13,19 +13,18 @@ use gltf::Material;
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
-use crate::files::read::stored::{Found, Pictures};
+use crate::files::read::note::Note;
+use crate::files::read::reason::StorageConvention;
+use crate::files::read::stored::{Pictures, StoredMaterial};
 use crate::progress::Progress;
 use surface::Surface;
 use textures::Scene;
-
-/// Most names of materials that a note lists.
-const MOST_LISTED: usize = 12;
 
 /// Reads material number `exemplar` of the file `path`; without one the first that has a texture, else the first.
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
+pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let (document, blob) = document::parse(path, &bytes)?;
     let scene = Scene { path: path.to_owned(), document, blob };
@@ -52,17 +51,18 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     let gloss = material.pbr_specular_glossiness().is_some();
     let mut pictures = Pictures::default();
     let is_linear = surface.put(material, &mut pictures)?;
-    let mut found = pictures.into_found(path, name(material, index), "", options)?;
+    let mut found = pictures.assemble(path, name(material, index), "", options)?;
     found.files.push(path.to_owned());
     found.files.sort();
     found.files.dedup();
     specify(&mut found, if gloss { Roughness::Gloss } else { Roughness::R }, is_linear);
-    found.notes.extend(
-        features::ignored(said)
-            .map(|ignored| format!("The glTF has {ignored}, which changes the look and is ignored.")),
-    );
+    let features: Vec<String> = features::ignored(said).collect();
+    if !features.is_empty() {
+        found.notes.push(Note::NotModelled { features });
+    }
     if materials.len() > 1 {
-        found.notes.push(several(&materials, index));
+        let names = materials.iter().enumerate().map(|(i, material)| name(material, i)).collect();
+        found.notes.push(Note::Materials { names, index });
     }
     Ok(found)
 }
@@ -71,23 +71,14 @@ fn name(material: &Material<'_>, index: usize) -> String {
     material.name().map_or_else(|| format!("material {index}"), str::to_owned)
 }
 
-/// What there is beside material number `index`.
-fn several(materials: &[Material<'_>], index: usize) -> String {
-    let count = materials.len();
-    let names = materials.iter().enumerate().take(MOST_LISTED).map(|(i, m)| format!("{i} {}", name(m, i)));
-    let more = if count > MOST_LISTED { format!(" and {} more", count - MOST_LISTED) } else { String::new() };
-    let names = names.collect::<Vec<_>>().join(", ");
-    format!("The glTF holds {count} materials: {names}{more}. This is number {index}. Another: --exemplar.")
-}
-
 /// What the specification of glTF 2.0 says.
-fn specify(found: &mut Found, roughness: Roughness, is_linear: bool) {
-    let why = || "glTF 2.0 is so by its specification".to_owned();
+fn specify(found: &mut StoredMaterial, roughness: Roughness, is_linear: bool) {
+    let why = || StorageConvention::Gltf.into();
     let albedo = if is_linear { Albedo::Linear } else { Albedo::Srgb };
-    found.hints.albedo = Some((albedo, why(), Certainty::Sure));
-    found.hints.specular = found.hints.albedo.clone();
-    found.hints.roughness = Some((roughness, why(), Certainty::Sure));
-    found.hints.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
-    let layout = Assumption::new(What::Layout, "glTF", "the file names its textures", Certainty::Sure);
+    found.inferred.albedo = Some((albedo, why(), Certainty::Sure));
+    found.inferred.specular = found.inferred.albedo.clone();
+    found.inferred.roughness = Some((roughness, why(), Certainty::Sure));
+    found.inferred.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
+    let layout = Assumption::new(What::Layout, "glTF", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);
 }

@@ -9,9 +9,10 @@ use crate::error::Error;
 use crate::files::read::formats::principled::{Field, reflectance, separated};
 use crate::files::read::formats::scaled_normals::scaled;
 use crate::files::read::locate::names::Role;
+use crate::files::read::note::Subject;
 use crate::files::read::options::Albedo;
 use crate::files::read::raster::Raster;
-use crate::files::read::stored::{Pictures, Source};
+use crate::files::read::stored::{Pictures, StoredMap};
 use crate::progress::Progress;
 
 /// The refractive index of a material that says none.
@@ -20,14 +21,14 @@ const USUAL_IOR: f32 = 1.5;
 /// The pictures of a material, decoded.
 pub struct Surface<'a> {
     scene: &'a Scene,
-    normal: Option<Source>,
+    normal: Option<StoredMap>,
     /// Base colour or diffuse.
-    colour: Option<Source>,
+    colour: Option<StoredMap>,
     /// Roughness and metallic, or specular and glossiness.
-    packed: Option<Source>,
+    packed: Option<StoredMap>,
     /// The strength of the specular reflection, in alpha.
-    specular: Option<Source>,
-    specular_colour: Option<Source>,
+    specular: Option<StoredMap>,
+    specular_colour: Option<StoredMap>,
 }
 
 impl<'a> Surface<'a> {
@@ -39,11 +40,11 @@ impl<'a> Surface<'a> {
             let diffuse = gloss.diffuse_texture().map(|t| t.texture());
             let both = gloss.specular_glossiness_texture().map(|t| t.texture());
             [
-                (normal, "normal map"),
-                (diffuse, "diffuse map"),
-                (both, "specular and glossiness map"),
-                (None, ""),
-                (None, ""),
+                (normal, Role::Normal),
+                (diffuse, Role::Diffuse),
+                (both, Role::Specular),
+                (None, Role::Specular),
+                (None, Role::Specular),
             ]
         } else {
             let pbr = material.pbr_metallic_roughness();
@@ -52,16 +53,16 @@ impl<'a> Surface<'a> {
             let strength = extension.as_ref().and_then(|s| s.specular_texture()).map(|t| t.texture());
             let colour = extension.as_ref().and_then(|s| s.specular_color_texture()).map(|t| t.texture());
             [
-                (normal, "normal map"),
-                (base, "base colour map"),
-                (both, "roughness and metallic map"),
-                (strength, "specular map"),
-                (colour, "specular colour map"),
+                (normal, Role::Normal),
+                (base, Role::Base),
+                (both, Role::Roughness),
+                (strength, Role::SpecularLevel),
+                (colour, Role::Specular),
             ]
         };
         progress.begin(wanted.len() as u64);
-        let load = |(texture, what): (Option<Texture<'_>>, &str)| {
-            let source = texture.map(|texture| scene.picture(&texture, what)).transpose();
+        let load = |(texture, role): (Option<Texture<'_>>, Role)| {
+            let source = texture.map(|texture| scene.picture(&texture, Subject::Map(role))).transpose();
             progress.step().and(source)
         };
         let mut loaded = wanted.into_par_iter().map(load).collect::<Result<Vec<_>, _>>()?.into_iter();
@@ -109,12 +110,12 @@ impl<'a> Surface<'a> {
         Ok(true)
     }
 
-    fn roughness_and_metallic(&self, pbr: &PbrMetallicRoughness<'_>) -> [Source; 2] {
+    fn roughness_and_metallic(&self, pbr: &PbrMetallicRoughness<'_>) -> [StoredMap; 2] {
         let channel = |number: usize, factor: f32| match &self.packed {
             Some(packed) => {
-                Source { raster: packed.raster.channel(number).scaled(&[factor]), ..packed.clone() }
+                StoredMap { raster: packed.raster.channel(number).scaled(&[factor]), ..packed.clone() }
             }
-            None => Source::constant(&self.scene.path, &[factor]),
+            None => StoredMap::constant(&self.scene.path, &[factor]),
         };
         [channel(1, pbr.roughness_factor()), channel(2, pbr.metallic_factor())]
     }
@@ -133,7 +134,7 @@ impl<'a> Surface<'a> {
         if let Some((source, alpha)) = self.specular.as_ref().and_then(|s| Some((s, s.raster.alpha.clone()?)))
         {
             let raster = source.raster.of(alpha);
-            strength = strength.times(Field::of(&Source { raster, ..source.clone() }, Albedo::Linear))?;
+            strength = strength.times(Field::of(&StoredMap { raster, ..source.clone() }, Albedo::Linear))?;
         }
         colour.at_most_one().times(strength)
     }
@@ -143,7 +144,7 @@ impl<'a> Surface<'a> {
         let factor = pbr.glossiness_factor();
         let gloss = match &self.packed {
             // Alpha that is 1 everywhere is not kept.
-            Some(Source { raster, .. }) => match raster.alpha.clone() {
+            Some(StoredMap { raster, .. }) => match raster.alpha.clone() {
                 Some(alpha) => raster.of(alpha).scaled(&[factor]),
                 None => Raster::constant("alpha", &[factor]),
             },
@@ -153,12 +154,12 @@ impl<'a> Surface<'a> {
         let [r, g, b, _] = pbr.diffuse_factor();
         pictures.add(Role::Diffuse, self.colour(self.colour.clone(), [r, g, b]));
         pictures.add(Role::Specular, self.colour(self.packed.clone(), pbr.specular_factor()));
-        pictures.add(Role::Roughness, Source { raster: gloss, file, part: "alpha".to_owned() });
+        pictures.add(Role::Roughness, StoredMap { raster: gloss, file, part: "alpha".to_owned() });
     }
 
     /// The sRGB picture of a colour times a linear factor, in sRGB.
-    fn colour(&self, source: Option<Source>, factor: [f32; 3]) -> Source {
-        let source = source.unwrap_or_else(|| Source::constant(&self.scene.path, &[1.0; 3]));
+    fn colour(&self, source: Option<StoredMap>, factor: [f32; 3]) -> StoredMap {
+        let source = source.unwrap_or_else(|| StoredMap::constant(&self.scene.path, &[1.0; 3]));
         source.times(factor, Albedo::Srgb)
     }
 }

@@ -13,7 +13,8 @@ use super::document::bad;
 use crate::error::Error;
 use crate::files::read::decode;
 use crate::files::read::raster::Raster;
-use crate::files::read::stored::Source;
+use crate::files::read::note::Subject;
+use crate::files::read::stored::StoredMap;
 
 /// Extensions of a texture that name its picture, the one that is decoded to more exact values first.
 const SOURCES: [&str; 4] = ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];
@@ -30,10 +31,10 @@ impl Scene {
     ///
     /// # Errors
     /// As those of the decoders.
-    pub fn picture(&self, texture: &Texture<'_>, what: &str) -> Result<Source, Error> {
+    pub fn picture(&self, texture: &Texture<'_>, what: Subject) -> Result<StoredMap, Error> {
         let (raster, file, part) = match self.image(texture, what)?.source() {
             Image::Uri { uri, .. } if uri.starts_with("data:") => {
-                (self.decoded(&self.data(uri)?, what)?, self.path.clone(), what.to_owned())
+                (self.decoded(&self.data(uri)?, what)?, self.path.clone(), what.to_string())
             }
             Image::Uri { uri, .. } => {
                 let file = self.beside(uri);
@@ -45,14 +46,14 @@ impl Scene {
                 let bytes = end.and_then(|end| buffer.get(view.offset()..end));
                 let bytes =
                     bytes.ok_or_else(|| bad(&self.path, format!("{what}: expected it within its buffer")))?;
-                (self.decoded(bytes, what)?, self.path.clone(), what.to_owned())
+                (self.decoded(bytes, what)?, self.path.clone(), what.to_string())
             }
         };
-        Ok(Source { raster, file, part })
+        Ok(StoredMap { raster, file, part })
     }
 
     /// The image of a texture: that which all programs read, else that of an extension.
-    fn image(&self, texture: &Texture<'_>, what: &str) -> Result<gltf::Image<'_>, Error> {
+    fn image(&self, texture: &Texture<'_>, what: Subject) -> Result<gltf::Image<'_>, Error> {
         let image = |index: usize| self.document.images().nth(index);
         let of = |name: &str| image(texture.extension_value(name)?.get("source")?.as_u64()?.try_into().ok()?);
         let plain = texture.source().and_then(|plain| image(plain.index()));
@@ -64,7 +65,7 @@ impl Scene {
         })
     }
 
-    fn decoded(&self, bytes: &[u8], what: &str) -> Result<Raster, Error> {
+    fn decoded(&self, bytes: &[u8], what: Subject) -> Result<Raster, Error> {
         let decoded = decode::decode(std::io::Cursor::new(bytes), &self.path, what)?;
         let first = decoded.layers.into_iter().next();
         first

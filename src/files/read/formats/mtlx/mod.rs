@@ -16,7 +16,9 @@ use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::decode;
 use crate::files::read::locate::names::Role;
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
-use crate::files::read::stored::{Found, Hint, Pictures, Source};
+use crate::files::read::note::{Container, Note, Subject};
+use crate::files::read::reason::{Known, Reason, StorageConvention};
+use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 use graph::{Bound, Obstacle, bound};
 use model::{Input, Model, USD_SPECULAR};
@@ -28,7 +30,7 @@ const USUAL: f32 = 0.04;
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
+pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let text = fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
     let document = Document::parse(&text).map_err(|e| Error::BadImage {
         path: path.to_owned(),
@@ -47,26 +49,24 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     let mut pictures = Pictures::default();
     let albedo = surface.put(&mut pictures, progress)?;
     let name = node.attribute("name").unwrap_or("material").to_owned();
-    let mut found = pictures.into_found(path, name, "", options)?;
+    let mut found = pictures.assemble(path, name, "", options)?;
     found.files.push(path.to_owned());
     found.files.sort();
     found.files.dedup();
-    found.hints.specular = albedo.clone();
-    found.hints.albedo = albedo;
-    let why = "MaterialX takes normals so".to_owned();
-    found.hints.normal_y = Some((NormalY::Up, why, Certainty::Likely));
-    let layout = Assumption::new(What::Layout, "MaterialX", "the file names its textures", Certainty::Sure);
+    found.inferred.specular = albedo.clone();
+    found.inferred.albedo = albedo;
+    let why = StorageConvention::MaterialXNormals.into();
+    found.inferred.normal_y = Some((NormalY::Up, why, Certainty::Likely));
+    let layout =
+        Assumption::new(What::Layout, "MaterialX", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);
-    let ignored = model.ignored(node);
-    if !ignored.is_empty() {
-        let ignored = ignored.join(", ");
-        found.notes.push(format!("The surface has {ignored}, which changes the look and is ignored."));
+    let features = model.ignored(node);
+    if !features.is_empty() {
+        found.notes.push(Note::NotModelled { features });
     }
     if surfaces.len() > 1 {
         let count = surfaces.len();
-        found.notes.push(format!(
-            "The file holds {count} surfaces; this is number {index} from 0. Another: --exemplar."
-        ));
+        found.notes.push(Note::Several { container: Container::MaterialX, count, index });
     }
     Ok(found)
 }
@@ -80,7 +80,7 @@ struct Surface<'a, 'd> {
 
 /// An input that has been read.
 struct Loaded {
-    source: Source,
+    source: StoredMap,
     /// The colour space that the file says.
     space: Option<String>,
 }
@@ -106,7 +106,7 @@ impl Loaded {
 
 impl Surface<'_, '_> {
     /// Reads the inputs; returns what is said about colours.
-    fn put(&self, pictures: &mut Pictures, progress: &Progress) -> Result<Hint<Albedo>, Error> {
+    fn put(&self, pictures: &mut Pictures, progress: &Progress) -> Result<Inferred<Albedo>, Error> {
         progress.begin(4);
         let Model { base, metallic, roughness, normal, .. } = *self.model;
         if let Some(normal) = self.load((normal, 0.0), Role::Normal)? {
@@ -141,14 +141,13 @@ impl Surface<'_, '_> {
         Ok(self.linear())
     }
 
-    fn computed(&self, field: Field, part: &str) -> Source {
+    fn computed(&self, field: Field, part: &str) -> StoredMap {
         field.into_source(self.path, part)
     }
 
     /// What is said of colours that are computed.
-    fn linear(&self) -> Hint<Albedo> {
-        let why = format!("computed as the specification of {} says", self.model.tag);
-        Some((Albedo::Linear, why, Certainty::Sure))
+    fn linear(&self) -> Inferred<Albedo> {
+        Some((Albedo::Linear, StorageConvention::MaterialXSurface.into(), Certainty::Sure))
     }
 
     fn is_specular_usd(&self) -> Result<bool, Error> {
@@ -196,7 +195,7 @@ impl Surface<'_, '_> {
     /// The input, or its value by the specification.
     fn said(&self, input: Input, role: Role) -> Result<Loaded, Error> {
         let usual = || Loaded {
-            source: Source::constant(self.path, &[input.1]),
+            source: StoredMap::constant(self.path, &[input.1]),
             space: Some("lin_rec709".to_owned()),
         };
         Ok(self.load(input, role)?.unwrap_or_else(usual))
@@ -208,13 +207,13 @@ impl Surface<'_, '_> {
             Some(Bound::Values { .. }) if role == Role::Normal => None,
             Some(Bound::Values { values, space }) => {
                 let space = space.or_else(|| Some("lin_rec709".to_owned()));
-                Some(Loaded { source: Source::constant(self.path, &values), space })
+                Some(Loaded { source: StoredMap::constant(self.path, &values), space })
             }
             Some(Bound::File { file, space, channel, scale }) => {
                 let file = resolved(self.path, &file);
-                let whole = decode::decode_one(&file, &format!("{} map", role.name()))?.0;
+                let whole = decode::decode_one(&file, Subject::Map(role))?.0;
                 let raster = channel.map_or(whole.clone(), |c| whole.channel(c));
-                let source = Source { raster, file, part: String::new() };
+                let source = StoredMap { raster, file, part: String::new() };
                 let source = if role == Role::Normal { scaled(source, scale.into()) } else { source };
                 Some(Loaded { source, space })
             }
@@ -222,17 +221,17 @@ impl Surface<'_, '_> {
     }
 }
 
-fn colour_space(space: &str) -> (Albedo, String, Certainty) {
-    let why = format!("the file says {space}");
-    match space {
-        "srgb_texture" | "srgb" | "srgb_rec709_scene" => (Albedo::Srgb, why, Certainty::Sure),
-        "lin_rec709" | "lin_rec709_scene" | "none" | "raw" => (Albedo::Linear, why, Certainty::Sure),
-        "gamma22" | "g22_rec709" | "g22_rec709_scene" => (Albedo::Gamma22, why, Certainty::Sure),
-        "gamma18" | "gamma24" => {
-            (Albedo::Gamma22, format!("{why}; 2.2 is the nearest that is known"), Certainty::Unsure)
+fn colour_space(space: &str) -> (Albedo, Reason, Certainty) {
+    let (albedo, known, certainty) = match space {
+        "srgb_texture" | "srgb" | "srgb_rec709_scene" => (Albedo::Srgb, Known::Exactly, Certainty::Sure),
+        "lin_rec709" | "lin_rec709_scene" | "none" | "raw" => {
+            (Albedo::Linear, Known::Exactly, Certainty::Sure)
         }
-        _ => (Albedo::Linear, format!("{why}, which is not known here"), Certainty::Unsure),
-    }
+        "gamma22" | "g22_rec709" | "g22_rec709_scene" => (Albedo::Gamma22, Known::Exactly, Certainty::Sure),
+        "gamma18" | "gamma24" => (Albedo::Gamma22, Known::Nearly, Certainty::Unsure),
+        _ => (Albedo::Linear, Known::Unknown, Certainty::Unsure),
+    };
+    (albedo, Reason::ColourSpace { space: space.to_owned(), known }, certainty)
 }
 
 /// A file beside the document, or a path of its own.

@@ -115,12 +115,12 @@ impl Model {
     }
 
     /// What `surface` has that changes its look and is not modelled.
-    pub fn ignored(&self, surface: Node<'_, '_>) -> Vec<&'static str> {
+    pub fn ignored(&self, surface: Node<'_, '_>) -> Vec<String> {
         let is_on = |(name, off): &&Input| {
             let Some(input) = input(surface, name) else { return false };
             let values = input.attribute("value").map(|v| v.split(',').map(|v| v.trim().parse::<f32>()));
             values.is_none_or(|mut values| values.any(|value| value.is_ok_and(|value| value != *off)))
         };
-        self.not_modelled.iter().filter(is_on).map(|(name, _)| *name).collect()
+        self.not_modelled.iter().filter(is_on).map(|(name, _)| (*name).to_owned()).collect()
     }
 }

@@ -1,10 +1,10 @@
-//! What a picture of a material shows: plain parameters, shared by window and command line.
+//! The quantities of a material: its rendering and its maps.
 
 use serde::{Deserialize, Serialize};
 
-/// What of a material is shown.
+/// The rendering or a map of a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Shown {
+pub enum Quantity {
     /// Algorithm 3 under the light and the view.
     #[default]
     Rendering,
@@ -18,12 +18,12 @@ pub enum Shown {
     Roughness,
 }
 
-impl Shown {
+impl Quantity {
     /// Every choice, in the order in which keys cycle through them.
     pub const ALL: [Self; 5] =
         [Self::Rendering, Self::Normal, Self::Diffuse, Self::Specular, Self::Roughness];
 
-    /// How users call it.
+    /// The name for users.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rendering => "rendering",

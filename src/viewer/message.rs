@@ -1,0 +1,116 @@
+//! What the window reports: values here, text where they are shown.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use crate::error::Error;
+
+/// How much a message matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    Success,
+    Warning,
+    Error,
+}
+
+/// Something that happened and that the person should know. Its text is complete.
+#[derive(Debug)]
+pub enum Message {
+    /// The view was written to this file.
+    Saved(PathBuf),
+    /// A prediction was not opened: its size is not the ground truth's.
+    Refused(SizeMismatch),
+    /// A prediction was closed: the new ground truth has another size.
+    Closed(SizeMismatch),
+    /// These predictions were not opened: their ground truth could not be read.
+    NotOpened(Vec<String>),
+    NotPasted(PasteProblem),
+    Failed(Error),
+}
+
+/// A prediction and a ground truth of different sizes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SizeMismatch {
+    pub prediction: String,
+    pub prediction_size: [usize; 2],
+    pub ground_truth: String,
+    pub ground_truth_size: [usize; 2],
+}
+
+/// Why the clipboard's text did not become the scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PasteProblem {
+    NoScene,
+    /// It has a scene that cannot be rendered, for this reason.
+    Unusable(String),
+}
+
+impl Message {
+    pub fn severity(&self) -> Severity {
+        match self {
+            Self::Saved(_) => Severity::Success,
+            Self::Closed(_) => Severity::Warning,
+            Self::Refused(_) | Self::NotOpened(_) | Self::NotPasted(_) | Self::Failed(_) => Severity::Error,
+        }
+    }
+}
+
+impl fmt::Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Saved(path) => write!(f, "Saved {}", path.display()),
+            Self::Refused(sizes) => {
+                write!(f, "Not opened: {sizes}. Tick \"Fit sizes\" under Materials and open it again.")
+            }
+            Self::Closed(sizes) => write!(f, "Prediction closed: {sizes}."),
+            Self::NotOpened(names) => {
+                write!(f, "Not opened, because the ground truth could not be read: {}.", names.join(", "))
+            }
+            Self::NotPasted(PasteProblem::NoScene) => f.write_str(
+                "Not pasted: the clipboard holds no scene. Copy one from this window or from a scene file.",
+            ),
+            Self::NotPasted(PasteProblem::Unusable(problem)) => {
+                write!(f, "Not pasted: the scene cannot be rendered, {problem}.")
+            }
+            Self::Failed(error) => error.fmt(f),
+        }
+    }
+}
+
+impl fmt::Display for SizeMismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [[w, h], [gt_w, gt_h]] = [self.prediction_size, self.ground_truth_size];
+        write!(
+            f,
+            "{} is {w} x {h} and the ground truth {} is {gt_w} x {gt_h}",
+            self.prediction, self.ground_truth
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_went_wrong_is_an_error() {
+        let sizes = SizeMismatch {
+            prediction: "small".to_owned(),
+            prediction_size: [128, 64],
+            ground_truth: "large".to_owned(),
+            ground_truth_size: [256, 256],
+        };
+        let text = "small is 128 x 64 and the ground truth large is 256 x 256";
+        for (message, severity, start) in [
+            (Message::Saved("a.png".into()), Severity::Success, "Saved a.png".to_owned()),
+            (Message::Closed(sizes.clone()), Severity::Warning, format!("Prediction closed: {text}")),
+            (Message::Refused(sizes), Severity::Error, format!("Not opened: {text}")),
+            (Message::NotPasted(PasteProblem::NoScene), Severity::Error, "Not pasted".to_owned()),
+            // A file of this name is still an error where it cannot be read.
+            (Message::Failed(Error::Usage("Saved".to_owned())), Severity::Error, "Saved".to_owned()),
+        ] {
+            assert_eq!(message.severity(), severity, "{message}");
+            assert!(message.to_string().starts_with(&start), "{message}");
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! What the window starts with.
+
+use std::path::PathBuf;
+
+use crate::files::read::ReadOptions;
+
+/// The materials that the window opens, and how it reads them.
+#[derive(Clone, Debug, Default)]
+pub struct ViewerOptions {
+    /// `None` for the built-in pair.
+    pub ground_truth: Option<PathBuf>,
+    pub predictions: Vec<PathBuf>,
+    pub ground_truth_read: ReadOptions,
+    pub prediction_read: ReadOptions,
+    /// Whether guesses about materials are errors.
+    pub strict: bool,
+    /// Whether predictions of another size are resized to the ground truth.
+    pub fit: bool,
+}
