@@ -2,7 +2,6 @@
 
 mod conventions;
 pub mod decoders;
-mod sidecar;
 mod killed;
 mod normals;
 mod options;
@@ -10,6 +9,7 @@ mod packed;
 mod pictures;
 mod png;
 mod sets;
+mod sidecar;
 mod written;
 
 use std::path::Path;

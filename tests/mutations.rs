@@ -103,9 +103,9 @@ fn of_listing(error: &Error) -> bool {
 /// Whether a damaged sidecar file can cause this error: it is refused, or its options do not fit the picture.
 fn of_sidecar(error: &Error) -> bool {
     match error {
-        Error::BadSidecar { path, .. } | Error::NotPacked { path, .. } | Error::NoSuchExemplar { path, .. } => {
-            named_damaged(path)
-        }
+        Error::BadSidecar { path, .. }
+        | Error::NotPacked { path, .. }
+        | Error::NoSuchExemplar { path, .. } => named_damaged(path),
         Error::BadImage { .. } | Error::NotAMaterial { .. } | Error::MapSizesDiffer { .. } => true,
         _ => false,
     }
@@ -285,10 +285,16 @@ fn damaged_files_that_name_textures_never_panic() {
         ("damaged2.mtlx", STANDARD_SURFACE.as_bytes().to_vec()),
     ] {
         let path = folder.path().join(name);
-        try_all(name, &whole, damaged, |bytes| {
-            std::fs::write(&path, bytes).unwrap();
-            read(&path, &OPTIONS, &Progress::default())
-        }, of_listing);
+        try_all(
+            name,
+            &whole,
+            damaged,
+            |bytes| {
+                std::fs::write(&path, bytes).unwrap();
+                read(&path, &OPTIONS, &Progress::default())
+            },
+            of_listing,
+        );
     }
 }
 
@@ -302,10 +308,16 @@ fn damaged_sidecar_files_never_panic() {
     let path = folder.path().join("damaged.svbrdf.json");
     let whole = br#"{"albedo": "srgb", "dielectric-f0": 0.05, "grid": "4x1", "order": "ndrs", "flip-v": true,
         "exemplar": 0, "maps": {"roughness": "damaged_r.png:g"}, "preset": "gao"}"#;
-    try_all("sidecar", whole, damaged, |bytes| {
-        std::fs::write(&path, bytes).unwrap();
-        read(&path, &ReadOptions::AUTO, &Progress::default())
-    }, of_sidecar);
+    try_all(
+        "sidecar",
+        whole,
+        damaged,
+        |bytes| {
+            std::fs::write(&path, bytes).unwrap();
+            read(&path, &ReadOptions::AUTO, &Progress::default())
+        },
+        of_sidecar,
+    );
 }
 
 #[test]

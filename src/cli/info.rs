@@ -8,9 +8,9 @@ use serde::Serialize;
 use svbrdf::error::Error;
 use svbrdf::files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
-use super::{advice, exit};
 use super::materials::read_one;
 use super::reading::ReadingArgs;
+use super::{advice, exit};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]

@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use svbrdf::error::Error;
 use svbrdf::files::read::{
-    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset,
-    Read, ReadOptions, Reflectance, Roughness, What, Workflow,
+    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset, Read,
+    ReadOptions, Reflectance, Roughness, What, Workflow,
 };
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;

@@ -7,7 +7,9 @@ mod noise;
 mod tiles;
 
 use crate::error::Error;
-use crate::files::read::{Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes};
+use crate::files::read::{
+    Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes,
+};
 use crate::math::real::Real;
 
 /// How the samples are stored: nothing of it is left to be found out.

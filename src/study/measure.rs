@@ -250,7 +250,8 @@ impl<'a> Bench<'a> {
 fn kernel<'a>(pair: &Pair<'a>, family: Family) -> Result<Kernel<'a>, Error> {
     let Pair { ground_truth, prediction, convention, gpu } = *pair;
     let of_files = |depth| -> Result<Kernel<'a>, Error> {
-        let [truth, prediction] = [write::after_round_trip(ground_truth, depth)?, write::after_round_trip(prediction, depth)?];
+        let [truth, prediction] =
+            [write::after_round_trip(ground_truth, depth)?, write::after_round_trip(prediction, depth)?];
         Ok(Box::new(move |drawn, p| drawn.loss(losses_of_f32, &truth, &prediction, &convention, p)))
     };
     Ok(match (family, gpu) {

@@ -9,7 +9,7 @@ use super::loaded::{Loaded, Origin, Reader, Rules, file_name, loaded};
 use super::message::{Message, SizeMismatch};
 use super::worker::Task;
 use crate::error::Error;
-use crate::files::read::{self, Sidecar, ReadOptions};
+use crate::files::read::{self, ReadOptions, Sidecar};
 use crate::gpu::Gpu;
 use crate::report::distinct_names;
 use crate::samples;

@@ -65,7 +65,11 @@ fn layers_of_no_use_are_said_to_be_unused() {
     let read = open(&path);
     assert_same(&read, HALF);
     for layer in ["opacity", "height"] {
-        assert!(read.messages().any(|line| line == format!("Layer {layer} is not used.")), "{:?}", read.notes);
+        assert!(
+            read.messages().any(|line| line == format!("Layer {layer} is not used.")),
+            "{:?}",
+            read.notes
+        );
     }
 }
 

@@ -122,3 +122,19 @@ fn formats_that_are_not_read_are_refused_by_name() {
         assert!(refused.contains(name) && refused.contains("TGA"), "{refused}");
     }
 }
+
+#[test]
+fn a_map_in_a_format_that_is_not_read_is_an_error_and_named_unless_it_is_there_in_another() {
+    let folder = tempdir().unwrap();
+    folder_of(["normal.png", "diffuse.png", "roughness.png", "height.png"], folder.path(), |_, v| v);
+    let metal = put(folder.path(), "metalness.psd", b"8BPS\0\x01\0\0\0\0\0\0");
+    let refused = refusal(folder.path());
+    assert!(refused.contains("metalness.psd") && refused.contains("Photoshop"), "{refused}");
+    save(folder.path(), "metalness.tga", &picture(SIDE, SIDE, |_, _| [1.0; 3]), ImageFormat::Tga);
+    let texel = open(folder.path()).material.texel(3);
+    assert_eq!(texel.diffuse, [0.0; 3]);
+    std::fs::remove_file(metal).unwrap();
+    // A height map is no map of a material, in any format.
+    put(folder.path(), "displacement.psd", b"8BPS");
+    assert_eq!(open(folder.path()).material.texel(3), texel);
+}

@@ -62,7 +62,11 @@ fn every_depth_and_colour_type_opens_interlaced_or_not() {
                     assert!((got - expected).abs() < 1e-12, "{png:?}, {x}, {y}: {got}, not {expected}");
                 }
                 let transparent = colour == GRAY_ALPHA || colour == RGBA;
-                assert_eq!(read.notes.iter().any(|n| n.to_string().contains("alpha is ignored")), transparent, "{png:?}");
+                assert_eq!(
+                    read.notes.iter().any(|n| n.to_string().contains("alpha is ignored")),
+                    transparent,
+                    "{png:?}"
+                );
                 tried += 1;
             }
         }
@@ -105,7 +109,8 @@ fn chunks_about_colour_and_orientation_change_nothing_and_are_said_where_they_mi
             read.notes
         );
     }
-    let said = |read: &Read<f64>| read.notes.iter().any(|n| n.to_string().contains("gAMA chunk that it is linear"));
+    let said =
+        |read: &Read<f64>| read.notes.iter().any(|n| n.to_string().contains("gAMA chunk that it is linear"));
     assert_eq!([said(&data), said(&colour)], [false, true]);
 }
 

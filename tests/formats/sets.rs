@@ -143,7 +143,11 @@ fn maps_of_a_shared_stem_go_to_every_set_of_its_prefix() {
     for path in ["bishop_white", "bishop_black_normal.png"] {
         let read = open(&folder.path().join(path));
         assert_same(&read, EIGHT_BITS);
-        assert!(read.notes.iter().any(|n| n.to_string().contains("bishop_shared_specular")), "{:?}", read.notes);
+        assert!(
+            read.notes.iter().any(|n| n.to_string().contains("bishop_shared_specular")),
+            "{:?}",
+            read.notes
+        );
     }
     assert!(refusal(folder.path()).contains("several: bishop_black, bishop_white"));
 }
@@ -273,7 +277,11 @@ fn maps_in_the_only_folder_within_open_and_several_folders_are_listed() {
     folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], &within, |_, v| v);
     let read = open(folder.path());
     assert_same(&read, EIGHT_BITS);
-    assert!(read.notes.iter().any(|n| n.to_string().contains("in the folder textures within")), "{:?}", read.notes);
+    assert!(
+        read.notes.iter().any(|n| n.to_string().contains("in the folder textures within")),
+        "{:?}",
+        read.notes
+    );
     std::fs::create_dir(folder.path().join("other")).unwrap();
     assert!(
         refusal(folder.path()).contains("none, but the folders other, textures"),

@@ -93,7 +93,11 @@ fn maps_can_be_kept_in_a_folder() {
     assert_eq!(Sidecar::path_for(&folder.path().join("other.png")), folder.path().join("other.svbrdf.json"));
     let said = format!("roughness={}", folder.path().join("normal.png").display()).parse().unwrap();
     let read = read_bound::<f64>(folder.path(), &[said], &ReadOptions::AUTO, &Progress::default()).unwrap();
-    assert!(read.notes.iter().any(|n| n.to_string().contains("normal.png, as specified")), "{:?}", read.notes);
+    assert!(
+        read.notes.iter().any(|n| n.to_string().contains("normal.png, as specified")),
+        "{:?}",
+        read.notes
+    );
 }
 
 #[test]

@@ -85,7 +85,10 @@ fn codes_of_research_are_written_as_they_are_read() {
     let preview = WriteOptions { preview: true, ..WriteOptions::default() };
     assert!(matches!(Kind::new(Path::new("x.png"), &preview), Err(Error::UnsupportedOutput { .. })));
     for picture in ["x.jpg", "x.TIF", "x.gltf"] {
-        assert!(matches!(Kind::new(Path::new(picture), &WriteOptions::default()), Err(Error::UnsupportedOutput { .. })));
+        assert!(matches!(
+            Kind::new(Path::new(picture), &WriteOptions::default()),
+            Err(Error::UnsupportedOutput { .. })
+        ));
     }
     assert!(Kind::new(Path::new("brick.v2"), &WriteOptions::default()).is_ok());
 }

@@ -40,7 +40,7 @@ pub use options::{
 };
 pub use order::Order;
 pub use preset::Preset;
-pub use reason::{StorageConvention, Reason};
+pub use reason::{Reason, StorageConvention};
 pub use role::Role;
 pub use sidecar::Sidecar;
 
@@ -48,11 +48,11 @@ use crate::error::Error;
 use crate::material::Material;
 use crate::math::real::Real;
 use crate::progress::Progress;
+use extensions::LISTING;
 use formats::{gltf, mtl, mtlx};
 use interpret::{encoding, report};
-use extensions::LISTING;
 use locate::{binding, folder, picture};
-use stored::{StoredMaterial, StoredMap};
+use stored::{StoredMap, StoredMaterial};
 
 /// A material, and how it was read.
 #[derive(Clone, Debug, PartialEq)]

@@ -210,7 +210,8 @@ impl Note {
 /// The first of the names, and which one was read.
 fn materials(names: &[String], index: usize) -> String {
     const MOST_LISTED: usize = 12;
-    let listed: Vec<_> = names.iter().enumerate().take(MOST_LISTED).map(|(i, n)| format!("{i} {n}")).collect();
+    let listed: Vec<_> =
+        names.iter().enumerate().take(MOST_LISTED).map(|(i, n)| format!("{i} {n}")).collect();
     let more = names.len().saturating_sub(MOST_LISTED);
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
     format!(

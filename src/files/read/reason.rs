@@ -82,19 +82,36 @@ pub enum Reason {
     /// A convention that a measurement contradicts.
     ContradictedBy(Box<Reason>, Box<Reason>),
     /// The file name says so.
-    FileName { file: String },
+    FileName {
+        file: String,
+    },
     /// The file name says where y points.
-    NormalName { file: String, y: NormalY },
+    NormalName {
+        file: String,
+        y: NormalY,
+    },
     /// The file name says how channels are packed; packings of this name differ.
-    PackingName { file: PathBuf },
+    PackingName {
+        file: PathBuf,
+    },
     /// The file declares this colour space.
-    ColourSpace { space: String, known: Known },
+    ColourSpace {
+        space: String,
+        known: Known,
+    },
     // What pixels say.
-    SpecularMedian { median: f64, suggests: Option<Albedo> },
+    SpecularMedian {
+        median: f64,
+        suggests: Option<Albedo>,
+    },
     /// Nearly all pixels look like normals, though the name does not name a map.
     NormalPixels,
     /// One tile looks like normals; shares of its pixels and of the next best tile's.
-    NormalTile { number: usize, share: f64, next: f64 },
+    NormalTile {
+        number: usize,
+        share: f64,
+        next: f64,
+    },
     /// No tile tells the order, which is that of the preset.
     PresetOrder,
     SvbrdfEvaluationName,
@@ -104,29 +121,50 @@ pub enum Reason {
     TwoChannels,
     RedConstant,
     /// Share of the texels that have unit length if read so.
-    UnitLength { signed: bool, share: f64 },
+    UnitLength {
+        signed: bool,
+        share: f64,
+    },
     BlueConstant(f64),
     /// The curl correlation, where the map has slopes.
     Curl(Option<f64>),
     CurlDown(f64),
     MostMapsUp(f64),
     // Which maps there are.
-    MetallicMap { matfusion: bool },
+    MetallicMap {
+        matfusion: bool,
+    },
     SpecularMap,
     NeitherMap,
     NoNormalMap,
     NoSpecularMap,
-    SpecularLevel { file: PathBuf },
+    SpecularLevel {
+        file: PathBuf,
+    },
     SmallerMaps(Vec<(Role, [usize; 2])>),
     // Values that were changed.
-    NotFinite { map: Role, count: usize },
-    OutsideUnit { map: Role, count: usize, low: f64, high: f64 },
-    NoDirection { count: usize },
-    MoreThanAllLight { count: usize },
+    NotFinite {
+        map: Role,
+        count: usize,
+    },
+    OutsideUnit {
+        map: Role,
+        count: usize,
+        low: f64,
+        high: f64,
+    },
+    NoDirection {
+        count: usize,
+    },
+    MoreThanAllLight {
+        count: usize,
+    },
     /// Roughness from the exponent of Blinn and Phong.
     Exponent(f32),
     /// A factor of an .mtl beside a picture.
-    MtlFactor { key: String },
+    MtlFactor {
+        key: String,
+    },
 }
 
 /// How well a colour space is known here.
@@ -253,11 +291,9 @@ impl fmt::Display for Reason {
             Self::NeitherMap => f.write_str("there is neither a specular nor a metallic map"),
             Self::NoNormalMap => f.write_str("there is no normal map; the surface is taken as flat"),
             Self::NoSpecularMap => f.write_str("there is no specular map; most dielectrics have it"),
-            Self::SpecularLevel { file } => write!(
-                f,
-                "{} is named so, and the principled model takes 0.04 at 0.5",
-                file.display()
-            ),
+            Self::SpecularLevel { file } => {
+                write!(f, "{} is named so, and the principled model takes 0.04 at 0.5", file.display())
+            }
             Self::SmallerMaps(maps) => {
                 f.write_str("the largest map has it; resampled bilinearly: ")?;
                 let one = |(map, [w, h]): &(Role, [usize; 2])| format!("{} from {w} x {h}", map.name());

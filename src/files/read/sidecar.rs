@@ -64,7 +64,8 @@ impl Sidecar {
             return Ok(Self::default());
         }
         let bytes = fs::read(&place).map_err(|source| Error::unreadable(&place, source))?;
-        let bad = |problem: String| Error::BadSidecar { path: place.clone(), problem, keys: keys().join(", ") };
+        let bad =
+            |problem: String| Error::BadSidecar { path: place.clone(), problem, keys: keys().join(", ") };
         let mut all: Map<String, Value> = serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
         let mut sidecar = Self::default();
         let maps = all.remove(MAPS).unwrap_or_else(|| Map::new().into());
@@ -97,7 +98,11 @@ impl Sidecar {
         match self.bindings.iter().find(|binding| !binding.file().exists()) {
             Some(missing) => Err(Error::BadSidecar {
                 path: Self::path_for(path),
-                problem: format!("the {} map {} does not exist", missing.role().name(), missing.file().display()),
+                problem: format!(
+                    "the {} map {} does not exist",
+                    missing.role().name(),
+                    missing.file().display()
+                ),
                 keys: keys().join(", "),
             }),
             None => Ok(()),

@@ -15,8 +15,8 @@ pub mod top;
 use eframe::egui::{self, DragValue, Response, RichText};
 
 use crate::files::read::{
-    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions,
-    Reflectance, Roughness, What, Workflow,
+    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset,
+    ReadOptions, Reflectance, Roughness, What, Workflow,
 };
 
 /// A number to drag or type; a double-click resets it to `default`.
@@ -68,7 +68,13 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         choice(ui, (name, "albedo"), albedo, &Albedo::ALL, inferred(What::Albedo));
         choice(ui, (name, "specular"), specular, &Albedo::ALL, inferred(What::Specular));
         choice(ui, (name, "normal y"), normal_y, &NormalY::ALL, inferred(What::NormalY));
-        choice(ui, (name, "normal encoding"), normal_encoding, &NormalEncoding::ALL, inferred(What::NormalEncoding));
+        choice(
+            ui,
+            (name, "normal encoding"),
+            normal_encoding,
+            &NormalEncoding::ALL,
+            inferred(What::NormalEncoding),
+        );
         choice(ui, (name, "roughness"), roughness, &Roughness::ALL, inferred(What::Roughness));
         choice(ui, (name, "energy"), energy, &Energy::ALL, inferred(What::Energy));
         grid(ui, name, &mut options.grid);

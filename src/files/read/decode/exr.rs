@@ -154,11 +154,7 @@ fn windowed(
         return raster;
     }
     let (width, height) = (display.size.0, display.size.1);
-    notes.push(Note::PartialData {
-        layer,
-        data: [data.size.0, data.size.1],
-        display: [width, height],
-    });
+    notes.push(Note::PartialData { layer, data: [data.size.0, data.size.1], display: [width, height] });
     let place = |plane: &Samples| {
         let value = |index: usize| {
             let column = (index % width) as i64 + i64::from(display.position.0) - i64::from(data.position.0);

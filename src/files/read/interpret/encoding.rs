@@ -28,7 +28,10 @@ const ROUNDING: f64 = 2.0 / 255.0;
 /// # Errors
 /// [`Error::NotFinite`] at NaN and infinity, [`Error::MapSizesDiffer`] where maps have another shape,
 /// [`Error::NotAMaterial`] where the normal map is gray.
-pub fn planes<T: Real>(found: &mut StoredMaterial, options: &ReadOptions) -> Result<(Planes<T>, [usize; 2]), Error> {
+pub fn planes<T: Real>(
+    found: &mut StoredMaterial,
+    options: &ReadOptions,
+) -> Result<(Planes<T>, [usize; 2]), Error> {
     let size = found.common_size()?;
     values::check(found, options)?;
     let albedo = albedo(found, options);
@@ -133,7 +136,12 @@ fn specular_space(found: &mut StoredMaterial, options: &ReadOptions, albedo: Alb
         (says == Albedo::Linear) != (chosen == Albedo::Linear) && certainty == Certainty::Likely;
     let assumption = if options.specular.or(options.albedo).is_some() {
         if contradicts && !source.raster.is_float() {
-            found.notes.push(Note::SpecularMedian { chosen, by: SpecifiedBy::Caller, median, suggests: says });
+            found.notes.push(Note::SpecularMedian {
+                chosen,
+                by: SpecifiedBy::Caller,
+                median,
+                suggests: says,
+            });
         }
         Assumption::given(What::Specular, chosen)
     } else if contradicts

@@ -66,8 +66,7 @@ pub fn planes<T: Real>(
 
 /// Normals of a material without a normal map.
 pub fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
-    let missing =
-        Assumption::new(What::Missing, "normal (0, 0, 1)", Reason::NoNormalMap, Certainty::Unsure);
+    let missing = Assumption::new(What::Missing, "normal (0, 0, 1)", Reason::NoNormalMap, Certainty::Unsure);
     found.assumptions.push(missing);
     [T::zero(), T::zero(), T::one()].map(|value| vec![value; size[0] * size[1]])
 }
@@ -136,7 +135,12 @@ fn vector_of([x, y, z]: [f64; 3], encoding: NormalEncoding, two: bool) -> [f64; 
     }
 }
 
-fn normal_y(raster: &Raster, encoding: NormalEncoding, found: &mut StoredMaterial, options: &ReadOptions) -> NormalY {
+fn normal_y(
+    raster: &Raster,
+    encoding: NormalEncoding,
+    found: &mut StoredMaterial,
+    options: &ReadOptions,
+) -> NormalY {
     let curl = detect::curl(raster.width, raster.height, |index| vector(raster, encoding, index));
     let hint = found.inferred.normal_y.take();
     let named = hint.as_ref().is_some_and(|(.., certainty)| *certainty == Certainty::Sure);

@@ -16,7 +16,7 @@ use crate::files::read::decode;
 use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score};
 use crate::files::read::note::{Note, Subject, Unused};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions, Reflectance, Roughness, Workflow};
-use crate::files::read::reason::{StorageConvention, Reason};
+use crate::files::read::reason::{Reason, StorageConvention};
 use crate::files::read::stored::{Inferences, Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 
@@ -249,7 +249,8 @@ fn inferred(folder: &Path, files: &[Named], floats: bool) -> Inferences {
     };
     let roughness = files.iter().find_map(named);
     let normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y)));
-    let normal_y = normal_y.map(|(f, y)| (y, Reason::NormalName { file: f.file.clone(), y }, Certainty::Sure));
+    let normal_y =
+        normal_y.map(|(f, y)| (y, Reason::NormalName { file: f.file.clone(), y }, Certainty::Sure));
     let mut inferred = Inferences { roughness, normal_y, ..Inferences::default() };
     if floats {
         inferred.albedo = Some((Albedo::Linear, StorageConvention::Floats.into(), Certainty::Likely));

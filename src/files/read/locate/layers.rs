@@ -53,19 +53,18 @@ pub fn assemble(
             }
             Some(label) => {
                 floats &= raster.is_float();
-                pictures
-                    .add(label.role, StoredMap { raster, file: path.to_owned(), part: format!("layer {name}") });
+                pictures.add(
+                    label.role,
+                    StoredMap { raster, file: path.to_owned(), part: format!("layer {name}") },
+                );
             }
-            None if name.is_empty() => {
-                notes.push(Note::Preview)
-            }
+            None if name.is_empty() => notes.push(Note::Preview),
             None => notes.push(unused(&name)),
         }
     }
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let mut found = pictures.assemble(path, name, &listed, options)?;
-    let layout =
-        Assumption::new(What::Layout, "layers", StorageConvention::LayerNames, Certainty::Sure);
+    let layout = Assumption::new(What::Layout, "layers", StorageConvention::LayerNames, Certainty::Sure);
     found.assumptions.insert(0, layout);
     notes.append(&mut found.notes);
     found.notes = notes;

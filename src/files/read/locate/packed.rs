@@ -13,7 +13,7 @@ use crate::files::read::options::{Albedo, Energy, NormalY, ReadOptions, Roughnes
 use crate::files::read::order::Order;
 use crate::files::read::preset::Preset;
 use crate::files::read::raster::Raster;
-use crate::files::read::reason::{StorageConvention, Reason};
+use crate::files::read::reason::{Reason, StorageConvention};
 use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 
 /// Of a picture of diffuse alone.
@@ -111,7 +111,13 @@ impl Own {
 
     fn choice(&self) -> Choice {
         let grid = Grid { columns: self.order.len(), rows: 1 };
-        Choice { grid, order: self.order, first: 0, why: StorageConvention::NativeText.into(), certainty: Certainty::Sure }
+        Choice {
+            grid,
+            order: self.order,
+            first: 0,
+            why: StorageConvention::NativeText.into(),
+            certainty: Certainty::Sure,
+        }
     }
 
     fn hint(&self, found: &mut StoredMaterial) {
@@ -170,7 +176,13 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
     if let Some(order) = options.order {
         if order.len() == 1 && options.grid.is_none() {
             let grid = Grid { columns: 1, rows: 1 };
-            return Some(placed(grid, order, options, Reason::Specified(SpecifiedBy::Caller), Certainty::Given));
+            return Some(placed(
+                grid,
+                order,
+                options,
+                Reason::Specified(SpecifiedBy::Caller),
+                Certainty::Given,
+            ));
         }
         let grid = *grids.iter().find(|g| g.count() >= order.len())?;
         return Some(placed(grid, order, options, Reason::Specified(SpecifiedBy::Caller), Certainty::Given));

@@ -12,8 +12,8 @@ use gltf::Material;
 
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
 use crate::files::read::note::Note;
+use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
 use crate::files::read::reason::StorageConvention;
 use crate::files::read::stored::{Pictures, StoredMaterial};
 use crate::progress::Progress;

@@ -4,7 +4,7 @@ use gltf::material::{PbrMetallicRoughness, PbrSpecularGlossiness};
 use gltf::{Material, Texture};
 use rayon::prelude::*;
 
-use super::Scene;
+use super::textures::Scene;
 use crate::error::Error;
 use crate::files::read::formats::principled::{Field, reflectance, separated};
 use crate::files::read::formats::scaled_normals::scaled;

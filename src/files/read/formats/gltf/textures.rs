@@ -12,8 +12,8 @@ use percent_encoding::percent_decode_str;
 use super::document::bad;
 use crate::error::Error;
 use crate::files::read::decode;
-use crate::files::read::raster::Raster;
 use crate::files::read::note::Subject;
+use crate::files::read::raster::Raster;
 use crate::files::read::stored::StoredMap;
 
 /// Extensions of a texture that name its picture, the one that is decoded to more exact values first.

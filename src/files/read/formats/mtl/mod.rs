@@ -12,7 +12,7 @@ use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score};
 use crate::files::read::locate::names::{Label, Role};
 use crate::files::read::note::{Container, Note, Subject, Unused};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
-use crate::files::read::reason::{StorageConvention, Reason};
+use crate::files::read::reason::{Reason, StorageConvention};
 use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 use statement::{Entry, Texture, entries, is_picture};
@@ -64,7 +64,8 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
     found.files.dedup();
     let space = |map: Role| spaces.iter().find(|(whose, _)| *whose == map).map(|(_, space)| *space);
     let hint = |space| {
-        let why = if space == Albedo::Srgb { StorageConvention::MtlColours } else { StorageConvention::Floats };
+        let why =
+            if space == Albedo::Srgb { StorageConvention::MtlColours } else { StorageConvention::Floats };
         (space, why.into(), Certainty::Likely)
     };
     found.inferred.albedo = space(Role::Diffuse).map(hint);
