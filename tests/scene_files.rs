@@ -3,6 +3,7 @@
 mod extensions;
 mod materialx;
 pub mod mtl;
+mod real;
 
 use std::path::Path;
 
