@@ -211,12 +211,19 @@ impl Samples {
 
     /// Whether every sample stands for `value`.
     pub fn is_all(&self, value: f64) -> bool {
-        (0..self.len()).all(|i| self.at(i) == value)
+        self.is_all_stored(value * self.top())
     }
 
     /// Whether all samples are the same.
     pub fn is_constant(&self) -> bool {
-        self.len() == 0 || self.is_all(self.at(0))
+        self.len() == 0 || self.is_all_stored(self.stored(0))
+    }
+
+    fn is_all_stored(&self, value: f64) -> bool {
+        // Nearly always the first samples tell.
+        let few = self.len().min(1 << 12);
+        let is = |index: usize| self.stored(index) == value;
+        (0..few).all(is) && (few..self.len()).into_par_iter().all(is)
     }
 
     /// `of` every number, on all cores; each possible integer is computed once.
