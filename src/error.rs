@@ -108,13 +108,16 @@ pub enum Error {
     #[error("unknown {what} `{found}`; use one of: {known}")]
     UnknownName { what: &'static str, found: String, known: String },
 
+    /// A loss over no scenes, or over too many.
+    #[error(
+        "a loss needs at least one scene and at most {most}, found {count}; ask for another number of near-field or \
+        distant scenes"
+    )]
+    SceneCount { count: usize, most: usize },
+
     /// A command line that makes no sense. Only the command line makes this error.
     #[error("{0}")]
     Usage(String),
-
-    /// A request to the library that cannot be met, such as a loss without scenes.
-    #[error("{0}")]
-    InvalidRequest(String),
 
     /// A kind of file that a material cannot be written to in this way.
     #[error("{} {problem}", path.display())]

@@ -86,6 +86,8 @@ fn of_picture(error: &Error) -> bool {
         Error::BadImage { path, .. } | Error::NotPacked { path, .. } | Error::NotAMaterial { path, .. } => {
             path == Path::new("damaged")
         }
+        // A float that is too large for the material.
+        Error::OutOfRange { whose, .. } => whose == "damaged",
         Error::MapSizesDiffer { .. } => true,
         _ => false,
     }

@@ -71,7 +71,7 @@ fn code_of(error: &Error) -> u8 {
     match error {
         Error::NoWindow { .. } | Error::NoAdapter { .. } => NO_GRAPHICS,
         Error::Usage(_)
-        | Error::InvalidRequest(_)
+        | Error::SceneCount { .. }
         | Error::UnknownName { .. }
         | Error::UnsupportedOutput { .. } => USAGE,
         Error::Cancelled => INTERRUPTED,

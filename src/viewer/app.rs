@@ -9,7 +9,7 @@ use eframe::egui::util::undoer::{self, Undoer};
 use super::command::{Command, LossCommand, MaterialsCommand, WindowCommand};
 use super::gpu_view::GpuView;
 use super::loaded::Rules;
-use super::loss_request::LossRequest;
+use super::loss_run::Asked;
 use super::loss_run::LossRun;
 use super::message::Message;
 use super::options::ViewerOptions;
@@ -110,14 +110,14 @@ impl App {
         self.slots.open(ctx, gpu, sources, Target::Everything);
     }
 
-    /// The loss that the settings ask for, in the convention of the renderings.
-    pub(super) fn loss_request(&self) -> LossRequest {
-        self.settings.loss.request(self.state.convention())
+    /// What is asked of the loss: by the settings, in the convention that is rendered.
+    pub(super) fn asked(&self) -> Asked {
+        Asked { request: self.settings.loss.request(), convention: self.state.convention() }
     }
 
     /// The losses of the predictions, once they are complete for the current materials and settings.
     pub fn losses(&self) -> Option<&[Loss]> {
-        self.loss.finished(&self.slots, &self.loss_request())
+        self.loss.finished(&self.slots, &self.asked())
     }
 
     /// The study of the chosen pair as far as it has got, and whether it is complete.
@@ -193,7 +193,7 @@ impl App {
             let gpu = self.gpu.as_ref().map(|g| &g.gpu);
             self.slots.reload(ctx, gpu, Some(&stale));
         }
-        self.loss.follow(ctx, &self.slots, &self.loss_request(), self.settings.auto_loss);
+        self.loss.follow(ctx, &self.slots, &self.asked(), self.settings.auto_loss);
         self.loss.poll(ctx);
     }
 

@@ -12,15 +12,14 @@ mod handles;
 pub mod keys;
 pub mod legend;
 mod loaded;
-mod loss_request;
 mod loss_run;
+mod loss_settings;
 pub mod message;
 mod options;
 mod panels;
 mod panes;
 
 mod draw;
-mod sampling;
 mod save;
 mod settings;
 mod slots;

@@ -125,7 +125,7 @@ fn a_picture_that_is_no_material_can_be_taken_as_diffuse() {
     let wide = save(folder.path(), "photo.png", &image, ImageFormat::Png);
     let tall = image.crop_imm(0, 0, 24, 16);
     let path = save(folder.path(), "other.png", &tall, ImageFormat::Png);
-    assert!(refusal(&path).contains("--order d takes all of it as diffuse"), "{}", refusal(&path));
+    assert!(refusal(&path).contains("24 x 16 pixels; give a packed image"), "{}", refusal(&path));
     for (path, size) in [(path, [24, 16]), (wide, [4 * SIDE, SIDE])] {
         let read = open_as(&path, &ReadOptions { order: Some(Order::D), ..ReadOptions::AUTO });
         assert_eq!(read.material.size(), size);

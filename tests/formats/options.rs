@@ -93,7 +93,7 @@ fn plain_diffuse_is_divided_by_what_specular_leaves() {
             assert!((got.specular[c] - s[c]).abs() < EIGHT_BITS);
         }
     }
-    assert_eq!(chosen(&read, What::Energy), "plain, d / (1 - s)");
+    assert_eq!(chosen(&read, What::Energy), "diffuse not scaled by (1 - specular): d / (1 - s) is used");
 }
 
 #[test]

@@ -109,8 +109,9 @@ fn chunks_about_colour_and_orientation_change_nothing_and_are_said_where_they_mi
             read.notes
         );
     }
-    let said =
-        |read: &Read<f64>| read.notes.iter().any(|n| n.to_string().contains("gAMA chunk that it is linear"));
+    let said = |read: &Read<f64>| {
+        read.notes.iter().any(|n| n.to_string().contains("gAMA chunk that declares it linear"))
+    };
     assert_eq!([said(&data), said(&colour)], [false, true]);
 }
 

@@ -33,7 +33,10 @@ fn what_is_kept_beside_a_file_holds_until_something_else_is_said() {
     assert_eq!(why(&other, What::Roughness), "as specified");
     // A preset says it, too.
     let other = open_as(&path, &ReadOptions { preset: Some(Preset::Deschaintre), ..ReadOptions::AUTO });
-    assert_eq!((chosen(&other, What::Roughness), why(&other, What::Roughness)), ("r", "as specified"));
+    assert_eq!(
+        (chosen(&other, What::Roughness), why(&other, What::Roughness).as_str()),
+        ("r", "as specified")
+    );
     let alone = read_as::<f64>(&path, &ReadOptions::AUTO, &Progress::default()).unwrap();
     assert!(worst(&alone.material) > 0.1);
     assert_eq!(alone.saved.roughness, Some(Roughness::Gloss));

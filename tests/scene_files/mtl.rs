@@ -127,7 +127,7 @@ fn an_exponent_stands_for_roughness_and_heights_for_nothing_in_mtl() {
 fn an_mtl_without_what_is_needed_is_refused() {
     for (text, expected) in [
         ("Kd 1 1 1\n", "expected a material (newmtl NAME), found none"),
-        ("newmtl plain\nKd 1 1 1\nPr 0.5\n", "found plain (number 0 of 1) without one"),
+        ("newmtl plain\nKd 1 1 1\nPr 0.5\n", "found none in plain (number 0 of 1, from 0)"),
         ("newmtl wall\nmap_Kd none.png\nPr 0.5\n", "none.png"),
         (
             "newmtl wall\nmap_Pr old rough.png\nKd red\n",

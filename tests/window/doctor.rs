@@ -95,7 +95,7 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
         ("normal y", "down"),
         ("normal encoding", "xy"),
         ("roughness", "gloss"),
-        ("energy", "plain"),
+        ("energy", "unscaled"),
     ] {
         let before = material(window.state(), 0);
         choose(&mut window, &format!("{what} of truth"), &format!("{what} {choice}"));
@@ -196,7 +196,7 @@ fn what_is_chosen_is_kept_with_the_material_by_a_click() {
         serde_json::from_str::<serde_json::Value>(&text).unwrap(),
         serde_json::json!({"roughness": "gloss"})
     );
-    window.get_by_label("roughness: gloss: as guess.svbrdf.json says");
+    window.get_by_label("roughness: gloss: as saved in guess.svbrdf.json");
     assert!(window.query_by_label("Save assumptions of guess").is_none(), "it is kept");
 
     // A new window opens it so; a drop-down wins over it, also over what it says.
