@@ -1,7 +1,21 @@
 //! Pictures of materials: what they show, from where, in which colours, and how they become files.
 
+#[cfg(all(feature = "gpu", not(feature = "testing")))]
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
+pub(crate) mod camera;
+#[cfg(feature = "testing")]
 pub mod camera;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod colour_map;
+#[cfg(feature = "testing")]
 pub mod colour_map;
 pub mod export;
+#[cfg(all(feature = "gpu", not(feature = "testing")))]
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
+pub(crate) mod quantity;
+#[cfg(feature = "testing")]
 pub mod quantity;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod tone;
+#[cfg(feature = "testing")]
 pub mod tone;

@@ -1,9 +1,12 @@
 //! Sample materials that are built in: a ground truth and two predictions of it.
 //!
-//! This project's own code made them ([`generate`]); they are free to use like the rest of it.
+//! `examples/make_samples.rs` makes them; they are free to use like the rest of this project.
 
+#[cfg(feature = "testing")]
 pub mod generate;
+#[cfg(feature = "testing")]
 mod noise;
+#[cfg(feature = "testing")]
 mod tiles;
 
 use crate::error::Error;

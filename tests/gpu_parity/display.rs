@@ -92,8 +92,9 @@ fn gray(value: f32) -> Material<f32> {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn known_values_are_encoded_as_the_standard_says() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let known = [(0.0, 0, 0), (0.002, 7, 1), (0.2, 124, 51), (0.5, 188, 128), (1.0, 255, 255)];
     for (value, as_albedo, as_data) in known {
         for (shown, level) in [(Quantity::Diffuse, as_albedo), (Quantity::Roughness, as_data)] {
@@ -105,8 +106,9 @@ fn known_values_are_encoded_as_the_standard_says() {
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn radiance_is_exposed_before_it_is_encoded() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let material = gray(0.3);
     let on_gpu = gpu.render(&material, &ABOVE, &PRINTED).expect("rendered").pixels[0];
     let shaded = shaded(gpu, &material, Quantity::Rendering);
@@ -119,8 +121,9 @@ fn radiance_is_exposed_before_it_is_encoded() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_texel_is_crisp_and_in_its_place_when_magnified() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     for size in [[5, 3], [4, 4], [1, 1], [1, 3], [3, 1], [16, 9]] {
         let material = bumpy(size[0], size[1]);
         let shaded = shaded(gpu, &material, Quantity::Diffuse);
@@ -137,8 +140,9 @@ fn every_texel_is_crisp_and_in_its_place_when_magnified() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_comparison_of_pictures_goes_red_on_planted_faults() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let material = bumpy(6, 6);
     let shaded = shaded(gpu, &material, Quantity::Diffuse);
     let picture = picture(gpu, [6, 6], &shaded, &shaded, &params(whole([6, 6]), Quantity::Diffuse));
@@ -154,8 +158,9 @@ fn the_comparison_of_pictures_goes_red_on_planted_faults() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_perspective_view_shows_what_the_camera_says() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let camera = Camera {
         origin: Vec3::new(0.3, -2.0, 1.5),
         origin_right: Vec3::zero(),
@@ -208,8 +213,9 @@ fn box_average(material: &Material<f32>, pane: [usize; 2], column: usize, row: u
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     for (size, pane) in
         [([8, 8], [2, 2]), ([6, 9], [4, 6]), ([7, 7], [3, 3]), ([32, 32], [2, 2]), ([90, 60], [9, 6])]
     {
@@ -223,8 +229,9 @@ fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_very_large_map_is_averaged_with_a_stride() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let material = bumpy(400, 400);
     let shaded = shaded(gpu, &material, Quantity::Diffuse);
     let picture = picture(gpu, [4, 4], &shaded, &shaded, &params(whole([400, 400]), Quantity::Diffuse));
@@ -237,8 +244,9 @@ fn a_very_large_map_is_averaged_with_a_stride() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_wipe_shows_the_reference_on_the_left() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let white = shaded(gpu, &gray(1.0), Quantity::Diffuse);
     let black = shaded(gpu, &gray(0.0), Quantity::Diffuse);
     for (x, reference_columns) in [(-1.0, 0), (-0.5, 2), (0.0, 4), (0.5, 6), (1.0, 8)] {
@@ -250,8 +258,9 @@ fn a_wipe_shows_the_reference_on_the_left() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_difference_of_a_picture_to_itself_is_the_colour_map_s_zero() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     for quantity in Quantity::ALL {
         let shaded = shaded(gpu, &bumpy(8, 8), quantity);
         let params = DisplayParams { mode: DisplayMode::Difference, ..params(whole([8, 8]), quantity) };
@@ -262,8 +271,9 @@ fn the_difference_of_a_picture_to_itself_is_the_colour_map_s_zero() {
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn a_difference_is_that_of_the_logarithms_for_renderings_and_plain_for_maps() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let (light, dark) = (gray(0.9), gray(0.3));
     let radiance = |m| f64::from(gpu.render(m, &ABOVE, &PRINTED).expect("rendered").pixels[0][0]);
     let logarithmic = (radiance(&light) + 0.01).ln() - (radiance(&dark) + 0.01).ln();
@@ -285,8 +295,9 @@ fn a_difference_is_that_of_the_logarithms_for_renderings_and_plain_for_maps() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn clipped_pixels_are_striped_on_demand() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let striped = |value: f32, exposure_ev: f32, show_clipping: bool| {
         let shaded = shaded(gpu, &gray(value), Quantity::Rendering);
         let params =

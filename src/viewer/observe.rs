@@ -1,0 +1,41 @@
+//! What the tests see of the window.
+
+use super::app::App;
+use super::message::Message;
+use crate::loss::Loss;
+use crate::material::Material;
+use crate::study::Study;
+
+impl App {
+    /// The losses of the predictions, once they are complete for the current materials and settings.
+    pub fn losses(&self) -> Option<&[Loss]> {
+        self.loss.finished(&self.slots, &self.asked())
+    }
+
+    /// The study of the chosen pair as far as it has got, and whether it is complete.
+    pub fn study(&self) -> Option<(&Study, bool)> {
+        let (study, current) =
+            self.study.measured(&self.slots, self.state.prediction, &self.state.convention())?;
+        current.then_some((study, self.study.task().is_none()))
+    }
+
+    /// The names of the materials, the ground truth first.
+    pub fn names(&self) -> Vec<String> {
+        self.slots.slots.iter().map(|s| s.name().to_owned()).collect()
+    }
+
+    /// The materials in the window, the ground truth first.
+    pub fn materials(&self) -> impl Iterator<Item = &Material<f32>> {
+        self.slots.slots.iter().map(|slot| &slot.loaded.material)
+    }
+
+    /// Whether a material is being read.
+    pub fn is_reading(&self) -> bool {
+        !self.slots.openings.is_empty()
+    }
+
+    /// The texts of the messages in the window: errors and results, the latest last.
+    pub fn messages(&self) -> Vec<String> {
+        self.message_list().iter().map(Message::to_string).collect()
+    }
+}
