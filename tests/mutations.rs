@@ -234,11 +234,15 @@ fn damaged_textures_of_games_never_panic() {
         ("DDS of BC1", dds_blocks(64, 16, b"DXT1", &bc1)),
         ("KTX2", ktx2),
     ] {
-        try_all(what, &whole, damaged, |bytes| read_bytes("damaged", bytes, &STRIP));
+        try_all(what, &whole, damaged, |bytes| read_bytes("damaged", bytes, &STRIP), of_picture);
     }
     // A TGA begins with nothing of its own.
     let tga = encoded(&strip, ImageFormat::Tga);
-    try_all("TGA", &tga, damaged, |bytes| read_bytes("damaged.tga", bytes, &STRIP));
+    let of_tga = |error: &Error| match error {
+        Error::BadImage { path, .. } => named_damaged(path),
+        other => of_picture(other) || matches!(other, Error::NotPacked { .. } | Error::NotAMaterial { .. }),
+    };
+    try_all("TGA", &tga, damaged, |bytes| read_bytes("damaged.tga", bytes, &STRIP), of_tga);
 }
 
 /// A strip whatever it looks like.

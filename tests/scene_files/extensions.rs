@@ -151,7 +151,7 @@ fn of_many_materials_the_first_with_textures_opens_and_all_are_named() {
     let path = put(&folder, &text);
     let read = open(&path);
     assert_is_of_textures(&read, 1.0);
-    let said: Vec<String> = read.said().collect();
+    let said: Vec<String> = read.messages().collect();
     assert!(said.iter().any(|s| s.contains("0 glass, 1 wall, 2 brass")), "{said:?}");
     let options = ReadOptions { exemplar: Some(2), ..ReadOptions::AUTO };
     let brass = svbrdf::files::read::read::<f64>(&path, &options, &Progress::default()).unwrap();
@@ -165,7 +165,7 @@ fn extensions_that_are_not_modelled_are_named_unless_they_are_off() {
         let coat = format!(r#""extensions": {{"KHR_materials_clearcoat": {{"clearcoatFactor": {factor}}}}}"#);
         let material = PLAIN.replacen(r#""name": "wall""#, &format!(r#""name": "wall", {coat}"#), 1);
         let text = document(&["base%20colour.png", "n.png", "orm.png"], THREE, &material, "");
-        open(&put(&folder, &text)).said().any(|s| s.contains("KHR_materials_clearcoat"))
+        open(&put(&folder, &text)).messages().any(|s| s.contains("KHR_materials_clearcoat"))
     };
     assert!(said(0.5));
     assert!(!said(0.0));

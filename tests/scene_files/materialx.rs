@@ -79,7 +79,7 @@ fn a_procedural_input_is_refused_and_not_replaced() {
 fn what_is_not_modelled_is_named_where_it_is_on() {
     let said = |coat: &str| {
         let read = read_of("standard_surface", &value("coat", coat)).unwrap();
-        read.said().any(|s| s.contains("coat"))
+        read.messages().any(|s| s.contains("coat"))
     };
     assert!(said("0.1"));
     assert!(!said("0"));

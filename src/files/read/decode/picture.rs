@@ -62,9 +62,12 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
         }
         other => {
             let other = other.ok().map(|format| format!("{format:?}"));
-            let found = known::name(head).map(str::to_owned).or(other);
-            let found = found.unwrap_or_else(|| "no known image format".to_owned());
-            Err(place.bad(format!("expected {FORMATS}, found {found}"), "convert it to PNG"))
+            Err(match known::name(head).map(str::to_owned).or(other) {
+                Some(found) => place.bad(format!("expected {FORMATS}, found {found}"), "convert it to PNG"),
+                None => {
+                    place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file")
+                }
+            })
         }
     }
 }
