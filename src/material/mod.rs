@@ -20,11 +20,11 @@ pub(crate) mod resize;
 
 pub use grid::Grid;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::error::Error;
-use crate::math::real::Real;
-use crate::math::vec3::Vec3;
+use crate::math::real::{Real, Vector as _};
 use crate::model::brdf::Texel;
 use resize::Filter;
 
@@ -241,7 +241,7 @@ fn normalize_normals<T: Real>(
     let none = chunks.enumerate().find_map_first(|(number, ((xs, ys), zs))| {
         for (offset, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
             // In f64, so that f32 normals are the correctly rounded ones.
-            let n = Vec3::new(x.f64(), y.f64(), z.f64());
+            let n = DVec3::new(x.f64(), y.f64(), z.f64());
             if !n.is_direction() {
                 return Some((number * CHUNK + offset, n));
             }

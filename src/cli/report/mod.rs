@@ -60,7 +60,7 @@ impl Format {
         match self {
             Self::Text => Ok(printed.report.text()),
             Self::Json => json::write(printed),
-            Self::Csv => Ok(csv::write(printed)),
+            Self::Csv => csv::write(printed),
         }
     }
 }
