@@ -1,6 +1,7 @@
 //! One test for each row of the table in `docs/formats.md`: what opens, and that it is the same material.
 
 mod conventions;
+pub mod decoders;
 mod killed;
 mod normals;
 mod options;

@@ -17,9 +17,11 @@ use svbrdf::files::read::{
 use svbrdf::progress::Progress;
 use tempfile::tempdir;
 
+use crate::formats::decoders::blocks;
 use crate::scene_files::{GLTF_PBR, STANDARD_SURFACE, glb, gltf_text, mtl};
 use crate::support::pictures::{SIDE, compressed, layered, multi_part, npy, npz, packed, stored};
 use crate::support::png::{self, Png, crc32};
+use crate::support::textures::{bc1_block, dds_blocks, dds_plain};
 
 /// Inputs for each reader in a usual run.
 const BUDGET: usize = 400;
@@ -218,6 +220,34 @@ fn sign(png: &mut [u8]) {
         start = end + 4;
     }
 }
+
+#[test]
+fn damaged_textures_of_games_never_panic() {
+    let strip = packed("NDRS", 4, |_, v| v);
+    let rgba = strip.to_rgba8();
+    let (_, ktx2) = blocks();
+    let bc1: Vec<u8> = (0..64).flat_map(|block| bc1_block([block / 2, block, 31 - block / 2])).collect();
+    for (what, whole) in [
+        ("BMP", encoded(&strip, ImageFormat::Bmp)),
+        ("WebP", encoded(&strip, ImageFormat::WebP)),
+        ("DDS", dds_plain(rgba.width(), rgba.height(), rgba.as_raw())),
+        ("DDS of BC1", dds_blocks(64, 16, b"DXT1", &bc1)),
+        ("KTX2", ktx2),
+    ] {
+        try_all(what, &whole, damaged, |bytes| read_bytes("damaged", bytes, &STRIP), of_picture);
+    }
+    // A TGA begins with nothing of its own.
+    let tga = encoded(&strip, ImageFormat::Tga);
+    let of_tga = |error: &Error| match error {
+        Error::BadImage { path, .. } => named_damaged(path),
+        other => of_picture(other) || matches!(other, Error::NotPacked { .. } | Error::NotAMaterial { .. }),
+    };
+    try_all("TGA", &tga, damaged, |bytes| read_bytes("damaged.tga", bytes, &STRIP), of_tga);
+}
+
+/// A strip whatever it looks like.
+const STRIP: ReadOptions =
+    ReadOptions { order: Some(Order::NDRS), non_finite: Some(NonFinite::Replace), ..ReadOptions::AUTO };
 
 #[test]
 fn damaged_layered_exr_never_panics() {

@@ -1,6 +1,9 @@
 //! Materials of files that name their textures: glTF, MTL and MaterialX.
 
+mod extensions;
+mod materialx;
 pub mod mtl;
+mod real;
 
 use std::path::Path;
 

@@ -21,6 +21,7 @@ pub(crate) mod resize;
 pub use grid::Grid;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::math::real::{Real, Vector as _};
@@ -213,7 +214,7 @@ fn check_range<T: Real>(
     place: impl Fn(usize) -> (usize, usize),
 ) -> Result<(), Error> {
     let valid = |x: &T| *x >= T::zero() && *x <= T::one();
-    match plane.iter().position(|x| !valid(x)) {
+    match plane.par_iter().position_first(|x| !valid(x)) {
         None => Ok(()),
         Some(index) => {
             let (column, row) = place(index);
@@ -234,25 +235,31 @@ fn normalize_normals<T: Real>(
     normal: &mut [Vec<T>; 3],
     place: impl Fn(usize) -> (usize, usize),
 ) -> Result<(), Error> {
+    const CHUNK: usize = 1 << 13;
     let [xs, ys, zs] = normal;
-    for (index, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
-        // In f64, so that f32 normals are the correctly rounded ones.
-        let n = DVec3::new(x.f64(), y.f64(), z.f64());
-        if !n.is_direction() {
-            let (column, row) = place(index);
-            return Err(Error::OutOfRange {
-                whose: name.to_owned(),
-                map: "normal",
-                column,
-                row,
-                expected: "a finite vector of some length",
-                found: format!("({}, {}, {})", n.x, n.y, n.z),
-            });
+    let chunks = xs.par_chunks_mut(CHUNK).zip(ys.par_chunks_mut(CHUNK)).zip(zs.par_chunks_mut(CHUNK));
+    let none = chunks.enumerate().find_map_first(|(number, ((xs, ys), zs))| {
+        for (offset, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
+            // In f64, so that f32 normals are the correctly rounded ones.
+            let n = DVec3::new(x.f64(), y.f64(), z.f64());
+            if !n.is_direction() {
+                return Some((number * CHUNK + offset, n));
+            }
+            // A unit vector as exact as its type can hold it stays what it is: what was written is read back.
+            if (n.length_squared() - 1.0).abs() > 4.0 * T::epsilon().f64() {
+                [*x, *y, *z] = n.normalize().to_array().map(T::of);
+            }
         }
-        // A unit vector as exact as its type can hold it stays what it is: what was written is read back.
-        if (n.length_squared() - 1.0).abs() > 4.0 * T::epsilon().f64() {
-            [*x, *y, *z] = n.normalize().to_array().map(T::of);
-        }
-    }
-    Ok(())
+        None
+    });
+    let Some((index, n)) = none else { return Ok(()) };
+    let (column, row) = place(index);
+    Err(Error::OutOfRange {
+        whose: name.to_owned(),
+        map: "normal",
+        column,
+        row,
+        expected: "a finite vector of some length",
+        found: format!("({}, {}, {})", n.x, n.y, n.z),
+    })
 }

@@ -9,4 +9,5 @@ pub mod losses;
 pub mod pictures;
 pub mod png;
 pub mod points;
+pub mod textures;
 pub mod tolerance;

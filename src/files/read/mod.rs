@@ -23,6 +23,7 @@ mod preset;
 mod raster;
 mod reason;
 mod role;
+mod samples;
 mod sidecar;
 mod storage_convention;
 mod stored;

@@ -102,6 +102,10 @@ pub enum Note {
     Photos { count: usize, tiles: usize },
     /// The file holds several materials; `index` counts from 0.
     Several { container: Container, count: usize, index: usize },
+    /// The file holds several materials of these names; `index` counts from 0.
+    Materials { names: Vec<String>, index: usize },
+    /// The file has features that change the look, which are not modelled and ignored.
+    NotModelled { features: Vec<String> },
     /// The alpha channel of a map is not used.
     AlphaIgnored { map: Role },
     /// The channels of a gray map differ by up to `spread`.
@@ -216,6 +220,20 @@ impl Note {
     }
 }
 
+/// The first of the names, and which one was read.
+fn materials(names: &[String], index: usize) -> String {
+    const MOST_LISTED: usize = 12;
+    let listed: Vec<_> =
+        names.iter().enumerate().take(MOST_LISTED).map(|(i, n)| format!("{i} {n}")).collect();
+    let more = names.len().saturating_sub(MOST_LISTED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!(
+        "The file holds {} materials: {}{more}. This is number {index} from 0.",
+        names.len(),
+        listed.join(", ")
+    )
+}
+
 fn layer_name(layer: &str) -> String {
     if layer.is_empty() { "The picture".to_owned() } else { format!("Layer {layer}") }
 }
@@ -246,6 +264,10 @@ impl fmt::Display for Note {
                     Container::MaterialX => ("file", "surfaces"),
                 };
                 write!(f, "The {container} holds {count} {content}; this is number {index} from 0.")
+            }
+            Self::Materials { names, index } => write!(f, "{}", materials(names, *index)),
+            Self::NotModelled { features } => {
+                write!(f, "These change the look and are not modelled: {}.", features.join(", "))
             }
             Self::SpecularFactor { file } => {
                 write!(f, "{file} is read as a factor on 0.04, as OpenSVBRDF writes it.")

@@ -1,70 +1,6 @@
 //! Pictures as stored, before anything is made of their values.
 
-use crate::math::real::Real;
-
-/// One channel.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Samples {
-    /// Integers, of which `max` stands for 1.
-    Codes { codes: Vec<u16>, max: u16 },
-    /// Numbers that stand for themselves.
-    Floats(Vec<f32>),
-}
-
-impl Samples {
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Codes { codes, .. } => codes.len(),
-            Self::Floats(values) => values.len(),
-        }
-    }
-
-    /// The number that sample `index` stands for: a code as a fraction of the largest one.
-    pub fn at(&self, index: usize) -> f64 {
-        match self {
-            Self::Codes { codes, max } => f64::from(codes[index]) / f64::from(*max),
-            Self::Floats(values) => f64::from(values[index]),
-        }
-    }
-
-    /// `of` every number; each code is computed once.
-    pub fn decoded<T: Real>(&self, mut of: impl FnMut(f64) -> f64) -> Vec<T> {
-        match self {
-            Self::Codes { codes, max } => {
-                let top = f64::from(*max);
-                let table: Vec<T> = (0..=*max).map(|code| T::of(of(f64::from(code) / top))).collect();
-                codes.iter().map(|&code| table[usize::from(code)]).collect()
-            }
-            Self::Floats(values) => values.iter().map(|&value| T::of(of(f64::from(value)))).collect(),
-        }
-    }
-
-    pub fn is_float(&self) -> bool {
-        matches!(self, Self::Floats(_))
-    }
-
-    /// `count` samples, each from the place that `place` says.
-    pub fn picked(&self, count: usize, place: impl Fn(usize) -> usize) -> Self {
-        match self {
-            Self::Codes { codes, max } => {
-                Self::Codes { codes: (0..count).map(|i| codes[place(i)]).collect(), max: *max }
-            }
-            Self::Floats(values) => Self::Floats((0..count).map(|i| values[place(i)]).collect()),
-        }
-    }
-
-    fn crop(&self, width: usize, [left, top]: [usize; 2], [w, h]: [usize; 2]) -> Self {
-        fn cut<S: Copy>(all: &[S], width: usize, [left, top, w, h]: [usize; 4]) -> Vec<S> {
-            let rows = all.chunks_exact(width).skip(top).take(h);
-            rows.flat_map(|row| &row[left..left + w]).copied().collect()
-        }
-        let place = [left, top, w, h];
-        match self {
-            Self::Codes { codes, max } => Self::Codes { codes: cut(codes, width, place), max: *max },
-            Self::Floats(values) => Self::Floats(cut(values, width, place)),
-        }
-    }
-}
+use super::samples::Samples;
 
 /// A picture: one plane for each channel, row 0 on top. Alpha is kept apart.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,9 +48,9 @@ impl Raster {
         self.channels.iter().any(Samples::is_float)
     }
 
-    /// Places all over the picture, a million at most, evenly.
+    /// Places all over the picture, about 16,000 at most, evenly.
     pub fn sampled(&self) -> impl Iterator<Item = usize> + use<> {
-        const MOST: usize = 1 << 20;
+        const MOST: usize = 1 << 14;
         let count = self.width * self.height;
         // Odd, so that a picture whose width is a power of two is not seen in columns only.
         let step = (count / MOST).max(1) | 1;
@@ -134,8 +70,7 @@ impl Raster {
     /// Of 1 to 4 channels; the last of 2 or 4 is alpha, and forgotten where it is opaque everywhere.
     pub fn with_alpha(width: usize, height: usize, depth: &'static str, mut channels: Vec<Samples>) -> Self {
         let alpha = if channels.len().is_multiple_of(2) { channels.pop() } else { None };
-        let opaque = |alpha: &Samples| (0..alpha.len()).all(|i| alpha.at(i) == 1.0);
-        Self { width, height, depth, channels, alpha: alpha.filter(|alpha| !opaque(alpha)) }
+        Self { width, height, depth, channels, alpha: alpha.filter(|alpha| !alpha.is_all(1.0)) }
     }
 
     /// Every number of the channels times a factor, one for each; as it is where all are 1.
@@ -144,7 +79,7 @@ impl Raster {
             return self;
         }
         let times = |(plane, &factor): (&Samples, &f32)| {
-            Samples::Floats((0..plane.len()).map(|i| plane.at(i) as f32 * factor).collect())
+            Samples::floats(plane.decoded(|value| f64::from(value as f32 * factor)))
         };
         Self { channels: self.channels.iter().zip(factors.iter().cycle()).map(times).collect(), ..self }
     }
@@ -170,7 +105,7 @@ impl Raster {
 
     /// A single texel of the given channels.
     pub fn constant(depth: &'static str, values: &[f32]) -> Self {
-        let channels = values.iter().map(|&value| Samples::Floats(vec![value])).collect();
+        let channels = values.iter().map(|&value| Samples::floats(vec![value])).collect();
         Self { width: 1, height: 1, depth, channels, alpha: None }
     }
 }

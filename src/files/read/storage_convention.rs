@@ -25,6 +25,7 @@ pub enum StorageConvention {
     SurfaceNetFolder,
     Gltf,
     MaterialXNormals,
+    MaterialXSurface,
     /// The file lists its textures.
     ListedTextures,
     LayerNames,
@@ -56,6 +57,7 @@ impl fmt::Display for StorageConvention {
             Self::DeschaintreNames => "the networks of Deschaintre et al. write these names, linear",
             Self::SurfaceNetFolder => "the data sets of SurfaceNet look like this, and are linear",
             Self::Gltf => "the specification of glTF 2.0 defines it",
+            Self::MaterialXSurface => "computed as the specification of the surface defines it",
             Self::MaterialXNormals => "MaterialX defines normals in this way",
             Self::ListedTextures => "the file lists its textures",
             Self::LayerNames => "the names of the layers name the maps",

@@ -8,8 +8,9 @@ use super::locate::names::Role;
 use super::note::{Note, SpecifiedBy, Unused};
 use super::options::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow};
 use super::preset::Preset;
-use super::raster::{Raster, Samples};
+use super::raster::Raster;
 use super::reason::Reason;
+use super::samples::Samples;
 use crate::error::Error;
 
 /// A map as stored.
@@ -42,8 +43,7 @@ impl StoredMap {
         let last = self.raster.channels.len() - 1;
         let times = |c: usize| {
             let plane = &self.raster.channels[last.min(c)];
-            let value = |i| encoded(linear(plane.at(i), space) * f64::from(factor[c]), space) as f32;
-            Samples::Floats((0..plane.len()).map(value).collect())
+            Samples::floats(plane.decoded(|v| encoded(linear(v, space) * f64::from(factor[c]), space)))
         };
         let channels = [0, 1, 2].map(times).into();
         Self { raster: Raster { channels, ..self.raster.without_samples() }, ..self }

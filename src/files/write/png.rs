@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use png::{BitDepth, ColorType, Encoder};
+use rayon::prelude::*;
 
 use super::metallic::base_and_metallic;
 use crate::files::read::interpret::transfer::{encoded, encoded_roughness};
@@ -137,21 +138,14 @@ pub(crate) fn packed(
     let (order, encoding) = (like.order().unwrap_or(Order::NDRS), MapEncoding::from(like));
     let tiles = order.to_string();
     let [width, height] = material.size();
-    let mut bytes = Vec::new();
-    for row in 0..height {
-        export::check(progress)?;
-        for letter in tiles.chars() {
-            let map = match letter {
-                'n' => WrittenMap::Normal,
-                'd' => WrittenMap::Diffuse,
-                'r' => WrittenMap::Roughness,
-                _ => WrittenMap::Specular,
-            };
-            for index in row * width..(row + 1) * width {
-                put(encoding.of(material, map, index), sixteen, &mut bytes);
-            }
-        }
-    }
+    let map = |letter| match letter {
+        'n' => WrittenMap::Normal,
+        'd' => WrittenMap::Diffuse,
+        'r' => WrittenMap::Roughness,
+        _ => WrittenMap::Specular,
+    };
+    let maps: Vec<WrittenMap> = tiles.chars().map(map).collect();
+    let bytes = pixels(material, &maps, encoding, sixteen, progress)?;
     let meaning = format!("packed {order}, {}", encoding.text());
     write(file, [tiles.len() * width, height], sixteen, &meaning, &bytes)
 }
@@ -165,18 +159,12 @@ pub(crate) fn folder(
     progress: &Progress,
 ) -> io::Result<()> {
     let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(export::folder_of(path))?;
-    for Picture { name, map, encoding } in files {
+    files.par_iter().try_for_each(|Picture { name, map, encoding }| {
         let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
-        let mut bytes = Vec::new();
-        for row in 0..material.height() {
-            export::check(progress)?;
-            for index in row * material.width()..(row + 1) * material.width() {
-                put(encoding.of(material, *map, index), sixteen, &mut bytes);
-            }
-        }
+        let bytes = pixels(material, &[*map], *encoding, sixteen, progress)?;
         let file = io::BufWriter::new(export::Watched::new(&mut file, progress));
-        write(file, material.size(), sixteen, &encoding.text(), &bytes)?;
-    }
+        write(file, material.size(), sixteen, &encoding.text(), &bytes)
+    })?;
     export::check(progress)?;
     // Only an empty folder gives way to a rename.
     fs::rename(temporary.path(), path)?;
@@ -186,14 +174,38 @@ pub(crate) fn folder(
     Ok(())
 }
 
-/// The codes of a pixel, of one or two bytes each.
-fn put(rgb: [f64; 3], sixteen: bool, bytes: &mut Vec<u8>) {
-    for value in rgb {
-        if sixteen {
-            bytes.extend(((value * 65_535.0).round() as u16).to_be_bytes());
-        } else {
-            bytes.push((value * 255.0).round() as u8);
+/// The samples of all rows, on all cores; in each row one tile beside the other.
+fn pixels(
+    material: &Material<f32>,
+    tiles: &[WrittenMap],
+    encoding: MapEncoding,
+    sixteen: bool,
+    progress: &Progress,
+) -> io::Result<Vec<u8>> {
+    let [width, height] = material.size();
+    let pixel = if sixteen { 6 } else { 3 };
+    let row_bytes = tiles.len() * width * pixel;
+    let mut bytes = vec![0; row_bytes * height];
+    bytes.par_chunks_mut(row_bytes).enumerate().try_for_each(|(row, bytes)| {
+        export::check(progress)?;
+        for (map, tile) in tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
+            for (index, out) in (row * width..).zip(tile.chunks_exact_mut(pixel)) {
+                put(encoding.of(material, *map, index), out);
+            }
         }
+        io::Result::Ok(())
+    })?;
+    Ok(bytes)
+}
+
+/// The samples of a pixel into 3 bytes, or into 6.
+fn put(rgb: [f64; 3], out: &mut [u8]) {
+    if out.len() == 6 {
+        for (value, out) in rgb.into_iter().zip(out.chunks_exact_mut(2)) {
+            out.copy_from_slice(&((value * 65_535.0).round() as u16).to_be_bytes());
+        }
+    } else {
+        rgb.into_iter().zip(out).for_each(|(value, out)| *out = (value * 255.0).round() as u8);
     }
 }
 

@@ -8,11 +8,13 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
-use super::panic_guard::catch_panic;
-use super::{Decoded, Layer, Place, dwa};
+use super::dwa;
+use super::panics::caught;
+use super::place::{Decoded, Layer, MAX_SIDE, Place};
 use crate::error::Error;
 use crate::files::read::note::Note;
-use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::raster::Raster;
+use crate::files::read::samples::Samples;
 
 /// Blocks of DWA may take so many bytes more than their samples: they are padded to 8 x 8.
 const SMALL: u64 = 1 << 20;
@@ -28,7 +30,7 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     let meta = MetaData::read_from_buffered(&mut reader, false).map_err(invalid)?;
     let bytes = check(&meta, place)?;
     reader.seek(SeekFrom::Start(0)).map_err(|e| Error::unreadable(place.path, e))?;
-    catch_panic(|| dwa::check(&mut reader, &meta, bytes + SMALL))
+    caught(|| dwa::check(&mut reader, &meta, bytes + SMALL))
         .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?
         .map_err(invalid)?;
     let reading = || {
@@ -37,7 +39,7 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     };
     // The library panics at some damaged files, found by damaging many. On threads of its own that would end the
     // program: so it gets none.
-    let image = catch_panic(reading)
+    let image = caught(reading)
         .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?
         .map_err(invalid)?;
     layers(image, place)
@@ -108,9 +110,9 @@ fn split(part: &str, channel: &Text) -> (String, String) {
 
 fn samples(samples: FlatSamples) -> (Samples, &'static str) {
     match samples {
-        FlatSamples::F16(values) => (Samples::Floats(values.into_iter().map(f32::from).collect()), "half"),
-        FlatSamples::F32(values) => (Samples::Floats(values), "float"),
-        FlatSamples::U32(values) => (Samples::Floats(values.into_iter().map(|v| v as f32).collect()), "uint"),
+        FlatSamples::F16(values) => (Samples::floats(values.into_iter().map(f32::from).collect()), "half"),
+        FlatSamples::F32(values) => (Samples::floats(values), "float"),
+        FlatSamples::U32(values) => (Samples::floats(values.into_iter().map(|v| v as f32).collect()), "uint"),
     }
 }
 
@@ -130,8 +132,7 @@ fn raster([width, height]: [usize; 2], depth: &'static str, mut channels: Channe
     } else {
         ordered
     };
-    let opaque = |alpha: &Samples| (0..alpha.len()).all(|i| alpha.at(i) == 1.0);
-    let alpha = alpha.filter(|alpha| !opaque(alpha));
+    let alpha = alpha.filter(|alpha| !alpha.is_all(1.0));
     (!channels.is_empty()).then_some(Raster { width, height, depth, channels, alpha })
 }
 
@@ -147,7 +148,7 @@ fn windowed(
         return raster;
     }
     let layer = name.to_owned();
-    let inside = display.size.0 <= super::MAX_SIDE && display.size.1 <= super::MAX_SIDE;
+    let inside = display.size.0 <= MAX_SIDE && display.size.1 <= MAX_SIDE;
     if data.size == display.size || !inside {
         notes.push(Note::DataWindow { layer });
         return raster;
@@ -162,7 +163,7 @@ fn windowed(
                 (0..raster.width as i64).contains(&column) && (0..raster.height as i64).contains(&row);
             if within { plane.at(row as usize * raster.width + column as usize) as f32 } else { 0.0 }
         };
-        Samples::Floats((0..width * height).map(value).collect())
+        Samples::floats((0..width * height).map(value).collect())
     };
     let channels = raster.channels.iter().map(place).collect();
     Raster { width, height, channels, alpha: None, ..raster }

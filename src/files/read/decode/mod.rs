@@ -1,13 +1,17 @@
 //! From a file to the samples that it stores. What they mean is the matter of `encoding`.
 //!
-//! What a file is, is told by how it begins, not by its name.
+//! How a file begins decides what it is, not its name; TGA alone, which begins with nothing of its own, goes by the name.
 
+mod dds;
 mod dwa;
 mod exr;
 mod head;
+mod known;
+mod ktx2;
 mod numpy;
-pub mod panic_guard;
+pub mod panics;
 mod picture;
+mod place;
 mod tiff;
 
 use std::fs::File;
@@ -16,92 +20,9 @@ use std::path::Path;
 
 use super::note::{Note, Subject};
 use super::raster::Raster;
-use super::role::Role;
 use crate::error::Error;
-
-/// Largest side of a map: the largest that material libraries publish.
-const MAX_SIDE: usize = 16_384;
-/// Largest width of an image: a strip of four of the largest maps. The same upright.
-const MAX_WIDTH: usize = 4 * MAX_SIDE;
-/// Most bytes that an image may decode to: a strip of the largest size takes 3 GiB in 8-bit RGB.
-const MAX_BYTES: u64 = 4 << 30;
-
-/// The formats that open, for messages.
-const FORMATS: &str = "PNG, TIFF, JPEG, HDR, EXR, npy or npz";
-
-/// One picture of a file: of a layered file a layer, of an archive an array.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Layer {
-    /// Empty for the only picture of a file.
-    pub name: String,
-    pub raster: Raster,
-}
-
-/// What a file holds.
-#[derive(Debug, Default)]
-pub struct Decoded {
-    pub layers: Vec<Layer>,
-    /// Whether this program wrote the file: then it means what this program means.
-    pub native: bool,
-    /// What this program wrote into a packed picture: its order and encoding.
-    pub meaning: Option<String>,
-    /// What else was noticed.
-    pub notes: Vec<Note>,
-}
-
-/// Who is decoding what: for messages.
-#[derive(Clone, Copy, Debug)]
-struct Place<'a> {
-    path: &'a Path,
-    what: Subject,
-}
-
-impl Place<'_> {
-    fn bad(self, problem: impl AsRef<str>, remedy: &str) -> Error {
-        Error::BadImage {
-            path: self.path.to_owned(),
-            problem: format!("{}: {}", self.what, problem.as_ref()),
-            remedy: remedy.to_owned(),
-        }
-    }
-
-    /// An error of a library that decodes `format`.
-    fn invalid(self, format: &str, found: impl std::fmt::Display) -> Error {
-        self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
-    }
-
-    /// Whether the picture is known to hold data, for which colour spaces mean nothing.
-    fn is_data(self) -> bool {
-        match self.what {
-            Subject::Map(role) => {
-                role.packing().is_some() || matches!(role, Role::Normal | Role::Roughness | Role::Metallic)
-            }
-            _ => false,
-        }
-    }
-
-    fn truncated(self) -> Error {
-        self.bad("expected the whole image, found the end of the file within it", "copy the file again")
-    }
-
-    /// Refuses sizes before anything is allocated: `bytes` is what all samples take.
-    fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<(), Error> {
-        if width == 0 || height == 0 {
-            return Err(
-                self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again")
-            );
-        }
-        let (long, short) = (width.max(height), width.min(height));
-        if long > MAX_WIDTH as u64 || short > MAX_SIDE as u64 || bytes > MAX_BYTES {
-            let problem = format!(
-                "expected at most {MAX_WIDTH} x {MAX_SIDE} pixels and {} GiB, found {width} x {height}",
-                MAX_BYTES >> 30
-            );
-            return Err(self.bad(problem, "scale it down"));
-        }
-        Ok(())
-    }
-}
+pub use place::{Decoded, Layer};
+use place::{Place, alone};
 
 /// Decodes the file `path`, which is expected to be `what`.
 ///
@@ -125,6 +46,10 @@ pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: Subject) -> Re
         numpy::decode_archive(reader, place)
     } else if begins(b"II*\0") || begins(b"MM\0*") || begins(b"II+\0") || begins(b"MM\0+") {
         tiff::decode(reader, place).map(alone)
+    } else if begins(b"DDS ") {
+        dds::decode(reader, place).map(alone)
+    } else if begins(ktx2::MAGIC) {
+        ktx2::decode(reader, place).map(alone)
     } else {
         picture::decode(reader, place)
     }
@@ -143,19 +68,4 @@ pub fn decode_one(path: &Path, what: Subject) -> Result<(Raster, Vec<Note>), Err
                 .bad("expected one picture, found several layers", "open the file itself"))
         }
     }
-}
-
-fn alone(layer: impl Into<Layer>) -> Decoded {
-    Decoded { layers: vec![layer.into()], ..Decoded::default() }
-}
-
-impl From<Raster> for Layer {
-    fn from(raster: Raster) -> Self {
-        Self { name: String::new(), raster }
-    }
-}
-
-/// Takes pixels of `count` interleaved samples apart.
-fn planes<S: Copy, U>(samples: &[S], count: usize, of: impl Fn(S) -> U) -> Vec<Vec<U>> {
-    (0..count).map(|channel| samples.iter().skip(channel).step_by(count).map(|&s| of(s)).collect()).collect()
 }

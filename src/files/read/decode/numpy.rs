@@ -5,9 +5,10 @@ use std::io::{BufRead, Read, Seek};
 use exr::prelude::f16;
 use npyz::{NpyFile, Order};
 
-use super::{Decoded, Layer, MAX_BYTES, Place};
+use super::place::{Decoded, Layer, MAX_BYTES, Place};
 use crate::error::Error;
-use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::raster::Raster;
+use crate::files::read::samples::{Buffer, Samples};
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
@@ -77,11 +78,8 @@ pub(crate) fn decode_array(reader: impl Read, name: String, place: Place<'_>) ->
         )
     })?;
     let (width, height, count) = (width as usize, height as usize, count as usize);
-    let layout = |channel: usize| {
-        let (first, step) = if planar == 1 { (channel * width * height, 1) } else { (channel, count) };
-        move |index: usize| first + index * step
-    };
-    let channels = (0..count).map(|channel| values.picked(width * height, layout(channel))).collect();
+    let channels = if planar == 1 { Samples::planar } else { Samples::interleaved };
+    let channels = channels(values, count);
     Ok(Layer { name, raster: Raster::with_alpha(width, height, depth, channels) })
 }
 
@@ -100,28 +98,26 @@ fn values<R: Read>(
     file: NpyFile<R>,
     invalid: impl Fn(std::io::Error) -> Error,
     other: impl Fn() -> Error,
-) -> Result<(Samples, &'static str), Error> {
+) -> Result<(Buffer, &'static str), Error> {
     let count = file.len() as usize;
     // Grows with what is really there, not with what the header claims.
     fn take<T, E>(values: impl Iterator<Item = Result<T, E>>) -> Result<Vec<T>, E> {
         values.collect()
     }
+    let floats = |values: &mut dyn Iterator<Item = std::io::Result<f32>>| -> Result<Buffer, Error> {
+        Ok(take(values).map_err(&invalid)?.into())
+    };
     let (samples, depth) = match file.try_data::<f32>() {
-        Ok(data) => (Samples::Floats(take(data).map_err(&invalid)?), "float"),
+        Ok(data) => (take(data).map_err(&invalid)?.into(), "float"),
         Err(file) => match file.try_data::<f16>() {
-            Ok(data) => (Samples::Floats(take(data.map(|x| x.map(f32::from))).map_err(&invalid)?), "half"),
+            Ok(data) => (floats(&mut data.map(|x| x.map(f32::from)))?, "half"),
             Err(file) => match file.try_data::<f64>() {
-                Ok(data) => {
-                    (Samples::Floats(take(data.map(|x| x.map(|x| x as f32))).map_err(&invalid)?), "double")
-                }
+                Ok(data) => (floats(&mut data.map(|x| x.map(|x| x as f32)))?, "double"),
                 Err(file) => match file.try_data::<u8>() {
-                    Ok(data) => {
-                        let codes = take(data.map(|x| x.map(u16::from))).map_err(&invalid)?;
-                        (Samples::Codes { codes, max: u8::MAX.into() }, "8-bit")
-                    }
+                    Ok(data) => (take(data).map_err(&invalid)?.into(), "8-bit"),
                     Err(file) => {
                         let data = file.try_data::<u16>().map_err(|_| other())?;
-                        (Samples::Codes { codes: take(data).map_err(&invalid)?, max: u16::MAX }, "16-bit")
+                        (take(data).map_err(&invalid)?.into(), "16-bit")
                     }
                 },
             },

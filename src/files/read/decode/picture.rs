@@ -1,19 +1,25 @@
-//! PNG, JPEG and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
+//! PNG, JPEG, BMP, TGA, WebP and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
 
 use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
 
+use image::codecs::bmp::BmpDecoder;
 use image::codecs::hdr::HdrDecoder;
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
+use image::codecs::tga::TgaDecoder;
+use image::codecs::webp::WebPDecoder;
 use image::error::{ImageError, LimitErrorKind};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
-use super::head::PngHead;
-use super::{Decoded, FORMATS, MAX_BYTES, Place, alone, head, planes};
+use super::head::{self, PngHead};
+use super::known;
+use super::panics::caught;
+use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::error::Error;
 use crate::files::read::note::Note;
-use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::raster::Raster;
+use crate::files::read::samples::Samples;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
@@ -42,11 +48,33 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
             let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
             decode_with(decoder, "HDR", place)
         }
-        Ok(other) => Err(place.bad(format!("expected {FORMATS}, found {other:?}"), "convert it to PNG")),
-        Err(_) => {
-            Err(place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file"))
+        Ok(ImageFormat::Bmp) => {
+            let decoder = BmpDecoder::new(reader).map_err(|error| explain(&error, "BMP", place))?;
+            decode_with(decoder, "BMP", place)
+        }
+        Ok(ImageFormat::WebP) => {
+            let decoder = WebPDecoder::new(reader).map_err(|error| explain(&error, "WebP", place))?;
+            decode_with(decoder, "WebP", place)
+        }
+        _ if known::name(head).is_none() && is_tga(place) => {
+            let decoder = TgaDecoder::new(reader).map_err(|error| explain(&error, "TGA", place))?;
+            decode_with(decoder, "TGA", place)
+        }
+        other => {
+            let other = other.ok().map(|format| format!("{format:?}"));
+            Err(match known::name(head).map(str::to_owned).or(other) {
+                Some(found) => place.bad(format!("expected {FORMATS}, found {found}"), "convert it to PNG"),
+                None => {
+                    place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file")
+                }
+            })
         }
     }
+}
+
+/// By its name: a TGA begins with nothing of its own.
+fn is_tga(place: Place<'_>) -> bool {
+    place.path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"))
 }
 
 fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -> Result<Decoded, Error> {
@@ -55,7 +83,9 @@ fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -
     let (width, height) = decoder.dimensions();
     place.check_size(width.into(), height.into(), decoder.total_bytes())?;
     let notes = ignored(&mut decoder, place);
-    let image = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    let image = caught(|| DynamicImage::from_decoder(decoder))
+        .map_err(|_| place.invalid(format, "a contradiction in it"))?
+        .map_err(broken)?;
     let found = image.color();
     let raster = raster(image)
         .ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))?;
@@ -105,27 +135,16 @@ fn explain(error: &ImageError, format: &str, place: Place<'_>) -> Error {
 fn raster(image: DynamicImage) -> Option<Raster> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let (channels, depth) = match image {
-        DynamicImage::ImageLuma8(i) => (codes8(&i.into_raw(), 1), "8-bit"),
-        DynamicImage::ImageLumaA8(i) => (codes8(&i.into_raw(), 2), "8-bit"),
-        DynamicImage::ImageRgb8(i) => (codes8(&i.into_raw(), 3), "8-bit"),
-        DynamicImage::ImageRgba8(i) => (codes8(&i.into_raw(), 4), "8-bit"),
-        DynamicImage::ImageLuma16(i) => (codes16(&i.into_raw(), 1), "16-bit"),
-        DynamicImage::ImageLumaA16(i) => (codes16(&i.into_raw(), 2), "16-bit"),
-        DynamicImage::ImageRgb16(i) => (codes16(&i.into_raw(), 3), "16-bit"),
-        DynamicImage::ImageRgba16(i) => (codes16(&i.into_raw(), 4), "16-bit"),
-        DynamicImage::ImageRgb32F(i) => {
-            (planes(&i.into_raw(), 3, |s| s).into_iter().map(Samples::Floats).collect(), "float")
-        }
+        DynamicImage::ImageLuma8(i) => (Samples::interleaved(i.into_raw(), 1), "8-bit"),
+        DynamicImage::ImageLumaA8(i) => (Samples::interleaved(i.into_raw(), 2), "8-bit"),
+        DynamicImage::ImageRgb8(i) => (Samples::interleaved(i.into_raw(), 3), "8-bit"),
+        DynamicImage::ImageRgba8(i) => (Samples::interleaved(i.into_raw(), 4), "8-bit"),
+        DynamicImage::ImageLuma16(i) => (Samples::interleaved(i.into_raw(), 1), "16-bit"),
+        DynamicImage::ImageLumaA16(i) => (Samples::interleaved(i.into_raw(), 2), "16-bit"),
+        DynamicImage::ImageRgb16(i) => (Samples::interleaved(i.into_raw(), 3), "16-bit"),
+        DynamicImage::ImageRgba16(i) => (Samples::interleaved(i.into_raw(), 4), "16-bit"),
+        DynamicImage::ImageRgb32F(i) => (Samples::interleaved(i.into_raw(), 3), "float"),
         _ => return None,
     };
     Some(Raster::with_alpha(width, height, depth, channels))
-}
-
-fn codes8(samples: &[u8], count: usize) -> Vec<Samples> {
-    let planes = planes(samples, count, u16::from).into_iter();
-    planes.map(|codes| Samples::Codes { codes, max: u8::MAX.into() }).collect()
-}
-
-fn codes16(samples: &[u16], count: usize) -> Vec<Samples> {
-    planes(samples, count, |s| s).into_iter().map(|codes| Samples::Codes { codes, max: u16::MAX }).collect()
 }

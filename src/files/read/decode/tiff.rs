@@ -6,9 +6,10 @@ use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use super::{MAX_BYTES, Place, planes};
+use super::place::{MAX_BYTES, Place};
 use crate::error::Error;
-use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::raster::Raster;
+use crate::files::read::samples::{Buffer, Samples};
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
     let invalid = |error: tiff::TiffError| match error {
@@ -59,33 +60,29 @@ struct Interleaving {
 }
 
 impl Interleaving {
+    /// `None` for other kinds of samples, and where there are not as many as there have to be, as with fewer than
+    /// 8 bits a sample.
     fn samples(&self, result: DecodingResult) -> Option<(Vec<Samples>, &'static str)> {
-        let codes = |planes: Vec<Vec<u16>>, max| -> Vec<Samples> {
-            planes.into_iter().map(|codes| Samples::Codes { codes, max }).collect()
-        };
-        let floats = |planes: Vec<Vec<f32>>| planes.into_iter().map(Samples::Floats).collect();
         Some(match result {
-            DecodingResult::U8(all) => (codes(self.apart(&all, u16::from)?, u8::MAX.into()), "8-bit"),
-            DecodingResult::U16(all) => (codes(self.apart(&all, |s| s)?, u16::MAX), "16-bit"),
+            DecodingResult::U8(all) => (self.channels(all)?, "8-bit"),
+            DecodingResult::U16(all) => (self.channels(all)?, "16-bit"),
             DecodingResult::U32(all) => {
-                (floats(self.apart(&all, |s| (f64::from(s) / f64::from(u32::MAX)) as f32)?), "32-bit")
+                (self.floats(all, |s| (f64::from(s) / f64::from(u32::MAX)) as f32)?, "32-bit")
             }
-            DecodingResult::F16(all) => (floats(self.apart(&all, f32::from)?), "half"),
-            DecodingResult::F32(all) => (floats(self.apart(&all, |s| s)?), "float"),
-            DecodingResult::F64(all) => (floats(self.apart(&all, |s| s as f32)?), "double"),
+            DecodingResult::F16(all) => (self.floats(all, f32::from)?, "half"),
+            DecodingResult::F32(all) => (self.channels(all)?, "float"),
+            DecodingResult::F64(all) => (self.floats(all, |s| s as f32)?, "double"),
             _ => return None,
         })
     }
 
-    /// `None` where there are not as many samples as there have to be, as with fewer than 8 bits a sample.
-    fn apart<S: Copy, U>(&self, samples: &[S], of: impl Fn(S) -> U) -> Option<Vec<Vec<U>>> {
-        if samples.len() != self.count * self.texels {
-            return None;
-        }
-        Some(if self.planar {
-            samples.chunks_exact(self.texels).map(|plane| plane.iter().map(|&s| of(s)).collect()).collect()
-        } else {
-            planes(samples, self.count, of)
-        })
+    fn floats<S>(&self, samples: Vec<S>, of: impl Fn(S) -> f32) -> Option<Vec<Samples>> {
+        self.channels(samples.into_iter().map(of).collect::<Vec<f32>>())
+    }
+
+    fn channels(&self, samples: impl Into<Buffer>) -> Option<Vec<Samples>> {
+        let buffer = samples.into();
+        let channels = if self.planar { Samples::planar } else { Samples::interleaved };
+        (buffer.len() == self.count * self.texels).then(|| channels(buffer, self.count))
     }
 }

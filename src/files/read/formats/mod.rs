@@ -3,3 +3,5 @@
 pub mod gltf;
 pub mod mtl;
 pub mod mtlx;
+mod principled;
+mod scaled_normals;

@@ -34,7 +34,7 @@ fn score_of(raster: &Raster, normal: impl Fn([f64; 3]) -> [f64; 3]) -> f64 {
 ///
 /// `normal` is the vector at an index, y as stored.
 pub fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 3]) -> Option<f64> {
-    const MOST: usize = 1024;
+    const MOST: usize = 256;
     let steps = [width, height].map(|side| (side / MOST).max(1));
     let slopes = |index: usize| {
         let [x, y, z] = normal(index);

@@ -7,15 +7,15 @@ use super::decide::decide;
 use super::detect;
 use super::normals;
 use super::transfer::{self, linear};
-use super::values::{self, Clamped, finite};
+use super::values::{self, Clamped, unit};
 use super::workflow;
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::note::{Gray, Note, SpecifiedBy};
 use crate::files::read::options::{Albedo, ReadOptions, Roughness};
-use crate::files::read::raster::Samples;
 use crate::files::read::reason::Reason;
 use crate::files::read::role::Role;
+use crate::files::read::samples::{Outside, Samples, spread};
 use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::material::Planes;
@@ -48,7 +48,8 @@ pub fn planes<T: Real>(
         let StoredMap { raster, .. } = source;
         let (from, last) = (raster.size(), raster.channels.len() - 1);
         let mut decode = |plane: &Samples| {
-            let plane = plane.decoded(|v| linear(clamped.unit(finite(v, 0.0), map), space));
+            clamped.add(plane.outside_unit(), map);
+            let plane = plane.decoded(|v| linear(unit(v, 0.0), space));
             resize::plane(plane, from, size, Filter::Value)
         };
         [0, 1, 2].map(|c| decode(&raster.channels[last.min(c)]))
@@ -86,11 +87,12 @@ fn gray<T: Real>(
     notes: &mut Vec<Note>,
 ) -> Vec<T> {
     let raster = &source.raster;
-    let spread = channel_spread(&raster.channels);
+    let spread = spread(&raster.channels);
     if spread > ROUNDING {
         notes.push(Note::ChannelsDiffer { map, spread, used: Gray::Red });
     }
-    let plane = raster.channels[0].decoded(|v| clamped.unit(finite(v, 0.0), map));
+    clamped.add(raster.channels[0].outside_unit(), map);
+    let plane = raster.channels[0].decoded(|v| unit(v, 0.0));
     resize::plane(plane, raster.size(), size, Filter::Value)
 }
 
@@ -182,47 +184,46 @@ fn roughness_plane<T: Real>(
 ) -> Vec<T> {
     let StoredMap { raster, .. } = source;
     let channels = &raster.channels;
-    let mut value = |v: f64| transfer::roughness(clamped.unit(finite(v, 1.0), Role::Roughness), code);
-    let largest = channel_spread(channels);
-    let plane = if code == Roughness::Anisotropic && channels.len() > 1 {
-        notes.push(Note::Anisotropic { spread: channel_spread(&channels[..2]) });
-        let width = |i: usize| (channels[0].at(i) * channels[1].at(i)).sqrt();
-        (0..channels[0].len()).map(|i| T::of(value(width(i)))).collect()
+    let value = |v: f64| transfer::roughness(unit(v, 1.0), code);
+    let largest = spread(channels);
+    let (plane, outside) = if code == Roughness::Anisotropic && channels.len() > 1 {
+        notes.push(Note::Anisotropic { spread: spread(&channels[..2]) });
+        let top = channels[0].top();
+        combined(&channels[..2], |widths| (widths[0] / top * (widths[1] / top)).sqrt(), value)
     } else if largest == 0.0 {
-        channels[0].decoded(value)
+        (channels[0].decoded(value), channels[0].outside_unit())
     } else {
         notes.push(Note::ChannelsDiffer { map: Role::Roughness, spread: largest, used: Gray::Mean });
-        (0..channels[0].len()).map(|i| T::of(value(mean(channels, i)))).collect()
+        // Of integers exactly: their sum is one.
+        let scale = channels.len() as f64 * channels[0].top();
+        combined(channels, |stored| stored.iter().sum::<f64>() / scale, value)
     };
+    clamped.add(outside, Role::Roughness);
     resize::plane(plane, raster.size(), size, Filter::Roughness)
 }
 
-/// Of codes exactly: their sum is an integer.
-fn mean(channels: &[Samples], index: usize) -> f64 {
-    let mut codes = 0.0;
-    for channel in channels {
-        match channel {
-            Samples::Codes { codes: all, .. } => codes += f64::from(all[index]),
-            Samples::Floats(all) => codes += f64::from(all[index]),
+/// `value` of what `of` makes of the stored samples of each texel, and what of that lies outside [0, 1].
+fn combined<T: Real>(
+    channels: &[Samples],
+    of: impl Fn(&[f64]) -> f64 + Sync,
+    value: impl Fn(f64) -> f64 + Sync,
+) -> (Vec<T>, Outside) {
+    const CHUNK: usize = 1 << 14;
+    let mut plane = vec![T::zero(); channels[0].len()];
+    let convert = |(number, out): (usize, &mut [T])| {
+        let mut outside = Outside::default();
+        let mut texel = vec![0.0; channels.len()];
+        for (index, out) in (number * CHUNK..).zip(out) {
+            texel.iter_mut().zip(channels).for_each(|(stored, channel)| *stored = channel.stored(index));
+            let number = of(&texel);
+            if number.is_finite() {
+                outside = outside.and(number);
+            }
+            *out = T::of(value(number));
         }
-    }
-    let top = match &channels[0] {
-        Samples::Codes { max, .. } => f64::from(*max),
-        Samples::Floats(_) => 1.0,
+        outside
     };
-    codes / (channels.len() as f64 * top)
-}
-
-/// The largest difference between the channels of a texel.
-fn channel_spread(channels: &[Samples]) -> f64 {
-    let Some((first, others)) = channels.split_first() else { return 0.0 };
-    if others.iter().all(|other| other == first) {
-        return 0.0;
-    }
-    let spread = |i| {
-        let values = channels.iter().map(|channel| channel.at(i));
-        let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
-        high - low
-    };
-    (0..first.len()).into_par_iter().map(spread).reduce(|| 0.0, f64::max)
+    let outside = plane.par_chunks_mut(CHUNK).enumerate().map(convert);
+    let outside = outside.reduce(Outside::default, Outside::merged);
+    (plane, outside)
 }

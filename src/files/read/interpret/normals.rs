@@ -1,12 +1,15 @@
 //! Normal maps: how their components are stored and where y points.
 
+use rayon::prelude::*;
+
 use super::decide::decide;
 use super::detect::{self, NORMAL_AT_LEAST};
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{NormalEncoding, NormalY, ReadOptions};
-use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::raster::Raster;
 use crate::files::read::reason::Reason;
+use crate::files::read::samples::Samples;
 use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
@@ -121,23 +124,28 @@ fn two_channels(raster: &Raster) -> (NormalEncoding, Reason) {
 
 /// The vector at `index`, y as stored.
 fn vector(raster: &Raster, encoding: NormalEncoding, index: usize) -> [f64; 3] {
+    let mut stored = [0.0; 3];
+    stored.iter_mut().zip(components(raster, encoding)).for_each(|(value, plane)| *value = plane.at(index));
+    vector_of(stored, encoding, raster.channels.len() == 2)
+}
+
+/// The channels that hold x, y and, where it is stored, z.
+fn components(raster: &Raster, encoding: NormalEncoding) -> impl Iterator<Item = &Samples> {
+    let last = raster.channels.len() - 1;
+    let x = if encoding == NormalEncoding::Ag { raster.alpha.as_ref() } else { None };
+    let others = [1, 2].map(|c| &raster.channels[last.min(c)]);
+    [x.unwrap_or(&raster.channels[0])].into_iter().chain(others)
+}
+
+/// The vector that is stored as (x, y, z), y as stored; of `two` channels z is not stored.
+fn vector_of([x, y, z]: [f64; 3], encoding: NormalEncoding, two: bool) -> [f64; 3] {
     let signed = |value: f64| 2.0 * value - 1.0;
     let with_z = |x: f64, y: f64| [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()];
     match encoding {
-        NormalEncoding::Unsigned => raster.rgb(index).map(signed),
-        NormalEncoding::Signed if raster.channels.len() == 2 => {
-            let [x, y, _] = raster.rgb(index);
-            with_z(x, y)
-        }
-        NormalEncoding::Signed => raster.rgb(index),
-        NormalEncoding::Xy => {
-            let [x, y, _] = raster.rgb(index);
-            with_z(signed(x), signed(y))
-        }
-        NormalEncoding::Ag => {
-            let x = raster.alpha.as_ref().map_or(0.5, |alpha| alpha.at(index));
-            with_z(signed(x), signed(raster.channels[1].at(index)))
-        }
+        NormalEncoding::Unsigned => [x, y, z].map(signed),
+        NormalEncoding::Signed if two => with_z(x, y),
+        NormalEncoding::Signed => [x, y, z],
+        NormalEncoding::Xy | NormalEncoding::Ag => with_z(signed(x), signed(y)),
     }
 }
 
@@ -169,20 +177,32 @@ fn normal_y(
 
 /// x, y up, z; and how many had no direction.
 fn decoded<T: Real>(raster: &Raster, encoding: NormalEncoding, y: NormalY) -> ([Vec<T>; 3], usize) {
+    const CHUNK: usize = 1 << 12;
     let sign = if y == NormalY::Up { 1.0 } else { -1.0 };
     let count = raster.width * raster.height;
-    let mut planes = [0; 3].map(|_| Vec::with_capacity(count));
-    let mut missing = 0;
-    for index in 0..count {
-        let mut n = vector(raster, encoding, index);
-        let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if !length.is_finite() || length < SHORTEST {
-            missing += 1;
-            n = [0.0, 0.0, 1.0];
+    let two = raster.channels.len() == 2;
+    let [mut xs, mut ys, mut zs] = [0; 3].map(|_| vec![T::zero(); count]);
+    let convert = |(number, ((xs, ys), zs)): (usize, ((&mut [T], &mut [T]), &mut [T]))| {
+        let stored: Vec<Vec<f64>> = components(raster, encoding)
+            .map(|plane| {
+                let mut chunk = vec![0.0; xs.len()];
+                plane.read(number * CHUNK, &mut chunk);
+                chunk
+            })
+            .collect();
+        let mut missing = 0;
+        for index in 0..xs.len() {
+            let mut n = vector_of([0, 1, 2].map(|c| stored[c][index]), encoding, two);
+            let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if !length.is_finite() || length < SHORTEST {
+                missing += 1;
+                n = [0.0, 0.0, 1.0];
+            }
+            [xs[index], ys[index], zs[index]] = [n[0], sign * n[1], n[2]].map(T::of);
         }
-        for (plane, value) in planes.iter_mut().zip([n[0], sign * n[1], n[2]]) {
-            plane.push(T::of(value));
-        }
-    }
-    (planes, missing)
+        missing
+    };
+    let chunks = xs.par_chunks_mut(CHUNK).zip(ys.par_chunks_mut(CHUNK)).zip(zs.par_chunks_mut(CHUNK));
+    let missing = chunks.enumerate().map(convert).sum();
+    ([xs, ys, zs], missing)
 }

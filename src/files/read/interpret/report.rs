@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::detect;
 use crate::files::read::raster::Raster;
 use crate::files::read::role::Role;
+use crate::files::read::samples::Samples;
 use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// One map as stored.
@@ -81,7 +82,7 @@ pub(crate) fn maps(found: &StoredMaterial) -> Vec<MapReport> {
 fn report(map: Role, source: &StoredMap) -> MapReport {
     let raster = &source.raster;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let (mut clipped, mut count, mut constant) = (0, 0, true);
+    let (mut clipped, mut count) = (0, 0);
     for channel in &raster.channels {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in raster.sampled().map(|i| channel.at(i)).filter(|v| v.is_finite()) {
@@ -90,7 +91,6 @@ fn report(map: Role, source: &StoredMap) -> MapReport {
             clipped += usize::from(value >= 1.0);
             count += 1;
         }
-        constant &= least >= most;
         (low, high) = (low.min(least), high.max(most));
     }
     let scores = [detect::normal_score(raster), detect::signed_normal_score(raster)];
@@ -106,7 +106,7 @@ fn report(map: Role, source: &StoredMap) -> MapReport {
         channels: raster.channels.len(),
         range: [low, high].map(|x| if x.is_finite() { x } else { 0.0 }),
         clipped: f64::from(clipped as u32) / f64::from(count.max(1) as u32),
-        constant,
+        constant: raster.channels.iter().all(Samples::is_constant),
         flat: flat(raster),
         non_unit: (map == Role::Normal).then_some(1.0 - unit),
         curl: (map == Role::Normal).then(curl).flatten(),
@@ -125,12 +125,11 @@ fn flat(raster: &Raster) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::read::raster::Samples;
 
     #[test]
     fn flat_texels_equal_their_right_neighbour_in_every_channel() {
         let raster = |values: &[f32]| {
-            let channels = vec![Samples::Floats(values.to_vec())];
+            let channels = vec![Samples::floats(values.to_vec())];
             Raster { width: 4, height: 2, channels, ..Raster::constant("test", &[0.0]) }
         };
         assert_eq!(flat(&raster(&[1.0; 8])), 1.0);

@@ -3,9 +3,9 @@
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{NonFinite, ReadOptions};
-use crate::files::read::raster::Samples;
 use crate::files::read::reason::Reason;
 use crate::files::read::role::Role;
+use crate::files::read::samples::Outside;
 use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.
@@ -52,8 +52,7 @@ impl NotFinite {
     fn of(source: &StoredMap) -> Self {
         let mut count = Self::default();
         for channel in &source.raster.channels {
-            let Samples::Floats(values) = channel else { continue };
-            for (index, &value) in values.iter().enumerate().filter(|(_, v)| !v.is_finite()) {
+            for (index, value) in channel.not_finite() {
                 count.first = count.first.or(Some((index, value)));
                 if value.is_nan() { count.nans += 1 } else { count.infinities += 1 }
             }
@@ -67,30 +66,30 @@ pub fn finite(value: f64, instead: f64) -> f64 {
     if value.is_finite() { value } else { instead }
 }
 
+/// `value` in [0, 1], or `instead` of NaN and infinity.
+pub fn unit(value: f64, instead: f64) -> f64 {
+    finite(value, instead).clamp(0.0, 1.0)
+}
+
 /// Values that lay outside [0, 1], how many for each map, and how far.
 #[derive(Debug, Default)]
 pub struct Clamped {
-    maps: Vec<(Role, usize, f64, f64)>,
+    maps: Vec<(Role, Outside)>,
 }
 
 impl Clamped {
-    /// `value` in [0, 1].
-    pub fn unit(&mut self, value: f64, map: Role) -> f64 {
-        if (0.0..=1.0).contains(&value) {
-            return value;
+    /// Adds what lies outside [0, 1] in the map `map`.
+    pub fn add(&mut self, outside: Outside, map: Role) {
+        match self.maps.iter_mut().find(|(role, _)| *role == map) {
+            Some((_, sum)) => *sum = sum.merged(outside),
+            None if outside.count > 0 => self.maps.push((map, outside)),
+            None => (),
         }
-        let place = self.maps.iter().position(|m| m.0 == map).unwrap_or_else(|| {
-            self.maps.push((map, 0, 0.0, 1.0));
-            self.maps.len() - 1
-        });
-        let entry = &mut self.maps[place];
-        *entry = (map, entry.1 + 1, entry.2.min(value), entry.3.max(value));
-        value.clamp(0.0, 1.0)
     }
 
     /// Records what has been clamped.
     pub fn record(self, found: &mut StoredMaterial) {
-        for (map, count, low, high) in self.maps {
+        for (map, Outside { count, low, high }) in self.maps {
             let why = Reason::OutsideUnit { map, count, low, high };
             let clamped = Assumption::new(What::Values, "clamped to [0, 1]", why, Certainty::Unsure);
             found.assumptions.push(clamped);

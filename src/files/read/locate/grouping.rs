@@ -9,7 +9,11 @@ use crate::error::Error;
 use crate::files::read::note::{Note, Unused};
 
 /// Extensions of the pictures that count, the better one of two last.
-const EXTENSIONS: [&str; 8] = ["jpg", "jpeg", "hdr", "png", "tif", "tiff", "npy", "exr"];
+const EXTENSIONS: [&str; 13] =
+    ["dds", "ktx2", "webp", "jpg", "jpeg", "bmp", "tga", "hdr", "png", "tif", "tiff", "npy", "exr"];
+/// Extensions of pictures that cannot be read. Where nothing else is that map, opening one fails and names it: a map
+/// that is there is never replaced by a default.
+const UNREAD: [&str; 10] = ["psd", "avif", "jxl", "heic", "gif", "jp2", "ktx", "basis", "astc", "xcf"];
 /// The word of files that are maps by their numbers alone.
 pub const NUMBERED: &str = "0 to 3";
 
@@ -23,8 +27,7 @@ pub struct Named {
 impl Named {
     /// The higher, the better a source for its map.
     pub fn rank(&self) -> (u8, Option<usize>) {
-        let extension =
-            Path::new(&self.file).extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let extension = extension(&self.file);
         (self.label.rank(), EXTENSIONS.iter().position(|e| *e == extension))
     }
 }
@@ -55,13 +58,14 @@ pub fn choose(
 ) -> Result<Set, Error> {
     let mut set = Set::default();
     let mut groups = Groups::new();
-    for name in names.iter().filter(|name| is_picture(name)) {
+    for name in names {
         let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
         match Label::of(&stem) {
-            Some(label) => {
+            Some(label) if is_picture(name) || (is_unread(name) && label.role != Role::Ignored) => {
                 groups.entry(label.stem.clone()).or_default().push(Named { file: name.clone(), label })
             }
-            None => set.unlabelled.push(name.clone()),
+            None if is_picture(name) => set.unlabelled.push(name.clone()),
+            _ => (),
         }
     }
     share(&mut groups);
@@ -104,8 +108,16 @@ pub fn is_named_as(name: &str, stem: &[String]) -> bool {
 
 /// Whether a file of this name counts as a picture.
 pub fn is_picture(name: &str) -> bool {
-    let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    EXTENSIONS.contains(&extension.as_str())
+    EXTENSIONS.contains(&extension(name).as_str())
+}
+
+/// Whether a file of this name is a picture that cannot be read.
+fn is_unread(name: &str) -> bool {
+    UNREAD.contains(&extension(name).as_str())
+}
+
+fn extension(name: &str) -> String {
+    Path::new(name).extension().unwrap_or_default().to_string_lossy().to_lowercase()
 }
 
 fn is_complete(files: &[Named], bound: &[Role]) -> bool {

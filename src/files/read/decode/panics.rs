@@ -1,4 +1,4 @@
-//! Panics of libraries at damaged files that become errors, without a word on stderr.
+//! Turns the panics of libraries at damaged files into errors.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -8,8 +8,8 @@ thread_local! {
     static SILENT: Cell<bool> = const { Cell::new(false) };
 }
 
-/// What `work` returns, or an error where it panics.
-pub fn catch_panic<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
+/// What `work` returns, or an error where it panics, without a word on stderr.
+pub fn caught<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let usual = panic::take_hook();

@@ -1,0 +1,112 @@
+//! DDS through the `dds` library: blocks (BC1 to BC7) and plain pixels; the first surface, the largest level.
+
+use std::io::{BufRead, ErrorKind, Seek};
+
+use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
+
+use super::panics::caught;
+use super::place::Place;
+use crate::error::Error;
+use crate::files::read::raster::Raster;
+use crate::files::read::samples::{Buffer, Samples};
+
+pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
+    let contradiction = |_| place.invalid("DDS", "a contradiction in it");
+    let mut decoder =
+        caught(|| dds::Decoder::new(reader)).map_err(contradiction)?.map_err(|e| explain(&e, place))?;
+    if !decoder.layout().is_texture() {
+        let problem = "expected one picture, found a DDS of a cube map, a volume or several pictures";
+        return Err(place.bad(problem, "save the map by itself"));
+    }
+    if is_signed(decoder.format()) {
+        let problem = format!("expected unsigned samples, found a DDS in {:?}", decoder.format());
+        return Err(place.bad(problem, "convert it to PNG"));
+    }
+    let size = decoder.main_size();
+    let native = decoder.native_color();
+    let (channels, count) = match native.channels {
+        Channels::Grayscale => (Channels::Grayscale, 1),
+        Channels::Rgb => (Channels::Rgb, 3),
+        Channels::Alpha | Channels::Rgba => (Channels::Rgba, 4),
+    };
+    let texels = u64::from(size.width).saturating_mul(u64::from(size.height));
+    place.check_size(size.width.into(), size.height.into(), texels.saturating_mul(4 * count as u64))?;
+    let values = texels as usize * count;
+    let (buffer, depth) = match native.precision {
+        Precision::U8 => (pixels(&mut decoder, vec![0_u8; values], channels, place)?, "8-bit"),
+        Precision::U16 => (pixels(&mut decoder, vec![0_u16; values], channels, place)?, "16-bit"),
+        Precision::F32 => (pixels(&mut decoder, vec![0.0_f32; values], channels, place)?, "float"),
+    };
+    let mut channels = Samples::interleaved(buffer, count);
+    if is_two_channel(decoder.format()) {
+        channels.truncate(2);
+        let (width, height) = (size.width as usize, size.height as usize);
+        return Ok(Raster { width, height, depth, channels, alpha: None });
+    }
+    Ok(Raster::with_alpha(size.width as usize, size.height as usize, depth, channels))
+}
+
+/// A type that samples are decoded into.
+trait Sample: Sized {
+    const PRECISION: Precision;
+
+    fn bytes(samples: &mut [Self]) -> &mut [u8];
+}
+
+impl Sample for u8 {
+    const PRECISION: Precision = Precision::U8;
+
+    fn bytes(samples: &mut [Self]) -> &mut [u8] {
+        samples
+    }
+}
+
+impl Sample for u16 {
+    const PRECISION: Precision = Precision::U16;
+
+    fn bytes(samples: &mut [Self]) -> &mut [u8] {
+        bytemuck::cast_slice_mut(samples)
+    }
+}
+
+impl Sample for f32 {
+    const PRECISION: Precision = Precision::F32;
+
+    fn bytes(samples: &mut [Self]) -> &mut [u8] {
+        bytemuck::cast_slice_mut(samples)
+    }
+}
+
+/// The pixels of the first surface.
+fn pixels<S: Sample>(
+    decoder: &mut dds::Decoder<impl BufRead + Seek>,
+    mut samples: Vec<S>,
+    channels: Channels,
+    place: Place<'_>,
+) -> Result<Buffer, Error>
+where
+    Buffer: From<Vec<S>>,
+{
+    let format = ColorFormat::new(channels, S::PRECISION);
+    let invalid = || place.invalid("DDS", "a contradiction in its size");
+    let view = ImageViewMut::new(S::bytes(&mut samples), decoder.main_size(), format).ok_or_else(invalid)?;
+    caught(|| decoder.read_surface(view)).map_err(|_| invalid())?.map_err(|e| explain(&e, place))?;
+    Ok(samples.into())
+}
+
+fn explain(error: &DecodingError, place: Place<'_>) -> Error {
+    match error {
+        DecodingError::Io(io) if io.kind() == ErrorKind::UnexpectedEof => place.truncated(),
+        other => place.invalid("DDS", other),
+    }
+}
+
+/// Formats whose samples reach below 0: the library maps them to [0, 1], where nobody would know them again.
+fn is_signed(format: Format) -> bool {
+    format!("{format:?}").contains("SNORM")
+}
+
+/// Formats of x and y alone, as normal maps have; the library adds a third channel.
+fn is_two_channel(format: Format) -> bool {
+    matches!(format, Format::BC5_UNORM | Format::R8G8_UNORM | Format::R16G16_UNORM)
+}

@@ -1,0 +1,102 @@
+//! What the decoders share: what they return, how they refuse, how large a picture may be.
+
+use std::path::Path;
+
+use crate::error::Error;
+use crate::files::read::note::{Note, Subject};
+use crate::files::read::raster::Raster;
+use crate::files::read::role::Role;
+
+/// Largest side of a map: the largest that material libraries publish.
+pub(crate) const MAX_SIDE: usize = 16_384;
+/// Largest width of an image: a strip of four of the largest maps. The same upright.
+pub(crate) const MAX_WIDTH: usize = 4 * MAX_SIDE;
+/// Most bytes that an image may decode to: a strip of the largest size takes 3 GiB in 8-bit RGB.
+pub(crate) const MAX_BYTES: u64 = 4 << 30;
+
+/// The formats that open, for messages.
+pub(crate) const FORMATS: &str = "PNG, TIFF, JPEG, TGA, BMP, WebP, DDS, KTX2, HDR, EXR, npy or npz";
+
+/// One picture of a file: of a layered file a layer, of an archive an array.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layer {
+    /// Empty for the only picture of a file.
+    pub name: String,
+    pub raster: Raster,
+}
+
+/// What a file holds.
+#[derive(Debug, Default)]
+pub struct Decoded {
+    pub layers: Vec<Layer>,
+    /// Whether this program wrote the file: then it means what this program means.
+    pub native: bool,
+    /// What this program wrote into a packed picture: its order and encoding.
+    pub meaning: Option<String>,
+    /// What else was noticed.
+    pub notes: Vec<Note>,
+}
+
+/// Who is decoding what: for messages.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<'a> {
+    pub path: &'a Path,
+    pub what: Subject,
+}
+
+impl Place<'_> {
+    pub fn bad(self, problem: impl AsRef<str>, remedy: &str) -> Error {
+        Error::BadImage {
+            path: self.path.to_owned(),
+            problem: format!("{}: {}", self.what, problem.as_ref()),
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// An error of a library that decodes `format`.
+    pub fn invalid(self, format: &str, found: impl std::fmt::Display) -> Error {
+        self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
+    }
+
+    /// Whether the picture is known to hold data, for which colour spaces mean nothing.
+    pub fn is_data(self) -> bool {
+        match self.what {
+            Subject::Map(role) => {
+                role.packing().is_some() || matches!(role, Role::Normal | Role::Roughness | Role::Metallic)
+            }
+            _ => false,
+        }
+    }
+
+    pub fn truncated(self) -> Error {
+        self.bad("expected the whole image, found the end of the file within it", "copy the file again")
+    }
+
+    /// Refuses sizes before anything is allocated: `bytes` is what all samples take.
+    pub fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<(), Error> {
+        if width == 0 || height == 0 {
+            return Err(
+                self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again")
+            );
+        }
+        let (long, short) = (width.max(height), width.min(height));
+        if long > MAX_WIDTH as u64 || short > MAX_SIDE as u64 || bytes > MAX_BYTES {
+            let problem = format!(
+                "expected at most {MAX_WIDTH} x {MAX_SIDE} pixels and {} GiB, found {width} x {height}",
+                MAX_BYTES >> 30
+            );
+            return Err(self.bad(problem, "scale it down"));
+        }
+        Ok(())
+    }
+}
+
+pub(crate) fn alone(layer: impl Into<Layer>) -> Decoded {
+    Decoded { layers: vec![layer.into()], ..Decoded::default() }
+}
+
+impl From<Raster> for Layer {
+    fn from(raster: Raster) -> Self {
+        Self { name: String::new(), raster }
+    }
+}

@@ -1,0 +1,140 @@
+//! Formats of games and of the web: TGA, BMP, WebP, DDS, KTX2; and those that are refused by name.
+
+use super::*;
+use crate::support::textures::{bc1_block, bc5_block, dds_blocks, dds_plain, ktx2_uastc};
+
+/// The packed strip of the four maps, linear.
+fn strip() -> DynamicImage {
+    packed("NDRS", 4, |_, v| v)
+}
+
+fn put(folder: &Path, name: &str, bytes: &[u8]) -> std::path::PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, bytes).unwrap();
+    path
+}
+
+#[test]
+fn tga_bmp_and_webp_open_with_the_values_of_png() {
+    let folder = tempdir().unwrap();
+    for (name, format) in
+        [("m.tga", ImageFormat::Tga), ("m.bmp", ImageFormat::Bmp), ("m.webp", ImageFormat::WebP)]
+    {
+        save(folder.path(), name, &strip(), format);
+        let read = open(&folder.path().join(name));
+        assert_same(&read, EIGHT_BITS);
+        assert_eq!(read.maps[0].depth, "8-bit", "{name}");
+    }
+}
+
+#[test]
+fn dds_of_plain_pixels_opens_with_the_values_of_png() {
+    let folder = tempdir().unwrap();
+    let image = strip().to_rgba8();
+    let path = put(folder.path(), "m.dds", &dds_plain(image.width(), image.height(), image.as_raw()));
+    assert_same(&open(&path), EIGHT_BITS);
+}
+
+/// A folder of maps of 4 x 4 texels: normal and diffuse as blocks, roughness as PNG.
+fn folder_of_blocks() -> tempfile::TempDir {
+    let folder = tempdir().unwrap();
+    put(folder.path(), "normal.dds", &dds_blocks(4, 4, b"ATI2", &bc5_block([204, 102])));
+    put(folder.path(), "diffuse.dds", &dds_blocks(4, 4, b"DXT1", &bc1_block([31, 0, 16])));
+    save(folder.path(), "roughness.png", &picture(4, 4, |_, _| [0.5; 3]), ImageFormat::Png);
+    folder
+}
+
+#[test]
+fn dds_blocks_decode_to_the_values_that_they_code() {
+    let folder = folder_of_blocks();
+    let read = open(folder.path());
+    let texel = read.material.texel(7);
+    let (x, y) = (2.0 * 204.0 / 255.0 - 1.0, 2.0 * 102.0 / 255.0 - 1.0);
+    let expected = [x, y, (1.0_f64 - x * x - y * y).sqrt()];
+    for (got, expected) in texel.normal.to_array().into_iter().zip(expected) {
+        assert!((got - expected).abs() < EIGHT_BITS, "{:?}", texel.normal);
+    }
+    // 16 of 31 is 132 of 255, which stands for 0.2307 in sRGB.
+    for (got, expected) in texel.diffuse.into_iter().zip([1.0, 0.0, 0.2307]) {
+        assert!((got - expected).abs() < EIGHT_BITS, "{:?}", texel.diffuse);
+    }
+}
+
+#[test]
+fn dds_of_a_cube_map_and_of_signed_samples_are_refused_by_name() {
+    let folder = tempdir().unwrap();
+    let mut cube = dds_plain(4, 4, &[0; 6 * 64]);
+    cube[112..116].copy_from_slice(&0xfe00_u32.to_le_bytes());
+    let refused = refusal(&put(folder.path(), "cube.dds", &cube));
+    assert!(refused.contains("cube map"), "{refused}");
+    let signed = dds_blocks(4, 4, b"BC5S", &bc5_block([12, 34]));
+    let refused = refusal(&put(folder.path(), "signed.dds", &signed));
+    assert!(refused.contains("BC5_SNORM"), "{refused}");
+}
+
+/// The strip in blocks of one colour: as PNG pixels, and as KTX2.
+pub fn blocks() -> (DynamicImage, Vec<u8>) {
+    let image = strip().to_rgba8();
+    let (width, height) = image.dimensions();
+    let coarse = image::RgbaImage::from_fn(width, height, |x, y| *image.get_pixel(x / 4 * 4, y / 4 * 4));
+    let corners = (0..height / 4).flat_map(|y| (0..width / 4).map(move |x| (4 * x, 4 * y)));
+    let colours: Vec<[u8; 4]> = corners.map(|(x, y)| coarse.get_pixel(x, y).0).collect();
+    (coarse.into(), ktx2_uastc(width, height, &colours))
+}
+
+#[test]
+fn ktx2_of_uastc_opens_with_the_values_that_it_codes() {
+    let folder = tempdir().unwrap();
+    let (image, ktx2) = blocks();
+    save(folder.path(), "m.png", &image, ImageFormat::Png);
+    let ktx2 = put(folder.path(), "m.ktx2", &ktx2);
+    let options = ReadOptions { order: Some(Order::NDRS), ..ReadOptions::AUTO };
+    let [png, ktx2] = [folder.path().join("m.png"), ktx2].map(|path| open_as(&path, &options));
+    assert_eq!(png.material, ktx2.material);
+    // The comparison can fail.
+    let (_, mut damaged) = blocks();
+    let last = damaged.len() - 16;
+    damaged[last] = 23;
+    damaged[last + 1] ^= 0xff;
+    let damaged = open_as(&put(folder.path(), "m.ktx2", &damaged), &options);
+    assert_ne!(png.material, damaged.material);
+}
+
+#[test]
+fn ktx2_that_is_not_of_basis_universal_is_refused_by_its_format() {
+    let folder = tempdir().unwrap();
+    let (_, mut ktx2) = blocks();
+    ktx2[12..16].copy_from_slice(&146_u32.to_le_bytes());
+    let refused = refusal(&put(folder.path(), "m.ktx2", &ktx2));
+    assert!(refused.contains("Vulkan format 146"), "{refused}");
+}
+
+#[test]
+fn formats_that_are_not_read_are_refused_by_name() {
+    let folder = tempdir().unwrap();
+    for (begins, name) in [
+        (b"8BPS\0\x01\0\0\0\0\0\0".as_slice(), "Photoshop"),
+        (b"\0\0\0\x20ftypavif\0\0\0\0", "AVIF"),
+        (b"\xff\x0a\0\0\0\0\0\0", "JPEG XL"),
+        (b"GIF89a\x01\0\x01\0\0\0\0", "GIF"),
+    ] {
+        let refused = refusal(&put(folder.path(), "m.png", begins));
+        assert!(refused.contains(name) && refused.contains("TGA"), "{refused}");
+    }
+}
+
+#[test]
+fn a_map_in_a_format_that_is_not_read_is_an_error_and_named_unless_it_is_there_in_another() {
+    let folder = tempdir().unwrap();
+    folder_of(["normal.png", "diffuse.png", "roughness.png", "height.png"], folder.path(), |_, v| v);
+    let metal = put(folder.path(), "metalness.psd", b"8BPS\0\x01\0\0\0\0\0\0");
+    let refused = refusal(folder.path());
+    assert!(refused.contains("metalness.psd") && refused.contains("Photoshop"), "{refused}");
+    save(folder.path(), "metalness.tga", &picture(SIDE, SIDE, |_, _| [1.0; 3]), ImageFormat::Tga);
+    let texel = open(folder.path()).material.texel(3);
+    assert_eq!(texel.diffuse, [0.0; 3]);
+    std::fs::remove_file(metal).unwrap();
+    // A height map is no map of a material, in any format.
+    put(folder.path(), "displacement.psd", b"8BPS");
+    assert_eq!(open(folder.path()).material.texel(3), texel);
+}
