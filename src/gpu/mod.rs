@@ -25,7 +25,7 @@ pub mod uniforms;
 
 pub use adapter::AdapterReport;
 pub use context::Gpu;
-pub use display::{Display, DisplayMode, DisplayParams, Encoding, Pane};
+pub use display::{Display, DisplayMode, DisplayParams, DisplayedDifference, Encoding, Pane};
 pub use loss::Losses;
 pub use shading::{ShadeParams, Shaded, Shading};
 pub use textures::MaterialTextures;

@@ -2,6 +2,8 @@
 
 pub mod camera;
 pub mod colour_map;
+pub mod difference;
 pub mod export;
 pub mod quantity;
+pub mod statistics;
 pub mod tone;

@@ -7,6 +7,7 @@ use eframe::egui;
 use eframe::egui::util::undoer::{self, Undoer};
 
 use super::command::{Command, LossCommand, MaterialsCommand, WindowCommand};
+use super::difference_run::DifferenceRun;
 use super::gpu_view::GpuView;
 use super::loaded::Rules;
 use super::loss_request::LossRequest;
@@ -26,6 +27,7 @@ use super::{keys, theme};
 use crate::files::read::ReadOptions;
 use crate::loss::Loss;
 use crate::material::Material;
+use crate::picture::statistics::Statistics;
 use crate::study::Study;
 
 /// The viewer. Only [`Command`]s change it.
@@ -39,6 +41,7 @@ pub struct App {
     pub(super) undoer: Undoer<ViewState>,
     pub(super) loss: LossRun,
     pub(super) study: StudyRun,
+    pub(super) difference: DifferenceRun,
     pub(super) study_window: bool,
     pub(super) gpu: Option<GpuView>,
     pub(super) viewport: Viewport,
@@ -80,6 +83,7 @@ impl App {
             undoer: Undoer::with_settings(undo),
             loss: LossRun::default(),
             study: StudyRun::default(),
+            difference: DifferenceRun::default(),
             study_window: false,
             gpu,
             viewport: Viewport::default(),
@@ -125,6 +129,18 @@ impl App {
         let (study, current) =
             self.study.measured(&self.slots, self.state.prediction, &self.state.convention())?;
         current.then_some((study, self.study.task().is_none()))
+    }
+
+    /// The statistics of each prediction's difference in the panes, once they are those of the current scene.
+    pub fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {
+        let distributions = self.difference.distributions(&self.slots, &self.state)?;
+        let current = self.difference.is_current(&self.slots, &self.state);
+        current.then_some(distributions.statistics.as_slice())
+    }
+
+    /// The difference that has the last colour.
+    pub fn difference_range(&self) -> f64 {
+        self.difference.range(&self.slots, &self.state)
     }
 
     /// The names of the materials, the ground truth first.
@@ -192,9 +208,13 @@ impl App {
             let stale = self.watch.poll(ctx, &self.slots);
             let gpu = self.gpu.as_ref().map(|g| &g.gpu);
             self.slots.reload(ctx, gpu, Some(&stale));
+        } else {
+            self.watch.stop();
         }
         self.loss.follow(ctx, &self.slots, &self.loss_request(), self.settings.auto_loss);
         self.loss.poll(ctx);
+        let error = self.difference.follow(ctx, &self.slots, &self.state);
+        self.report(error.map(Message::Failed));
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
@@ -205,7 +225,11 @@ impl App {
             _ if self.study_window => LossCommand::ShowStudy(false).into(),
             _ => LossCommand::Cancel.into(),
         };
-        let now = keys::Context { enter_is_free: ctx.memory(|m| m.focused()).is_none(), escape: &escape };
+        let now = keys::Context {
+            enter_is_free: ctx.memory(|m| m.focused()).is_none(),
+            escape: &escape,
+            difference: self.state.difference,
+        };
         keys::commands(ctx, now)
     }
 

@@ -10,7 +10,6 @@ mod gestures;
 mod gpu_view;
 mod handles;
 pub mod keys;
-pub mod legend;
 mod loaded;
 mod loss_request;
 mod loss_run;
@@ -19,6 +18,8 @@ mod options;
 mod panels;
 mod panes;
 
+mod difference_run;
+mod differences;
 mod draw;
 mod sampling;
 mod save;
