@@ -12,7 +12,7 @@ use divan::counter::ItemsCount;
 use svbrdf::gpu::{
     DisplayMode, DisplayParams, Encoding, Gpu, Losses, MaterialTextures, ShadeParams, Shaded, Shading,
 };
-use svbrdf::loss::{LossParams, losses_f32};
+use svbrdf::loss::{Comparison, Request, Sampling};
 use svbrdf::material::Material;
 use svbrdf::math::vec3::Vec3;
 use svbrdf::model::convention::PRINTED;
@@ -144,13 +144,18 @@ fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
 fn loss(bencher: divan::Bencher<'_, '_>, side: usize) {
     let gpu = support::gpu().expect("there is an adapter");
     let losses = Losses::new(gpu).expect("compiled");
-    let scenes = LossParams::default().scenes().expect("there are scenes");
+    let (sampling, progress) = (Sampling::default(), Progress::default());
+    let scenes = sampling.near + sampling.distant;
     let (ground_truth, prediction) = (support::bumpy(side, side), flipped(side));
-    let progress = Progress::default();
-    let on_cpu = losses_f32(&ground_truth, &[&prediction], &scenes, &PRINTED, &progress).expect("computed");
-    bencher.counter(ItemsCount::new(side * side * scenes.len())).bench_local(|| {
-        let on_gpu = losses.compute(gpu, &ground_truth, &[&prediction], &scenes, &PRINTED, &progress);
-        assert_close(on_gpu.expect("computed")[0].estimate.mean, on_cpu[0].estimate.mean);
+    let on_cpu = Comparison::new(&ground_truth, &[&prediction], PRINTED).expect("of one size");
+    let on_gpu = on_cpu.clone().on(&losses);
+    let run = |comparison: &Comparison<'_, f32>| {
+        let outcome = comparison.run(&Request::Scenes(sampling), &progress).expect("computed");
+        outcome.losses[0].estimate.mean
+    };
+    let expected = run(&on_cpu);
+    bencher.counter(ItemsCount::new(side * side * scenes)).bench_local(|| {
+        assert_close(run(&on_gpu), expected);
     });
 }
 

@@ -9,8 +9,7 @@ use std::time::Instant;
 use divan::counter::ItemsCount;
 use fearless_simd::{Simd, dispatch, prelude::*};
 use svbrdf::image::Image;
-use svbrdf::loss::fused::losses_at;
-use svbrdf::loss::{Draw, LossParams, Texels, losses, losses_f32, losses_of_f32};
+use svbrdf::loss::{Backend, Comparison, Fused, Plain, Request, Sampling, Texels};
 use svbrdf::material::{Material, Planes};
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::sampler::Sampler;
@@ -24,6 +23,8 @@ use svbrdf::samples;
 const FLOPS_PER_PP: f64 = 156.0;
 /// Most that the fused loss may be off the plain one in f32, whose own error is 1e-7.
 const TOLERANCE: f64 = 1e-6;
+/// The fused loss at the best instruction set.
+const FUSED: Fused = Fused { level: None };
 /// Seconds that each row of the table takes, at least.
 const PATIENCE: f64 = 0.5;
 
@@ -73,7 +74,7 @@ fn rendering_rows() {
         let (got, want) = (sum(image(false)), sum(image(true)));
         assert!((got - want).abs() <= TOLERANCE * want, "{got}, not {want}");
         let [gt, prediction] = &job.materials;
-        let loss = || mean(losses_f32(gt, &[prediction], &[scene], &PRINTED, &Progress::default()));
+        let loss = || loss(&FUSED, [gt, prediction], &Request::Listed(vec![scene]));
         let first = loss();
         let loss = fastest(|| assert_eq!(loss(), first));
         println!(
@@ -97,14 +98,16 @@ fn loading_row() {
 
 /// Losses of many scenes on few texels of their own, whose time should not depend on the size of the maps.
 fn sampled_rows() {
-    let draw = Draw { sampler: Sampler::Sobol, seed: 0, texels: Texels::Sampled(128) };
-    let scenes = draw.sampler.scenes(draw.seed, 512, 256, &PRINTED);
+    let request = Request::Scenes(Sampling {
+        near: 512,
+        distant: 256,
+        seed: 0,
+        sampler: Sampler::Sobol,
+        texels: Texels::Sampled(128),
+    });
     for size in [256, 1024, 4096] {
         let [gt, prediction] = [1, 2].map(|seed| material(seed, size));
-        let loss = || {
-            let (scenes, progress) = (&scenes, Progress::default());
-            mean(draw.losses(losses_of_f32, &gt, &[&prediction], scenes, &PRINTED, &progress))
-        };
+        let loss = || loss(&FUSED, [&gt, &prediction], &request);
         let first = loss();
         println!(
             "512 + 256 scenes, each on 128 texels of its own, of {size}^2, {} threads: {:.2} ms",
@@ -119,12 +122,11 @@ fn sizes(threads: usize) {
     println!("\n| texels | ns/pp, {threads} threads | planes, MiB | most memory, MiB |\n|---|---|---|---|");
     for size in [256, 512, 1024, 2048, 4096, 8192] {
         let materials = [1, 2].map(|seed| material(seed, size));
-        let scenes = LossParams::default().scenes().unwrap_or_default();
         let [gt, prediction] = &materials;
-        let loss = || mean(losses_f32(gt, &[prediction], &scenes, &PRINTED, &Progress::default()));
+        let loss = || loss(&FUSED, [gt, prediction], &Request::default());
         let first = loss();
         let best = on(threads, || fastest(|| assert_eq!(loss(), first)));
-        let per_pp = 1e9 * best / (size * size * scenes.len()) as f64;
+        let per_pp = 1e9 * best / (size * size * 9) as f64;
         let planes = (2 * 10 * 4 * size * size) >> 20;
         println!(
             "| {size}^2 | {per_pp:.2} | {planes} | {} |",
@@ -176,9 +178,9 @@ struct Job {
 impl Job {
     fn new(size: usize, near: usize, distant: usize) -> Self {
         let materials = [1, 2].map(|seed| material(seed, size));
-        let params = LossParams { near, distant, ..LossParams::default() };
+        let sampling = Sampling { near, distant, ..Sampling::default() };
         #[expect(clippy::expect_used, reason = "a benchmark may panic")]
-        let scenes = params.scenes().expect("there are scenes");
+        let scenes = sampling.scenes(&PRINTED).expect("there are scenes");
         let mut job = Self { size, materials, near, scenes, expected: 0.0 };
         job.expected = job.plain();
         job
@@ -190,13 +192,15 @@ impl Job {
     }
 
     fn plain(&self) -> f64 {
-        let [gt, prediction] = &self.materials;
-        mean(losses::<f32>(gt, &[prediction], &self.scenes, &PRINTED, &Progress::default()))
+        self.loss(&Plain)
     }
 
     fn fused(&self, level: Level) -> f64 {
-        let [gt, prediction] = &self.materials;
-        mean(losses_at(level, gt, &[prediction], &self.scenes, &PRINTED, &Progress::default()))
+        self.loss(&Fused { level: Some(level) })
+    }
+
+    fn loss(&self, backend: &dyn Backend<f32>) -> f64 {
+        loss(backend, self.materials.each_ref(), &Request::Listed(self.scenes.clone()))
     }
 
     /// Measures and prints one row of the table.
@@ -228,8 +232,11 @@ impl Job {
 }
 
 #[expect(clippy::expect_used, reason = "a benchmark may panic")]
-fn mean(losses: Result<Vec<svbrdf::loss::Loss>, svbrdf::error::Error>) -> f64 {
-    losses.expect("the loss can be computed")[0].estimate.mean
+fn loss(backend: &dyn Backend<f32>, materials: [&Material<f32>; 2], request: &Request) -> f64 {
+    let [ground_truth, prediction] = materials;
+    let comparison = Comparison::new(ground_truth, &[prediction], PRINTED).expect("of one size").on(backend);
+    let outcome = comparison.run(request, &Progress::default()).expect("the loss can be computed");
+    outcome.losses[0].estimate.mean
 }
 
 fn seconds(work: impl FnOnce()) -> f64 {
@@ -292,9 +299,8 @@ fn multiply_add<S: Simd>(simd: S) -> usize {
 #[divan::bench(args = [64, 256, 1024])]
 fn fused(bencher: divan::Bencher<'_, '_>, size: usize) {
     let job = Job::new(size, 6, 3);
-    let [gt, prediction] = &job.materials;
     bencher.counter(ItemsCount::new(job.pp())).bench_local(|| {
-        job.assert(mean(losses_f32(gt, &[prediction], &job.scenes, &PRINTED, &Progress::default())));
+        job.assert(job.loss(&FUSED));
     });
 }
 

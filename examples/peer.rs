@@ -6,7 +6,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use svbrdf::loss::losses_f32;
+use svbrdf::loss::{Comparison, Request};
 use svbrdf::material::{Material, Planes};
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::Scene;
@@ -33,8 +33,10 @@ fn main() -> Result<(), Failure> {
 
 /// Seconds of the second call, as the peers are timed.
 fn second_call(gt: &Material<f32>, prediction: &Material<f32>, scenes: &[Scene]) -> Result<f64, Failure> {
-    let loss = || losses_f32(gt, &[prediction], scenes, &PRINTED, &Progress::default());
-    eprintln!("loss {:.9}", loss()?[0].estimate.mean);
+    let comparison = Comparison::new(gt, &[prediction], PRINTED)?;
+    let request = Request::Listed(scenes.to_vec());
+    let loss = || comparison.run(&request, &Progress::default());
+    eprintln!("loss {:.9}", loss()?.losses[0].estimate.mean);
     let start = Instant::now();
     loss()?;
     Ok(start.elapsed().as_secs_f64())

@@ -68,6 +68,13 @@ pub enum Error {
     #[error("unknown {what} `{found}`; use one of: {known}")]
     UnknownName { what: &'static str, found: String, known: String },
 
+    /// A loss over no scenes, or over too many.
+    #[error(
+        "a loss needs at least one scene and at most {most}, found {count}; ask for another number of near-field or \
+        distant scenes"
+    )]
+    SceneCount { count: usize, most: usize },
+
     /// A value of an option or a combination of options that makes no sense.
     #[error("{0}")]
     Usage(String),

@@ -5,18 +5,16 @@
 //! sampled scenes (Algorithms 1 and 2):
 //!
 //! ```
-//! use svbrdf::loss::{self, LossParams};
+//! use svbrdf::loss::{Comparison, Request};
+//! use svbrdf::model::convention::Convention;
 //! use svbrdf::progress::Progress;
 //! use svbrdf::samples;
 //!
 //! let built_in = samples::load::<f32>()?;
-//! let params = LossParams::default();
-//! let scenes = params.scenes()?;
 //! let prediction = &built_in.predictions[0].material;
-//! let ground_truth = &built_in.ground_truth.material;
-//! let losses =
-//!     loss::losses_f32(ground_truth, &[prediction], &scenes, &params.convention, &Progress::default())?;
-//! let estimate = &losses[0].estimate;
+//! let comparison = Comparison::new(&built_in.ground_truth.material, &[prediction], Convention::default())?;
+//! let outcome = comparison.run(&Request::default(), &Progress::default())?;
+//! let estimate = &outcome.losses[0].estimate;
 //! assert!((estimate.mean - 0.3712).abs() < 1e-4);
 //! assert!(estimate.standard_error.is_some_and(|error| error < 0.05));
 //! # Ok::<(), svbrdf::error::Error>(())
@@ -32,7 +30,7 @@
 //! | [`model::scene`] | Algorithm 2 and the scenes of Algorithm 1, functions of a point of the unit cube |
 //! | [`model::sampler`] | where the points of the unit cube come from: random, or scrambled Sobol sequences |
 //! | [`render`] | Algorithm 3 over a whole material |
-//! | [`loss`] | Algorithm 1: plain and generic, and fused for f32; standard errors |
+//! | [`loss`] | Algorithm 1: one `Comparison`, one `Request`, one `Outcome` with its errors; plain and fused |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`picture::tone`], [`picture::colour_map`], [`picture::export`] | what a screen shows, of radiance and of differences; pictures as PNG and EXR files |
 //! | [`picture::camera`], [`picture::quantity`] | where in a pane the material is seen; rendering or which map |

@@ -7,8 +7,7 @@ use std::ops::RangeInclusive;
 use std::path::Path;
 
 use svbrdf::files::read::{Albedo, ReadOptions, read};
-use svbrdf::loss::adaptive::{self, Goal};
-use svbrdf::loss::{Draw, Estimate, Loss, Texels, losses_of_f32};
+use svbrdf::loss::{Comparison, Compute, Estimate, Loss, Outcome, Request, Sampling, TEXELS, Texels};
 use svbrdf::material::{Material, Planes};
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::sampler::Sampler;
@@ -59,32 +58,36 @@ impl Pair {
     fn new(ground_truth: &Material<f32>, prediction: &Material<f32>, step: usize, log_points: u32) -> Self {
         let [ground_truth, prediction] = [ground_truth, prediction].map(|m| thinned(m, step));
         let mut pair = Self { ground_truth, prediction, reference: 0.0 };
-        let draw = Draw { sampler: Sampler::Sobol, seed: 1 << 40, texels: Texels::All };
-        pair.reference = pair.loss(draw, [16 << log_points, 8 << log_points]).estimate.mean;
+        let (near, distant) = (16 << log_points, 8 << log_points);
+        let sampling =
+            Sampling { near, distant, seed: 1 << 40, sampler: Sampler::Sobol, texels: Texels::All };
+        pair.reference = pair.loss(sampling).estimate.mean;
         pair
     }
 
-    fn loss(&self, draw: Draw, [near, distant]: [usize; 2]) -> Loss {
-        let scenes = draw.sampler.scenes(draw.seed, near, distant, &PRINTED);
-        let (gt, progress) = (&self.ground_truth, Progress::default());
-        draw.losses(losses_of_f32, gt, &[&self.prediction], &scenes, &PRINTED, &progress).unwrap().remove(0)
+    fn comparison(&self) -> Comparison<'_, f32> {
+        Comparison::new(&self.ground_truth, &[&self.prediction], PRINTED).unwrap()
+    }
+
+    fn loss(&self, sampling: Sampling) -> Loss {
+        let request = Request::Scenes(sampling);
+        self.comparison().run(&request, &Progress::default()).unwrap().losses.remove(0)
     }
 
     fn fixed(&self, sampler: Sampler, texels: Texels, count: usize) -> impl Fn(u64) -> (Estimate, usize) {
         move |seed| {
-            let draw = Draw { sampler, seed, texels };
-            (self.loss(draw, [count / 3 * 2, count / 3]).estimate, count)
+            let (near, distant) = (count / 3 * 2, count / 3);
+            (self.loss(Sampling { near, distant, seed, sampler, texels }).estimate, count)
         }
     }
 
-    fn adaptive(&self, goal: Goal) -> impl Fn(u64) -> (Estimate, usize) {
+    fn adaptive(&self, target: f64) -> impl Fn(u64) -> (Estimate, usize) {
         move |seed| {
-            let (gt, progress, mut scenes) = (&self.ground_truth, Progress::default(), 0);
-            let count = |reached: &adaptive::Reached| scenes += reached.scenes.len();
-            let predictions = [&self.prediction];
-            let reached =
-                adaptive::losses(losses_of_f32, gt, &predictions, seed, &PRINTED, goal, &progress, count);
-            (reached.unwrap().losses[0].estimate, scenes)
+            let mut scenes = 0;
+            let count = |outcome: &Outcome| scenes += outcome.scenes.len();
+            let request = Request::Accuracy { target, seed };
+            let outcome = self.comparison().stream(&request, &Progress::default(), count);
+            (outcome.unwrap().losses[0].estimate, scenes)
         }
     }
 
@@ -154,10 +157,9 @@ fn a_biased_choice_of_texels_is_seen() {
     let scenes = |seed| Sampler::Sobol.scenes(seed, 320, 160, &PRINTED);
     let texels: Vec<usize> = (0..8).collect();
     let seen = pair.seen(100, |seed| {
-        let (gt, scenes, progress) = (&pair.ground_truth, scenes(seed), Progress::default());
-        let losses =
-            losses_of_f32(gt, &[&pair.prediction], Some(&texels), &scenes, &PRINTED, &progress).unwrap();
-        (losses[0].clone().sampled_by(Sampler::Sobol, &scenes).estimate, 480)
+        let (scenes, progress) = (scenes(seed), Progress::default());
+        let losses = f32::cpu().scene_losses(&pair.comparison(), &scenes, Some(&texels), &progress).unwrap();
+        (Estimate::of_sampled(Sampler::Sobol, &scenes, &losses[0]), 480)
     });
     assert!(seen.bias.abs() > 4.0 * seen.bias_error && seen.coverage < 90.0, "{seen:?}");
 }
@@ -174,7 +176,7 @@ fn sobol_scenes_have_less_error_than_random_ones() {
 #[test]
 fn an_adaptive_loss_keeps_its_promise() {
     let pair = &built_in(8, 7)[0];
-    let seen = pair.seen(400, pair.adaptive(Goal::RelativeError(0.05)));
+    let seen = pair.seen(400, pair.adaptive(0.05));
     println!("{seen:?}");
     // Three standard errors of 400 seeds.
     assert!((95.0 - seen.coverage).abs() <= 1.5 + 3.3 && seen.half_width <= 5.0, "{seen:?}");
@@ -222,7 +224,7 @@ fn coverage_of_some_texels() {
     let mut table = Table::default();
     for pair in built_in(1, 11).into_iter().chain(golden(1, 11)) {
         for sampler in [Sampler::Random, Sampler::Sobol] {
-            let texels = Texels::Sampled(adaptive::TEXELS);
+            let texels = Texels::Sampled(TEXELS);
             for count in [27, 90, 900] {
                 let seen = pair.seen(2_000, pair.fixed(sampler, texels, count));
                 let what = format!("{sampler} {count}, {texels} texels of 256 x 256");
@@ -239,9 +241,8 @@ fn coverage_of_adaptive_losses() {
     let mut table = Table::default();
     for pair in built_in(1, 11).into_iter().chain(golden(1, 11)) {
         for target in [0.03, 0.01] {
-            let goal = Goal::RelativeError(target);
-            let seen = pair.seen(2_000, pair.adaptive(goal));
-            table.note(&pair, &format!("{goal:?}"), PROMISED, seen);
+            let seen = pair.seen(2_000, pair.adaptive(target));
+            table.note(&pair, &format!("accuracy {target}"), PROMISED, seen);
         }
     }
     table.check();

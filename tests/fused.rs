@@ -7,8 +7,7 @@ mod golden;
 mod pictures;
 
 use svbrdf::error::Error;
-use svbrdf::loss::fused::{losses_at, losses_of_at};
-use svbrdf::loss::{self, LossParams, losses_f32, losses_of};
+use svbrdf::loss::{Backend, Comparison, Fused, Plain, Request, Sampling};
 use svbrdf::material::{Material, Planes};
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::{self, Convention};
@@ -16,6 +15,7 @@ use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::progress::Progress;
 use svbrdf::render::simd::Level;
 
+use crate::support::losses::losses;
 use crate::support::tolerance;
 
 /// Numbers in [0, 1), always the same ones (xorshift).
@@ -59,7 +59,7 @@ fn uniform(normal: [f32; 3], roughness: f32, diffuse: f32, specular: f32, size: 
 }
 
 fn scenes(near: usize, distant: usize, convention: &Convention) -> Vec<Scene> {
-    LossParams { near, distant, seed: 7, convention: *convention, ..LossParams::default() }.scenes().unwrap()
+    Sampling { near, distant, seed: 7, ..Sampling::default() }.scenes(convention).unwrap()
 }
 
 /// The instruction sets to test; says which ones are missing.
@@ -73,6 +73,11 @@ fn levels() -> Vec<(&'static str, Level)> {
     all.into_iter().filter_map(|(name, level)| Some((name, level?))).collect()
 }
 
+/// The fused loss with one instruction set.
+fn at(level: Level) -> Fused {
+    Fused { level: Some(level) }
+}
+
 /// (mean, per scene) of the fused loss.
 fn fused(
     level: Level,
@@ -81,7 +86,7 @@ fn fused(
     scenes: &[Scene],
     c: &Convention,
 ) -> (f64, Vec<f64>) {
-    let loss = losses_at(level, gt, &[prediction], scenes, c, &Progress::default()).unwrap().remove(0);
+    let loss = losses(&at(level), gt, &[prediction], scenes, c).unwrap().remove(0);
     (loss.estimate.mean, loss.per_scene)
 }
 
@@ -92,9 +97,7 @@ fn plain(
     scenes: &[Scene],
     c: &Convention,
 ) -> (f64, Vec<f64>) {
-    let loss = loss::losses::<f64>(&gt.cast(), &[&prediction.cast()], scenes, c, &Progress::default())
-        .unwrap()
-        .remove(0);
+    let loss = losses::<f64>(&Plain, &gt.cast(), &[&prediction.cast()], scenes, c).unwrap().remove(0);
     (loss.estimate.mean, loss.per_scene)
 }
 
@@ -194,7 +197,7 @@ fn batches_change_no_bit() {
     let scenes = scenes(70, 20, c);
     for (name, level) in levels() {
         let all: Vec<_> = predictions.iter().collect();
-        let together = losses_at(level, &gt, &all, &scenes, c, &Progress::default()).unwrap();
+        let together = losses(&at(level), &gt, &all, &scenes, c).unwrap();
         for (prediction, together) in predictions.iter().zip(&together) {
             let alone = fused(level, &gt, prediction, &scenes, c).1;
             assert_eq!(together.per_scene, alone, "{name}: predictions together and alone");
@@ -213,13 +216,14 @@ fn some_texels_are_a_part_of_all() {
     let all: Vec<usize> = (0..67 * 41).collect();
     // Out of order, one twice, no multiple of a vector.
     let some: Vec<usize> = (0..200).map(|i| i * 1009 % (67 * 41)).chain([5, 5, 2746]).collect();
-    let want =
-        losses_of::<f64>(&gt.cast(), &[&prediction.cast()], Some(&some), &scenes, c, &progress).unwrap();
-    let want = (want[0].estimate.mean, want[0].per_scene.clone());
+    let mean = |per_scene: Vec<f64>| (per_scene.iter().sum::<f64>() / per_scene.len() as f64, per_scene);
+    let [exact_gt, exact_prediction]: [Material<f64>; 2] = [gt.cast(), prediction.cast()];
+    let exact = Comparison::new(&exact_gt, &[&exact_prediction], *c).unwrap();
+    let want = mean(Plain.scene_losses(&exact, &scenes, Some(&some), &progress).unwrap().remove(0));
     for (name, level) in levels() {
         let of = |texels: &[usize]| {
-            let loss = losses_of_at(level, &gt, &[&prediction], Some(texels), &scenes, c, &progress).unwrap();
-            (loss[0].estimate.mean, loss[0].per_scene.clone())
+            let comparison = Comparison::new(&gt, &[&prediction], *c).unwrap();
+            mean(at(level).scene_losses(&comparison, &scenes, Some(texels), &progress).unwrap().remove(0))
         };
         assert_eq!(of(&all), fused(level, &gt, &prediction, &scenes, c), "{name}: all of them listed");
         compare(&of(&some), &want, BOUNDS).unwrap();
@@ -264,10 +268,13 @@ fn what_cannot_be_computed_is_an_error() {
     let c = &convention::PRINTED;
     let (gt, other) = (random(17, [4, 4], 0.1, 0.1), random(18, [4, 5], 0.1, 0.1));
     let progress = Progress::default();
-    let sizes = losses_f32(&gt, &[&other], &scenes(1, 1, c), c, &progress);
-    assert!(matches!(sizes, Err(Error::SizesDiffer { .. })));
-    assert!(matches!(losses_f32(&gt, &[&gt], &[], c, &progress), Err(Error::Usage(_))));
-    assert_eq!(losses_f32(&gt, &[], &scenes(1, 1, c), c, &progress).unwrap(), []);
+    assert!(matches!(Comparison::new(&gt, &[&other], *c), Err(Error::SizesDiffer { .. })));
+    let listed = Request::Listed(scenes(1, 1, c));
+    let run = |predictions: &[_], request: &_| {
+        Comparison::new(&gt, predictions, *c).unwrap().run(request, &progress).map(|outcome| outcome.losses)
+    };
+    assert!(matches!(run(&[&gt], &Request::Listed(Vec::new())), Err(Error::SceneCount { count: 0, .. })));
+    assert_eq!(run(&[], &listed).unwrap(), []);
     progress.cancel();
-    assert!(matches!(losses_f32(&gt, &[&gt], &scenes(1, 1, c), c, &progress), Err(Error::Cancelled)));
+    assert!(matches!(run(&[&gt], &listed), Err(Error::Cancelled)));
 }

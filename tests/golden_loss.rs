@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use svbrdf::files::read::{ReadOptions, read};
-use svbrdf::loss::losses;
+use svbrdf::loss::{Compute, Plain};
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;
 use svbrdf::model::convention::{ALL, Convention};
@@ -13,6 +13,7 @@ use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
 use svbrdf::render::render;
 
+use crate::support::losses::losses;
 use crate::support::tolerance::{GOLDEN_LOSS_F32, GOLDEN_LOSS_F64, GOLDEN_PROBE_F32, GOLDEN_PROBE_F64};
 
 /// The worst relative errors: of losses and mean renderings, and of single texels.
@@ -58,7 +59,7 @@ pub fn cases() -> Vec<Value> {
     cases
 }
 
-fn check_all<T: Real>() -> Worst {
+fn check_all<T: Compute>() -> Worst {
     let mut worst = Worst { loss: 0.0, probe: 0.0 };
     for case in cases() {
         check_case::<T>(&case, &mut worst);
@@ -67,14 +68,13 @@ fn check_all<T: Real>() -> Worst {
     worst
 }
 
-fn check_case<T: Real>(case: &Value, worst: &mut Worst) {
+fn check_case<T: Compute>(case: &Value, worst: &mut Worst) {
     let materials = ["ground_truth", "prediction"].map(|key| material::<T>(&case[key]));
     let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).unwrap();
     for convention in ALL {
         let expected = &case["expected"][convention.name];
         let [ground_truth, prediction] = &materials;
-        let loss =
-            &losses(ground_truth, &[prediction], &scenes, &convention, &Progress::default()).unwrap()[0];
+        let loss = &losses(&Plain, ground_truth, &[prediction], &scenes, &convention).unwrap()[0];
         let mut compare = |got: f64, expected: &Value| {
             worst.loss = worst.loss.max(relative_error(got, expected.as_f64().unwrap()));
         };

@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::ThreadPoolBuilder;
-use svbrdf::loss::{Loss, losses};
+use svbrdf::loss::{Compute, Loss, Plain};
 use svbrdf::material::{Material, Planes};
 use svbrdf::math::real::Real;
 use svbrdf::math::vec3::Vec3;
@@ -13,6 +13,7 @@ use svbrdf::model::scene::{Kind, Scene, sample};
 use svbrdf::progress::Progress;
 use svbrdf::render::render;
 
+use crate::support::losses::losses;
 use crate::support::tolerance::{LOSS_SUM_F64, RECIPROCITY};
 
 /// Random numbers that are the same in every run.
@@ -55,12 +56,12 @@ impl Random {
     }
 }
 
-fn losses_of<T: Real>(ground_truth: &Material<T>, predictions: &[&Material<T>]) -> Vec<Loss> {
+fn losses_of<T: Compute>(ground_truth: &Material<T>, predictions: &[&Material<T>]) -> Vec<Loss> {
     let scenes = sample(7, 4, 2, &PRINTED);
-    losses(ground_truth, predictions, &scenes, &PRINTED, &Progress::default()).unwrap()
+    losses(&Plain, ground_truth, predictions, &scenes, &PRINTED).unwrap()
 }
 
-fn loss_of<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) -> f64 {
+fn loss_of<T: Compute>(ground_truth: &Material<T>, prediction: &Material<T>) -> f64 {
     losses_of(ground_truth, &[prediction])[0].estimate.mean
 }
 
@@ -226,7 +227,7 @@ fn odd_sizes_have_the_loss_of_their_texels() {
             image.pixels.into_iter().flatten().map(|r| (r + PRINTED.epsilon).ln()).collect::<Vec<_>>()
         };
         let sum: f64 = log(&x).into_iter().zip(log(&y)).map(|(a, b)| (a - b).abs()).sum();
-        let got = &losses(&x, &[&y], &[scene], &PRINTED, &Progress::default()).unwrap()[0];
+        let got = &losses(&Plain, &x, &[&y], &[scene], &PRINTED).unwrap()[0];
         let expected = sum / (3 * width * height) as f64;
         assert!((got.estimate.mean - expected).abs() <= LOSS_SUM_F64 * expected, "{width} x {height}");
     }

@@ -6,7 +6,7 @@ use svbrdf::error::Error;
 use svbrdf::files::read;
 use svbrdf::files::read::Preset;
 use svbrdf::files::write::{self, Depth, Kind};
-use svbrdf::loss::{Draw, Texels, losses, losses_of};
+use svbrdf::loss::{Comparison, Plain, Request, Sampling};
 use svbrdf::material::Material;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::progress::Progress;
@@ -35,17 +35,11 @@ fn studied() -> &'static Study {
 
 /// The loss of `choice` over the scenes of a seed, by the plain f64 kernel.
 fn plain_loss([ground_truth, prediction]: &[Material<f32>; 2], choice: &Choice, seed: u64) -> f64 {
-    let scenes = choice.sampler.scenes(seed, choice.near(), choice.distant(), &PRINTED);
     let [ground_truth, prediction]: [Material<f64>; 2] = [ground_truth.cast(), prediction.cast()];
-    let draw = Draw { sampler: choice.sampler, seed, texels: choice.texels };
-    let (progress, predictions) = (Progress::default(), [&prediction]);
-    let losses = match choice.texels {
-        Texels::All => losses(&ground_truth, &predictions, &scenes, &PRINTED, &progress),
-        Texels::Sampled(_) => {
-            draw.losses(losses_of, &ground_truth, &predictions, &scenes, &PRINTED, &progress)
-        }
-    };
-    losses.unwrap()[0].estimate.mean
+    let Choice { sampler, texels, .. } = *choice;
+    let sampling = Sampling { near: choice.near(), distant: choice.distant(), seed, sampler, texels };
+    let comparison = Comparison::new(&ground_truth, &[&prediction], PRINTED).unwrap().on(&Plain);
+    comparison.run(&Request::Scenes(sampling), &Progress::default()).unwrap().losses[0].estimate.mean
 }
 
 fn point(study: &Study, family: Family, scenes: usize) -> Point {

@@ -3,11 +3,10 @@
 use std::time::{Duration, Instant};
 
 use svbrdf::error::Error;
-use svbrdf::loss::{Loss, losses_f32};
-use svbrdf::material::Material;
-use svbrdf::model::convention::Convention;
+use svbrdf::loss::{Backend, Comparison, Outcome, Request, Sampling, Texels};
 use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
+use svbrdf::report::Report;
 
 use super::bar::watched;
 use super::exit::tell;
@@ -29,48 +28,50 @@ pub enum Choice {
     Auto,
 }
 
-/// A loss to compute, except over which scenes.
-#[derive(Clone, Copy, Debug)]
-pub struct Job<'a, T> {
-    pub ground_truth: &'a Material<T>,
-    pub predictions: &'a [&'a Material<T>],
-    pub convention: &'a Convention,
-}
-
-/// The losses of `job` over `scenes`, and the name of what computed them.
+/// The report of `request`, computed on the chosen backend.
 ///
 /// # Errors
 /// Those of the loss, and [`Error::NoAdapter`] where the GPU is asked for and there is none.
-pub fn losses(
-    choice: Choice,
-    job: &Job<'_, f32>,
-    scenes: &[Scene],
-) -> Result<(Vec<Loss>, &'static str), Error> {
-    let gpu = match choice {
-        Choice::Cpu => None,
-        Choice::Gpu => Some(Adapter::start()?),
-        Choice::Auto => {
-            let (gpu, why) = faster(job, scenes)?;
+pub fn run(choice: Choice, comparison: Comparison<'_, f32>, request: &Request) -> Result<Report, Error> {
+    let gpu = match (choice, on_all_texels(&comparison, request)?) {
+        (Choice::Cpu, _) | (Choice::Auto, None) => None,
+        (Choice::Gpu, _) => Some(Adapter::start()?),
+        (Choice::Auto, Some(scenes)) => {
+            let (gpu, why) = faster(&comparison, &scenes)?;
             tell(&format!("note: computed on the {}: {why}", if gpu.is_some() { "GPU" } else { "CPU" }));
             gpu
         }
     };
-    watched("rendering", |progress| match gpu {
-        None => Ok((job.on_cpu(scenes, progress)?, "cpu")),
-        Some(gpu) => Ok((gpu.losses(job, scenes, progress)?, "gpu")),
-    })
+    let comparison = match &gpu {
+        Some(gpu) => comparison.on(gpu.backend()),
+        None => comparison,
+    };
+    let outcome = watched("rendering", |progress| comparison.run(request, progress))?;
+    Ok(Report::new(&comparison, outcome))
 }
 
-impl Job<'_, f32> {
-    fn on_cpu(&self, scenes: &[Scene], progress: &Progress) -> Result<Vec<Loss>, Error> {
-        losses_f32(self.ground_truth, self.predictions, scenes, self.convention, progress)
+/// The scenes of a request that is given and on all texels: an adapter can compute it.
+fn on_all_texels(comparison: &Comparison<'_, f32>, request: &Request) -> Result<Option<Vec<Scene>>, Error> {
+    match request {
+        Request::Listed(scenes) => Ok(Some(scenes.clone())),
+        Request::Scenes(sampling @ Sampling { texels: Texels::All, .. }) => {
+            sampling.scenes(comparison.convention()).map(Some)
+        }
+        _ => Ok(None),
     }
 }
 
-/// The adapter, if it is the faster for this job, and why or why not.
-fn faster(job: &Job<'_, f32>, scenes: &[Scene]) -> Result<(Option<Adapter>, String), Error> {
-    let unseen = Progress::default();
-    let on_cpu = predict(scenes.len(), LONG, timed(|n| job.on_cpu(&scenes[..n], &unseen)))?;
+/// The losses over the first `count` of `scenes`.
+fn over_first(
+    comparison: &Comparison<'_, f32>,
+    scenes: &[Scene],
+) -> impl Fn(usize) -> Result<Outcome, Error> {
+    |count| comparison.run(&Request::Listed(scenes[..count].to_vec()), &Progress::default())
+}
+
+/// The adapter, if it is the faster for this comparison, and why or why not.
+fn faster(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Result<(Option<Adapter>, String), Error> {
+    let on_cpu = predict(scenes.len(), LONG, timed(over_first(comparison, scenes)))?;
     if on_cpu < SHORT {
         return Ok((None, format!("about {on_cpu:.1?}, less than starting an adapter takes")));
     }
@@ -78,9 +79,10 @@ fn faster(job: &Job<'_, f32>, scenes: &[Scene]) -> Result<(Option<Adapter>, Stri
         Ok(gpu) => gpu,
         Err(problem) => return Ok((None, problem.to_string())),
     };
-    // What takes longer than the whole job on the CPU is not measured further.
+    // What takes longer than the whole loss on the CPU is not measured further.
     let long = LONG.min(on_cpu);
-    match predict(scenes.len(), long, timed(|n| gpu.losses(job, &scenes[..n], &unseen))) {
+    let compared = comparison.clone().on(gpu.backend());
+    match predict(scenes.len(), long, timed(over_first(&compared, scenes))) {
         Ok(on_gpu) => {
             let why = format!("measured, about {on_cpu:.1?} on the CPU and {on_gpu:.1?} on {}", gpu.name());
             Ok(((on_gpu < on_cpu).then_some(gpu), why))
@@ -118,30 +120,20 @@ fn predict(
 
 /// A graphics adapter that is ready to compute losses.
 #[cfg(feature = "gpu")]
-pub struct Adapter {
-    gpu: svbrdf::gpu::Gpu,
-    losses: svbrdf::gpu::Losses,
-}
+pub struct Adapter(svbrdf::gpu::Losses);
 
 #[cfg(feature = "gpu")]
 impl Adapter {
     pub fn start() -> Result<Self, Error> {
-        let gpu = svbrdf::gpu::Gpu::headless()?;
-        Ok(Self { losses: svbrdf::gpu::Losses::new(&gpu)?, gpu })
+        Ok(Self(svbrdf::gpu::Losses::new(&svbrdf::gpu::Gpu::headless()?)?))
     }
 
     pub fn name(&self) -> &str {
-        &self.gpu.report.name
+        self.0.adapter()
     }
 
-    pub fn losses(
-        &self,
-        job: &Job<'_, f32>,
-        scenes: &[Scene],
-        progress: &Progress,
-    ) -> Result<Vec<Loss>, Error> {
-        let Job { ground_truth, predictions, convention } = job;
-        self.losses.compute(&self.gpu, ground_truth, predictions, scenes, convention, progress)
+    pub fn backend(&self) -> &dyn Backend<f32> {
+        &self.0
     }
 }
 
@@ -162,7 +154,7 @@ impl Adapter {
         match *self {}
     }
 
-    pub fn losses(&self, _: &Job<'_, f32>, _: &[Scene], _: &Progress) -> Result<Vec<Loss>, Error> {
+    pub fn backend(&self) -> &dyn Backend<f32> {
         match *self {}
     }
 }

@@ -67,7 +67,7 @@ pub fn unwritable(source: io::Error) -> Error {
 fn code_of(error: &Error) -> u8 {
     match error {
         Error::NoWindow { .. } | Error::NoAdapter { .. } => NO_GRAPHICS,
-        Error::Usage(_) | Error::UnknownName { .. } => USAGE,
+        Error::Usage(_) | Error::SceneCount { .. } | Error::UnknownName { .. } => USAGE,
         Error::Cancelled => INTERRUPTED,
         _ => FAILED,
     }

@@ -4,15 +4,13 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use svbrdf::error::Error;
-use svbrdf::loss::adaptive::{self, Goal, Reached};
-use svbrdf::loss::{Draw, Loss, LossParams, Losses, Precision, Texels, losses, losses_of, losses_of_f32};
-use svbrdf::math::real::Real;
+use svbrdf::loss::{Comparison, Compute, Loss, Precision, Request, Sampling, Texels};
 use svbrdf::model::convention::Convention;
 use svbrdf::model::sampler::Sampler;
-use svbrdf::model::scene::{self, Scene};
+use svbrdf::model::scene;
 use svbrdf::report::Report;
 
-use super::backend::{self, Choice, Job};
+use super::backend::{self, Choice};
 use super::bar::watched;
 use super::report::{Format, Printed};
 use super::{exit, materials};
@@ -91,18 +89,16 @@ pub struct LossArgs {
 /// losses are printed with what is.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
     check_predictions(&args.materials)?;
-    check_backend(args)?;
-    let report = match (args.precision, args.backend) {
-        (Precision::F32, backend) => {
-            report(args, losses_of_f32, |job, scenes| backend::losses(backend, job, scenes))?
-        }
-        (Precision::F64, Choice::Gpu) => {
-            let problem = "graphics adapters compute in f32; leave out --backend gpu, or --precision f64";
-            return Err(Error::Usage(problem.to_owned()));
-        }
-        (Precision::F64, Choice::Cpu | Choice::Auto) => report(args, losses_of, in_f64)?,
+    let request = request(args)?;
+    check_backend(args, &request)?;
+    let report = match args.precision {
+        Precision::F32 => report(args, |comparison| backend::run(args.backend, comparison, &request))?,
+        Precision::F64 => report(args, |comparison: Comparison<'_, f64>| {
+            let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
+            Ok(Report::new(&comparison, outcome))
+        })?,
     };
-    let printed = Printed { missed: missed(args, &report), report, goal: goal(args), paths: paths(args) };
+    let printed = Printed { missed: missed(&request, &report), report, request, paths: paths(args) };
     exit::put(&args.format.write(&printed).map_err(exit::unwritable)?)?;
     match printed.missed {
         Some(missed) if args.materials.reading.both.strict => Err(missed),
@@ -115,13 +111,13 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
 }
 
 /// The accuracy that was asked for, where it is not reached.
-fn missed(args: &LossArgs, report: &Report) -> Option<Error> {
-    let goal = goal(args).filter(|goal| !goal.is_met_by(&report.losses));
-    let Some(Goal::RelativeError(target)) = goal else { return None };
+fn missed(request: &Request, report: &Report) -> Option<Error> {
+    let Request::Accuracy { target, .. } = *request else { return None };
     let error = |loss: &Loss| loss.estimate.relative_error95();
-    let worst = report.losses.iter().max_by(|a, b| error(a).total_cmp(&error(b)))?;
-    let (prediction, scenes) = (worst.prediction.clone(), report.scenes.len());
-    Some(Error::Inaccurate { prediction, reached: error(worst), target, scenes })
+    let worst = report.outcome.losses.iter().max_by(|a, b| error(a).total_cmp(&error(b)))?;
+    let (prediction, scenes) = (worst.prediction.clone(), report.outcome.scenes.len());
+    let reached = error(worst);
+    (reached > target).then_some(Error::Inaccurate { prediction, reached, target, scenes })
 }
 
 /// The paths of the ground truth and of the predictions; none of the built-in ones.
@@ -130,69 +126,31 @@ fn paths(args: &LossArgs) -> Vec<String> {
     all.map(|path| path.display().to_string()).collect()
 }
 
-/// The plain loss, which the CPU alone can compute.
-fn in_f64(job: &Job<'_, f64>, scenes: &[Scene]) -> Result<(Vec<Loss>, &'static str), Error> {
-    let Job { ground_truth, predictions, convention } = *job;
-    let losses = watched("rendering", |p| losses(ground_truth, predictions, scenes, convention, p))?;
-    Ok((losses, "cpu"))
-}
-
-/// Opens what is compared and computes it: over given scenes with `over`, which also says on what, or over as many as
-/// are needed with `kernel` on the CPU.
-fn report<T: Real>(
+/// Opens what is compared in precision `T`, and computes it with `run`.
+fn report<T: Compute>(
     args: &LossArgs,
-    kernel: Losses<T>,
-    over: impl FnOnce(&Job<'_, T>, &[Scene]) -> Result<(Vec<Loss>, &'static str), Error>,
+    run: impl FnOnce(Comparison<'_, T>) -> Result<Report, Error>,
 ) -> Result<Report, Error> {
-    let scenes = if goal(args).is_some() { Vec::new() } else { scenes(args)? };
     let opened = materials::open::<T>(&args.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let (ground_truth, convention) = (&opened.ground_truth, &args.convention);
-    let (reached, backend) = match goal(args) {
-        None => {
-            let draw = Draw { sampler: args.sampler, seed: args.seed, texels: args.texels };
-            let (losses, backend) = match args.texels {
-                Texels::All => {
-                    let (losses, backend) =
-                        over(&Job { ground_truth, predictions: &predictions, convention }, &scenes)?;
-                    let sampled = |loss: Loss| loss.sampled_by(draw.sampler, &scenes);
-                    (losses.into_iter().map(sampled).collect(), backend)
-                }
-                Texels::Sampled(_) => {
-                    let run = |p: &_| draw.losses(kernel, ground_truth, &predictions, &scenes, convention, p);
-                    (watched("rendering", run)?, "cpu")
-                }
-            };
-            (Reached { draw, scenes, losses }, backend)
-        }
-        Some(goal) => {
-            let run = |p: &_| {
-                adaptive::losses(kernel, ground_truth, &predictions, args.seed, convention, goal, p, |_| ())
-            };
-            (watched("rendering", run)?, "cpu")
-        }
-    };
-    Ok(Report {
-        convention: args.convention,
-        ground_truth: opened.ground_truth.name().to_owned(),
-        size: opened.ground_truth.size(),
-        seed: args.scenes.is_none().then_some(reached.draw.seed),
-        precision: T::NAME,
-        backend,
-        sampler: args.scenes.is_none().then_some(reached.draw.sampler),
-        texels: reached.draw.texels,
-        scenes: reached.scenes,
-        losses: reached.losses,
-    })
+    run(Comparison::new(&opened.ground_truth, &predictions, args.convention)?)
 }
 
-/// A part of the texels is compared on the CPU alone.
-fn check_backend(args: &LossArgs) -> Result<(), Error> {
-    if args.backend != Choice::Gpu || args.texels == Texels::All && goal(args).is_none() {
-        return Ok(());
-    }
-    let problem = "graphics adapters compare all texels; leave out --backend gpu, or what chooses texels: \
-        --texels, --target-error or --time-budget";
+/// A graphics adapter compares all texels, in f32.
+fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
+    let problem = match (args.backend, args.precision, request) {
+        (Choice::Cpu | Choice::Auto, ..) => return Ok(()),
+        (Choice::Gpu, Precision::F64, _) => {
+            "graphics adapters compute in f32; leave out --backend gpu, or --precision f64"
+        }
+        (Choice::Gpu, _, Request::Listed(_) | Request::Scenes(Sampling { texels: Texels::All, .. })) => {
+            return Ok(());
+        }
+        _ => {
+            "graphics adapters compare all texels; leave out --backend gpu, or what chooses texels: \
+            --texels, --target-error or --time-budget"
+        }
+    };
     Err(Error::Usage(problem.to_owned()))
 }
 
@@ -206,26 +164,19 @@ fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
     }
 }
 
-fn scenes(args: &LossArgs) -> Result<Vec<Scene>, Error> {
-    match &args.scenes {
-        Some(path) => scene::read(path),
-        None => LossParams {
-            near: args.near,
-            distant: args.distant,
-            seed: args.seed,
-            convention: args.convention,
-            precision: args.precision,
-            sampler: args.sampler,
-            texels: args.texels,
+/// What is asked for.
+fn request(args: &LossArgs) -> Result<Request, Error> {
+    let LossArgs { near, distant, seed, sampler, texels, .. } = *args;
+    let sampling = Sampling { near, distant, seed, sampler, texels };
+    Ok(match (args.target_error, args.time_budget, &args.scenes) {
+        (Some(target), ..) => Request::Accuracy { target, seed },
+        (None, Some(budget), _) => Request::Time { budget, seed },
+        (None, None, Some(path)) => Request::Listed(scene::read(path)?),
+        (None, None, None) => {
+            sampling.check()?;
+            Request::Scenes(sampling)
         }
-        .scenes(),
-    }
-}
-
-/// What is asked for instead of a number of scenes.
-fn goal(args: &LossArgs) -> Option<Goal> {
-    let time = args.time_budget.map(Goal::Time);
-    args.target_error.map(Goal::RelativeError).or(time)
+    })
 }
 
 /// A share such as `1%` or `0.01`.

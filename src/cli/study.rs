@@ -5,11 +5,10 @@ use std::path::PathBuf;
 use svbrdf::error::Error;
 use svbrdf::loss::check_same_size;
 use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::Scene;
 use svbrdf::picture::export;
 use svbrdf::study::{self, Pair, Study, plot};
 
-use super::backend::{Adapter, Job};
+use super::backend::Adapter;
 use super::bar::watched;
 use super::stop::stoppable;
 use super::{exit, materials};
@@ -70,20 +69,16 @@ fn measured(args: &StudyArgs) -> Result<Study, Error> {
     let (ground_truth, prediction) = (&opened.ground_truth, &opened.predictions[0]);
     check_same_size(ground_truth, prediction)?;
     let adapter = match Adapter::start() {
-        Ok(adapter) => Some(adapter),
+        Ok(adapter) => {
+            exit::tell(&format!("note: the GPU is {}", adapter.name()));
+            Some(adapter)
+        }
         Err(problem) => {
             exit::tell(&format!("note: without the GPU: {problem}"));
             None
         }
     };
-    let on_gpu = adapter.as_ref().map(|adapter| {
-        exit::tell(&format!("note: the GPU is {}", adapter.name()));
-        |ground_truth: &_, prediction: &_, scenes: &[Scene], convention: &_, progress: &_| {
-            let job = Job { ground_truth, predictions: &[prediction], convention };
-            adapter.losses(&job, scenes, progress)
-        }
-    });
-    let gpu = on_gpu.as_ref().map(|on_gpu| on_gpu as &study::OnGpu<'_>);
+    let gpu = adapter.as_ref().map(Adapter::backend);
     let pair = Pair { ground_truth, prediction, convention: args.convention, gpu };
     watched("measuring", |progress| study::run(&pair, progress, |_| ()))
 }

@@ -12,13 +12,12 @@
 
 use std::time::{Duration, Instant};
 
-use super::{Draw, Estimate, Loss, Losses, Texels};
+use super::comparison::{Comparison, Compute};
+use super::outcome::Outcome;
+use super::request::{Sampling, Texels};
+use super::texels::scene_losses;
 use crate::error::Error;
-use crate::material::Material;
-use crate::math::real::Real;
-use crate::model::convention::Convention;
 use crate::model::sampler::{REPLICATES, Sampler};
-use crate::model::scene::Scene;
 use crate::progress::Progress;
 
 /// Texels of each scene. With fewer, scenes that are hardly seen take most of the time; with more, texels do that add
@@ -39,120 +38,91 @@ const MARGIN: f64 = 0.75;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Goal {
+pub(super) enum Goal {
     /// Half of the 95% interval of every loss is at most this share of the loss.
     RelativeError(f64),
     /// This much time has passed.
     Time(Duration),
 }
 
-impl Default for Goal {
-    fn default() -> Self {
-        Self::RelativeError(0.01)
-    }
-}
-
-impl Goal {
-    /// Whether finished `losses` are what was asked for: an accuracy may need more than [`MOST_SCENES`].
-    pub fn is_met_by(self, losses: &[Loss]) -> bool {
-        match self {
-            Self::RelativeError(target) => relative_error95(losses) <= target,
-            Self::Time(_) => true,
-        }
-    }
-}
-
-/// The largest [`Estimate::relative_error95`] of any of `losses`.
-pub fn relative_error95(losses: &[Loss]) -> f64 {
-    losses.iter().map(|loss| loss.estimate.relative_error95()).fold(0.0, f64::max)
-}
-
-/// What an adaptive run has reached.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reached {
-    /// How the scenes and their texels were drawn.
-    pub draw: Draw,
-    /// The first scenes of `draw`, near-field ones before distant ones.
-    pub scenes: Vec<Scene>,
-    pub losses: Vec<Loss>,
-}
-
-/// The losses of `predictions`, with as many scenes as `goal` needs; `update` sees every step, cheapest first.
+/// The losses of a comparison with as many scenes as `goal` needs; `update` sees every step, cheapest first.
 ///
 /// A cancelled run gives what was reached before it. A size is doubled until the time is up, whatever the losses
 /// are, so that a time cannot bias them; the last doubling is left out where it would not fit.
 ///
 /// # Errors
-/// As [`super::losses`]; [`Error::Cancelled`] only before the first step is done.
-#[expect(clippy::too_many_arguments, reason = "those of a loss, and what is asked for")]
-pub fn losses<T: Real>(
-    kernel: Losses<T>,
-    ground_truth: &Material<T>,
-    predictions: &[&Material<T>],
-    seed: u64,
-    convention: &Convention,
+/// As [`Comparison::run`]; [`Error::Cancelled`] only before the first step is done.
+pub(super) fn run<T: Compute>(
+    comparison: &Comparison<'_, T>,
     goal: Goal,
+    seed: u64,
     progress: &Progress,
-    mut update: impl FnMut(&Reached),
-) -> Result<Reached, Error> {
+    mut update: impl FnMut(&Outcome),
+) -> Result<Outcome, Error> {
     let start = Instant::now();
-    // The first `size` scenes of a draw, of which `known` ones need not be rendered again.
-    let run = |seed, size: usize, known: Option<&Reached>| -> Result<Reached, Error> {
-        let distant = size * REPLICATES;
-        let draw = Draw { sampler: Sampler::Sobol, seed, texels: Texels::Sampled(TEXELS) };
-        let scenes = draw.sampler.scenes(draw.seed, NEAR_PER_DISTANT * distant, distant, convention);
-        let before = known.map_or(0, |known| known.scenes.len() / (1 + NEAR_PER_DISTANT));
-        let before = [NEAR_PER_DISTANT * before, before];
-        let (near, distant) = scenes.split_at(NEAR_PER_DISTANT * distant);
-        let new = [&near[before[0]..], &distant[before[1]..]].concat();
-        let new_near = near.len() - before[0];
-        let mut losses =
-            draw.losses_after(before, kernel, ground_truth, predictions, &new, convention, progress)?;
-        for (loss, known) in losses.iter_mut().zip(known.map_or(&[][..], |known| &known.losses)) {
-            let (old_near, old_distant) = known.per_scene.split_at(before[0]);
-            let (near, distant) = loss.per_scene.split_at(new_near);
-            loss.per_scene = [old_near, near, old_distant, distant].concat();
-            loss.estimate = Estimate::of_sampled(draw.sampler, &scenes, &loss.per_scene);
-        }
-        Ok(Reached { draw, scenes, losses })
-    };
     let (mut size, mut best) = match goal {
         Goal::RelativeError(target) => {
-            let pilot = run(pilot_seed(seed), PILOT, None)?;
+            let pilot = step(comparison, pilot_seed(seed), PILOT, None, progress)?;
             update(&pilot);
-            (planned_size(PILOT, target, &pilot.losses), Some(pilot))
+            (planned_size(PILOT, target, &pilot), Some(pilot))
         }
         Goal::Time(_) => (1, None),
     };
     loop {
-        let step = Instant::now();
+        let step_start = Instant::now();
         // The pilot decides, and does not count.
-        let known = best.as_ref().filter(|best| best.draw.seed == seed);
-        let reached = match (run(seed, size, known), best) {
+        let known = best.as_ref().filter(|best| best.sampling.is_some_and(|s| s.seed == seed));
+        let outcome = match (step(comparison, seed, size, known, progress), best) {
             (Err(Error::Cancelled), Some(best)) => return Ok(best),
-            (run, _) => run?,
+            (outcome, _) => outcome?,
         };
-        update(&reached);
+        update(&outcome);
         let next = match goal {
-            Goal::RelativeError(_) if goal.is_met_by(&reached.losses) => None,
+            Goal::RelativeError(target) if outcome.relative_error95() <= target => None,
             // The size that was enough by its prediction was not.
             Goal::RelativeError(target) => {
-                Some(planned_size(size, target, &reached.losses).max(rounded(size + size.div_ceil(2))))
+                Some(planned_size(size, target, &outcome).max(rounded(size + size.div_ceil(2))))
             }
             // To double the size takes as long as all so far, twice as long as the last doubling.
-            Goal::Time(time) => (start.elapsed() + 2 * step.elapsed() <= time).then_some(2 * size),
+            Goal::Time(time) => (start.elapsed() + 2 * step_start.elapsed() <= time).then_some(2 * size),
         };
         match next.map(|next| next.min(MOST)).filter(|next| *next > size) {
-            None => return Ok(reached),
+            None => return Ok(outcome),
             Some(next) => size = next,
         }
-        best = Some(reached);
+        best = Some(outcome);
     }
 }
 
+/// The losses over the first `size` distant scenes of each scrambling and twice as many near-field ones, of which
+/// `known` ones are not rendered again.
+fn step<T: Compute>(
+    comparison: &Comparison<'_, T>,
+    seed: u64,
+    size: usize,
+    known: Option<&Outcome>,
+    progress: &Progress,
+) -> Result<Outcome, Error> {
+    let distant = size * REPLICATES;
+    let near = NEAR_PER_DISTANT * distant;
+    let sampling = Sampling { near, distant, seed, sampler: Sampler::Sobol, texels: Texels::Sampled(TEXELS) };
+    let scenes = sampling.scenes(comparison.convention())?;
+    let before = known.map_or(0, |known| known.scenes.len() / (1 + NEAR_PER_DISTANT));
+    let before = [NEAR_PER_DISTANT * before, before];
+    let (near, distant) = scenes.split_at(near);
+    let new = [&near[before[0]..], &distant[before[1]..]].concat();
+    let mut per_scene = scene_losses(comparison, &sampling, before, &new, progress)?;
+    for (values, known) in per_scene.iter_mut().zip(known.map_or(&[][..], |known| &known.losses)) {
+        let (old_near, old_distant) = known.per_scene.split_at(before[0]);
+        let (near, distant) = values.split_at(near.len() - before[0]);
+        *values = [old_near, near, old_distant, distant].concat();
+    }
+    Ok(comparison.outcome(Some(sampling), scenes, per_scene))
+}
+
 /// The size of a run that `target` needs, by the losses of a run of `size`.
-fn planned_size(size: usize, target: f64, losses: &[Loss]) -> usize {
-    let factor = (relative_error95(losses) / (MARGIN * target)).powf(2.0 / RATE).clamp(0.25, MOST as f64);
+fn planned_size(size: usize, target: f64, outcome: &Outcome) -> usize {
+    let factor = (outcome.relative_error95() / (MARGIN * target)).powf(2.0 / RATE).clamp(0.25, MOST as f64);
     rounded((size as f64 * factor).ceil() as usize).clamp(1, MOST)
 }
 

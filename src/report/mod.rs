@@ -5,10 +5,10 @@ mod text;
 
 pub use names::told_apart;
 
-use crate::loss::{Estimate, Loss, Texels};
+use crate::loss::{Comparison, Compute, Estimate, Loss, Outcome, Texels};
 use crate::model::convention::Convention;
 use crate::model::sampler::Sampler;
-use crate::model::scene::{Kind, Scene};
+use crate::model::scene::Kind;
 
 /// Losses with everything that gives them a meaning.
 #[derive(Clone, Debug)]
@@ -18,41 +18,61 @@ pub struct Report {
     pub ground_truth: String,
     /// Width and height in texels.
     pub size: [usize; 2],
-    /// `None` where the scenes come from a file.
-    pub seed: Option<u64>,
-    /// `None` where the scenes come from a file.
-    pub sampler: Option<Sampler>,
-    pub texels: Texels,
+    /// `f32` or `f64`.
     pub precision: &'static str,
-    /// What computed it: cpu or gpu.
+    /// What computed it: `cpu` or `gpu`.
     pub backend: &'static str,
-    pub scenes: Vec<Scene>,
-    pub losses: Vec<Loss>,
+    pub outcome: Outcome,
 }
 
 impl Report {
+    /// The report of what `comparison` gave.
+    pub fn new<T: Compute>(comparison: &Comparison<'_, T>, outcome: Outcome) -> Self {
+        Self {
+            convention: *comparison.convention(),
+            ground_truth: comparison.ground_truth().name().to_owned(),
+            size: comparison.ground_truth().size(),
+            precision: T::NAME,
+            backend: comparison.backend().name(),
+            outcome,
+        }
+    }
+
+    /// The same report with other names: that of the ground truth first, then one per prediction.
+    #[must_use]
+    pub fn renamed(mut self, names: &[String]) -> Self {
+        let Some((ground_truth, predictions)) = names.split_first() else { return self };
+        self.ground_truth.clone_from(ground_truth);
+        for (loss, name) in self.outcome.losses.iter_mut().zip(predictions) {
+            loss.prediction.clone_from(name);
+        }
+        self
+    }
+
     /// How much larger each further loss is than the first, on the same scenes.
     pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
-        let Some((first, others)) = self.losses.split_first() else { return Vec::new() };
-        others.iter().map(|loss| (loss, self.difference(loss, first))).collect()
+        let Some((first, others)) = self.outcome.losses.split_first() else { return Vec::new() };
+        others.iter().map(|loss| (loss, self.outcome.difference(loss, first))).collect()
     }
 
-    /// How much larger one loss of this report is than another: negative where it is closer to the ground truth.
-    pub fn difference(&self, loss: &Loss, less: &Loss) -> Estimate {
-        let sampler = self.sampler.unwrap_or_default();
-        Estimate::of_difference(sampler, &self.scenes, &loss.per_scene, &less.per_scene)
+    /// The seed that names the scenes; `None` where they were listed.
+    pub fn seed(&self) -> Option<u64> {
+        self.outcome.sampling.map(|sampling| sampling.seed)
     }
 
-    /// The texels that are compared in each scene: all where no fewer were asked for.
-    pub fn compared(&self) -> Texels {
-        match self.texels {
-            Texels::Sampled(count) if count < self.size[0] * self.size[1] => self.texels,
-            _ => Texels::All,
-        }
+    /// How the scenes were sampled; `None` where they were listed.
+    pub fn sampler(&self) -> Option<Sampler> {
+        self.outcome.sampling.map(|sampling| sampling.sampler)
+    }
+
+    /// The texels that are compared in each scene.
+    pub fn texels(&self) -> Texels {
+        let sampled = self.outcome.sampling.and_then(|sampling| sampling.texels.sampled(self.size));
+        sampled.map_or(Texels::All, Texels::Sampled)
     }
 
     /// The number of scenes of a kind.
     pub fn count(&self, kind: Kind) -> usize {
-        self.scenes.iter().filter(|scene| scene.kind == kind).count()
+        self.outcome.scenes.iter().filter(|scene| scene.kind == kind).count()
     }
 }

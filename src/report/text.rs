@@ -11,7 +11,7 @@ impl Report {
     /// A table for people, with its last line break.
     pub fn text(&self) -> String {
         let mut rows = vec![HEADINGS.map(str::to_owned)];
-        rows.extend(self.losses.iter().map(cells));
+        rows.extend(self.outcome.losses.iter().map(cells));
         let widths: [usize; 4] =
             std::array::from_fn(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0));
         let lines: String = rows.iter().map(|row| line(row, widths)).collect();
@@ -23,7 +23,7 @@ impl Report {
 fn differences(report: &Report) -> String {
     let lines = report.differences().into_iter().map(|(loss, difference)| {
         let [mean, error, interval] = difference.texts();
-        let first = &report.losses[0].prediction;
+        let first = &report.outcome.losses[0].prediction;
         format!("\n{} less {first}, on the same scenes: {mean} +- {error}, 95% {interval}", loss.prediction)
     });
     let text: String = lines.collect();
@@ -33,12 +33,12 @@ fn differences(report: &Report) -> String {
 fn header(report: &Report) -> String {
     let Report { convention, ground_truth, size: [width, height], precision, backend, .. } = report;
     let (near, distant) = (report.count(Kind::Near), report.count(Kind::Distant));
-    let origin = report.seed.map_or("from a file".to_owned(), |seed| format!("of seed {seed}"));
-    let origin = match report.sampler {
+    let origin = report.seed().map_or("from a file".to_owned(), |seed| format!("of seed {seed}"));
+    let origin = match report.sampler() {
         Some(Sampler::Sobol) => format!("{origin}, scrambled Sobol"),
         _ => origin,
     };
-    let texels = match report.compared() {
+    let texels = match report.texels() {
         Texels::All => String::new(),
         Texels::Sampled(1) => ", each on 1 texel of its own".to_owned(),
         Texels::Sampled(count) => format!(", each on {count} texels of its own"),

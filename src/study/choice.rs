@@ -1,7 +1,7 @@
 //! What a loss can be asked for, and which of it is tried.
 
 use crate::files::write::Depth;
-use crate::loss::{Precision, Texels};
+use crate::loss::{Precision, Sampling, Texels};
 use crate::model::sampler::Sampler;
 
 /// Numbers of random scenes that are tried.
@@ -16,7 +16,7 @@ const FEW: usize = 128;
 
 /// What a loss is computed on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Backend {
+pub enum Device {
     Cpu,
     Gpu,
 }
@@ -29,7 +29,7 @@ pub struct Choice {
     pub sampler: Sampler,
     pub texels: Texels,
     pub precision: Precision,
-    pub backend: Backend,
+    pub backend: Device,
     /// What the files hold that the maps are read from.
     pub maps: Depth,
 }
@@ -55,7 +55,7 @@ impl Default for Choice {
             sampler: Sampler::Sobol,
             texels: Texels::All,
             precision: Precision::F32,
-            backend: Backend::Cpu,
+            backend: Device::Cpu,
             maps: Depth::Float,
         }
     }
@@ -70,6 +70,12 @@ impl Choice {
         self.scenes / 3
     }
 
+    /// The scenes and texels of this choice for a seed.
+    pub fn sampling(&self, seed: u64) -> Sampling {
+        let Self { sampler, texels, .. } = *self;
+        Sampling { near: self.near(), distant: self.distant(), seed, sampler, texels }
+    }
+
     /// The options of `svbrdf loss` that choose this, but for the maps.
     pub fn options(&self) -> String {
         let sampler = match self.sampler {
@@ -81,7 +87,7 @@ impl Choice {
             Texels::Sampled(count) => format!(" --texels {count}"),
         };
         let precision = if self.precision == Precision::F64 { " --precision f64" } else { "" };
-        let backend = if self.backend == Backend::Gpu { " --backend gpu" } else { "" };
+        let backend = if self.backend == Device::Gpu { " --backend gpu" } else { "" };
         format!("{sampler}--near {} --distant {}{texels}{precision}{backend}", self.near(), self.distant())
     }
 
@@ -89,7 +95,7 @@ impl Choice {
         match *self {
             Self { maps: Depth::Half, .. } => Family::HalfMaps,
             Self { maps: Depth::Eight | Depth::Sixteen, .. } => Family::EightBitMaps,
-            Self { backend: Backend::Gpu, .. } => Family::Gpu,
+            Self { backend: Device::Gpu, .. } => Family::Gpu,
             Self { precision: Precision::F64, .. } => Family::F64,
             Self { texels: Texels::Sampled(FEW), .. } => Family::FewTexels,
             Self { texels: Texels::Sampled(_), .. } => Family::MoreTexels,
@@ -100,7 +106,7 @@ impl Choice {
 
     /// The choice of the same scenes that is measured over many seeds.
     pub(super) fn base(self) -> Self {
-        Self { precision: Precision::F32, backend: Backend::Cpu, maps: Depth::Float, ..self }
+        Self { precision: Precision::F32, backend: Device::Cpu, maps: Depth::Float, ..self }
     }
 }
 
@@ -153,7 +159,7 @@ impl Family {
             Self::MoreTexels => (Choice { texels: Texels::Sampled(MORE), ..base }, SOBOL),
             Self::FewTexels => (Choice { texels: Texels::Sampled(FEW), ..base }, SOBOL),
             Self::F64 => (Choice { precision: Precision::F64, ..base }, on_all),
-            Self::Gpu => (Choice { backend: Backend::Gpu, ..base }, on_all),
+            Self::Gpu => (Choice { backend: Device::Gpu, ..base }, on_all),
             Self::HalfMaps => (Choice { maps: Depth::Half, ..base }, on_all),
             Self::EightBitMaps => (Choice { maps: Depth::Eight, ..base }, on_all),
         };

@@ -7,12 +7,9 @@ use super::pair::Pair;
 use super::result::{Point, Reference, Study};
 use crate::error::Error;
 use crate::files::write::{self, Depth};
-use crate::loss::{Draw, Estimate, Loss, Losses, Texels, losses_of, losses_of_f32};
+use crate::loss::{Backend, Comparison, Compute, Outcome, Request, Sampling, Texels};
 use crate::material::Material;
-use crate::math::real::Real;
 use crate::model::convention::Convention;
-use crate::model::sampler::Sampler;
-use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::text::time;
 
@@ -41,39 +38,19 @@ const LONGEST_VARIANT: f64 = 0.7;
 const VARIANT_RUNS: usize = 3;
 const VARIANT_TIME: f64 = 0.4;
 
-/// One of the ways to compute the loss over scenes, on materials of its own.
-type Kernel<'a> = Box<dyn Fn(&Drawn, &Progress) -> Result<Loss, Error> + 'a>;
+/// One of the ways to compute the loss of a sampling, on materials of its own.
+type Kernel<'a> = Box<dyn Fn(&Sampling, &Progress) -> Result<Outcome, Error> + 'a>;
 
-/// Scenes, and how they and their texels were drawn.
-struct Drawn {
-    draw: Draw,
-    scenes: Vec<Scene>,
-}
-
-impl Drawn {
-    fn of(choice: &Choice, seed: u64, pair: &Pair<'_>) -> Self {
-        let draw = Draw { sampler: choice.sampler, seed, texels: choice.texels };
-        let scenes = draw.sampler.scenes(seed, choice.near(), choice.distant(), &pair.convention);
-        Self { draw, scenes }
-    }
-
-    /// The loss of one prediction.
-    fn loss<T: Real>(
-        &self,
-        kernel: Losses<T>,
-        ground_truth: &Material<T>,
-        prediction: &Material<T>,
-        convention: &Convention,
-        progress: &Progress,
-    ) -> Result<Loss, Error> {
-        the_one(self.draw.losses(kernel, ground_truth, &[prediction], &self.scenes, convention, progress)?)
-    }
-}
-
-/// The loss of the one prediction.
-fn the_one(losses: Vec<Loss>) -> Result<Loss, Error> {
-    let none = || Error::Usage("a study needs a prediction".to_owned());
-    losses.into_iter().next().ok_or_else(none)
+/// The loss of one prediction over sampled scenes.
+fn outcome<T: Compute>(
+    backend: &dyn Backend<T>,
+    [ground_truth, prediction]: [&Material<T>; 2],
+    convention: Convention,
+    sampling: &Sampling,
+    progress: &Progress,
+) -> Result<Outcome, Error> {
+    let comparison = Comparison::new(ground_truth, &[prediction], convention)?.on(backend);
+    comparison.run(&Request::Scenes(*sampling), progress)
 }
 
 /// What a study has found out so far that further points need.
@@ -95,20 +72,21 @@ impl<'a> Bench<'a> {
         let fast = kernel(pair, Family::Sobol)?;
         let sobol = |scenes, texels| {
             let choice = Choice { scenes, texels: Texels::Sampled(texels), ..Choice::default() };
-            Drawn::of(&choice, REFERENCE_SEED, pair)
+            choice.sampling(REFERENCE_SEED)
         };
         let many = sobol(REFERENCE_SCENES, REFERENCE_TEXELS);
         let few = sobol(CORRECTION_SCENES, CORRECTION_TEXELS);
         let loss = fast(&many, self.progress)?;
-        let exact = kernel(pair, Family::F64)?(&few, &self.progress.part())?.per_scene;
-        let rounded = fast(&few, &self.progress.part())?.per_scene;
-        let correction = Estimate::of_difference(Sampler::Sobol, &few.scenes, &exact, &rounded);
+        let exact = kernel(pair, Family::F64)?(&few, &self.progress.part())?;
+        let rounded = fast(&few, &self.progress.part())?;
+        let correction = rounded.difference(&exact.losses[0], &rounded.losses[0]);
 
-        let mean = loss.estimate.mean + correction.mean;
+        let estimate = loss.losses[0].estimate;
+        let mean = estimate.mean + correction.mean;
         if mean.is_nan() || mean <= 0.0 {
             return Err(Error::NothingToStudy);
         }
-        let errors = [loss.estimate, correction].map(|e| e.standard_error.unwrap_or(f64::INFINITY));
+        let errors = [estimate, correction].map(|e| e.standard_error.unwrap_or(f64::INFINITY));
         self.progress.begin(Family::ALL.into_iter().flat_map(|family| self.plan(family)).sum());
         Ok(Reference { loss: mean, error: errors[0].hypot(errors[1]) / mean, scenes: REFERENCE_SCENES })
     }
@@ -237,12 +215,11 @@ impl<'a> Bench<'a> {
         Ok(Some(point))
     }
 
-    /// The loss of a choice over the scenes of a seed, and the seconds that drawing and rendering them took.
+    /// The loss of a choice over the scenes of a seed, and the seconds that sampling and rendering them took.
     fn timed(&self, kernel: &Kernel<'_>, choice: &Choice, seed: u64) -> Result<(f64, f64), Error> {
         let start = Instant::now();
-        let drawn = Drawn::of(choice, seed, &self.pair);
-        let loss = kernel(&drawn, &self.progress.part())?;
-        Ok((loss.estimate.mean, start.elapsed().as_secs_f64()))
+        let outcome = kernel(&choice.sampling(seed), &self.progress.part())?;
+        Ok((outcome.losses[0].estimate.mean, start.elapsed().as_secs_f64()))
     }
 }
 
@@ -251,19 +228,19 @@ fn kernel<'a>(pair: &Pair<'a>, family: Family) -> Result<Kernel<'a>, Error> {
     let Pair { ground_truth, prediction, convention, gpu } = *pair;
     let of_files = |depth| -> Result<Kernel<'a>, Error> {
         let [truth, prediction] = [write::held(ground_truth, depth)?, write::held(prediction, depth)?];
-        Ok(Box::new(move |drawn, p| drawn.loss(losses_of_f32, &truth, &prediction, &convention, p)))
+        Ok(Box::new(move |s, p| outcome(f32::cpu(), [&truth, &prediction], convention, s, p)))
     };
     Ok(match (family, gpu) {
         (Family::Gpu, Some(gpu)) => {
-            Box::new(move |drawn, p| the_one(gpu(ground_truth, prediction, &drawn.scenes, &convention, p)?))
+            Box::new(move |s, p| outcome(gpu, [ground_truth, prediction], convention, s, p))
         }
         (Family::F64, _) => {
             let [truth, prediction] = [ground_truth.cast::<f64>(), prediction.cast()];
-            Box::new(move |drawn, p| drawn.loss(losses_of, &truth, &prediction, &convention, p))
+            Box::new(move |s, p| outcome(f64::cpu(), [&truth, &prediction], convention, s, p))
         }
         (Family::HalfMaps, _) => of_files(Depth::Half)?,
         (Family::EightBitMaps, _) => of_files(Depth::Eight)?,
-        _ => Box::new(move |drawn, p| drawn.loss(losses_of_f32, ground_truth, prediction, &convention, p)),
+        _ => Box::new(move |s, p| outcome(f32::cpu(), [ground_truth, prediction], convention, s, p)),
     })
 }
 

@@ -30,8 +30,8 @@ pub mod plot;
 mod result;
 pub mod text;
 
-pub use choice::{Backend, Choice, Family};
-pub use pair::{OnGpu, Pair};
+pub use choice::{Choice, Device, Family};
+pub use pair::Pair;
 pub use result::{Point, Reference, Study};
 
 use crate::error::Error;

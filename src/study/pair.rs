@@ -2,16 +2,9 @@
 
 use std::fmt;
 
-use crate::error::Error;
-use crate::loss::Loss;
+use crate::loss::Backend;
 use crate::material::Material;
 use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::progress::Progress;
-
-/// The loss on a graphics adapter: [`crate::loss::losses_f32`] of one prediction, elsewhere.
-pub type OnGpu<'a> =
-    dyn Fn(&Material<f32>, &Material<f32>, &[Scene], &Convention, &Progress) -> Result<Vec<Loss>, Error> + 'a;
 
 /// What is studied, and what with.
 #[derive(Clone, Copy)]
@@ -20,7 +13,7 @@ pub struct Pair<'a> {
     pub prediction: &'a Material<f32>,
     pub convention: Convention,
     /// `None` where there is no adapter.
-    pub gpu: Option<&'a OnGpu<'a>>,
+    pub gpu: Option<&'a dyn Backend<f32>>,
 }
 
 impl fmt::Debug for Pair<'_> {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::choice::{Backend, Family};
+use super::choice::{Device, Family};
 use super::result::{Point, Study};
 use crate::error::Error;
 use crate::files::write::Depth;
@@ -93,7 +93,7 @@ impl Study {
 fn csv_row(p: &Point) -> String {
     let c = &p.choice;
     let precision = if c.precision == Precision::F64 { "f64" } else { "f32" };
-    let backend = if c.backend == Backend::Gpu { "gpu" } else { "cpu" };
+    let backend = if c.backend == Device::Gpu { "gpu" } else { "cpu" };
     format!(
         "{},{},{},{},{},{precision},{backend},{},{:.4e},{:.4e},{:.4e},{},{},{},{}\n",
         c.scenes,

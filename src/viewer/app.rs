@@ -10,7 +10,7 @@ use super::command::{Command, LossCommand, MaterialsCommand, WindowCommand};
 use super::difference_run::DifferenceRun;
 use super::gpu_view::GpuView;
 use super::loaded::Rules;
-use super::loss_request::LossRequest;
+use super::loss_run::Asked;
 use super::loss_run::LossRun;
 use super::message::Message;
 use super::options::ViewerOptions;
@@ -114,14 +114,14 @@ impl App {
         self.slots.open(ctx, gpu, sources, Target::Everything);
     }
 
-    /// The loss that the settings ask for, in the convention of the renderings.
-    pub(super) fn loss_request(&self) -> LossRequest {
-        self.settings.loss.request(self.state.convention())
+    /// What is asked of the loss: by the settings, in the convention that is rendered.
+    pub(super) fn asked(&self) -> Asked {
+        Asked { request: self.settings.loss.request(), convention: self.state.convention() }
     }
 
     /// The losses of the predictions, once they are complete for the current materials and settings.
     pub fn losses(&self) -> Option<&[Loss]> {
-        self.loss.finished(&self.slots, &self.loss_request())
+        self.loss.finished(&self.slots, &self.asked())
     }
 
     /// The study of the chosen pair as far as it has got, and whether it is complete.
@@ -211,7 +211,7 @@ impl App {
         } else {
             self.watch.stop();
         }
-        self.loss.follow(ctx, &self.slots, &self.loss_request(), self.settings.auto_loss);
+        self.loss.follow(ctx, &self.slots, &self.asked(), self.settings.auto_loss);
         self.loss.poll(ctx);
         let error = self.difference.follow(ctx, &self.slots, &self.state);
         self.report(error.map(Message::Failed));

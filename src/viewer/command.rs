@@ -4,10 +4,10 @@
 
 use std::path::PathBuf;
 
-use super::loss_request::LossSettings;
-use super::sampling::Sampling;
+use super::loss_settings::LossSettings;
 use super::state::{Endpoint, Layout};
 use crate::files::read::ReadOptions;
+use crate::loss::Sampling;
 use crate::model::scene::Scene;
 use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;

@@ -13,7 +13,6 @@ use super::panels::status::StatusBar;
 use super::panels::study::{self, StudyWindow};
 use super::panels::top::TopBar;
 use super::panes::Scenery;
-use super::sampling::Sampling;
 use super::save;
 
 /// Least width of the side panel, in points: its contents do not fit into less.
@@ -141,7 +140,7 @@ impl App {
         let window = StudyWindow {
             run: &self.study,
             measured: self.study.measured(&self.slots, self.state.prediction, &self.state.convention()),
-            current: Sampling::of(&self.settings.loss),
+            current: self.settings.loss.sampling(),
         };
         window.ui(ctx)
     }

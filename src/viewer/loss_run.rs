@@ -6,12 +6,11 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 
 use super::loaded::Loaded;
-use super::loss_request::LossRequest;
 use super::slots::Slots;
 use super::worker::Task;
-use crate::loss::adaptive::{Goal, Reached};
-use crate::loss::{Estimate, Loss};
+use crate::loss::{Comparison, Estimate, Loss, Outcome, Request};
 use crate::material::Material;
+use crate::model::convention::Convention;
 use crate::report::Report;
 
 /// What takes less is not announced: it would only flicker.
@@ -21,7 +20,14 @@ const SOON: Duration = Duration::from_millis(100);
 #[derive(Clone, Debug, PartialEq)]
 struct Key {
     ids: Vec<u64>,
-    request: LossRequest,
+    asked: Asked,
+}
+
+/// What is asked for, by which convention.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    pub request: Request,
+    pub convention: Convention,
 }
 
 /// What a run has reached so far.
@@ -73,13 +79,13 @@ pub struct Shown {
 
 impl Shown {
     /// What it was computed for.
-    pub fn request(&self) -> &LossRequest {
-        &self.key.request
+    pub fn request(&self) -> &Request {
+        &self.key.asked.request
     }
 
     /// The largest half of a 95% interval, as a share of its loss.
     pub fn relative_error(&self) -> f64 {
-        worst(&self.report.losses)
+        self.report.outcome.relative_error95()
     }
 }
 
@@ -105,11 +111,11 @@ impl LossRun {
         self.behind.is_some_and(|since| self.running.is_none() || since.elapsed() > SOON)
     }
 
-    /// The losses, if they are complete and hold for `request` and `slots`.
-    pub fn finished(&self, slots: &Slots, request: &LossRequest) -> Option<&[Loss]> {
+    /// The losses, if they are complete and hold for `asked` and `slots`.
+    pub fn finished(&self, slots: &Slots, asked: &Asked) -> Option<&[Loss]> {
         let shown = self.shown.as_ref()?;
-        let holds = shown.end == End::Finished && shown.key == key(slots, request);
-        holds.then_some(shown.report.losses.as_slice())
+        let holds = shown.end == End::Finished && shown.key == key(slots, asked);
+        holds.then_some(shown.report.outcome.losses.as_slice())
     }
 
     /// How far the running loss is: its share in [0, 1], its time, and whether anything was reached yet.
@@ -117,10 +123,11 @@ impl LossRun {
     pub fn busy(&self) -> Option<(f32, Duration, bool)> {
         let running = self.running.as_ref()?;
         let elapsed = running.job.elapsed();
-        let LossRequest { params, goal } = &running.key.request;
-        let fraction = match goal {
-            Some(Goal::Time(time)) if running.scenes > 0 => elapsed.as_secs_f32() / time.as_secs_f32(),
-            None if running.scenes > 0 => running.scenes as f32 / (params.near + params.distant) as f32,
+        let fraction = match &running.key.asked.request {
+            Request::Time { budget, .. } if running.scenes > 0 => {
+                elapsed.as_secs_f32() / budget.as_secs_f32()
+            }
+            Request::Scenes(s) if running.scenes > 0 => running.scenes as f32 / (s.near + s.distant) as f32,
             _ => running.job.fraction(),
         };
         (elapsed > SOON).then_some((fraction.min(1.0), elapsed, running.scenes > 0))
@@ -138,7 +145,7 @@ impl LossRun {
         let ended = running.job.poll(ctx);
         if let Some(update) = running.latest.lock().unwrap_or_else(PoisonError::into_inner).take() {
             let Update { report, differences, elapsed } = update;
-            running.scenes = report.scenes.len();
+            running.scenes = report.outcome.scenes.len();
             self.behind = None;
             self.shown =
                 Some(Shown { key: running.key.clone(), report, differences, elapsed, end: End::NotYet });
@@ -158,12 +165,12 @@ impl LossRun {
 
     /// Notices whether what is shown is what is asked for. With `auto` it computes what is asked for, unless that is done
     /// or was given up; a run for something else is given up for it.
-    pub fn follow(&mut self, ctx: &egui::Context, slots: &Slots, request: &LossRequest, auto: bool) {
+    pub fn follow(&mut self, ctx: &egui::Context, slots: &Slots, asked: &Asked, auto: bool) {
         if slots.predictions().is_empty() {
             *self = Self::default();
             return;
         }
-        let key = key(slots, request);
+        let key = key(slots, asked);
         if self.shown.as_ref().is_none_or(|shown| shown.key == key) {
             self.behind = None;
         } else {
@@ -173,39 +180,40 @@ impl LossRun {
         if !auto || self.given_up.is_some() {
             return;
         }
-        let done = self.finished(slots, request).is_some();
+        let done = self.finished(slots, asked).is_some();
         match &self.running {
             Some(running) if running.key == key => {}
             _ if done => self.running = None,
             Some(running) if running.is_young() => {}
-            _ => self.start(ctx, slots, request),
+            _ => self.start(ctx, slots, asked),
         }
     }
 
     /// Starts the loss of the predictions in `slots`; a running one is given up for it.
-    pub fn start(&mut self, ctx: &egui::Context, slots: &Slots, request: &LossRequest) {
+    pub fn start(&mut self, ctx: &egui::Context, slots: &Slots, asked: &Asked) {
         self.running = None;
         self.given_up = None;
         if slots.predictions().is_empty() {
             return;
         }
-        let key = key(slots, request);
+        let key = key(slots, asked);
         let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|s| s.loaded.clone()).collect();
         let names: Vec<String> = slots.slots.iter().map(|s| s.name().to_owned()).collect();
-        let request = request.clone();
+        let Asked { request, convention } = asked.clone();
         let latest = Arc::new(Mutex::new(None));
         let (left, seen) = (latest.clone(), ctx.clone());
         let job = Task::start(ctx, move |progress| {
             let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
             let start = Instant::now();
-            let (ground_truth, predictions) = (materials[0], &materials[1..]);
-            request.run(ground_truth, predictions, progress, |reached| {
+            let comparison = Comparison::new(materials[0], &materials[1..], convention)?;
+            let update = |outcome: &Outcome| {
                 let elapsed = start.elapsed();
-                let report = report(&request, ground_truth.size(), &names, reached);
+                let report = Report::new(&comparison, outcome.clone()).renamed(&names);
                 let update = Update { differences: differences(&report), report, elapsed };
                 *left.lock().unwrap_or_else(PoisonError::into_inner) = Some(update);
                 seen.request_repaint();
-            })
+            };
+            comparison.stream(&request, progress, update).map(|_| ())
         });
         self.running = Some(Running { key, job, latest, scenes: 0 });
     }
@@ -227,36 +235,13 @@ impl LossRun {
     }
 }
 
-fn key(slots: &Slots, request: &LossRequest) -> Key {
-    Key { ids: slots.slots.iter().map(|s| s.id).collect(), request: request.clone() }
-}
-
-/// `names` are those of the materials in the window, the ground truth first.
-fn report(request: &LossRequest, size: [usize; 2], names: &[String], reached: Reached) -> Report {
-    let Reached { draw, scenes, losses } = reached;
-    let losses = losses.into_iter().zip(&names[1..]);
-    let losses = losses.map(|(loss, name)| Loss { prediction: name.clone(), ..loss }).collect();
-    Report {
-        convention: request.params.convention,
-        ground_truth: names[0].clone(),
-        size,
-        seed: Some(draw.seed),
-        sampler: Some(draw.sampler),
-        texels: draw.texels,
-        precision: "f32",
-        backend: "cpu",
-        scenes,
-        losses,
-    }
+fn key(slots: &Slots, asked: &Asked) -> Key {
+    Key { ids: slots.slots.iter().map(|s| s.id).collect(), asked: asked.clone() }
 }
 
 /// For each prediction how much larger the losses of all are.
 fn differences(report: &Report) -> Vec<Vec<Estimate>> {
-    let to = |less| report.losses.iter().map(|loss| report.difference(loss, less)).collect();
-    report.losses.iter().map(to).collect()
-}
-
-/// The largest relative error of any of the losses.
-fn worst(losses: &[Loss]) -> f64 {
-    losses.iter().map(|loss| loss.estimate.relative_error95()).fold(0.0, f64::max)
+    let outcome = &report.outcome;
+    let to = |other| outcome.losses.iter().map(|loss| outcome.difference(loss, other)).collect();
+    outcome.losses.iter().map(to).collect()
 }

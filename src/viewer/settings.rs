@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::loss_request::LossSettings;
+use super::loss_settings::LossSettings;
 
 /// The key of the settings in the storage.
 pub const KEY: &str = "settings";

@@ -69,7 +69,9 @@ fn a_target_error_is_reached_and_a_difference_has_its_own_interval() {
 fn a_time_budget_gives_a_loss_and_nonsense_is_refused() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png --time-budget 20ms");
-    assert!(json["near"].as_u64().unwrap() >= 32, "{json}");
+    // How many fit depends on the machine; it is always a doubling of the smallest run.
+    let [near, distant] = ["near", "distant"].map(|kind| json[kind].as_u64().unwrap());
+    assert!(near >= 16 && near == 2 * distant && distant.is_power_of_two(), "{json}");
     for (bad, said) in [
         ("--target-error 0%", "more than 0%"),
         ("--target-error -1%", "more than 0%"),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use svbrdf::image::Image;
-use svbrdf::loss::losses_f32;
+use svbrdf::loss::Compute as _;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::picture::colour_map::difference_to_display;
@@ -14,6 +14,7 @@ use svbrdf::render::render_f32;
 use svbrdf::samples;
 
 use super::{fail, folder, succeed};
+use crate::support::losses::losses;
 
 /// The built-in materials as `render` shows them: side by side.
 fn panes(scene: &Scene) -> Vec<Image<f32>> {
@@ -106,7 +107,7 @@ fn losses_in(scene: Scene) -> Vec<f64> {
     let built_in = samples::load::<f32>().unwrap();
     let predictions: Vec<_> = built_in.predictions.iter().map(|read| &read.material).collect();
     let ground_truth = &built_in.ground_truth.material;
-    let losses = losses_f32(ground_truth, &predictions, &[scene], &PRINTED, &Progress::default()).unwrap();
+    let losses = losses(f32::cpu(), ground_truth, &predictions, &[scene], &PRINTED).unwrap();
     losses.into_iter().map(|loss| loss.estimate.mean).collect()
 }
 

@@ -4,8 +4,8 @@ use std::sync::OnceLock;
 
 use serde_json::Value;
 use svbrdf::error::Error;
-use svbrdf::gpu::{Gpu, Losses};
-use svbrdf::loss::{self, Loss};
+use svbrdf::gpu::Losses;
+use svbrdf::loss::{Comparison, Loss, Plain, Request};
 use svbrdf::material::{Material, Planes};
 use svbrdf::model::convention::{self, Convention, GUIDED_2020, PRINTED};
 use svbrdf::model::scene::{self, Kind, Scene};
@@ -14,11 +14,11 @@ use svbrdf::samples;
 
 use crate::golden_loss;
 use crate::support::gpu::{bumpy, gpu};
+use crate::support::losses::losses;
 use crate::support::tolerance::{GPU_LOSS, GPU_LOSS_SCENE};
 
 /// Computes losses on the adapter of the tests.
 struct Computer {
-    gpu: &'static Gpu,
     losses: &'static Losses,
 }
 
@@ -27,7 +27,7 @@ impl Computer {
     fn get() -> Option<Self> {
         static LOSSES: OnceLock<Losses> = OnceLock::new();
         let gpu = gpu()?;
-        Some(Self { gpu, losses: LOSSES.get_or_init(|| Losses::new(gpu).expect("the loss compiles")) })
+        Some(Self { losses: LOSSES.get_or_init(|| Losses::new(gpu).expect("the loss compiles")) })
     }
 
     fn try_losses(
@@ -37,7 +37,7 @@ impl Computer {
         scenes: &[Scene],
         convention: &Convention,
     ) -> Result<Vec<Loss>, Error> {
-        self.losses.compute(self.gpu, ground_truth, predictions, scenes, convention, &Progress::default())
+        losses(self.losses, ground_truth, predictions, scenes, convention)
     }
 
     fn losses(
@@ -63,8 +63,7 @@ fn in_f64(
 ) -> Vec<Loss> {
     let predictions: Vec<Material<f64>> = predictions.iter().map(|p| p.cast()).collect();
     let predictions: Vec<_> = predictions.iter().collect();
-    loss::losses(&ground_truth.cast(), &predictions, scenes, convention, &Progress::default())
-        .expect("computed in f64")
+    losses(&Plain, &ground_truth.cast(), &predictions, scenes, convention).expect("computed in f64")
 }
 
 /// The largest relative errors of a mean and of a scene; an error where one is above its bound.
@@ -238,8 +237,9 @@ fn a_cancelled_loss_ends_at_its_next_step() {
     let (ground_truth, prediction) = (bumpy(8, 8), changed(8, 8));
     let scenes = scenes(6000, 0, &PRINTED);
     let progress = Progress::default();
-    let run =
-        || computer.losses.compute(computer.gpu, &ground_truth, &[&prediction], &scenes, &PRINTED, &progress);
+    let comparison = Comparison::new(&ground_truth, &[&prediction], PRINTED).expect("of one size");
+    let comparison = comparison.on(computer.losses);
+    let run = || comparison.run(&Request::Listed(scenes.clone()), &progress);
     run().expect("not cancelled yet");
     let (done, total) = progress.counts();
     assert!(done == total && total > 2, "{done} of {total}");
@@ -259,7 +259,7 @@ fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
     let below = Scene { light: [0.0, 0.0, -1.0], ..fine[0] };
     assert!(matches!(refused(&other, &fine), Error::SizesDiffer { .. }));
     assert!(matches!(refused(&material, &[below]), Error::UnusableScene { .. }));
-    assert!(matches!(refused(&material, &[]), Error::Usage(_)));
+    assert!(matches!(refused(&material, &[]), Error::SceneCount { .. }));
 }
 
 #[test]

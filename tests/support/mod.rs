@@ -5,6 +5,7 @@ pub mod exr;
 pub mod fixtures;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod losses;
 pub mod pictures;
 pub mod png;
 pub mod points;

@@ -3,19 +3,20 @@
 mod differences;
 mod on_the_way;
 
-use svbrdf::loss::{self, Loss, LossParams};
+use svbrdf::loss::{Comparison, Outcome, Request, Sampling};
 use svbrdf::material::Material;
+use svbrdf::model::convention::PRINTED;
 use svbrdf::progress::Progress;
 use svbrdf::samples;
 
 use super::*;
 
 /// What the core gives for the built-in predictions.
-fn expected(params: &LossParams) -> Vec<Loss> {
+fn expected(sampling: &Sampling) -> Outcome {
     let samples = samples::load::<f32>().unwrap();
     let predictions: Vec<&Material<f32>> = samples.predictions.iter().map(|r| &r.material).collect();
-    let (ground_truth, scenes) = (&samples.ground_truth.material, params.scenes().unwrap());
-    loss::losses_f32(ground_truth, &predictions, &scenes, &params.convention, &Progress::default()).unwrap()
+    let comparison = Comparison::new(&samples.ground_truth.material, &predictions, PRINTED).unwrap();
+    comparison.run(&Request::Scenes(*sampling), &Progress::default()).unwrap()
 }
 
 /// Types `text` into the number called `name`.
@@ -39,7 +40,7 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     window.get_by_label("Compute loss").click();
     window.run_steps(2);
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    let expected = expected(&LossParams { seed: 7, ..LossParams::default() });
+    let expected = expected(&Sampling { seed: 7, ..Sampling::default() }).losses;
     assert_eq!(window.state().losses().unwrap(), expected);
     for loss in &expected {
         let [mean, error, interval] = loss.estimate.texts();
@@ -54,7 +55,7 @@ fn many_scenes_end_with_the_bits_of_one_go() {
     enter(&mut window, "Near-field scenes", "60");
     enter(&mut window, "Distant scenes", "31");
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    let expected = expected(&LossParams { near: 60, distant: 31, ..LossParams::default() });
+    let expected = expected(&Sampling { near: 60, distant: 31, ..Sampling::default() }).losses;
     assert_eq!(window.state().losses().unwrap(), expected);
     window.get_by_label_contains("from 60 + 31 scenes in");
 }

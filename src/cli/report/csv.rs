@@ -19,9 +19,9 @@ pub(super) fn write(printed: &Printed) -> String {
         height.to_string(),
         report.count(Kind::Near).to_string(),
         report.count(Kind::Distant).to_string(),
-        or_empty(report.seed),
-        or_empty(report.sampler),
-        report.compared().to_string(),
+        or_empty(report.seed()),
+        or_empty(report.sampler()),
+        report.texels().to_string(),
         report.precision.to_owned(),
         report.backend.to_owned(),
         or_empty(printed.target().map(|(error, _)| error)),
@@ -33,7 +33,7 @@ pub(super) fn write(printed: &Printed) -> String {
     let row = |(loss, path): (&Loss, Option<&str>)| {
         format!("{},{common},{},{ground_truth}\n", cells(loss), quoted(path.unwrap_or_default()))
     };
-    let rows: String = report.losses.iter().zip(printed.prediction_paths()).map(row).collect();
+    let rows: String = report.outcome.losses.iter().zip(printed.prediction_paths()).map(row).collect();
     format!("{HEADING}{rows}")
 }
 

@@ -65,8 +65,8 @@ struct Entry<'a> {
 
 pub(super) fn write(printed: &Printed) -> io::Result<String> {
     let report = &printed.report;
-    let all = printed.goal.is_none();
-    let predictions = report.losses.iter().zip(printed.prediction_paths());
+    let all = printed.lists_scenes();
+    let predictions = report.outcome.losses.iter().zip(printed.prediction_paths());
     let object = Object {
         ground_truth: &report.ground_truth,
         ground_truth_path: printed.ground_truth_path(),
@@ -77,9 +77,9 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
         size: report.size,
         near: report.count(Kind::Near),
         distant: report.count(Kind::Distant),
-        seed: report.seed,
-        sampler: report.sampler,
-        texels: match report.compared() {
+        seed: report.seed(),
+        sampler: report.sampler(),
+        texels: match report.texels() {
             Texels::Sampled(count) => TexelsEntry::Number(count),
             all => TexelsEntry::Word(all),
         },
@@ -87,7 +87,7 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
         target_reached: printed.target().map(|(_, reached)| reached),
         results: predictions.map(|(loss, path)| entry(loss, path, all)).collect(),
         differences: report.differences().into_iter().map(|d| difference(report, d)).collect(),
-        scenes: all.then_some(&report.scenes),
+        scenes: all.then_some(&report.outcome.scenes),
     };
     Ok(serde_json::to_string_pretty(&object)? + "\n")
 }
@@ -95,7 +95,7 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
 fn difference<'a>(report: &'a Report, (loss, e): (&'a Loss, Estimate)) -> DifferenceEntry<'a> {
     DifferenceEntry {
         prediction: &loss.prediction,
-        to: &report.losses[0].prediction,
+        to: &report.outcome.losses[0].prediction,
         difference: e.mean,
         standard_error: e.standard_error,
         interval95: e.interval95,

@@ -6,15 +6,15 @@ mod json;
 use std::io;
 
 use svbrdf::error::Error;
-use svbrdf::loss::adaptive::Goal;
+use svbrdf::loss::Request;
 use svbrdf::report::Report;
 
 /// A report, and what the command line knows beside it.
 #[derive(Debug)]
 pub struct Printed {
     pub report: Report,
-    /// What was asked for instead of a number of scenes.
-    pub goal: Option<Goal>,
+    /// What was asked for.
+    pub request: Request,
     /// The accuracy that was asked for, where it was not reached.
     pub missed: Option<Error>,
     /// Where the ground truth and the predictions were read from; none for the built-in ones.
@@ -24,10 +24,15 @@ pub struct Printed {
 impl Printed {
     /// The accuracy that was asked for, if any, and whether it was reached.
     fn target(&self) -> Option<(f64, bool)> {
-        match self.goal {
-            Some(Goal::RelativeError(target)) => Some((target, self.missed.is_none())),
+        match self.request {
+            Request::Accuracy { target, .. } => Some((target, self.missed.is_none())),
             _ => None,
         }
+    }
+
+    /// Whether the number of scenes was given, so that a list of them is of a readable length.
+    fn lists_scenes(&self) -> bool {
+        matches!(self.request, Request::Scenes(_) | Request::Listed(_))
     }
 
     fn ground_truth_path(&self) -> Option<&str> {

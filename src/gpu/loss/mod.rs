@@ -1,4 +1,4 @@
-//! Algorithm 1 on the device: the same contract as [`losses_f32`](crate::loss::losses_f32).
+//! Algorithm 1 on the device: a backend of [`Comparison`].
 //!
 //! The maps are sent in bands of texels ([`plan`]), so that no material is too large and memory is bounded. For each
 //! band and some scenes at a time, the device sums over blocks of texels ([`pass`]), and the blocks are added here in
@@ -14,15 +14,18 @@ use super::Gpu;
 use super::fault::failed;
 use super::uniforms::LogSum;
 use crate::error::Error;
-use crate::loss::{Loss, check};
+use crate::loss::{Backend, Comparison};
 use crate::material::Material;
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 
-/// The pipelines of the loss: worth keeping, a driver compiles them for some time.
+/// The loss on a graphics adapter. Worth keeping: a driver compiles its pipelines for some time.
+///
+/// On one device, the same bits every time; a relative 1e-5 from f64 at most.
 #[derive(Debug)]
 pub struct Losses {
+    gpu: Gpu,
     passes: Passes,
 }
 
@@ -32,47 +35,50 @@ impl Losses {
     /// # Errors
     /// [`Error::Gpu`] where the adapter has no compute shaders or refuses.
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
-        Ok(Self { passes: Passes::new(gpu)? })
+        Ok(Self { gpu: gpu.clone(), passes: Passes::new(gpu)? })
     }
 
-    /// The losses of `predictions` against `ground_truth` over `scenes`, in the order of the predictions.
-    ///
-    /// On one device, the same bits every time; a relative 1e-5 from f64 at most.
-    ///
-    /// # Errors
-    /// Those of [`losses`](crate::loss::losses), and [`Error::Gpu`] where the device fails.
-    pub fn compute(
+    /// The name of the adapter.
+    pub fn adapter(&self) -> &str {
+        &self.gpu.report.name
+    }
+}
+
+impl Backend<f32> for Losses {
+    fn name(&self) -> &'static str {
+        "gpu"
+    }
+
+    fn scene_losses(
         &self,
-        gpu: &Gpu,
-        ground_truth: &Material<f32>,
-        predictions: &[&Material<f32>],
+        comparison: &Comparison<'_, f32>,
         scenes: &[Scene],
-        convention: &Convention,
+        texels: Option<&[usize]>,
         progress: &Progress,
-    ) -> Result<Vec<Loss>, Error> {
-        check(ground_truth, predictions, scenes)?;
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        if texels.is_some() {
+            let problem = "it compares all texels, and a part of them was asked for".to_owned();
+            return Err(Error::Gpu { problem, remedy: "compute this loss on the processor" });
+        }
+        let (gpu, ground_truth) = (&self.gpu, comparison.ground_truth());
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         let plan = |group: &[_]| Plan::new(limit, ground_truth.size(), scenes.len(), group.len());
-        let groups: Vec<_> = predictions.chunks(MOST_PREDICTIONS).map(|g| (g, plan(g))).collect();
+        let groups: Vec<_> =
+            comparison.predictions().chunks(MOST_PREDICTIONS).map(|g| (g, plan(g))).collect();
         progress.begin(groups.iter().map(|(_, plan)| plan.steps()).sum());
-        let mut losses = Vec::with_capacity(predictions.len());
+        let count = 3.0 * (ground_truth.width() * ground_truth.height()) as f64;
+        let mut losses = Vec::with_capacity(comparison.predictions().len());
         for (group, plan) in groups {
-            let job = Job { gpu, passes: &self.passes, plan, convention, scenes };
+            let job = Job { gpu, passes: &self.passes, plan, convention: comparison.convention(), scenes };
             let materials: Vec<_> = [ground_truth].iter().chain(group).copied().collect();
             let sums = job.run(&materials, progress)?;
-            losses.extend(group.iter().zip(sums).map(|(p, sums)| loss(p, scenes, sums)));
+            losses.extend(sums.into_iter().map(|sums| sums.into_iter().map(|sum| sum / count).collect()));
         }
-        if losses.iter().any(|loss| !loss.estimate.mean.is_finite()) {
+        if losses.iter().flatten().any(|loss: &f64| !loss.is_finite()) {
             return Err(failed("it computed a loss that is not a number".to_owned()));
         }
         Ok(losses)
     }
-}
-
-/// The loss from the sums of its scenes.
-fn loss(prediction: &Material<f32>, scenes: &[Scene], sums: Vec<f64>) -> Loss {
-    let count = 3.0 * (prediction.width() * prediction.height()) as f64;
-    Loss::new(prediction.name(), scenes, sums.into_iter().map(|sum| sum / count).collect())
 }
 
 /// The ground truth and as many predictions as one pass takes.

@@ -3,7 +3,6 @@
 use fearless_simd::{Fallback, Simd};
 use rayon::prelude::*;
 
-use super::TEXELS_PER_BLOCK;
 use super::compare::LogSum;
 use super::pass::Tile;
 use crate::error::Error;
@@ -11,6 +10,7 @@ use crate::material::Material;
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
+use crate::render::simd::TEXELS_PER_BLOCK;
 use crate::render::simd::geometry::Source;
 use crate::render::simd::lanes::{Lanes, Level, dispatch};
 use crate::render::simd::shade::Model;

@@ -53,8 +53,8 @@ impl App {
         let (prediction, convention) = (self.state.prediction, self.state.convention());
         match command {
             LossCommand::Compute => {
-                let request = self.loss_request();
-                self.loss.start(ctx, &self.slots, &request);
+                let asked = self.asked();
+                self.loss.start(ctx, &self.slots, &asked);
             }
             LossCommand::Cancel => self.loss.cancel(),
             LossCommand::SetAuto(on) => self.settings.auto_loss = on,
@@ -75,7 +75,7 @@ impl App {
             LossCommand::StartStudy => self.study.start(ctx, &self.slots, prediction, &convention),
             LossCommand::CancelStudy => self.study.cancel(),
             LossCommand::UseSampling(sampling) => {
-                self.settings.loss = sampling.put_into(&self.settings.loss);
+                self.settings.loss = self.settings.loss.with_sampling(sampling);
             }
         }
     }

@@ -5,13 +5,12 @@ use std::time::Duration;
 use eframe::egui::{self, RichText, Slider};
 
 use super::loss_results::{self, seconds};
-use crate::loss::Texels;
-use crate::loss::adaptive::Goal;
+use crate::loss::{Request, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
 use crate::viewer::command::{Command, LossCommand};
-use crate::viewer::loss_request::{Ask, LossSettings};
 use crate::viewer::loss_run::{End, LossRun, Shown};
+use crate::viewer::loss_settings::{Ask, LossSettings};
 use crate::viewer::slots::Slots;
 use crate::viewer::theme;
 
@@ -121,7 +120,7 @@ fn outcome(shown: &Shown, visuals: &egui::Visuals) -> RichText {
     let (error, elapsed) = (shown.relative_error(), shown.elapsed);
     let took =
         format!("{} from {near} + {distant} scenes in {}", loss_results::accuracy(error), seconds(elapsed));
-    match (shown.end, missed(shown.request().goal, error, elapsed)) {
+    match (shown.end, missed(shown.request(), error, elapsed)) {
         (End::Cancelled, _) => RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color),
         (End::Finished, Some(missed)) => {
             RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
@@ -131,12 +130,12 @@ fn outcome(shown: &Shown, visuals: &egui::Visuals) -> RichText {
 }
 
 /// The requested accuracy or time, where it was missed.
-fn missed(goal: Option<Goal>, relative_error: f64, elapsed: Duration) -> Option<String> {
-    match goal? {
-        Goal::RelativeError(target) if relative_error > target => {
+fn missed(request: &Request, relative_error: f64, elapsed: Duration) -> Option<String> {
+    match *request {
+        Request::Accuracy { target, .. } if relative_error > target => {
             Some(format!("Not within {}", loss_results::accuracy(target)))
         }
-        Goal::Time(time) if elapsed > time => Some(format!("Not within {}", seconds(time))),
+        Request::Time { budget, .. } if elapsed > budget => Some(format!("Not within {}", seconds(budget))),
         _ => None,
     }
 }
@@ -240,11 +239,13 @@ mod tests {
 
     #[test]
     fn a_missed_accuracy_or_time_is_reported() {
-        let of = |goal| missed(goal, 0.02, Duration::from_millis(50));
-        assert_eq!(of(Some(Goal::RelativeError(0.01))), Some("Not within +-1.00%".to_owned()));
-        assert_eq!(of(Some(Goal::Time(Duration::from_millis(16)))), Some("Not within 16 ms".to_owned()));
-        assert_eq!(of(Some(Goal::RelativeError(0.03))), None);
-        assert_eq!(of(Some(Goal::Time(Duration::from_millis(60)))), None);
-        assert_eq!(of(None), None);
+        let of = |request| missed(&request, 0.02, Duration::from_millis(50));
+        let accuracy = |target| Request::Accuracy { target, seed: 0 };
+        let time = |ms| Request::Time { budget: Duration::from_millis(ms), seed: 0 };
+        assert_eq!(of(accuracy(0.01)), Some("Not within +-1.00%".to_owned()));
+        assert_eq!(of(time(16)), Some("Not within 16 ms".to_owned()));
+        assert_eq!(of(accuracy(0.03)), None);
+        assert_eq!(of(time(60)), None);
+        assert_eq!(of(Request::default()), None);
     }
 }

@@ -13,7 +13,7 @@ use crate::viewer::theme;
 /// The losses, and their differences from that of the chosen prediction; a click chooses another one.
 pub(super) fn ui(ui: &mut egui::Ui, shown: &Shown, chosen: usize) -> Vec<Command> {
     let mut commands = Vec::new();
-    let losses = &shown.report.losses;
+    let losses = &shown.report.outcome.losses;
     for (index, loss) in losses.iter().enumerate() {
         if result(ui, index, loss, index == chosen).clicked() {
             commands.push(DisplayCommand::ChoosePrediction(index).into());
@@ -117,15 +117,15 @@ impl Verdict {
 
 fn summary(shown: &Shown) -> String {
     let report = &shown.report;
-    let sampler = match report.sampler {
+    let sampler = match report.sampler() {
         Some(Sampler::Sobol) => "scrambled Sobol",
         _ => "random",
     };
     format!(
-        "convention {}, epsilon {}, {sampler} scenes of seed {}, {} on the {}",
+        "convention {}, epsilon {}, {sampler} scenes{}, {} on the {}",
         report.convention.name,
         report.convention.epsilon,
-        shown.request().params.seed,
+        report.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
         report.precision,
         report.backend,
     )

@@ -6,10 +6,10 @@ use egui_plot::{
 };
 
 use crate::files::write::Depth;
+use crate::loss::Sampling;
 use crate::study::{Choice, Family, Point, Study};
 use crate::text::{percent, time};
 use crate::viewer::command::{Command, LossCommand};
-use crate::viewer::sampling::Sampling;
 use crate::viewer::study::StudyRun;
 
 /// Radius of the clickable area of a point, in points of the screen.
@@ -95,7 +95,7 @@ impl StudyWindow<'_> {
         let height = ui.available_height() - lines as f32 * ui.text_style_height(&egui::TextStyle::Small);
         for (point, at) in self.plot(ui, study, height.max(200.0)) {
             if is_clicked(ui, point, at) {
-                commands.push(LossCommand::UseSampling(Sampling::from(&point.choice)).into());
+                commands.push(LossCommand::UseSampling(point.choice.sampling(0)).into());
             }
         }
         ui.label(RichText::new(below).weak().small());
@@ -108,7 +108,7 @@ impl StudyWindow<'_> {
                 .on_disabled_hover_text("No measured setting has so small an error");
             return;
         };
-        let setting = Sampling::from(&point.choice);
+        let setting = point.choice.sampling(self.current.map_or(0, |current| current.seed));
         let text = format!("{}: {}", percent(target), time(point.seconds));
         let button = ui.add(egui::Button::new(text).selected(Some(setting) == self.current));
         if button.on_hover_text(description(point)).clicked() {
@@ -207,7 +207,7 @@ fn place(point: &Point) -> [f64; 2] {
 
 /// Where a setting lies: on its point, or between the points of its sampler with fewer and with more scenes.
 fn place_of(study: &Study, setting: Sampling) -> Option<[f64; 2]> {
-    let Sampling { near, distant, sampler, texels } = setting;
+    let Sampling { near, distant, sampler, texels, .. } = setting;
     let scenes = near + distant;
     let drawn = |scenes| Choice { scenes, sampler, texels, ..Choice::default() };
     let of_family = || study.points.iter().filter(|p| p.choice == drawn(p.choice.scenes));

@@ -5,7 +5,7 @@ use super::*;
 /// Mean and standard error of the second built-in prediction's loss minus the first one's, over 6 + 3 independent
 /// scenes: written out from the losses per scene, with near-field and distant scenes as two strata.
 fn expected_difference() -> [f64; 2] {
-    let losses = expected(&LossParams::default());
+    let losses = expected(&Sampling::default()).losses;
     let per_scene = losses[1].per_scene.iter().zip(&losses[0].per_scene);
     let differences: Vec<f64> = per_scene.map(|(second, first)| second - first).collect();
     let all = differences.len() as f64;

@@ -114,7 +114,7 @@ fn a_newer_request_supersedes_a_running_one() {
     enter(&mut window, "Near-field scenes", "7");
     enter(&mut window, "Distant scenes", "3");
     wait(&mut window, "the newer loss", |app| app.losses().is_some());
-    let expected = expected(&LossParams { near: 7, ..LossParams::default() });
+    let expected = expected(&Sampling { near: 7, ..Sampling::default() }).losses;
     assert_eq!(window.state().losses().unwrap(), expected);
 }
 
@@ -146,6 +146,6 @@ fn the_old_numbers_stay_until_the_new_ones_are_there() {
         assert_eq!(shown(&window).len(), 3, "at seed {seed}");
     }
     wait(&mut window, "the last loss", |app| app.losses().is_some());
-    let expected = expected(&LossParams { seed: 19, ..LossParams::default() });
+    let expected = expected(&Sampling { seed: 19, ..Sampling::default() }).losses;
     assert_eq!(window.state().losses().unwrap(), expected);
 }

@@ -1,0 +1,130 @@
+//! What is compared, and what computes it.
+
+use std::fmt::Debug;
+
+use crate::error::Error;
+use crate::material::Material;
+use crate::math::real::Real;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::progress::Progress;
+
+/// A ground truth, predictions of the same size, and the convention that they are compared by.
+///
+/// [`Comparison::run`] computes the rendering loss of every prediction over the scenes of a
+/// [`Request`](super::Request). The precision is that of the materials: `f32` is many times faster, `f64` is the
+/// reference.
+///
+/// ```
+/// use svbrdf::loss::{Comparison, Request};
+/// use svbrdf::model::convention::Convention;
+/// use svbrdf::progress::Progress;
+/// use svbrdf::samples;
+///
+/// let built_in = samples::load::<f32>()?;
+/// let prediction = &built_in.predictions[0].material;
+/// let comparison = Comparison::new(&built_in.ground_truth.material, &[prediction], Convention::default())?;
+/// let outcome = comparison.run(&Request::default(), &Progress::default())?;
+/// assert!((outcome.losses[0].estimate.mean - 0.3712).abs() < 1e-4);
+/// # Ok::<(), svbrdf::error::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Comparison<'a, T> {
+    ground_truth: &'a Material<T>,
+    predictions: Vec<&'a Material<T>>,
+    convention: Convention,
+    backend: &'a dyn Backend<T>,
+}
+
+/// What computes the loss of each scene.
+pub trait Backend<T>: Debug + Sync {
+    /// `cpu` or `gpu`: what reports call it.
+    fn name(&self) -> &'static str;
+
+    /// For each prediction of `comparison` the loss of each of `scenes`: the mean over texels and RGB of
+    /// `|ln(R_gt + epsilon) - ln(R_pred + epsilon)|`.
+    ///
+    /// `texels` are the compared ones, given as row * width + column; one that is given twice counts twice. `None`: all.
+    /// `scenes` are usable, at least one. The result does not depend on the number of threads.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`], and [`Error::Gpu`] where a graphics adapter fails or is asked for a part of the texels.
+    ///
+    /// # Panics
+    /// Where there is no such texel, as indexing a slice does.
+    fn scene_losses(
+        &self,
+        comparison: &Comparison<'_, T>,
+        scenes: &[Scene],
+        texels: Option<&[usize]>,
+        progress: &Progress,
+    ) -> Result<Vec<Vec<f64>>, Error>;
+}
+
+/// A precision that has a backend on the processor.
+pub trait Compute: Real {
+    /// The fastest one.
+    fn cpu() -> &'static dyn Backend<Self>;
+}
+
+impl<'a, T: Compute> Comparison<'a, T> {
+    /// Compares `predictions` with `ground_truth` on the processor.
+    ///
+    /// # Errors
+    /// [`Error::SizesDiffer`].
+    pub fn new(
+        ground_truth: &'a Material<T>,
+        predictions: &[&'a Material<T>],
+        convention: Convention,
+    ) -> Result<Self, Error> {
+        for prediction in predictions {
+            check_same_size(ground_truth, prediction)?;
+        }
+        Ok(Self { ground_truth, predictions: predictions.to_vec(), convention, backend: T::cpu() })
+    }
+}
+
+impl<'a, T> Comparison<'a, T> {
+    /// The same comparison, computed by `backend`.
+    #[must_use]
+    pub fn on(self, backend: &'a dyn Backend<T>) -> Self {
+        Self { backend, ..self }
+    }
+
+    /// The ground truth.
+    pub fn ground_truth(&self) -> &'a Material<T> {
+        self.ground_truth
+    }
+
+    /// The predictions, in the order of the losses.
+    pub fn predictions(&self) -> &[&'a Material<T>] {
+        &self.predictions
+    }
+
+    /// The convention that renderings and their comparison follow.
+    pub fn convention(&self) -> &Convention {
+        &self.convention
+    }
+
+    /// What computes the losses.
+    pub fn backend(&self) -> &'a dyn Backend<T> {
+        self.backend
+    }
+}
+
+/// Whether a prediction can be compared with its ground truth texel by texel.
+///
+/// # Errors
+/// [`Error::SizesDiffer`].
+pub fn check_same_size<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) -> Result<(), Error> {
+    if ground_truth.size() == prediction.size() {
+        return Ok(());
+    }
+    Err(Error::SizesDiffer {
+        first: format!("ground truth {}", ground_truth.name()),
+        first_size: ground_truth.size(),
+        second: format!("prediction {}", prediction.name()),
+        second_size: prediction.size(),
+        remedy: "bring them to one size with --resize-to gt, pred or a width",
+    })
+}

@@ -1,0 +1,93 @@
+//! Algorithm 1 as it is written: the reference, in any precision.
+
+use rayon::prelude::*;
+
+use super::comparison::{Backend, Comparison, Compute};
+use crate::error::Error;
+use crate::material::Material;
+use crate::math::real::Real;
+use crate::model::brdf::Model;
+use crate::model::scene::Scene;
+use crate::progress::Progress;
+use crate::render::render_texel;
+
+/// Rows are summed within blocks of this many texels, and blocks in order: threads never change a sum.
+const TEXELS_PER_BLOCK: usize = 4096;
+
+/// The plain loss on the processor: one texel and scene after the other.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Plain;
+
+impl Compute for f64 {
+    fn cpu() -> &'static dyn Backend<Self> {
+        &Plain
+    }
+}
+
+impl<T: Real> Backend<T> for Plain {
+    fn name(&self) -> &'static str {
+        "cpu"
+    }
+
+    fn scene_losses(
+        &self,
+        comparison: &Comparison<'_, T>,
+        scenes: &[Scene],
+        texels: Option<&[usize]>,
+        progress: &Progress,
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let ground_truth = comparison.ground_truth();
+        let predictions = comparison.predictions();
+        let model = Model::from(comparison.convention());
+        let epsilon = T::of(comparison.convention().epsilon);
+        let listed = texels;
+        let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
+        let blocks = texels.div_ceil(TEXELS_PER_BLOCK);
+        progress.begin((scenes.len() * blocks) as u64);
+
+        let sums = (0..scenes.len() * blocks)
+            .into_par_iter()
+            .map(|index| {
+                let (scene, block) = (&scenes[index / blocks], index % blocks);
+                let range = block * TEXELS_PER_BLOCK..texels.min((block + 1) * TEXELS_PER_BLOCK);
+                let rays = scene.rays();
+                let range = range.map(|at| listed.map_or(at, |texels| texels[at]));
+                let sums = block_sums(ground_truth, predictions, range, |material, column, row| {
+                    render_texel(material, &model, &rays, column, row)
+                        .map(|radiance| (radiance + epsilon).ln())
+                });
+                progress.step()?;
+                Ok(sums)
+            })
+            .collect::<Result<Vec<_>, Error>>()?;
+
+        let count = 3.0 * texels as f64;
+        let per_scene = |p: usize| {
+            let mean = |sums: &[Vec<f64>]| sums.iter().map(|block| block[p]).sum::<f64>() / count;
+            sums.chunks(blocks).map(mean).collect()
+        };
+        Ok((0..predictions.len()).map(per_scene).collect())
+    }
+}
+
+/// For each prediction the sum of `|log R_gt - log R_pred|` over `texels` and RGB.
+fn block_sums<T: Real>(
+    ground_truth: &Material<T>,
+    predictions: &[&Material<T>],
+    texels: impl Iterator<Item = usize>,
+    log_radiance: impl Fn(&Material<T>, usize, usize) -> [T; 3],
+) -> Vec<f64> {
+    let width = ground_truth.width();
+    let mut sums = vec![0.0; predictions.len()];
+    for index in texels {
+        let (column, row) = (index % width, index / width);
+        let expected = log_radiance(ground_truth, column, row);
+        for (sum, prediction) in sums.iter_mut().zip(predictions) {
+            let got = log_radiance(prediction, column, row);
+            for (a, b) in expected.into_iter().zip(got) {
+                *sum += (a - b).abs().f64();
+            }
+        }
+    }
+    sums
+}

@@ -1,0 +1,155 @@
+//! What is asked of a comparison: which scenes, or how accurate, or how long.
+
+use std::fmt;
+use std::str::FromStr;
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::model::convention::Convention;
+use crate::model::sampler::Sampler;
+use crate::model::scene::Scene;
+
+/// What decides the scenes of a loss.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Request {
+    /// Numbers of sampled scenes. The default: 6 near-field and 3 distant random ones, on all texels.
+    Scenes(Sampling),
+    /// As many scenes as every loss needs to be known this well.
+    Accuracy {
+        /// Half of the 95% interval, as a share of the loss.
+        target: f64,
+        /// Names the scenes.
+        seed: u64,
+    },
+    /// As many scenes as fit into a time.
+    Time {
+        budget: Duration,
+        /// Names the scenes.
+        seed: u64,
+    },
+    /// These scenes, on all texels.
+    Listed(Vec<Scene>),
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self::Scenes(Sampling::default())
+    }
+}
+
+/// Sampled scenes, and the texels that each is compared on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sampling {
+    /// N_S, the number of near-field scenes.
+    pub near: usize,
+    /// N_D, the number of distant scenes.
+    pub distant: usize,
+    /// Names the scenes: the i-th scene of a kind depends on it and on i alone.
+    pub seed: u64,
+    pub sampler: Sampler,
+    pub texels: Texels,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self { near: 6, distant: 3, seed: 0, sampler: Sampler::Random, texels: Texels::All }
+    }
+}
+
+impl Sampling {
+    /// Most scenes of a loss, of both kinds together.
+    pub const MAX_SCENES: usize = 10_000_000;
+
+    /// Whether there are scenes, and no more than [`Sampling::MAX_SCENES`].
+    ///
+    /// # Errors
+    /// [`Error::SceneCount`].
+    pub fn check(&self) -> Result<(), Error> {
+        let count = self.near.saturating_add(self.distant);
+        if count == 0 || count > Self::MAX_SCENES {
+            return Err(Error::SceneCount { count, most: Self::MAX_SCENES });
+        }
+        Ok(())
+    }
+
+    /// The scenes: near-field ones before distant ones.
+    ///
+    /// # Errors
+    /// As [`Sampling::check`].
+    pub fn scenes(&self, convention: &Convention) -> Result<Vec<Scene>, Error> {
+        self.check()?;
+        Ok(self.sampler.scenes(self.seed, self.near, self.distant, convention))
+    }
+}
+
+/// Which texels of the materials are compared in a scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Texels {
+    #[default]
+    All,
+    /// An independent random subset of this many texels per scene; all where the maps have no more.
+    Sampled(usize),
+}
+
+impl Texels {
+    /// The number of sampled texels of a map of `size` (width, height); `None` where all are compared.
+    pub fn sampled(self, [width, height]: [usize; 2]) -> Option<usize> {
+        match self {
+            Self::Sampled(count) if count < width * height => Some(count),
+            _ => None,
+        }
+    }
+}
+
+impl FromStr for Texels {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        match (text, text.parse()) {
+            ("all", _) => Ok(Self::All),
+            (_, Ok(count)) if count > 0 => Ok(Self::Sampled(count)),
+            _ => Err(Error::UnknownName {
+                what: "number of texels",
+                found: text.to_owned(),
+                known: "all, or a number such as 256".to_owned(),
+            }),
+        }
+    }
+}
+
+impl fmt::Display for Texels {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::All => f.write_str("all"),
+            Self::Sampled(count) => count.fmt(f),
+        }
+    }
+}
+
+/// The precision of materials and renderings.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    #[default]
+    F32,
+    F64,
+}
+
+impl FromStr for Precision {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self, Error> {
+        match name {
+            "f32" => Ok(Self::F32),
+            "f64" => Ok(Self::F64),
+            _ => Err(Error::UnknownName {
+                what: "precision",
+                found: name.to_owned(),
+                known: "f32, f64".to_owned(),
+            }),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! What a person asks of the loss: the fields of the loss section.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::loss::{Request, Sampling, Texels};
+use crate::model::sampler::Sampler;
+
+/// What decides how many scenes there are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Ask {
+    #[default]
+    Scenes,
+    Accuracy,
+    Time,
+}
+
+/// The fields of the loss section. Those that the other two ways of asking need are kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct LossSettings {
+    pub ask: Ask,
+    pub near: usize,
+    pub distant: usize,
+    pub sampler: Sampler,
+    pub texels: Texels,
+    pub seed: u64,
+    /// Half of the 95% interval, in percent of the loss.
+    pub target_percent: f64,
+    pub time_ms: u64,
+}
+
+impl Default for LossSettings {
+    fn default() -> Self {
+        let Sampling { near, distant, sampler, texels, seed } = Sampling::default();
+        Self { ask: Ask::Scenes, near, distant, sampler, texels, seed, target_percent: 1.0, time_ms: 100 }
+    }
+}
+
+impl LossSettings {
+    /// What is asked for; fields that are not shown do not influence it.
+    pub fn request(&self) -> Request {
+        let Self { near, distant, seed, sampler, texels, .. } = *self;
+        match self.ask {
+            Ask::Scenes => Request::Scenes(Sampling { near, distant, seed, sampler, texels }),
+            Ask::Accuracy => Request::Accuracy { target: self.target_percent / 100.0, seed },
+            Ask::Time => Request::Time { budget: Duration::from_millis(self.time_ms), seed },
+        }
+    }
+}
+
+impl LossSettings {
+    /// The scenes and texels; `None` where an accuracy or a time decides them.
+    pub fn sampling(&self) -> Option<Sampling> {
+        match self.request() {
+            Request::Scenes(sampling) => Some(sampling),
+            _ => None,
+        }
+    }
+
+    /// These settings with the numbers, sampler and texels of `sampling`; the seed stays.
+    #[must_use]
+    pub fn with_sampling(&self, sampling: Sampling) -> Self {
+        let Sampling { near, distant, sampler, texels, .. } = sampling;
+        Self { ask: Ask::Scenes, near, distant, sampler, texels, ..self.clone() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_is_what_the_papers_report_and_hidden_fields_change_no_request() {
+        let settings = LossSettings::default();
+        let request = settings.request();
+        assert_eq!(request, Request::default());
+        for ask in [Ask::Accuracy, Ask::Time] {
+            let settings = LossSettings { ask, ..settings.clone() };
+            let other = LossSettings {
+                near: 60,
+                distant: 2,
+                sampler: Sampler::Sobol,
+                texels: Texels::Sampled(9),
+                ..settings.clone()
+            };
+            assert_eq!(settings.request(), other.request());
+            assert_ne!(settings.request(), request);
+        }
+    }
+}
