@@ -253,18 +253,18 @@ fn a_wipe_shows_the_reference_on_the_left() {
     }
 }
 
-/// What the core gives for the difference of two materials of 8 x 8 texels under [`ABOVE`], as colours.
-fn colours_of(
-    difference: DisplayedDifference,
-    quantity: Quantity,
-    pair: &[Material<f32>; 2],
-) -> Vec<[u8; 3]> {
+/// The differences of two materials of 8 x 8 texels under [`ABOVE`], from the core.
+fn differences_of(kind: Difference, quantity: Quantity, pair: &[Material<f32>; 2]) -> Vec<f32> {
     let image =
         |material| quantity.image(material, &ABOVE, &PRINTED, &Progress::default()).expect("rendered");
     let [prediction, ground_truth] = pair.each_ref().map(image);
-    let values = difference.kind.of_images(&ground_truth, &prediction, PRINTED.epsilon);
-    let map = if difference.kind.is_signed() { diverging } else { heat };
-    values.iter().map(|value| levels(map(value / difference.range).map(f64::from))).collect()
+    kind.of_images(&ground_truth, &prediction, PRINTED.epsilon)
+}
+
+/// Their colours.
+fn colours_of(values: &[f32], DisplayedDifference { kind, range }: DisplayedDifference) -> Vec<[u8; 3]> {
+    let map = if kind.is_signed() { diverging } else { heat };
+    values.iter().map(|value| levels(map(value / range).map(f64::from))).collect()
 }
 
 #[test]
@@ -280,20 +280,22 @@ fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
     for quantity in Quantity::ALL {
         let [shown, reference] = pair.each_ref().map(|material| shaded(gpu, material, quantity));
         for &kind in Difference::all(quantity) {
-            let difference = DisplayedDifference { kind, range: 0.5 * kind.default_range() as f32 };
+            let values = differences_of(kind, quantity, &pair);
+            let largest = values.iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
+            let difference = DisplayedDifference { kind, range: 0.9 * largest };
             let drawn = |reference: &Shaded| {
                 let params = params(whole([8, 8]), quantity);
                 let params = DisplayParams { difference: Some(difference), exposure_ev: 3.0, ..params };
                 picture(gpu, [8, 8], &shown, reference, &params)
             };
-            let expected = colours_of(difference, quantity, &pair);
+            let expected = colours_of(&values, difference);
             let off = faults(&drawn(&reference), |column, row| Some(expected[row * 8 + column]));
             assert_eq!(off, Vec::<String>::new(), "{kind:?} of {quantity:?}");
             let zero = faults(&drawn(&shown), |_, _| Some([0; 3]));
             assert_eq!(zero, Vec::<String>::new(), "a picture does not differ from itself");
             // A planted fault: the same numbers in another range are other colours.
             let narrower = DisplayedDifference { range: 0.8 * difference.range, ..difference };
-            let planted = colours_of(narrower, quantity, &pair);
+            let planted = colours_of(&values, narrower);
             assert!(!faults(&drawn(&reference), |x, y| Some(planted[y * 8 + x])).is_empty(), "{kind:?}");
         }
     }
