@@ -1,16 +1,33 @@
-//! Tells the tests whether the reference numbers beside the checkout are there, so that tests that need them are
-//! reported as ignored where they are not.
+//! Tells the tests what is there: the reference numbers beside the checkout, a graphics driver, a display to test the
+//! window on. A test that needs what is not there is reported as ignored, with the reason.
 
+use std::env;
 use std::path::Path;
+
+#[path = "build/adapter.rs"]
+mod adapter;
+
+use adapter::set;
 
 const GOLDEN: &str = "../shared/golden";
 
+/// What the test of the real window runs.
+const DESKTOP: [&str; 3] = ["Xvfb", "xdotool", "import"];
+
 fn main() {
-    println!("cargo::rustc-check-cfg=cfg(has_shared)");
     println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=build");
+
+    let shared = Path::new(GOLDEN).is_dir();
     // Only where it is there: a missing path would rebuild the crate on every run.
-    if Path::new(GOLDEN).is_dir() {
+    if shared {
         println!("cargo::rerun-if-changed={GOLDEN}");
-        println!("cargo::rustc-cfg=has_shared");
     }
+    set("has_shared", shared);
+
+    adapter::tell_cargo();
+
+    let path = env::var_os("PATH").unwrap_or_default();
+    let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());
+    set("has_desktop", DESKTOP.iter().all(|program| installed(&program)));
 }

@@ -29,12 +29,12 @@ const TOLERANCE: f64 = 1e-5;
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.6, 0.5, 1.0] };
 
 fn main() {
-    match support::gpu() {
-        Some(gpu) => {
+    match support::find_gpu() {
+        Ok(gpu) => {
             println!("{}\n", gpu.report);
             divan::main();
         }
-        None => println!("nothing is measured"),
+        Err(problem) => println!("nothing is measured: {problem}"),
     }
 }
 
@@ -48,7 +48,7 @@ struct Picture {
 
 impl Picture {
     fn new(side: usize) -> Self {
-        let gpu = support::gpu().expect("there is an adapter");
+        let gpu = support::gpu();
         let shading = Shading::new(gpu).expect("compiled");
         let target = shading.target(gpu, [side; 2]).expect("created");
         Self { gpu, material: support::bumpy(side, side), shading, target }
@@ -142,7 +142,7 @@ fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
 
 #[divan::bench(args = SIDES, sample_count = 10)]
 fn loss(bencher: divan::Bencher<'_, '_>, side: usize) {
-    let gpu = support::gpu().expect("there is an adapter");
+    let gpu = support::gpu();
     let losses = Losses::new(gpu).expect("compiled");
     let (sampling, progress) = (Sampling::default(), Progress::default());
     let scenes = sampling.near + sampling.distant;

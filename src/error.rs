@@ -1,11 +1,13 @@
-//! What can go wrong: one variant per cause. Each says where, what was expected, what was found and what to do.
+//! What can go wrong: one variant per cause. The text says where, what was expected, what was found and what to do.
+//!
+//! No text names an option of the command line or a control of the window: each of them adds its own advice.
 
 use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::text::percent;
 
-/// The error of every fallible operation of this crate. Its text is complete: it ends with what to do.
+/// The error of every fallible operation of this crate.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -21,13 +23,33 @@ pub enum Error {
     #[error("{} is not a material: expected {expected}, found {found}; {remedy}", path.display())]
     NotAMaterial { path: PathBuf, expected: String, found: String, remedy: String },
 
-    /// What is kept with a material cannot be understood.
-    #[error("{} does not say how a material is read: {problem}; expected an object such as \
+    /// A packed image was expected, and the picture cannot be divided into one.
+    #[error("{} is not a material: expected {}, found {} x {} pixels; give a packed image, or a folder or prefix of one \
+        file per map", path.display(), expected_tiles(*grid), size[0], size[1])]
+    NotPacked {
+        path: PathBuf,
+        size: [usize; 2],
+        /// Columns and rows of tiles, where they were specified.
+        grid: Option<[usize; 2]>,
+    },
+
+    /// A file holds fewer materials than were counted on.
+    #[error("{} holds {count} materials: expected an exemplar from 0 to {}, found {exemplar}; count from 0",
+        path.display(), count.saturating_sub(1))]
+    NoSuchExemplar { path: PathBuf, count: usize, exemplar: usize },
+
+    /// One of the materials of a file has no textures.
+    #[error("{} is not a material: expected textures, found none in {name} (number {exemplar} of {count}, from 0); \
+        choose another of its materials", path.display())]
+    NoTextures { path: PathBuf, name: String, exemplar: usize, count: usize },
+
+    /// A sidecar file cannot be understood.
+    #[error("{} does not specify how a material is read: {problem}; expected an object such as \
         {{\"albedo\": \"srgb\", \"maps\": {{\"roughness\": \"orm.png:g\"}}}}, of the keys {keys}", path.display())]
-    BadKept { path: PathBuf, problem: String, keys: String },
+    BadSidecar { path: PathBuf, problem: String, keys: String },
 
     /// Something had to be guessed where the user wants no guesses.
-    #[error("{} is ambiguous: {guesses}; say how it is meant, or leave out --strict", path.display())]
+    #[error("{} is ambiguous: {guesses}; specify what is unsure, or allow guesses", path.display())]
     Guessed { path: PathBuf, guesses: String },
 
     /// Two things that must have the same size do not.
@@ -41,7 +63,25 @@ pub enum Error {
         remedy: &'static str,
     },
 
-    /// A value lies where none may.
+    /// Maps of one material have different shapes.
+    #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; resize them so that the maps of a material have \
+        one shape", first_size[0], first_size[1], second_size[0], second_size[1])]
+    MapSizesDiffer { first: String, first_size: [usize; 2], second: String, second_size: [usize; 2] },
+
+    /// Samples of a map are NaN or infinite.
+    #[error("{}: {map} map, column {column}, row {row}: expected finite numbers, found {value}, one of {nans} NaN and \
+        {infinities} infinite samples; correct the map", path.display())]
+    NotFinite {
+        path: PathBuf,
+        map: &'static str,
+        column: usize,
+        row: usize,
+        value: f32,
+        nans: usize,
+        infinities: usize,
+    },
+
+    /// A value lies outside its range.
     #[error(
         "{whose}: {map} map, column {column}, row {row}: expected {expected}, found {found}; correct the map"
     )]
@@ -75,9 +115,17 @@ pub enum Error {
     )]
     SceneCount { count: usize, most: usize },
 
-    /// A value of an option or a combination of options that makes no sense.
+    /// A command line that makes no sense. Only the command line makes this error.
     #[error("{0}")]
     Usage(String),
+
+    /// A kind of file that a material cannot be written to in this way.
+    #[error("{} {problem}", path.display())]
+    UnsupportedOutput { path: PathBuf, problem: OutputProblem },
+
+    /// A defect of this program.
+    #[error("internal error: {0}; report it with what you did")]
+    Internal(String),
 
     /// The materials of a study do not differ.
     #[error(
@@ -88,7 +136,7 @@ pub enum Error {
 
     /// A material would be resized to more than fits.
     #[error("the materials cannot be resized to {width} x {height} texels: expected at most {max_side} x {max_side} \
-        and {} GiB a material, found {} GiB; give a smaller width to --resize-to",
+        and {} GiB a material, found {} GiB; choose a smaller width",
         max_bytes >> 30, bytes.div_ceil(1 << 30))]
     TooLarge { width: usize, height: usize, bytes: usize, max_side: usize, max_bytes: usize },
 
@@ -116,6 +164,34 @@ pub enum Error {
     /// The caller cancelled the work.
     #[error("cancelled")]
     Cancelled,
+}
+
+/// Why a material cannot be written to a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum OutputProblem {
+    #[error("cannot be written: name an .exr file, a .png file or a folder")]
+    Kind,
+    #[error("cannot have that depth; EXR has half and float, PNG and folders have 8 and 16")]
+    Depth,
+    #[error("cannot have a preview; only EXR has one")]
+    Preview,
+    /// An EXR is always in the project's own form.
+    #[error("cannot follow a preset; an EXR always has the project's own form")]
+    LayeredPreset,
+    #[error("cannot be packed in that way; deschaintre, gao, materialgan, lookahead and matfusion pack")]
+    PackedPreset,
+    #[error("cannot be a folder of that preset; materialgan and gltf have one")]
+    FolderPreset,
+}
+
+/// What a packed image has to be.
+fn expected_tiles(grid: Option<[usize; 2]>) -> String {
+    match grid {
+        Some([columns, rows]) => format!("a packed image of {columns} x {rows} tiles with room for the order"),
+        None => "a packed strip of square tiles (any photos, then normal | diffuse | roughness | specular, 4 or more \
+            times as wide as high), or another grid in which one tile looks like normals"
+            .to_owned(),
+    }
 }
 
 impl Error {

@@ -1,6 +1,6 @@
-//! What SVBRDF predictions look like beside their ground truth, and how far they are from it.
+//! Rendering of SVBRDF materials, and the rendering loss of predictions against a ground truth.
 //!
-//! A material is four maps: normal, diffuse, specular, roughness. The headless core renders it under a light and a
+//! A material is four maps: normal, diffuse, specular and roughness. The headless core renders it under a light and a
 //! view (Algorithm 3 of Deschaintre et al. 2018-2020) and computes the rendering loss between two materials over
 //! sampled scenes (Algorithms 1 and 2):
 //!
@@ -20,33 +20,29 @@
 //! # Ok::<(), svbrdf::error::Error>(())
 //! ```
 //!
-//! # The map
+//! # Modules
 //!
-//! | module | what |
+//! | module | content |
 //! |---|---|
-//! | [`material`] | the four maps, checked once; [`files::read`] opens files; [`samples`] are built in |
-//! | [`model::convention`] | what differs between the printed algorithms and the released codes, as data |
-//! | [`model::brdf`] | Algorithm 3 at one point, a function a term, over [`math::real`] and [`math::vec3`] |
-//! | [`model::scene`] | Algorithm 2 and the scenes of Algorithm 1, functions of a point of the unit cube |
-//! | [`model::sampler`] | where the points of the unit cube come from: random, or scrambled Sobol sequences |
+//! | [`math`], [`image`] | the two precisions and their vectors; RGB images of linear radiance |
+//! | [`model::convention`] | the differences between the printed algorithms and the released codes, as data |
+//! | [`model::brdf`] | Algorithm 3 at one point, one function per term |
+//! | [`model::scene`], [`model::sampler`] | Algorithm 2: scenes as functions of a point of the unit cube; random points, or scrambled Sobol sequences |
+//! | [`material`] | the four maps, validated once |
 //! | [`render`] | Algorithm 3 over a whole material |
-//! | [`loss`] | Algorithm 1: one `Comparison`, one `Request`, one `Outcome` with its errors; plain and fused |
+//! | [`picture`] | renderings as PNG and EXR files |
+//! | [`files`] | reading and writing materials |
+//! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
+//! | [`report`] | losses as text |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
-//! | [`picture::tone`], [`picture::colour_map`], [`picture::export`] | what a screen shows, of radiance and of differences; pictures as PNG and EXR files |
-//! | [`picture::camera`], [`picture::quantity`] | where in a pane the material is seen; rendering or which map |
-//! | [`report`] | losses with what gives them a meaning, as text |
-//! | [`progress`], [`error`] | long work watched and cancelled; one error variant a cause |
-#![cfg_attr(
-    feature = "gpu",
-    doc = "| [`gpu`] | the shaders (twins of `brdf`), the two passes, a probe for numbers |"
-)]
-#![cfg_attr(
-    feature = "viewer",
-    doc = "| [`viewer`] | the window: panels return commands, one place carries them out |"
-)]
+//! | [`samples`] | built-in materials |
+//! | [`progress`], [`error`] | progress and cancellation of long operations; one error variant per cause |
+#![cfg_attr(feature = "gpu", doc = "| [`gpu`] | rendering and loss on a graphics adapter |")]
+#![cfg_attr(feature = "viewer", doc = "| [`viewer`] | the window |")]
 //!
-//! The core knows no graphics; `gpu` knows the core; `viewer` knows both; the command line is in the binary. Cargo's
-//! features enforce it: `--no-default-features` is the core with the command line.
+//! Modules use lower layers only; a test checks it. The core does not depend on graphics, `gpu` depends on the core, `viewer` on
+//! both, and the command line is part of the binary. Without default features the crate is the core with the command line.
+//! The feature `testing` makes internals public for the tests of this repository; it has no stable interface.
 
 pub mod error;
 pub mod files;
@@ -63,6 +59,6 @@ pub mod render;
 pub mod report;
 pub mod samples;
 pub mod study;
-pub mod text;
+pub(crate) mod text;
 #[cfg(feature = "viewer")]
 pub mod viewer;

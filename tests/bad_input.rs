@@ -4,7 +4,6 @@ mod claims;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 use image::{GrayImage, RgbImage};
 use svbrdf::files::read::{ReadOptions, read, read_bytes};
@@ -23,13 +22,11 @@ fn assert_all_refused(table: &[Bad]) {
     for (what, make, words) in table {
         let folder = tempdir().unwrap();
         let path = make(folder.path());
-        let started = Instant::now();
         let message = match read::<f32>(&path, &ReadOptions::default(), &Progress::default()) {
             Ok(_) => panic!("{what} was read without an error"),
             Err(error) => error.to_string(),
         };
         println!("{what}:\n    {message}");
-        assert!(started.elapsed() < Duration::from_secs(1), "{what} took {:?}", started.elapsed());
         for word in *words {
             assert!(message.contains(word), "{what}: `{word}` is not in: {message}");
         }
@@ -128,7 +125,12 @@ fn strips_of_the_wrong_shape_are_refused() {
         (
             "a strip that is no multiple of its height",
             |f| save(f, "odd.png", &flat(17, 4, [200; 3])),
-            &["odd.png is not a material", "4 or more times as wide as high", "17 x 4", "correct"],
+            &[
+                "odd.png is not a material",
+                "4 or more times as wide as high",
+                "17 x 4",
+                "give a packed image",
+            ],
         ),
         ("an upright strip", |f| save(f, "up.png", &flat(4, 16, [200; 3])), &["up.png", "found 4 x 16"]),
     ]);

@@ -2,12 +2,12 @@
 
 mod backend;
 mod ends;
-mod kept;
 mod loss;
 mod materials;
 mod notes;
 mod pictures;
 mod scenes;
+mod sidecar;
 mod stopped;
 mod study;
 mod written;

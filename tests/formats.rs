@@ -1,7 +1,6 @@
 //! One test for each row of the table in `docs/formats.md`: what opens, and that it is the same material.
 
 mod conventions;
-mod kept;
 mod killed;
 mod normals;
 mod options;
@@ -9,6 +8,7 @@ mod packed;
 mod pictures;
 mod png;
 mod sets;
+mod sidecar;
 mod written;
 
 use std::path::Path;

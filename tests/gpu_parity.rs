@@ -51,8 +51,9 @@ fn probe(gpu: &Gpu, convention: &Convention, points: &[Point]) -> Vec<[f32; 3]> 
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_shader_agrees_with_f64_at_random_and_extreme_points() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let points = points(SEED, COUNT);
     for convention in convention::ALL {
         let got = probe(gpu, &convention, &points);
@@ -89,8 +90,9 @@ fn the_bound_is_tight_at_ordinary_points() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_comparison_with_f64_goes_red_on_planted_faults() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let points = points(SEED, 2_000);
     let faulty = |change: fn(&mut Point)| {
         let mut changed = points.clone();
@@ -143,8 +145,9 @@ impl Row {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_shader_agrees_with_the_golden_points() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let golden: Golden = serde_json::from_str(include_str!("points.json")).expect("golden points");
     let points: Vec<Point> = golden.rows.iter().map(Row::point).collect();
     let got = probe(gpu, &PRINTED, &points);
@@ -184,8 +187,9 @@ fn scenes(convention: &Convention) -> Vec<Scene> {
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn renderings_agree_with_the_cpu_texel_by_texel() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let mut worst = 0.0_f64;
     for [width, height] in [[33, 33], [64, 40], [17, 50], [1, 5], [5, 1], [1, 1]] {
         let material = bumpy(width, height);
@@ -204,8 +208,9 @@ fn renderings_agree_with_the_cpu_texel_by_texel() {
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn renderings_of_the_built_in_materials_agree_with_the_cpu_texel_by_texel() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let built_in = samples::load::<f32>().expect("built in");
     for read in std::iter::once(&built_in.ground_truth).chain(&built_in.predictions) {
         for scene in scene::sample(SEED, 1, 1, &PRINTED) {
@@ -218,8 +223,9 @@ fn renderings_of_the_built_in_materials_agree_with_the_cpu_texel_by_texel() {
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let material = bumpy(40, 30);
     let scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.5, 0.2, 0.8] };
     let on_gpu = gpu.render(&material, &scene, &PRINTED).expect("rendered");
@@ -231,8 +237,9 @@ fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn a_rendering_larger_than_one_band_of_reading_back_is_whole() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let (width, height) = (1030, 1100);
     let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.5, 0.2, 0.8] };
     let material = bumpy(width, height);
@@ -242,8 +249,9 @@ fn a_rendering_larger_than_one_band_of_reading_back_is_whole() {
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn the_comparison_of_renderings_goes_red_on_a_flipped_or_transposed_grid() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let side = 24;
     let scene = Scene { kind: Kind::Near, view: [-0.5, 0.25, 1.5], light: [0.9, 0.8, 0.3] };
     let image = gpu.render(&bumpy(side, side), &scene, &PRINTED).expect("rendered");

@@ -1,4 +1,4 @@
-//! Damaged files for every reader: an error that names the file or a valid material, never a panic.
+//! Damaged files for every reader: a valid material, or an error of the kind that this damage causes; never a panic.
 //!
 //! It stands in for cargo-fuzz, which needs a nightly compiler. `SVBRDF_MUTATIONS=40000 cargo test mutations --
 //! --nocapture` tries more than the usual number for each reader, and prints how many opened and were refused.
@@ -77,12 +77,75 @@ fn in_memory(bytes: &[u8]) -> Result<Read<f32>, Error> {
     read_bytes("damaged", bytes, &OPTIONS)
 }
 
+/// Whether a damaged picture can cause this error: it cannot be decoded, or it is no longer a packed or layered
+/// material. An error of the picture has to name the file.
+fn of_picture(error: &Error) -> bool {
+    match error {
+        Error::BadImage { path, .. } | Error::NotPacked { path, .. } | Error::NotAMaterial { path, .. } => {
+            path == Path::new("damaged")
+        }
+        // A float that is too large for the material.
+        Error::OutOfRange { whose, .. } => whose == "damaged",
+        Error::MapSizesDiffer { .. } => true,
+        _ => false,
+    }
+}
+
+/// Whether a damaged file that lists textures can cause this error: also, a texture that it names cannot be read.
+fn of_listing(error: &Error) -> bool {
+    match error {
+        Error::BadImage { .. } | Error::Unreadable { .. } | Error::MapSizesDiffer { .. } => true,
+        Error::NotAMaterial { path, .. } | Error::NoTextures { path, .. } => named_damaged(path),
+        _ => false,
+    }
+}
+
+/// Whether a damaged sidecar file can cause this error: it is refused, or its options do not fit the picture.
+fn of_sidecar(error: &Error) -> bool {
+    match error {
+        Error::BadSidecar { path, .. }
+        | Error::NotPacked { path, .. }
+        | Error::NoSuchExemplar { path, .. } => named_damaged(path),
+        Error::BadImage { .. } | Error::NotAMaterial { .. } | Error::MapSizesDiffer { .. } => true,
+        _ => false,
+    }
+}
+
+fn named_damaged(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("damaged"))
+}
+
+#[test]
+fn an_error_of_another_kind_or_file_is_not_accepted() {
+    let bad = |path: &str| Error::BadImage { path: path.into(), problem: "p".into(), remedy: "r".into() };
+    assert!(of_picture(&bad("damaged")) && !of_picture(&bad("damaged.png")) && !of_picture(&bad("other")));
+    let internal = || Error::Internal("damaged".to_owned());
+    for is_expected in [of_picture, of_listing, of_sidecar] {
+        assert!(!is_expected(&internal()) && !is_expected(&Error::Usage("damaged".to_owned())));
+    }
+    let absent = Error::unreadable(Path::new("damaged"), std::io::ErrorKind::NotFound.into());
+    assert!(!of_picture(&absent) && of_listing(&absent) && !of_sidecar(&absent));
+}
+
+#[test]
+#[should_panic(expected = "planted: Internal")]
+fn a_reader_that_blames_itself_is_not_accepted() {
+    let opened = std::cell::Cell::new(false);
+    let whole = encoded(&packed("NDRS", 4, |_, v| v), ImageFormat::Png);
+    let open = |bytes: &[u8]| match opened.replace(true) {
+        false => in_memory(bytes),
+        true => Err(Error::Internal("damaged".to_owned())),
+    };
+    try_all("planted", &whole, damaged, open, of_picture);
+}
+
 /// Opens damaged copies of `whole`, each made by `damage`.
 fn try_all(
     reader: &str,
     whole: &[u8],
     damage: impl Fn(&[u8], &mut ChaCha8Rng) -> Vec<u8>,
     open: impl Fn(&[u8]) -> Result<Read<f32>, Error>,
+    is_expected: impl Fn(&Error) -> bool,
 ) {
     open(whole).unwrap_or_else(|e| panic!("{reader}: {e}"));
     let mut random = ChaCha8Rng::seed_from_u64(5);
@@ -97,10 +160,7 @@ fn try_all(
                 opened += 1;
             }
             Err(error) => {
-                assert!(
-                    error.to_string().contains("damaged") || !matches!(error, Error::BadImage { .. }),
-                    "{error}"
-                );
+                assert!(is_expected(&error), "{reader}: {error:?}");
                 refused += 1;
             }
         }
@@ -122,7 +182,7 @@ fn damaged_pictures_never_panic() {
         ("TIFF of 16 bits", &sixteen, ImageFormat::Tiff),
         ("TIFF of floats", &float, ImageFormat::Tiff),
     ] {
-        try_all(what, &encoded(image, format), damaged, in_memory);
+        try_all(what, &encoded(image, format), damaged, in_memory, of_picture);
     }
 }
 
@@ -141,9 +201,9 @@ fn damaged_png_with_right_checksums_never_panics() {
         sign(&mut bytes);
         bytes
     };
-    try_all("PNG of a palette, signed again", &palette(), signed, in_memory);
+    try_all("PNG of a palette, signed again", &palette(), signed, in_memory, of_picture);
     let eight = encoded(&packed("NDRS", 4, |_, v| v), ImageFormat::Png);
-    try_all("PNG of 8 bits, signed again", &eight, signed, in_memory);
+    try_all("PNG of 8 bits, signed again", &eight, signed, in_memory, of_picture);
 }
 
 /// Makes the checksum of every chunk of a PNG right, as far as there are chunks.
@@ -161,8 +221,8 @@ fn sign(png: &mut [u8]) {
 
 #[test]
 fn damaged_layered_exr_never_panics() {
-    try_all("EXR of one part", &written(|path| layered(path, true)), damaged, in_memory);
-    try_all("EXR of four parts", &written(multi_part), damaged, in_memory);
+    try_all("EXR of one part", &written(|path| layered(path, true)), damaged, in_memory, of_picture);
+    try_all("EXR of four parts", &written(multi_part), damaged, in_memory, of_picture);
 }
 
 #[test]
@@ -177,7 +237,7 @@ fn damaged_exr_of_every_compression_never_panics() {
             "{sizes:?}"
         );
         sizes.push(whole.len());
-        try_all(&format!("EXR, {compression}"), &whole, damaged, in_memory);
+        try_all(&format!("EXR, {compression}"), &whole, damaged, in_memory, of_picture);
     }
     println!("{sizes:?} bytes");
 }
@@ -186,8 +246,8 @@ fn damaged_exr_of_every_compression_never_panics() {
 fn damaged_numpy_files_never_panic() {
     let image = packed("NDRS", 4, |_, v| v).to_rgb32f();
     let shape = [u64::from(image.height()), u64::from(image.width()), 3];
-    try_all("npy", &npy(shape, image.as_raw()), damaged, in_memory);
-    try_all("npz", &written(npz), damaged, in_memory);
+    try_all("npy", &npy(shape, image.as_raw()), damaged, in_memory, of_picture);
+    try_all("npz", &written(npz), damaged, in_memory, of_picture);
 }
 
 #[test]
@@ -201,15 +261,21 @@ fn damaged_files_that_name_textures_never_panic() {
         ("damaged2.mtlx", STANDARD_SURFACE.as_bytes().to_vec()),
     ] {
         let path = folder.path().join(name);
-        try_all(name, &whole, damaged, |bytes| {
-            std::fs::write(&path, bytes).unwrap();
-            read(&path, &OPTIONS, &Progress::default())
-        });
+        try_all(
+            name,
+            &whole,
+            damaged,
+            |bytes| {
+                std::fs::write(&path, bytes).unwrap();
+                read(&path, &OPTIONS, &Progress::default())
+            },
+            of_listing,
+        );
     }
 }
 
 #[test]
-fn damaged_files_that_are_kept_with_a_material_never_panic() {
+fn damaged_sidecar_files_never_panic() {
     let folder = tempdir().unwrap();
     let image = packed("NDRS", 4, |_, v| v);
     image.save_with_format(folder.path().join("damaged.png"), ImageFormat::Png).unwrap();
@@ -218,10 +284,16 @@ fn damaged_files_that_are_kept_with_a_material_never_panic() {
     let path = folder.path().join("damaged.svbrdf.json");
     let whole = br#"{"albedo": "srgb", "dielectric-f0": 0.05, "grid": "4x1", "order": "ndrs", "flip-v": true,
         "exemplar": 0, "maps": {"roughness": "damaged_r.png:g"}, "preset": "gao"}"#;
-    try_all("kept", whole, damaged, |bytes| {
-        std::fs::write(&path, bytes).unwrap();
-        read(&path, &ReadOptions::AUTO, &Progress::default())
-    });
+    try_all(
+        "sidecar",
+        whole,
+        damaged,
+        |bytes| {
+            std::fs::write(&path, bytes).unwrap();
+            read(&path, &ReadOptions::AUTO, &Progress::default())
+        },
+        of_sidecar,
+    );
 }
 
 #[test]

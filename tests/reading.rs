@@ -41,7 +41,7 @@ fn with_map(replaced: usize, image: impl Into<DynamicImage>) -> TempDir {
 }
 
 fn has_note(read: &Read<f64>, words: &str) -> bool {
-    read.notes.iter().any(|note| note.contains(words))
+    read.notes.iter().any(|note| note.to_string().contains(words))
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What a loss is computed on.
+//! The device that computes a loss.
 
 use std::time::{Duration, Instant};
 
@@ -11,20 +11,20 @@ use svbrdf::report::Report;
 use super::bar::watched;
 use super::exit::tell;
 
-/// A shorter job is not worth starting an adapter for, which takes about as long.
+/// Starting an adapter takes about this long: shorter losses stay on the CPU.
 const SHORT: Duration = Duration::from_millis(100);
-/// A measurement this long is not repeated with more scenes.
+/// Measurements end with one that takes this long.
 const LONG: Duration = Duration::from_millis(500);
 
-/// What the user asks for.
+/// The requested device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Choice {
-    /// The processor: the same digits as the window
+    /// The CPU, which the window uses, too
     #[default]
     Cpu,
-    /// The graphics adapter: the same to about 6 digits, faster for many scenes of large maps on a fast adapter
+    /// The graphics adapter: equal to about 6 digits; faster for many scenes and large maps on a fast adapter
     Gpu,
-    /// Measures both on scenes of the job, and takes the faster
+    /// Measures both on a few scenes and uses the faster one
     Auto,
 }
 
@@ -50,7 +50,7 @@ pub fn run(choice: Choice, comparison: Comparison<'_, f32>, request: &Request) -
     Ok(Report::new(&comparison, outcome))
 }
 
-/// The scenes of a request that is given and on all texels: an adapter can compute it.
+/// The scenes of a request that an adapter can compute: a fixed number of scenes on all texels.
 fn on_all_texels(comparison: &Comparison<'_, f32>, request: &Request) -> Result<Option<Vec<Scene>>, Error> {
     match request {
         Request::Listed(scenes) => Ok(Some(scenes.clone())),
@@ -79,7 +79,7 @@ fn faster(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Result<(Option<
         Ok(gpu) => gpu,
         Err(problem) => return Ok((None, problem.to_string())),
     };
-    // What takes longer than the whole loss on the CPU is not measured further.
+    // A measurement that takes longer than the whole loss on the CPU is the last.
     let long = LONG.min(on_cpu);
     let compared = comparison.clone().on(gpu.backend());
     match predict(scenes.len(), long, timed(over_first(&compared, scenes))) {
@@ -99,8 +99,8 @@ fn timed<R>(work: impl Fn(usize) -> Result<R, Error>) -> impl FnMut(usize) -> Re
     }
 }
 
-/// How long all `scenes` take, from `measured` times of the first ones: a part that does not depend on their number,
-/// such as sending maps, and a part that is proportional to it. Measurements end where one is `long`.
+/// Predicts the time of all `scenes` from `measured` times of the first ones: a constant part, such as the upload of maps, plus
+/// a part that is proportional to their number. Measurements end with one that takes at least `long`.
 fn predict(
     scenes: usize,
     long: Duration,
@@ -137,7 +137,7 @@ impl Adapter {
     }
 }
 
-/// There is none: this program was built without the GPU layer.
+/// No adapter: this program was built without the GPU layer.
 #[cfg(not(feature = "gpu"))]
 pub enum Adapter {}
 
@@ -145,8 +145,8 @@ pub enum Adapter {}
 impl Adapter {
     pub fn start() -> Result<Self, Error> {
         Err(Error::NoAdapter {
-            problem: "this svbrdf was built without the feature `gpu`".to_owned(),
-            remedy: "leave out --backend, or build it with the feature",
+            problem: "this program was built without GPU support".to_owned(),
+            remedy: "leave out --backend, or build with the feature `gpu`",
         })
     }
 

@@ -1,4 +1,4 @@
-//! A progress bar for long work, where a person is watching.
+//! A progress bar for long operations, if stderr is a terminal.
 
 use std::io::{IsTerminal, stderr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -8,11 +8,11 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 use svbrdf::progress::Progress;
 
-/// Work that ends sooner gets no bar.
+/// Operations that end sooner get no bar.
 const PATIENCE: Duration = Duration::from_millis(500);
 const REFRESH: Duration = Duration::from_millis(100);
 
-/// Does `work` with a bar on stderr that says `what` it is, where stderr is a terminal and the work is long.
+/// Runs `work`, with a progress bar titled `what` if it takes long and stderr is a terminal.
 pub fn watched<R>(what: &str, work: impl FnOnce(&Progress) -> R) -> R {
     let progress = Progress::default();
     if !stderr().is_terminal() {

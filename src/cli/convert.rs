@@ -1,4 +1,4 @@
-//! `svbrdf convert`: a material into files of another kind.
+//! `svbrdf convert`: writes a material in another format.
 
 use std::path::PathBuf;
 
@@ -13,8 +13,8 @@ use super::stop::stoppable;
 
 /// Writes a material as one layered EXR, as a packed PNG or into a folder
 ///
-/// By what OUT ends in: .exr is one layered EXR of linear floats, .png a packed strip normal | diffuse | roughness |
-/// specular, all linear; anything else a folder of four PNG files, colours in sRGB.
+/// The extension of OUT decides: .exr is one layered EXR of linear floats, .png a packed strip normal | diffuse |
+/// roughness | specular, all linear; anything else a folder of four PNG files, colours in sRGB.
 #[derive(Debug, clap::Args)]
 pub struct ConvertArgs {
     /// A packed or layered image, a folder, a name prefix, or one of the files
@@ -29,22 +29,22 @@ pub struct ConvertArgs {
     #[arg(long, value_name = "8|16|half|float")]
     depth: Option<Depth>,
 
-    /// Whose order, names and encoding the files get
+    /// The source of materials whose order, names and encoding the files follow
     ///
-    /// A packed PNG can be like deschaintre (the default), gao, materialgan, lookahead or matfusion; a folder like
-    /// materialgan, or like gltf: base colour, normals and occlusion | roughness | metallic, which loses what metallic
-    /// cannot say.
+    /// A packed PNG can follow deschaintre (the default), gao, materialgan, lookahead or matfusion; a folder materialgan,
+    /// or gltf: base colour, normals and occlusion | roughness | metallic, which loses specular that these cannot
+    /// express.
     #[arg(long, value_name = "PRESET")]
     like: Option<Preset>,
 
-    /// Adds a rendering to an EXR, as R, G and B for programs that know no layers
+    /// Adds a rendering to an EXR, as R, G and B for programs that do not read layers
     #[arg(long)]
     preview: bool,
 
     /// A map by its file, or by a channel or layer of it; may be given several times
     ///
     /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer. The map
-    /// takes the place of what IN has.
+    /// replaces that of IN.
     #[arg(long = "map", value_name = "MAP=FILE[:PART]")]
     bindings: Vec<Binding>,
 
@@ -52,7 +52,7 @@ pub struct ConvertArgs {
     reading: ReadingArgs,
 }
 
-/// Reads, and writes.
+/// Reads and writes the material.
 ///
 /// # Errors
 /// Those of the reader and of the writer.

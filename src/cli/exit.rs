@@ -7,6 +7,8 @@ use std::process::ExitCode;
 
 use svbrdf::error::Error;
 
+use super::advice;
+
 /// Bad input, or the work failed.
 const FAILED: u8 = 1;
 /// No display or no graphics adapter.
@@ -19,7 +21,8 @@ pub const INTERRUPTED: u8 = 130;
 /// Prints the error of the program, if any, and says with which code it ends.
 pub fn exit_code(result: Result<(), Error>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
-    tell(&format!("error: {error}"));
+    let advice = advice::of_error(&error).map(|advice| format!("; {advice}")).unwrap_or_default();
+    tell(&format!("error: {error}{advice}"));
     for cause in unspoken_causes(&error) {
         tell(&format!("caused by: {cause}"));
     }
@@ -67,7 +70,10 @@ pub fn unwritable(source: io::Error) -> Error {
 fn code_of(error: &Error) -> u8 {
     match error {
         Error::NoWindow { .. } | Error::NoAdapter { .. } => NO_GRAPHICS,
-        Error::Usage(_) | Error::SceneCount { .. } | Error::UnknownName { .. } => USAGE,
+        Error::Usage(_)
+        | Error::SceneCount { .. }
+        | Error::UnknownName { .. }
+        | Error::UnsupportedOutput { .. } => USAGE,
         Error::Cancelled => INTERRUPTED,
         _ => FAILED,
     }

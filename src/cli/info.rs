@@ -1,4 +1,4 @@
-//! `svbrdf info`: the doctor.
+//! `svbrdf info`: what the files of a material hold.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde::Serialize;
 use svbrdf::error::Error;
-use svbrdf::files::read::{Assumption, Binding, Kept, MapReport, Read};
+use svbrdf::files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
-use super::exit;
 use super::materials::read_one;
 use super::reading::ReadingArgs;
+use super::{advice, exit};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]
@@ -26,16 +26,16 @@ pub struct InfoArgs {
     /// A map by its file, or by a channel or layer of it; may be given several times
     ///
     /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer. The map
-    /// takes the place of what MATERIAL has.
+    /// replaces that of MATERIAL.
     #[arg(long = "map", value_name = "MAP=FILE[:PART]")]
     bindings: Vec<Binding>,
 
-    /// Keeps what the options say with the material, for whenever it is opened
+    /// Saves the options beside the material, for whenever it is opened
     ///
-    /// It is written into svbrdf.json in a folder, or into NAME.svbrdf.json beside a file NAME.png or the files of a prefix
-    /// NAME_, and holds where nothing else is said.
-    #[arg(long)]
-    keep: bool,
+    /// They are written to svbrdf.json in a folder, or to NAME.svbrdf.json beside a file NAME.png or the files of a prefix
+    /// NAME_. Options of the command line take precedence over them.
+    #[arg(long, alias = "keep")]
+    save: bool,
 
     #[command(flatten)]
     reading: ReadingArgs,
@@ -55,19 +55,19 @@ struct Info<'a> {
     size: [usize; 2],
     maps: &'a [MapReport],
     assumptions: &'a [Assumption],
-    notes: &'a [String],
+    notes: &'a [Note],
 }
 
-/// Reads the material and prints.
+/// Reads the material and prints the report.
 ///
 /// # Errors
-/// Those of the reader; [`Error::Guessed`] with `--strict`; [`Error::Unwritable`] with `--keep`.
+/// Those of the reader; [`Error::Guessed`] with `--strict`; [`Error::Unwritable`] with `--save`.
 pub fn run(args: &InfoArgs) -> Result<(), Error> {
     let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading.options())?;
     args.reading.check(&args.material, &read)?;
-    if args.keep {
-        let kept = Kept::of(&args.material)?.under(&args.reading.options(), &args.bindings);
-        exit::tell(&format!("note: kept in {}", kept.write(&args.material)?.display()));
+    if args.save {
+        let saved = Sidecar::load(&args.material)?.overridden_by(&args.reading.options(), &args.bindings);
+        exit::tell(&format!("note: saved in {}", saved.save(&args.material)?.display()));
     }
     let info = Info {
         name: read.material.name(),
@@ -92,13 +92,13 @@ fn text(info: &Info<'_>) -> String {
     }
     text += "\nAssumed:\n";
     for assumption in info.assumptions {
-        let _ = writeln!(text, "  {assumption}");
+        let _ = writeln!(text, "  {}", advice::assumption_with_option(assumption));
     }
     if !info.notes.is_empty() {
         text += "\nNoticed:\n";
     }
     for note in info.notes {
-        let _ = writeln!(text, "  {note}");
+        let _ = writeln!(text, "  {}", advice::with_option(note));
     }
     text
 }

@@ -1,4 +1,4 @@
-//! `svbrdf loss`: Algorithm 1.
+//! `svbrdf loss`: the rendering loss (Algorithm 1).
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -17,9 +17,9 @@ use super::{exit, materials};
 
 /// Prints the rendering loss of predictions against a ground truth
 ///
-/// Both are rendered under the same random lights and views; the loss is the mean over scenes, texels and RGB
-/// of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is that of the choice of scenes; it is
-/// unknown where only one scene of a kind is drawn. Without GT and PRED: the built-in materials.
+/// Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the mean over scenes,
+/// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
+/// texels; it is unknown with a single scene of a kind. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 pub struct LossArgs {
     /// Number of near-field scenes
@@ -30,15 +30,15 @@ pub struct LossArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 3)]
     distant: usize,
 
-    /// Names the scenes that are drawn
+    /// Seed of the sampled scenes
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
 
-    /// How scenes are drawn: random, or sobol for less error from as many scenes
+    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes
     #[arg(long, value_name = "random|sobol", default_value = "random")]
     sampler: Sampler,
 
-    /// Compares all texels, or so many in each scene, which differ from scene to scene: fast on maps of any size
+    /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
     #[arg(
         long,
         value_name = "all|N",
@@ -48,33 +48,33 @@ pub struct LossArgs {
     )]
     texels: Texels,
 
-    /// Draws as many scenes as the loss needs to be known this well with 95% confidence, such as 1%
+    /// Samples as many scenes as this relative error needs at 95% confidence, such as 1%
     #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true,
         conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes", "time_budget"])]
     target_error: Option<f64>,
 
-    /// Draws as many scenes as fit into this time, such as 500ms or 2s
+    /// Samples as many scenes as fit into this time, such as 500ms or 2s
     #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true,
         conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes"])]
     time_budget: Option<Duration>,
 
-    /// printed, single-image-2018, multi-image-2019 or guided-2020
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
     #[arg(long, value_name = "NAME", default_value = "printed")]
     convention: Convention,
 
-    /// Uses the scenes of this JSON file instead of drawn ones
+    /// Uses the scenes of a JSON file instead of sampled ones
     #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
     scenes: Option<PathBuf>,
 
-    /// What is computed in
+    /// Floating-point precision
     #[arg(long, value_name = "f32|f64", default_value = "f32")]
     precision: Precision,
 
-    /// What computes it
+    /// Device that computes the loss
     #[arg(long, value_enum, default_value_t)]
     backend: Choice,
 
-    /// What is printed: text for people, json or csv for programs
+    /// Output format
     #[arg(long, value_enum, default_value_t)]
     format: Format,
 
@@ -85,8 +85,8 @@ pub struct LossArgs {
 /// Prints the losses to stdout.
 ///
 /// # Errors
-/// Where a material or the scenes cannot be read or used; with `--strict` where an accuracy is not reached, after the
-/// losses are printed with what is.
+/// Where a material or the scenes cannot be read or used; with `--strict` where a target error is not reached, after the
+/// losses are printed.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
     check_predictions(&args.materials)?;
     let request = request(args)?;
@@ -110,7 +110,7 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
     }
 }
 
-/// The accuracy that was asked for, where it is not reached.
+/// The error of a target that is not reached.
 fn missed(request: &Request, report: &Report) -> Option<Error> {
     let Request::Accuracy { target, .. } = *request else { return None };
     let error = |loss: &Loss| loss.estimate.relative_error95();
@@ -126,7 +126,7 @@ fn paths(args: &LossArgs) -> Vec<String> {
     all.map(|path| path.display().to_string()).collect()
 }
 
-/// Opens what is compared in precision `T`, and computes it with `run`.
+/// Opens the materials in precision `T` and computes the losses with `run`.
 fn report<T: Compute>(
     args: &LossArgs,
     run: impl FnOnce(Comparison<'_, T>) -> Result<Report, Error>,
@@ -147,8 +147,8 @@ fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
             return Ok(());
         }
         _ => {
-            "graphics adapters compare all texels; leave out --backend gpu, or what chooses texels: \
-            --texels, --target-error or --time-budget"
+            "graphics adapters compare all texels; leave out --backend gpu, or \
+            --texels, --target-error and --time-budget"
         }
     };
     Err(Error::Usage(problem.to_owned()))
@@ -164,7 +164,7 @@ fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
     }
 }
 
-/// What is asked for.
+/// The request that the options make.
 fn request(args: &LossArgs) -> Result<Request, Error> {
     let LossArgs { near, distant, seed, sampler, texels, .. } = *args;
     let sampling = Sampling { near, distant, seed, sampler, texels };

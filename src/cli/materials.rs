@@ -6,7 +6,7 @@ use svbrdf::error::Error;
 use svbrdf::files::read::{self, Binding, Read, ReadOptions};
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;
-use svbrdf::report::told_apart;
+use svbrdf::report::distinct_names;
 use svbrdf::samples;
 
 use super::bar::watched;
@@ -46,7 +46,7 @@ impl<T> Opened<T> {
     }
 }
 
-/// Opens the materials of the command line under names that tell them apart, or the built-in ones where it names none.
+/// Opens the materials of the command line under distinct names, or the built-in ones where it names none.
 ///
 /// # Errors
 /// Those of the reader.
@@ -67,14 +67,14 @@ pub fn open<T: Real>(args: &MaterialArgs) -> Result<Opened<T>, Error> {
     };
     let read = paths.iter().enumerate().map(one).collect::<Result<Vec<_>, _>>()?;
     let named: Vec<_> = read.iter().map(|read| read.material.name()).zip(paths).collect();
-    let named = told_apart(&named).into_iter().zip(read);
+    let named = distinct_names(&named).into_iter().zip(read);
     let mut materials = named.map(|(name, read)| {
         let material = read.material.renamed(name);
         args.reading.both.noted(Read { material, ..read })
     });
     // There is one for each path.
     let Some(ground_truth) = materials.next() else {
-        return Err(Error::Usage("there is no ground truth".to_owned()));
+        return Err(Error::Internal("there is no ground truth".to_owned()));
     };
     let opened = Opened { ground_truth, predictions: materials.collect() };
     match args.reading.resize_to {
@@ -123,7 +123,7 @@ fn check_size<T>([width, height]: [usize; 2]) -> Result<(), Error> {
     Err(Error::TooLarge { width, height, bytes, max_side: MAX_SIDE, max_bytes: MAX_BYTES })
 }
 
-/// Reads one material under a progress bar, with the maps of `bindings` in the place of its own.
+/// Reads one material under a progress bar, with the maps of `bindings` in place of its own.
 ///
 /// # Errors
 /// Those of the reader.

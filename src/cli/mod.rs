@@ -1,5 +1,6 @@
 //! The command line: one file per subcommand.
 
+mod advice;
 mod backend;
 mod bar;
 mod convert;
@@ -21,26 +22,26 @@ pub use exit::{exit_code, explain};
 
 const EXAMPLES: &str = "\
 Examples:
-  svbrdf                                  the built-in pair in a window
-  svbrdf gt.png prediction.png            your own materials in a window
-  svbrdf loss gt.png a.png b.png          the losses of two predictions
-  svbrdf loss gt.png a.png --format json  the same for a program to read
-  svbrdf render gt.png -o gt.exr          a rendering, as floats
-  svbrdf study gt.png a.png --plot s.svg  what accuracy costs on this machine
-  svbrdf info gt.png                      what its files hold, and what was assumed
-  svbrdf convert gt.png gt.exr            the material as one layered EXR
+  svbrdf                                  opens the built-in pair in the window
+  svbrdf gt.png prediction.png            opens your own materials
+  svbrdf loss gt.png a.png b.png          prints the losses of two predictions
+  svbrdf loss gt.png a.png --format json  the same as JSON
+  svbrdf render gt.png -o gt.exr          renders to linear floats
+  svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
+  svbrdf info gt.png                      prints what the files hold and what was assumed
+  svbrdf convert gt.png gt.exr            writes the material as one layered EXR
 
 Exit codes:
-   0  fine
-   1  bad input, or the work failed
-   2  no display, or no graphics adapter
-  64  the command line was not understood
- 130  stopped by Ctrl+C; what was being written is as it was";
+   0  success
+   1  invalid input, or the operation failed
+   2  no display or no graphics adapter
+  64  invalid command line
+ 130  interrupted by Ctrl+C; existing files are unchanged";
 
-/// Shows SVBRDF materials under a light that you drag, and computes the rendering loss between them.
+/// Shows SVBRDF materials under a light that you drag, and computes their rendering loss.
 ///
 /// A material is a packed image (photos, then normal | diffuse | roughness | specular, or another order), a layered
-/// EXR or npz, a glTF, MaterialX or MTL file, or a folder or name prefix with one file a map. Without a subcommand: `view`.
+/// EXR or npz, a glTF, MaterialX or MTL file, or a folder or name prefix with one file per map. Without a subcommand: `view`.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 pub struct Cli {
@@ -52,7 +53,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Opens the window on a ground truth and predictions, or on the built-in pair
+    /// Opens a ground truth and predictions, or the built-in pair, in the window
     View(view::ViewArgs),
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
@@ -62,7 +63,7 @@ enum Command {
 }
 
 impl Cli {
-    /// Does what the command line asks for.
+    /// Runs the subcommand.
     ///
     /// # Errors
     /// Those of the subcommand.

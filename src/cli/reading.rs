@@ -5,12 +5,13 @@ use std::str::FromStr;
 
 use svbrdf::error::Error;
 use svbrdf::files::read::{
-    Albedo, Assumption, Certainty, Energy, Grid, MapReport, NonFinite, NormalCode, NormalY, Order, Preset,
-    Read, ReadOptions, Reflectance, Roughness, What, Workflow,
+    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset, Read,
+    ReadOptions, Reflectance, Roughness, What, Workflow,
 };
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;
 
+use super::advice;
 use super::exit::tell;
 
 #[derive(Debug, clap::Args)]
@@ -19,11 +20,11 @@ pub struct Reading {
     #[command(flatten)]
     pub both: ReadingArgs,
 
-    /// The same as --albedo for the ground truth only
+    /// --albedo for the ground truth only
     #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     gt_albedo: Option<Albedo>,
 
-    /// The same as --albedo for the predictions only
+    /// --albedo for the predictions only
     #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     pred_albedo: Option<Albedo>,
 
@@ -32,47 +33,47 @@ pub struct Reading {
     pub resize_to: Option<ResizeTo>,
 }
 
-/// How one material is read. What is left out is found out from the files, and said.
+/// How one material is read. Options that are left out are inferred from the files and reported.
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[command(next_help_heading = "Reading materials")]
 pub struct ReadingArgs {
-    /// What a source of materials does, for all that the other options leave open
+    /// Conventions of a source of materials, for the options that are left out
     #[arg(long, value_name = "NAME", requires = "ground_truth", long_help = preset_help())]
     preset: Option<Preset>,
 
-    /// How diffuse, base colour and specular are stored [default: found out]
+    /// Encoding of diffuse, base colour and specular [default: inferred]
     #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     albedo: Option<Albedo>,
 
-    /// How specular is stored where that differs
+    /// Encoding of specular where it differs
     #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     specular_albedo: Option<Albedo>,
 
-    /// Where the green of normal maps points [default: found out]
+    /// Where the green of normal maps points [default: inferred]
     #[arg(long, value_name = "up|down", requires = "ground_truth")]
     normal_y: Option<NormalY>,
 
-    /// What roughness values mean [default: found out]
+    /// What roughness values mean [default: inferred]
     #[arg(long, value_name = "r|gloss|alpha|axay|gamma2.2", requires = "ground_truth")]
     roughness: Option<Roughness>,
 
-    /// How the components of normals are stored [default: found out]
-    #[arg(long, value_name = "unsigned|signed|xy|ag", requires = "ground_truth")]
-    normal_code: Option<NormalCode>,
+    /// How the components of normals are stored [default: inferred]
+    #[arg(long, alias = "normal-code", value_name = "unsigned|signed|xy|ag", requires = "ground_truth")]
+    normal_encoding: Option<NormalEncoding>,
 
-    /// Diffuse and specular, or base colour and metallic [default: by the maps that are there]
+    /// Diffuse and specular, or base colour and metallic [default: by the maps that exist]
     #[arg(long, value_name = "specular|metallic", requires = "ground_truth")]
     workflow: Option<Workflow>,
 
-    /// Reflectance of what is no metal, where no map says it [default: 0.04]
+    /// Reflectance of dielectrics, where no map holds it [default: 0.04]
     #[arg(long, value_name = "F0", allow_negative_numbers = true, requires = "ground_truth")]
     dielectric_f0: Option<Reflectance>,
 
-    /// What the renderer that diffuse was made for takes: d (1 - s), as ours, or plain d [default: deschaintre]
-    #[arg(long, value_name = "deschaintre|plain", requires = "ground_truth")]
+    /// Whether the renderer that diffuse was made for scales it by (1 - specular) [default: scaled]
+    #[arg(long, value_name = "scaled|unscaled", requires = "ground_truth")]
     energy: Option<Energy>,
 
-    /// Order of the tiles of a packed image, a letter each: ndrs, dnrs, dsrn, ... [default: found out]
+    /// Order of the tiles of a packed image, a letter each: ndrs, dnrs, dsrn, ... [default: inferred]
     #[arg(long, value_name = "LETTERS", requires = "ground_truth")]
     order: Option<Order>,
 
@@ -89,15 +90,15 @@ pub struct ReadingArgs {
     #[arg(long, value_name = "K", allow_negative_numbers = true, requires = "ground_truth")]
     exemplar: Option<usize>,
 
-    /// What becomes of NaN and infinity [default: refuse]
+    /// How NaN and infinity are treated [default: refuse]
     #[arg(long, value_name = "refuse|replace", requires = "ground_truth")]
     non_finite: Option<NonFinite>,
 
-    /// Fails where something could only be guessed, or an accuracy is not reached
+    /// Fails where something can only be guessed, or an accuracy is not reached
     #[arg(long, requires = "ground_truth")]
     pub strict: bool,
 
-    /// Says all that was found and assumed in reading, not only what is unsure or was changed
+    /// Reports everything that was noticed and assumed in reading, not only what is unsure or was changed
     #[arg(short, long)]
     verbose: bool,
 }
@@ -109,7 +110,7 @@ impl ReadingArgs {
             albedo: self.albedo,
             specular: self.specular_albedo,
             normal_y: self.normal_y,
-            normal_code: self.normal_code,
+            normal_encoding: self.normal_encoding,
             roughness: self.roughness,
             workflow: self.workflow,
             dielectric: self.dielectric_f0,
@@ -130,34 +131,25 @@ impl ReadingArgs {
         if self.strict { read.refuse_guesses(path) } else { Ok(()) }
     }
 
-    /// The material, after what there is to say about its files: what is unsure, changed or left out, or everything.
+    /// The material, after reporting what is unsure, changed or left out in its files, or everything.
     pub fn noted<T: Real>(&self, read: Read<T>) -> Material<T> {
-        let mut said: Vec<String> = read.said().collect();
-        if !self.verbose {
-            said = noteworthy(&read);
-        }
-        for note in said {
+        for note in messages(&read, self.verbose) {
             tell(&format!("note: {}: {note}", read.material.name()));
         }
         read.material
     }
 }
 
-/// What of it a person should know before using the material.
-fn noteworthy<T>(read: &Read<T>) -> Vec<String> {
-    // That a file is a map as its name says, or as the user says, is no news.
-    let names_a_file = |note: &str| {
-        let file = |map: &MapReport| map.file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        read.maps.iter().any(|map| note.ends_with(&format!(" map is {}.", file(map))))
-    };
-    let notes = read.notes.iter().filter(|note| !note.ends_with("as you said.") && !names_a_file(note));
-    let doubtful = |a: &&Assumption| match a.certainty {
+/// What there is to report about the reading of a material: everything, or what a user should know before using it.
+fn messages<T>(read: &Read<T>, everything: bool) -> Vec<String> {
+    let is_doubtful = |a: &Assumption| match a.certainty {
         Certainty::Given => false,
         Certainty::Unsure => true,
         _ => matches!(a.what, What::Missing | What::Size | What::Values),
     };
-    let assumptions = read.assumptions.iter().filter(doubtful);
-    notes.cloned().chain(assumptions.map(ToString::to_string)).collect()
+    let notes = read.notes.iter().filter(|note| everything || !note.is_routine());
+    let assumptions = read.assumptions.iter().filter(|a| everything || is_doubtful(a));
+    notes.map(advice::with_option).chain(assumptions.map(advice::assumption_with_option)).collect()
 }
 
 impl Reading {
@@ -177,7 +169,7 @@ impl Reading {
 
 fn preset_help() -> String {
     let known = Preset::ALL.map(Preset::name).join(", ");
-    format!("What a source of materials does, for all that the other options leave open: {known}")
+    format!("Conventions of a source of materials, for the options that are left out: {known}")
 }
 
 /// The size that materials are brought to.

@@ -1,14 +1,14 @@
-//! `svbrdf render`: Algorithm 3 over whole materials, into a file.
+//! `svbrdf render`: renders materials (Algorithm 3) to a file.
 
 use std::path::PathBuf;
 
 use svbrdf::error::Error;
-use svbrdf::files::atomic::Destination;
 use svbrdf::image::Image;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::picture::export::Destination;
 use svbrdf::picture::export::{Provenance, Shows};
 use svbrdf::render;
 
@@ -16,39 +16,39 @@ use super::bar::watched;
 use super::materials;
 use super::stop::stoppable;
 
-/// Writes a rendering of one material, or of several side by side, into a file
+/// Renders one material, or several side by side, to a file
 ///
-/// The material fills x in [-1, 1] of the plane z = 0, y up, z towards the viewer. Without GT and PRED: the
-/// built-in materials.
+/// The material spans x in [-1, 1] in the plane z = 0; y points up, z towards the viewer. Without GT and PRED: the built-in
+/// materials.
 #[derive(Debug, clap::Args)]
 pub struct RenderArgs {
-    /// File to write: linear floats into .exr, exposed and sRGB-encoded 8 bits into .png
+    /// Output file: .exr for linear floats, .png for exposed, sRGB-encoded 8 bits
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
-    /// Position of the viewer; its direction with --distant
+    /// Position of the viewer, or its direction with --distant
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
         default_value = "0,0,2.5")]
     view: [f64; 3],
 
-    /// Position of the light; its direction with --distant
+    /// Position of the light, or its direction with --distant
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
         default_value = "0.4,0.5,1.2")]
     light: [f64; 3],
 
-    /// Light and viewer infinitely far away
+    /// Places light and viewer infinitely far away
     #[arg(long)]
     distant: bool,
 
-    /// printed, single-image-2018, multi-image-2019 or guided-2020
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
     #[arg(long, value_name = "NAME", default_value = "printed")]
     convention: Convention,
 
-    /// Stops by which a PNG is brightened; an EXR keeps the radiance
+    /// Exposure of a PNG in stops; an EXR keeps the radiance
     #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
     exposure: f32,
 
-    /// Instead of radiance how far each prediction is from GT: |ln(PRED + epsilon) - ln(GT + epsilon)|, in a PNG as colours
+    /// Writes |ln(PRED + epsilon) - ln(GT + epsilon)| of each prediction instead of radiance, in a PNG as colours
     #[arg(long)]
     difference: bool,
 
@@ -71,7 +71,7 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
     let materials = materials::open::<f32>(&args.materials)?.into_all();
     match materials.as_slice() {
         [_] if args.difference => {
-            let problem = "--difference compares predictions with a ground truth: name both";
+            let problem = "--difference compares predictions with a ground truth; give both";
             return Err(Error::Usage(problem.to_owned()));
         }
         [ground_truth, predictions @ ..] if args.difference => {
@@ -117,7 +117,7 @@ fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
     })
 }
 
-/// The renderings, and what rendered them.
+/// The renderings, and the name of the device that rendered them.
 fn panes(
     args: &RenderArgs,
     materials: &[Material<f32>],
@@ -149,8 +149,8 @@ fn panes_of_gpu(
 #[cfg(not(feature = "gpu"))]
 fn panes_of_gpu(_: &RenderArgs, _: &[Material<f32>], _: &Scene) -> Result<(Vec<Image<f32>>, String), Error> {
     Err(Error::NoAdapter {
-        problem: "this svbrdf was built without the feature `gpu`".to_owned(),
-        remedy: "leave out --gpu, or build it with the feature",
+        problem: "this program was built without GPU support".to_owned(),
+        remedy: "leave out --gpu, or build with the feature `gpu`",
     })
 }
 

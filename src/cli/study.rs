@@ -13,22 +13,22 @@ use super::bar::watched;
 use super::stop::stoppable;
 use super::{exit, materials};
 
-/// Measures what accuracy of the loss costs, for this pair on this machine
+/// Measures the time and the error of the loss in many settings, for one pair on this machine
 ///
-/// Runs the loss with 9 to 9000 scenes, random and Sobol, in f32, f64 and on the graphics adapter, with the maps as they
-/// are, as halves and as 8 bits. The error of each is taken against a reference of far more scenes, its time is
-/// measured. Prints the cheapest setting for a few errors. Without GT and PRED: the built-in pair.
+/// Computes the loss over 9 to 24,576 scenes, random and Sobol, on all texels and on subsets, in f32 and f64 and on the
+/// graphics adapter, with float, half and 8-bit maps. Errors are relative to a reference over far more scenes. Prints the
+/// cheapest setting for a few target errors. Without GT and PRED: the built-in pair.
 #[derive(Debug, clap::Args)]
 pub struct StudyArgs {
-    /// File for all points as a table (CSV)
+    /// Writes all points to a CSV file
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// File for a plot of time against error, .svg or .png
+    /// Plots error against time to an .svg or .png file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 
-    /// printed, single-image-2018, multi-image-2019 or guided-2020
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
     #[arg(long, value_name = "NAME", default_value = "printed")]
     convention: Convention,
 

@@ -18,7 +18,7 @@ pub struct ViewArgs {
 pub fn run(args: ViewArgs) -> Result<(), Error> {
     let shown = open_window(args.materials);
     if let Err(Error::NoWindow { .. } | Error::NoAdapter { .. }) = shown {
-        tell("note: without a window, `svbrdf loss` prints the losses and `svbrdf render` writes pictures");
+        tell("note: `svbrdf loss` and `svbrdf render` work without a window");
     }
     shown
 }
@@ -51,7 +51,7 @@ fn open_window(materials: MaterialArgs) -> Result<(), Error> {
 #[cfg(not(feature = "viewer"))]
 fn open_window(_: MaterialArgs) -> Result<(), Error> {
     Err(Error::NoWindow {
-        problem: "this svbrdf was built without the feature `viewer`".to_owned(),
-        remedy: "build it with its default features",
+        problem: "this program was built without the window".to_owned(),
+        remedy: "build with the default features",
     })
 }

@@ -51,7 +51,8 @@ pub const DISPLAY: Shader = Shader {
     ],
 };
 
-/// The BRDF at single points, for tests.
+/// The BRDF at single points.
+#[cfg(feature = "testing")]
 pub const PROBE: Shader = Shader { name: "probe", pieces: &[piece!("brdf.wgsl"), piece!("probe.wgsl")] };
 
 /// Algorithm 1: sums over blocks of texels.
@@ -67,4 +68,5 @@ pub const LOSS: Shader = Shader {
 };
 
 /// Every shader of this crate.
+#[cfg(feature = "testing")]
 pub const ALL: [Shader; 4] = [SHADE, DISPLAY, PROBE, LOSS];

@@ -16,7 +16,6 @@ const TEXEL_BYTES: usize = 16;
 #[derive(Debug)]
 pub struct MaterialTextures {
     pub(super) views: [TextureView; 3],
-    size: [usize; 2],
 }
 
 impl MaterialTextures {
@@ -35,12 +34,7 @@ impl MaterialTextures {
             }
             textures
         })?;
-        Ok(Self { views: textures.map(|t| t.create_view(&Default::default())), size })
-    }
-
-    /// (width, height) in texels.
-    pub fn size(&self) -> [usize; 2] {
-        self.size
+        Ok(Self { views: textures.map(|t| t.create_view(&Default::default())) })
     }
 }
 

@@ -125,6 +125,6 @@ pub fn check_same_size<T: Real>(ground_truth: &Material<T>, prediction: &Materia
         first_size: ground_truth.size(),
         second: format!("prediction {}", prediction.name()),
         second_size: prediction.size(),
-        remedy: "bring them to one size with --resize-to gt, pred or a width",
+        remedy: "resize them to one size",
     })
 }

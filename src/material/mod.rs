@@ -1,4 +1,19 @@
 //! The four maps of a material, with their invariants checked once.
+//!
+//! ```
+//! use svbrdf::material::{Material, Planes};
+//!
+//! // One texel of a flat, rough, gray dielectric.
+//! let planes = Planes {
+//!     normal: [vec![0.0], vec![0.0], vec![1.0]],
+//!     diffuse: [vec![0.5], vec![0.5], vec![0.5]],
+//!     specular: [vec![0.04], vec![0.04], vec![0.04]],
+//!     roughness: vec![0.6],
+//! };
+//! let material = Material::<f32>::new("gray", 1, 1, planes)?;
+//! assert_eq!(material.size(), [1, 1]);
+//! # Ok::<(), svbrdf::error::Error>(())
+//! ```
 
 mod grid;
 pub(crate) mod resize;

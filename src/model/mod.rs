@@ -1,4 +1,17 @@
-//! The model: what a texel reflects, under which scenes, by which convention. Pure functions of numbers.
+//! The BRDF, the scenes and the conventions: pure functions of numbers.
+//!
+//! ```
+//! use svbrdf::model::convention::{Convention, PRINTED};
+//! use svbrdf::model::sampler::Sampler;
+//! use svbrdf::model::scene::Kind;
+//!
+//! let convention: Convention = "printed".parse()?;
+//! assert_eq!(convention, PRINTED);
+//! // 6 near-field and 3 distant scenes of seed 0.
+//! let scenes = Sampler::Random.scenes(0, 6, 3, &convention);
+//! assert_eq!(scenes.iter().filter(|scene| scene.kind == Kind::Near).count(), 6);
+//! # Ok::<(), svbrdf::error::Error>(())
+//! ```
 
 pub mod brdf;
 pub mod convention;

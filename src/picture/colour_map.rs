@@ -30,6 +30,7 @@ pub fn heat(amount: f32) -> [f32; 3] {
 
 /// The colour, encoded for the screen, of a signed amount from -1 (light cyan) over 0 (black) to 1 (light yellow); what
 /// lies beyond is clamped.
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
 pub fn diverging(amount: f32) -> [f32; 3] {
     let t = amount.abs().min(1.0);
     let [first, second, third] = [2.2 * t, 1.6 * t - 0.5, 3.0 * t - 2.2].map(|c: f32| c.clamp(0.0, 1.0));

@@ -1,5 +1,21 @@
 //! Algorithm 3 over a whole material, on the CPU.
+//!
+//! ```
+//! use svbrdf::model::convention::PRINTED;
+//! use svbrdf::model::scene::{Kind, Scene};
+//! use svbrdf::progress::Progress;
+//! use svbrdf::{render, samples};
+//!
+//! let material = samples::load::<f32>()?.ground_truth.material;
+//! let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
+//! let image = render::render_f32(&material, &scene, &PRINTED, &Progress::default())?;
+//! assert_eq!((image.width, image.height), (256, 256));
+//! # Ok::<(), svbrdf::error::Error>(())
+//! ```
 
+#[cfg(not(feature = "testing"))]
+pub(crate) mod simd;
+#[cfg(feature = "testing")]
 pub mod simd;
 
 use rayon::prelude::*;

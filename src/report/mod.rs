@@ -1,18 +1,35 @@
-//! Losses with everything that gives them a meaning: what the command line prints and the window copies.
+//! Losses with the settings that they depend on, as text: what the command line prints and the window copies.
+//!
+//! ```
+//! use svbrdf::loss::{Comparison, Request};
+//! use svbrdf::model::convention::Convention;
+//! use svbrdf::progress::Progress;
+//! use svbrdf::report::Report;
+//! use svbrdf::samples;
+//!
+//! let built_in = samples::load::<f32>()?;
+//! let predictions: Vec<_> = built_in.predictions.iter().map(|read| &read.material).collect();
+//! let comparison = Comparison::new(&built_in.ground_truth.material, &predictions, Convention::default())?;
+//! let outcome = comparison.run(&Request::default(), &Progress::default())?;
+//! let report = Report::new(&comparison, outcome);
+//! assert!(report.text().starts_with("rendering loss against worn tiles, 256 x 256 texels, f32 on the cpu"));
+//! # Ok::<(), svbrdf::error::Error>(())
+//! ```
 
 mod names;
 mod text;
 
-pub use names::told_apart;
+pub use names::distinct_names;
 
 use crate::loss::{Comparison, Compute, Estimate, Loss, Outcome, Texels};
 use crate::model::convention::Convention;
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
 
-/// Losses with everything that gives them a meaning.
+/// Losses with the settings that they depend on.
 #[derive(Clone, Debug)]
 pub struct Report {
+    /// The convention that the losses follow.
     pub convention: Convention,
     /// The name of the ground truth.
     pub ground_truth: String,
@@ -22,11 +39,12 @@ pub struct Report {
     pub precision: &'static str,
     /// What computed it: `cpu` or `gpu`.
     pub backend: &'static str,
+    /// The scenes and the losses.
     pub outcome: Outcome,
 }
 
 impl Report {
-    /// The report of what `comparison` gave.
+    /// The report of an outcome of `comparison`.
     pub fn new<T: Compute>(comparison: &Comparison<'_, T>, outcome: Outcome) -> Self {
         Self {
             convention: *comparison.convention(),
@@ -49,7 +67,7 @@ impl Report {
         self
     }
 
-    /// How much larger each further loss is than the first, on the same scenes.
+    /// The paired difference of each further loss from the first: `loss - first`, over the same scenes.
     pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
         let Some((first, others)) = self.outcome.losses.split_first() else { return Vec::new() };
         others.iter().map(|loss| (loss, self.outcome.difference(loss, first))).collect()

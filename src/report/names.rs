@@ -4,7 +4,7 @@ use std::path::{Component, Path};
 
 /// The names of materials, told apart: those that are called the same take as many of the last parts of their paths as
 /// that needs. The same path twice has the same name twice.
-pub fn told_apart(named: &[(&str, &Path)]) -> Vec<String> {
+pub fn distinct_names(named: &[(&str, &Path)]) -> Vec<String> {
     let one = |&(name, path): &(&str, &Path)| {
         let clash: Vec<_> =
             named.iter().filter(|other| other.0 == name).map(|other| parts(other.1)).collect();
@@ -47,7 +47,7 @@ mod tests {
 
     fn names<const N: usize>(named: [(&str, &str); N]) -> [String; N] {
         let all: Vec<_> = named.iter().map(|(name, path)| (*name, Path::new(*path))).collect();
-        told_apart(&all).try_into().unwrap()
+        distinct_names(&all).try_into().unwrap()
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! A table for people.
+//! The text form of a report: a table and the paired differences.
 
 use super::Report;
 use crate::loss::{Loss, Texels};
@@ -8,7 +8,7 @@ use crate::model::scene::Kind;
 const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interval"];
 
 impl Report {
-    /// A table for people, with its last line break.
+    /// A table of the losses, then the difference of each further loss from the first. Ends with a line break.
     pub fn text(&self) -> String {
         let mut rows = vec![HEADINGS.map(str::to_owned)];
         rows.extend(self.outcome.losses.iter().map(cells));
@@ -19,12 +19,12 @@ impl Report {
     }
 }
 
-/// What the scenes have in common cancels in a difference: its error is its own.
+/// Paired differences: variance that the scenes have in common cancels, so the errors of the losses do not add up.
 fn differences(report: &Report) -> String {
     let lines = report.differences().into_iter().map(|(loss, difference)| {
         let [mean, error, interval] = difference.texts();
         let first = &report.outcome.losses[0].prediction;
-        format!("\n{} less {first}, on the same scenes: {mean} +- {error}, 95% {interval}", loss.prediction)
+        format!("\n{} - {first}, same scenes: {mean} +- {error}, 95% {interval}", loss.prediction)
     });
     let text: String = lines.collect();
     if text.is_empty() { text } else { text + "\n" }
@@ -33,20 +33,20 @@ fn differences(report: &Report) -> String {
 fn header(report: &Report) -> String {
     let Report { convention, ground_truth, size: [width, height], precision, backend, .. } = report;
     let (near, distant) = (report.count(Kind::Near), report.count(Kind::Distant));
-    let origin = report.seed().map_or("from a file".to_owned(), |seed| format!("of seed {seed}"));
-    let origin = match report.sampler() {
-        Some(Sampler::Sobol) => format!("{origin}, scrambled Sobol"),
-        _ => origin,
+    let origin = report.seed().map_or(" from a file".to_owned(), |seed| format!(", seed {seed}"));
+    let sampler = match report.sampler() {
+        Some(Sampler::Sobol) => ", scrambled Sobol",
+        _ => "",
     };
     let texels = match report.texels() {
         Texels::All => String::new(),
-        Texels::Sampled(1) => ", each on 1 texel of its own".to_owned(),
-        Texels::Sampled(count) => format!(", each on {count} texels of its own"),
+        Texels::Sampled(1) => ", 1 random texel per scene".to_owned(),
+        Texels::Sampled(count) => format!(", {count} random texels per scene"),
     };
     format!(
         "rendering loss against {ground_truth}, {width} x {height} texels, {precision} on the {backend}\n\
          convention {}, epsilon {}\n\
-         {near} near-field and {distant} distant scenes {origin}{texels}\n",
+         {near} near-field and {distant} distant scenes{origin}{sampler}{texels}\n",
         convention.name, convention.epsilon
     )
 }

@@ -1,13 +1,18 @@
 //! Sample materials that are built in: a ground truth and two predictions of it.
 //!
-//! This project's own code made them ([`generate`]); they are free to use like the rest of it.
+//! `examples/make_samples.rs` makes them; they are free to use like the rest of this project.
 
+#[cfg(feature = "testing")]
 pub mod generate;
+#[cfg(feature = "testing")]
 mod noise;
+#[cfg(feature = "testing")]
 mod tiles;
 
 use crate::error::Error;
-use crate::files::read::{Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, read_bytes};
+use crate::files::read::{
+    Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes,
+};
 use crate::math::real::Real;
 
 /// How the samples are stored: nothing of it is left to be found out.
@@ -35,7 +40,7 @@ pub fn load<T: Real>() -> Result<Samples<T>, Error> {
     let read = |name, bytes| -> Result<Read<T>, Error> {
         let mut read = read_bytes(name, bytes, &STORED)?;
         for known in read.assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
-            (known.why, known.certainty) = ("it was made so".to_owned(), Certainty::Sure);
+            (known.why, known.certainty) = (StorageConvention::BuiltIn.into(), Certainty::Sure);
         }
         Ok(read)
     };

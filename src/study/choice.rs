@@ -1,20 +1,20 @@
-//! What a loss can be asked for, and which of it is tried.
+//! The settings that a study measures.
 
 use crate::files::write::Depth;
 use crate::loss::{Precision, Sampling, Texels};
 use crate::model::sampler::Sampler;
 
-/// Numbers of random scenes that are tried.
+/// Numbers of random scenes.
 const RANDOM: &[usize] = &[9, 90, 900, 9000];
-/// Numbers of Sobol scenes that are tried: a power of two of either kind for each scrambling.
+/// Numbers of Sobol scenes: a power of two of each kind for each scrambling.
 const SOBOL: &[usize] = &[24, 48, 96, 192, 384, 768, 1536, 3072, 6144, 12_288, 24_576];
-/// How many of these are tried on all texels.
+/// How many of these are measured on all texels.
 const ON_ALL: usize = 9;
-/// Texels of each scene that are tried, where not all are compared.
+/// Numbers of texels per scene, where not all are compared.
 const MORE: usize = 1024;
 const FEW: usize = 128;
 
-/// What a loss is computed on.
+/// The device that computes the loss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Device {
     Cpu,
@@ -30,11 +30,11 @@ pub struct Choice {
     pub texels: Texels,
     pub precision: Precision,
     pub backend: Device,
-    /// What the files hold that the maps are read from.
+    /// How the maps are stored in files.
     pub maps: Depth,
 }
 
-/// Choices that differ in their numbers of scenes only: one colour of a plot.
+/// Choices that differ in their numbers of scenes only: one colour in a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
     Random,
@@ -48,7 +48,7 @@ pub enum Family {
 }
 
 impl Default for Choice {
-    /// Sobol scenes, as few as there can be, in f32 on the CPU.
+    /// The fewest Sobol scenes, in f32 on the CPU.
     fn default() -> Self {
         Self {
             scenes: 3,
@@ -76,7 +76,7 @@ impl Choice {
         Sampling { near: self.near(), distant: self.distant(), seed, sampler, texels }
     }
 
-    /// The options of `svbrdf loss` that choose this, but for the maps.
+    /// The options of `svbrdf loss` that select this choice, except the maps.
     pub fn options(&self) -> String {
         let sampler = match self.sampler {
             Sampler::Random => String::new(),
@@ -104,14 +104,14 @@ impl Choice {
         }
     }
 
-    /// The choice of the same scenes that is measured over many seeds.
+    /// The choice over the same scenes that is measured over many seeds: f32 on the CPU with float maps.
     pub(super) fn base(self) -> Self {
         Self { precision: Precision::F32, backend: Device::Cpu, maps: Depth::Float, ..self }
     }
 }
 
 impl Family {
-    /// In the order in which they are measured: those that are over many seeds first.
+    /// In the order of measurement: those over many seeds first.
     pub const ALL: [Self; 8] = [
         Self::FewTexels,
         Self::MoreTexels,
@@ -136,7 +136,7 @@ impl Family {
         }
     }
 
-    /// Red, green and blue that people of any colour vision tell apart (Okabe and Ito 2008).
+    /// 8-bit RGB, distinguishable with any colour vision (Okabe and Ito 2008).
     pub fn colour(self) -> [u8; 3] {
         match self {
             Self::Random => [213, 94, 0],
@@ -149,7 +149,7 @@ impl Family {
         }
     }
 
-    /// The choices that are tried, with growing numbers of scenes.
+    /// The choices, by growing numbers of scenes.
     pub(super) fn choices(self) -> impl Iterator<Item = Choice> {
         let base = Choice::default();
         let on_all = &SOBOL[..ON_ALL];

@@ -1,4 +1,4 @@
-//! Losses run against the clock.
+//! Measures the time and the error of each choice.
 
 use std::time::Instant;
 
@@ -13,24 +13,24 @@ use crate::model::convention::Convention;
 use crate::progress::Progress;
 use crate::text::time;
 
-/// Scenes of the reference, 24 x 2^n for the sequence, and the most texels of each: more of these add little.
+/// Scenes of the reference, 24 x 2^n for the Sobol sequence, and the most texels of each: more texels add little.
 const REFERENCE_SCENES: usize = 24 << 13;
 const REFERENCE_TEXELS: usize = 1024;
 /// Scenes that f64 is compared with f32 on, and the most texels of each.
 const CORRECTION_SCENES: usize = 24;
 const CORRECTION_TEXELS: usize = (1 << 21) / CORRECTION_SCENES;
-/// Names the scenes of the reference. Those of the choices have the seeds from 0 on.
+/// Seed of the reference. The choices use the seeds from 0 on.
 const REFERENCE_SEED: u64 = 1 << 40;
 
-/// Scenes that tell how long others will take.
+/// Scenes of the runs that predict the time of a choice.
 const WARMING_SCENES: usize = 6;
-/// Seeds of a choice.
+/// Least and most seeds of a choice.
 const SEEDS: std::ops::RangeInclusive<usize> = 3..=32;
-/// Texels times scenes of all seeds of a choice, unless these are too few.
+/// Texels times scenes of all seeds of a choice, within [`SEEDS`].
 const SEEDS_WORK: usize = 1 << 28;
 /// A scene costs as much as this many texels even where fewer are compared.
 const LEAST_TEXELS: usize = 1 << 11;
-/// A choice whose loss would take longer, in seconds, is left out.
+/// Longest loss of a choice, in seconds; choices above it are not measured.
 const LONGEST: f64 = 3.0;
 /// The same for other precisions, backends and maps, whose errors need few runs.
 const LONGEST_VARIANT: f64 = 0.7;
@@ -38,7 +38,7 @@ const LONGEST_VARIANT: f64 = 0.7;
 const VARIANT_RUNS: usize = 3;
 const VARIANT_TIME: f64 = 0.4;
 
-/// One of the ways to compute the loss of a sampling, on materials of its own.
+/// Computes the loss of a sampling in the precision and with the backend and maps of a family.
 type Kernel<'a> = Box<dyn Fn(&Sampling, &Progress) -> Result<Outcome, Error> + 'a>;
 
 /// The loss of one prediction over sampled scenes.
@@ -91,7 +91,7 @@ impl<'a> Bench<'a> {
         Ok(Reference { loss: mean, error: errors[0].hypot(errors[1]) / mean, scenes: REFERENCE_SCENES })
     }
 
-    /// Measures the choices of a family until one would take too long. An adapter that fails costs its own points only.
+    /// Measures the choices of a family until one would take too long. A failing adapter loses its own points only.
     pub(super) fn family(
         &mut self,
         family: Family,
@@ -125,7 +125,7 @@ impl<'a> Bench<'a> {
         let too_long = |choice: &Choice| seconds(choice) > longest(choice);
         if let Some(first) = family.choices().find(too_long) {
             let (name, scenes, least) = (family.name(), first.scenes, time(seconds(&first)));
-            study.left_out.push(format!("{name} from {scenes} on, which take {least} or more"));
+            study.left_out.push(format!("{name} from {scenes} scenes on, {least} or more each"));
         }
         for (choice, steps) in family.choices().zip(plan) {
             if !too_long(&choice)
@@ -139,13 +139,13 @@ impl<'a> Bench<'a> {
         Ok(())
     }
 
-    /// Whether the texels that this family would choose from are no more than it takes: then it is that of all texels.
+    /// Whether the maps have no more texels than this family samples: then it equals the family on all texels.
     fn is_on_all(&self, family: Family) -> bool {
         let all = self.pair.ground_truth.width() * self.pair.ground_truth.height();
         family.choices().any(|choice| matches!(choice.texels, Texels::Sampled(count) if count >= all))
     }
 
-    /// Seconds a scene takes in this family, after everything that is done once.
+    /// Seconds per scene in this family, after a run that does everything that happens once.
     fn warm(&self, kernel: &Kernel<'_>, family: Family) -> Result<f64, Error> {
         let Some(first) = family.choices().next() else { return Ok(0.0) };
         let few = Choice { scenes: WARMING_SCENES, ..first };
@@ -154,14 +154,14 @@ impl<'a> Bench<'a> {
         Ok(seconds / WARMING_SCENES as f64)
     }
 
-    /// What each choice of a family adds to the progress: about the work, in scenes in f32 on the CPU.
+    /// Progress of each choice of a family: approximate work, in scenes in f32 on the CPU.
     fn plan(&self, family: Family) -> Vec<u64> {
         let runs = |choice: &Choice| if *choice == choice.base() { self.seeds(choice) } else { 1 };
         let cost = |choice: Choice| choice.scenes * self.texels(&choice) * runs(&choice) / LEAST_TEXELS;
         family.choices().map(|choice| cost(choice) as u64).collect()
     }
 
-    /// Texels of each scene, and at least [`LEAST_TEXELS`].
+    /// Texels per scene, at least [`LEAST_TEXELS`].
     fn texels(&self, choice: &Choice) -> usize {
         let all = self.pair.ground_truth.width() * self.pair.ground_truth.height();
         let compared = match choice.texels {
@@ -175,7 +175,7 @@ impl<'a> Bench<'a> {
         (SEEDS_WORK / (choice.scenes * self.texels(choice))).clamp(*SEEDS.start(), *SEEDS.end())
     }
 
-    /// Runs a choice that takes about `seconds`; `None` where the choice that it is compared with was left out.
+    /// Measures a choice that takes about `seconds`; `None` where its base was not measured.
     fn point(
         &mut self,
         kernel: &Kernel<'_>,
@@ -223,11 +223,12 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// The way a family computes its losses, on the materials as it has them.
+/// The kernel of a family, on materials converted to its precision and depth.
 fn kernel<'a>(pair: &Pair<'a>, family: Family) -> Result<Kernel<'a>, Error> {
     let Pair { ground_truth, prediction, convention, gpu } = *pair;
     let of_files = |depth| -> Result<Kernel<'a>, Error> {
-        let [truth, prediction] = [write::held(ground_truth, depth)?, write::held(prediction, depth)?];
+        let [truth, prediction] =
+            [write::after_round_trip(ground_truth, depth)?, write::after_round_trip(prediction, depth)?];
         Ok(Box::new(move |s, p| outcome(f32::cpu(), [&truth, &prediction], convention, s, p)))
     };
     Ok(match (family, gpu) {

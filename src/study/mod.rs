@@ -1,4 +1,4 @@
-//! Speed against accuracy: what each setting of the loss costs on this machine, and how far off it is for this pair.
+//! Speed against accuracy: the time and the error of each setting of the loss, for one pair on this machine.
 //!
 //! ```no_run
 //! use svbrdf::model::convention::Convention;
@@ -19,9 +19,10 @@
 //! # Ok::<(), svbrdf::error::Error>(())
 //! ```
 //!
-//! The error of a setting is the root mean square, over seeds, of its relative distance from a reference of far more
-//! scenes, brought to f64. The time is the median of the runs, with the drawing of the scenes, without the reading of
-//! files. Errors are the same in every run of a study; times are not, nor is what would take too long and is left out.
+//! The error of a setting is the root mean square, over seeds, of its relative difference from a reference over far more
+//! scenes, corrected to f64. The time is the median of the runs; it includes the sampling of scenes and excludes the reading
+//! of files. Errors are the same in every run of a study. Times are not, so neither is the list of settings that were not
+//! measured because they would take too long.
 
 mod choice;
 mod measure;
@@ -38,11 +39,11 @@ use crate::error::Error;
 use crate::progress::Progress;
 use measure::Bench;
 
-/// Measures every choice for `pair`, unless one loss would take too long; `update` sees the study after each point.
+/// Measures every choice for `pair`, except those whose loss would take too long; `update` sees the study after each point.
 ///
 /// # Errors
-/// Those of the loss; [`Error::NothingToStudy`] where the two materials look the same, and errors have nothing to be relative
-/// to; [`Error::Cancelled`].
+/// Those of the loss; [`Error::NothingToStudy`] where the two materials look the same, so that no error is relative to
+/// anything; [`Error::Cancelled`].
 pub fn run(pair: &Pair<'_>, progress: &Progress, mut update: impl FnMut(&Study)) -> Result<Study, Error> {
     let mut bench = Bench::new(pair, progress);
     let reference = bench.reference()?;

@@ -1,4 +1,4 @@
-//! What is studied.
+//! The input of a study.
 
 use std::fmt;
 
@@ -6,13 +6,13 @@ use crate::loss::Backend;
 use crate::material::Material;
 use crate::model::convention::Convention;
 
-/// What is studied, and what with.
+/// A ground truth, a prediction and a convention, and the backends to study them with.
 #[derive(Clone, Copy)]
 pub struct Pair<'a> {
     pub ground_truth: &'a Material<f32>,
     pub prediction: &'a Material<f32>,
     pub convention: Convention,
-    /// `None` where there is no adapter.
+    /// `None` without a graphics adapter.
     pub gpu: Option<&'a dyn Backend<f32>>,
 }
 

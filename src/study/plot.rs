@@ -1,4 +1,4 @@
-//! A study as a picture: time against error, both logarithmic.
+//! A study as a plot: error against time, both logarithmic.
 
 use std::io::{self, Write};
 use std::ops::Range;
@@ -20,22 +20,22 @@ use crate::text::{percent, time};
 
 /// Width and height of the picture in pixels.
 const SIZE: (u32, u32) = (1200, 780);
-/// The family name that the font is registered under; readers of an SVG take theirs.
+/// The family name of the registered font; viewers of an SVG substitute their own.
 const FONT: &str = "sans-serif";
 const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 
-/// A place in pixels, relative to a point of the plot.
+/// Pixels, relative to a point of the plot.
 type Pixel = (i32, i32);
 
-/// The kinds of files that plots are written into.
+/// The file formats of plots.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotFormat {
     Svg,
     Png,
 }
 
-/// Where a plot is to be written: checks what can be checked of `path` before there is anything to write.
+/// The destination of a plot. Checks `path` before there is anything to write.
 ///
 /// # Errors
 /// [`Error::UnknownName`] for an extension other than svg and png, [`Error::Unwritable`] where its folder is missing or
@@ -82,7 +82,7 @@ fn png(file: impl Write, bytes: &[u8]) -> io::Result<()> {
     Ok(writer.finish()?)
 }
 
-/// Draws with a font of our own: where there is no window, there may be no font.
+/// Draws with an embedded font: machines without a display may have no fonts.
 fn draw<B: DrawingBackend>(backend: B, study: &Study) -> io::Result<()> {
     register_font(FONT, FontStyle::Normal, UBUNTU_LIGHT)
         .map_err(|_| io::Error::other("the font is damaged"))?;
@@ -97,7 +97,7 @@ fn chart<B: DrawingBackend>(
     area.fill(&WHITE)?;
     let [ground_truth, prediction] = &study.names;
     let title = format!("What accuracy costs: {prediction} against {ground_truth}");
-    // The name of the fastest point stands left of it.
+    // The label of the fastest point is to its left.
     let (x, y) = (span(study, 2.5, |p| p.seconds), span(study, 1.5, |p| p.error));
     let mut chart = ChartBuilder::on(area)
         .caption(title, (FONT, 24).into_font().color(&INK))
@@ -158,7 +158,7 @@ fn chart<B: DrawingBackend>(
         .draw()
 }
 
-/// A shape for each family, so that colour is not all that tells them apart. Maps get rings around what they change.
+/// The marker of a family. Shapes differ, not only colours. Families of stored maps are rings around their base.
 fn marker<B: DrawingBackend, C>(
     family: Family,
     at: C,
@@ -183,7 +183,7 @@ fn marker<B: DrawingBackend, C>(
         + PathElement::new(outline, colour.stroke_width(2))
 }
 
-/// What a point of the front is called beside it; its shape tells the rest.
+/// The label of a point of the front; its marker tells the family.
 fn label(point: &Point) -> String {
     format!("{} scenes", point.choice.scenes)
 }
@@ -192,7 +192,7 @@ fn place(point: &Point) -> (f64, f64) {
     (point.seconds, point.error)
 }
 
-/// The values of all points and some room around them: below, as a factor.
+/// The range of the values of all points, extended by a factor below and above.
 fn span(study: &Study, room_below: f64, value: impl Fn(&Point) -> f64) -> Range<f64> {
     const ROOM_ABOVE: f64 = 1.5;
     let values = || study.points.iter().map(&value).filter(|v| *v > 0.0);

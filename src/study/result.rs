@@ -10,8 +10,9 @@ const RESOLVED: f64 = 3.0;
 /// Errors whose ratio is closer to 1 count as equal: f64 or an adapter moves all losses of a choice by next to nothing.
 const SAME: f64 = 0.99;
 
-/// What errors are measured against: the loss over 8 times the scenes of any choice and texels of their own, from another
-/// seed, in f32; plus what f64 adds to it on a few. Choices on all texels show that these are no worse.
+/// The reference that errors are measured against: the loss in f32 over 8 times the scenes of any choice, from another seed,
+/// on random texel subsets, plus the mean difference between f64 and f32 over a few scenes. Choices on all texels show that the
+/// subsets introduce no bias.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reference {
     pub loss: f64,
@@ -20,38 +21,39 @@ pub struct Reference {
     pub scenes: usize,
 }
 
-/// A choice that was measured.
+/// A measured choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     pub choice: Choice,
-    /// Median time of one loss. That of stored maps is the time of float ones, which is what they are once read.
+    /// Median time of one loss in seconds. For half and 8-bit maps, that of float maps, which they become when read.
     pub seconds: f64,
     /// Root mean square of (loss - reference) / reference over `seeds`.
     pub error: f64,
     /// Mean relative difference from f32 on the CPU and float maps over the same scenes.
     pub shift: f64,
-    /// How many seeds `error` is over.
+    /// The number of seeds of `error`.
     pub seeds: usize,
-    /// How many times the choice was run. Where these are fewer than the seeds, the other losses are those of f32 on
-    /// the CPU and float maps over the same scenes, plus `shift`.
+    /// The number of runs. Where it is below `seeds`, the other losses are those of f32 on the CPU with float maps over the
+    /// same scenes, plus `shift`.
     pub runs: usize,
-    /// Whether every setting that is as fast is less accurate, by more than 1 in 100. Maps are no setting: their points never are.
+    /// Whether the point is on the Pareto front: every choice that is as fast is less accurate by more than 1%. The depth of
+    /// the maps is given, not chosen, so points of half and 8-bit maps are never on the front.
     pub pareto: bool,
 }
 
-/// All that was measured.
+/// The result of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// Of the ground truth and of the prediction.
+    /// The names of the ground truth and of the prediction.
     pub names: [String; 2],
     /// Width and height in texels.
     pub size: [usize; 2],
     pub convention: Convention,
-    /// Of the CPU.
+    /// Number of CPU threads.
     pub threads: usize,
     pub reference: Reference,
     pub points: Vec<Point>,
-    /// What was not measured, and why.
+    /// The choices that were not measured, with the reason.
     pub left_out: Vec<String>,
 }
 
@@ -62,7 +64,7 @@ impl Study {
         mark(&mut self.points);
     }
 
-    /// The fastest setting whose error is at most `error`.
+    /// The fastest point of the front whose error is at most `error`.
     pub fn cheapest(&self, error: f64) -> Option<&Point> {
         let enough = self.points.iter().filter(|p| p.pareto && p.error <= error);
         enough.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
@@ -75,7 +77,7 @@ impl Study {
         front
     }
 
-    /// The least error that the reference can tell from none.
+    /// The least error that differs significantly from 0, given the error of the reference.
     pub fn least_error(&self) -> f64 {
         RESOLVED * self.reference.error
     }
@@ -117,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn the_front_is_what_nothing_beats() {
+    fn the_front_holds_the_points_that_no_faster_point_beats() {
         let p = |seconds, error| point(seconds, error, Family::Sobol);
         let good = [p(1.0, 0.1), p(2.0, 0.2), p(3.0, 0.01), p(3.0, 0.02), p(0.5, 0.1), p(4.0, 0.01)];
         assert_eq!(marks(&good), [false, false, true, false, true, false]);
@@ -129,13 +131,13 @@ mod tests {
     }
 
     #[test]
-    fn maps_are_no_setting() {
+    fn points_of_stored_maps_are_never_on_the_front() {
         let points = [point(1.0, 0.1, Family::Sobol), point(0.5, 0.05, Family::EightBitMaps)];
         assert_eq!(marks(&points), [true, false]);
     }
 
     #[test]
-    fn the_cheapest_is_on_the_front_and_good_enough() {
+    fn the_cheapest_point_is_on_the_front_and_accurate_enough() {
         let mut points: Vec<_> = [(1.0, 0.1), (2.0, 0.02), (4.0, 0.005)]
             .map(|(seconds, error)| point(seconds, error, Family::Sobol))
             .into();

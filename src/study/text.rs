@@ -1,4 +1,4 @@
-//! A study in words and as a table.
+//! A study as a summary and as a CSV table.
 
 use std::path::Path;
 
@@ -11,24 +11,22 @@ use crate::picture::export;
 use crate::progress::Progress;
 use crate::text::{percent, time};
 
-/// Errors that a person may want, as shares of the loss.
+/// Target errors of the summary, as shares of the loss.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
 const CSV_HEADING: &str = "scenes,near,distant,sampler,texels,precision,backend,maps,seconds,error,shift,seeds,runs,pareto,options\n";
 
 impl Study {
-    /// What a person wants to know first: the cheapest setting for each of a few errors, and how to ask for it.
+    /// The cheapest setting for each of a few target errors, with the options of `svbrdf loss` that select it.
     pub fn summary(&self) -> String {
         let rows = TARGETS.map(|target| match self.cheapest(target) {
             Some(p) => [percent(target), time(p.seconds), percent(p.error), p.choice.options()],
-            None => [percent(target), "-".to_owned(), "-".to_owned(), "nothing that was tried".to_owned()],
+            None => [percent(target), "-".to_owned(), "-".to_owned(), "no measured setting".to_owned()],
         });
-        let heading = ["error", "time", "measured", "svbrdf loss ..."].map(str::to_owned);
+        let heading = ["target", "time", "error", "svbrdf loss ..."].map(str::to_owned);
         let table: String = std::iter::once(heading)
             .chain(rows)
-            .map(|[error, time, measured, options]| {
-                format!("{error:>5}  {time:>7}  {measured:>8}  {options}\n")
-            })
+            .map(|[target, time, error, options]| format!("{target:>6}  {time:>7}  {error:>8}  {options}\n"))
             .collect();
         format!("{}\n{table}\n{}", self.header(), self.footer())
     }
@@ -47,21 +45,21 @@ impl Study {
 
     fn footer(&self) -> String {
         let mut lines = vec![
-            "The error is the root mean square over seeds; 95 of 100 losses are off by less than about twice as much."
+            "Errors are root mean squares over seeds; 95% of losses are off by less than about twice that."
                 .to_owned(),
         ];
         if self.points.iter().any(|p| p.error < self.least_error()) {
             let least = percent(self.least_error());
             lines.push(format!(
-                "Errors below {least} are not told from 0: the reference itself is not known better."
+                "Errors below {least} are not significantly different from 0: the reference is not known better."
             ));
         }
         lines.extend(self.variants());
-        lines.extend(self.left_out.iter().map(|what| format!("Left out: {what}")));
+        lines.extend(self.left_out.iter().map(|what| format!("Not measured: {what}")));
         lines.join("\n") + "\n"
     }
 
-    /// What other precisions, backends and maps cost and change, at the most scenes that they were run with.
+    /// The cost and effect of other precisions, backends and depths of maps, at the most scenes that they were run with.
     pub fn variants(&self) -> Vec<String> {
         let line = |family: Family| {
             let of_family = |p: &&Point| p.choice.family() == family && p.choice != p.choice.base();
@@ -71,12 +69,12 @@ impl Study {
                 Depth::Float => format!("takes {:.2} times as long and ", point.seconds / base.seconds),
                 _ => String::new(),
             };
-            Some(format!("{}: {time}moves the loss by {}", family.name(), percent(point.shift.abs())))
+            Some(format!("{}: {time}changes the loss by {}", family.name(), percent(point.shift.abs())))
         };
         Family::ALL.into_iter().filter_map(line).collect()
     }
 
-    /// Every point, a row each (RFC 4180).
+    /// One row per point (RFC 4180).
     pub fn csv(&self) -> String {
         CSV_HEADING.to_owned() + &self.points.iter().map(csv_row).collect::<String>()
     }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use crate::error::Error;
-use crate::files::read::{Assumption, MapReport, Read, ReadOptions};
+use crate::files::read::{Assumption, MapReport, Note, Read, ReadOptions};
 use crate::gpu::{Gpu, MaterialTextures};
 use crate::material::Material;
 
@@ -27,7 +27,7 @@ pub struct Loaded {
     pub kept: ReadOptions,
     pub material: Material<f32>,
     /// Remarks on the reading.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     pub assumptions: Vec<Assumption>,
     /// Each map as stored.
     pub maps: Vec<MapReport>,
@@ -79,8 +79,7 @@ impl Reader {
         let size = *self.size.get_or_insert(from);
         if self.rules.fit && from != size {
             read.material = read.material.resized(size)?;
-            let [[w, h], [to_w, to_h]] = [from, size];
-            read.notes.push(format!("Resized from {w} x {h} to the {to_w} x {to_h} of the ground truth."));
+            read.notes.push(Note::Resized { from, to: size });
         }
         Ok(loaded(Origin::Path(path), asked, read, self.gpu.as_ref()))
     }
@@ -89,7 +88,7 @@ impl Reader {
 pub(super) fn loaded(origin: Origin, asked: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
     let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
     let files = read.files.into_iter().map(|path| (changed(&path), path)).map(|(t, p)| (p, t)).collect();
-    let Read { material, assumptions, notes, maps, options, kept, .. } = read;
+    let Read { material, assumptions, notes, maps, options, saved: kept, .. } = read;
     Loaded { origin, asked, read: options, kept, material, notes, assumptions, maps, files, textures }
 }
 

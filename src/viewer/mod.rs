@@ -1,19 +1,33 @@
 //! The window: ground truth and predictions side by side under a light and a view that a person drags.
 //!
-//! Panels and keys return [`command::Command`]s; [`app::App`] carries them out; slow work runs in [`worker::Task`]s.
+//! Panels and keys return `command::Command`s; `app::App` carries them out; slow work runs in `worker::Task`s.
 
+#[cfg(not(feature = "testing"))]
+pub(crate) mod app;
+#[cfg(feature = "testing")]
 pub mod app;
 mod apply;
 mod cells;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod command;
+#[cfg(feature = "testing")]
 pub mod command;
 mod gestures;
 mod gpu_view;
 mod handles;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod keys;
+#[cfg(feature = "testing")]
 pub mod keys;
 mod loaded;
 mod loss_run;
 mod loss_settings;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod message;
+#[cfg(feature = "testing")]
 pub mod message;
+#[cfg(feature = "testing")]
+mod observe;
 mod options;
 mod panels;
 mod panes;
@@ -24,12 +38,18 @@ mod draw;
 mod save;
 mod settings;
 mod slots;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod state;
+#[cfg(feature = "testing")]
 pub mod state;
 mod study;
 mod theme;
 mod title;
 mod viewport;
 mod watch;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod worker;
+#[cfg(feature = "testing")]
 pub mod worker;
 
 use std::panic::AssertUnwindSafe;

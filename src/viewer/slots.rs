@@ -9,9 +9,9 @@ use super::loaded::{Loaded, Origin, Reader, Rules, file_name, loaded};
 use super::message::{Message, SizeMismatch};
 use super::worker::Task;
 use crate::error::Error;
-use crate::files::read::{self, Kept, ReadOptions};
+use crate::files::read::{self, ReadOptions, Sidecar};
 use crate::gpu::Gpu;
-use crate::report::told_apart;
+use crate::report::distinct_names;
 use crate::samples;
 
 /// A material in the window. Its id is never used again: it is the key of everything derived from the material.
@@ -196,7 +196,7 @@ impl Slots {
     /// Gives every slot a unique name.
     fn rename(&mut self) {
         let named: Vec<_> = self.slots.iter().map(|s| (s.loaded.material.name(), s.loaded.path())).collect();
-        let names = told_apart(&named);
+        let names = distinct_names(&named);
         self.slots.iter_mut().zip(names).for_each(|(slot, name)| slot.name = name);
     }
 
@@ -249,7 +249,7 @@ impl Slots {
     /// Saves the assumptions specified for the material at `index` in a sidecar file, and opens it again.
     ///
     /// # Errors
-    /// Those of [`Kept`].
+    /// Those of [`Sidecar`].
     pub fn save_assumptions(
         &mut self,
         ctx: &egui::Context,
@@ -258,7 +258,7 @@ impl Slots {
     ) -> Result<(), Error> {
         let Some(slot) = self.slots.get(index) else { return Ok(()) };
         let Origin::Path(path) = &slot.loaded.origin else { return Ok(()) };
-        Kept { options: slot.loaded.read, ..Kept::of(path)? }.write(path)?;
+        Sidecar { options: slot.loaded.read, ..Sidecar::load(path)? }.save(path)?;
         self.open_again(ctx, gpu, index, ReadOptions::AUTO);
         Ok(())
     }

@@ -46,10 +46,9 @@ impl<T: Send + 'static> Task<T> {
                 ctx.request_repaint_after(LOOK_AGAIN);
                 None
             }
-            Err(TryRecvError::Disconnected) => Some(Err(Error::Usage(
-                "the work ended without a result, which is a mistake of this program; please report it"
-                    .to_owned(),
-            ))),
+            Err(TryRecvError::Disconnected) => {
+                Some(Err(Error::Internal("the work ended without a result".to_owned())))
+            }
         }
     }
 

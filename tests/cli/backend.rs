@@ -57,10 +57,8 @@ fn without_an_adapter_the_gpu_is_refused_and_auto_takes_the_cpu() {
 
 #[cfg(feature = "gpu")]
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_gpu_computes_what_the_cpu_computes() {
-    if crate::support::gpu::gpu().is_none() {
-        return;
-    }
     let (on_gpu, _) = report(&loss("--backend gpu").output().unwrap());
     let (on_cpu, _) = report(&loss("").output().unwrap());
     assert_eq!(on_gpu["backend"], "gpu");
@@ -73,8 +71,9 @@ fn the_gpu_computes_what_the_cpu_computes() {
 
 #[cfg(feature = "gpu")]
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn auto_measures_a_long_job_and_prints_the_number_of_what_it_takes() {
-    let Some(gpu) = crate::support::gpu::gpu() else { return };
+    let gpu = crate::support::gpu::gpu();
     let (auto, stderr) = report(&loss(&format!("--backend auto {LONG_JOB}")).output().unwrap());
     let taken = auto["backend"].as_str().unwrap();
     let note = format!("note: computed on the {}: ", taken.to_uppercase());

@@ -164,11 +164,11 @@ fn the_header_says_which_texels_are_compared() {
         let table = succeed(folder.path(), &format!("loss gt.png a.png {args}"));
         table.lines().nth(2).unwrap().to_owned()
     };
-    let drawn = "6 near-field and 3 distant scenes of seed 0";
+    let drawn = "6 near-field and 3 distant scenes, seed 0";
     assert_eq!(line("--texels 99999999999"), drawn);
     assert_eq!(line("--texels 64"), drawn);
-    assert_eq!(line("--texels 63"), format!("{drawn}, each on 63 texels of its own"));
-    assert_eq!(line("--texels 1 --backend cpu"), format!("{drawn}, each on 1 texel of its own"));
+    assert_eq!(line("--texels 63"), format!("{drawn}, 63 random texels per scene"));
+    assert_eq!(line("--texels 1 --backend cpu"), format!("{drawn}, 1 random texel per scene"));
     line("--texels 9 --backend auto");
     line("--target-error 10% --backend cpu");
     for chosen in ["--texels 9", "--target-error 1%", "--time-budget 1ms"] {

@@ -32,7 +32,7 @@ fn info_says_what_was_assumed_and_strict_refuses_guesses() {
     assert_eq!(json["assumptions"][0]["what"], "layout");
     let given = succeed(folder.path(), "info gt.png --albedo srgb --order ndrs --normal-y down");
     assert!(
-        given.contains("albedo: srgb: as you said") && given.contains("normal y: down: as you said"),
+        given.contains("albedo: srgb: as specified") && given.contains("normal y: down: as specified"),
         "{given}"
     );
 

@@ -20,7 +20,7 @@ fn what_is_sure_is_only_said_when_asked_for() {
     let all = notes(folder.path(), "loss gt.png a.png --verbose");
     for name in ["gt", "a"] {
         assert!(
-            all.contains(&format!("{name}: albedo: linear: so do Deschaintre et al. store this order")),
+            all.contains(&format!("{name}: albedo: linear: Deschaintre et al. store this order in this way")),
             "{all:?}"
         );
     }

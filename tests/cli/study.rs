@@ -56,7 +56,7 @@ fn a_study_writes_its_points_and_prints_what_to_type() {
     let number = |text: &str| text.parse::<f64>().unwrap();
     let loss = said.lines().find_map(|line| line.strip_prefix("loss ")).unwrap();
     let reference = number(loss.split(' ').next().unwrap());
-    let line = said.lines().find(|line| line.starts_with("   1%")).unwrap();
+    let line = said.lines().find(|line| line.trim_start().starts_with("1% ")).unwrap();
     let options = &line[line.find("--").unwrap()..];
     let csv = succeed(folder.path(), &format!("loss gt.png a.png --format csv {options}"));
     let loss = number(cell(&self::rows(&csv)[0], "loss"));

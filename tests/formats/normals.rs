@@ -31,7 +31,7 @@ fn a_normal_map_of_x_and_y_gets_its_z() {
         });
         save(folder.path(), "a_normal.png", &image, ImageFormat::Png);
         let read = open(folder.path());
-        assert_eq!(chosen(&read, What::NormalCode), "xy", "{blue}: {:#?}", read.assumptions);
+        assert_eq!(chosen(&read, What::NormalEncoding), "xy", "{blue}: {:#?}", read.assumptions);
         assert_same(&read, 2.0 * EIGHT_BITS);
     }
 }
@@ -46,6 +46,6 @@ fn x_in_alpha_and_y_in_green_are_found() {
     });
     save(folder.path(), "a_normal.png", &image.into(), ImageFormat::Png);
     let read = open(folder.path());
-    assert_eq!(chosen(&read, What::NormalCode), "ag", "{:#?}", read.assumptions);
+    assert_eq!(chosen(&read, What::NormalEncoding), "ag", "{:#?}", read.assumptions);
     assert_same(&read, 2.0 * EIGHT_BITS);
 }

@@ -1,6 +1,6 @@
 //! What the user can say.
 
-use svbrdf::files::read::{Binding, Energy, NormalCode, Workflow, read_bound};
+use svbrdf::files::read::{Binding, Energy, NormalEncoding, Workflow, read_bound};
 
 use super::*;
 
@@ -78,13 +78,13 @@ fn rows_can_be_said_to_run_upwards() {
     let read = open_as(&path, &ReadOptions { flip_v: Some(true), ..ReadOptions::AUTO });
     assert_same(&read, EIGHT_BITS);
     assert!(worst(&open(&path).material) > 0.1, "without the option it is another material");
-    assert!(read.said().any(|line| line.contains("Row 0 is taken as the lowest, as you said")));
+    assert!(read.messages().any(|line| line.contains("Row 0 is the lowest row, as specified")));
 }
 
 #[test]
 fn plain_diffuse_is_divided_by_what_specular_leaves() {
     let (_folder, path) = saved(&strip("NDRS", |_, value, _| value));
-    let read = open_as(&path, &ReadOptions { energy: Some(Energy::Plain), ..ReadOptions::AUTO });
+    let read = open_as(&path, &ReadOptions { energy: Some(Energy::Unscaled), ..ReadOptions::AUTO });
     for index in [0, 77, 200] {
         let (got, [d, s]) =
             (read.material.texel(index), [1, 3].map(|map| texel(map, index % SIDE, index / SIDE)));
@@ -93,7 +93,7 @@ fn plain_diffuse_is_divided_by_what_specular_leaves() {
             assert!((got.specular[c] - s[c]).abs() < EIGHT_BITS);
         }
     }
-    assert_eq!(chosen(&read, What::Energy), "plain, d / (1 - s)");
+    assert_eq!(chosen(&read, What::Energy), "diffuse not scaled by (1 - specular): d / (1 - s) is used");
 }
 
 #[test]
@@ -160,11 +160,11 @@ fn the_workflow_and_the_reflectance_of_dielectrics_can_be_said() {
 #[test]
 fn the_code_of_normals_can_be_said() {
     let (_folder, path) = saved(&strip("NDRS", |_, value, _| value));
-    let options = ReadOptions { normal_code: Some(NormalCode::Xy), ..ReadOptions::AUTO };
+    let options = ReadOptions { normal_encoding: Some(NormalEncoding::Xy), ..ReadOptions::AUTO };
     let read = open_as(&path, &options);
-    assert_eq!(certainty(&read, What::NormalCode), Some(Certainty::Given));
+    assert_eq!(certainty(&read, What::NormalEncoding), Some(Certainty::Given));
     assert_same(&read, 2.0 * EIGHT_BITS);
-    let signed = ReadOptions { normal_code: Some(NormalCode::Signed), ..ReadOptions::AUTO };
+    let signed = ReadOptions { normal_encoding: Some(NormalEncoding::Signed), ..ReadOptions::AUTO };
     assert!(worst(&open_as(&path, &signed).material) > 0.1);
 }
 
@@ -238,7 +238,7 @@ fn a_named_map_takes_the_place_of_one_in_a_strip_and_in_a_folder() {
             "{}",
             path.display()
         );
-        assert!(read.said().any(|line| line.contains("as you said")));
+        assert!(read.messages().any(|line| line.contains("as specified")));
         assert!(read.files.contains(&other));
     }
 }

@@ -80,12 +80,15 @@ fn codes_of_research_are_written_as_they_are_read() {
     }
     for (like, out) in [(Preset::Gltf, "x.png"), (Preset::Gao, "x"), (Preset::Gao, "x.exr")] {
         let options = WriteOptions { like: Some(like), ..WriteOptions::default() };
-        assert!(matches!(Kind::new(Path::new(out), &options), Err(Error::Usage(_))), "{out}");
+        assert!(matches!(Kind::new(Path::new(out), &options), Err(Error::UnsupportedOutput { .. })), "{out}");
     }
     let preview = WriteOptions { preview: true, ..WriteOptions::default() };
-    assert!(matches!(Kind::new(Path::new("x.png"), &preview), Err(Error::Usage(_))));
+    assert!(matches!(Kind::new(Path::new("x.png"), &preview), Err(Error::UnsupportedOutput { .. })));
     for picture in ["x.jpg", "x.TIF", "x.gltf"] {
-        assert!(matches!(Kind::new(Path::new(picture), &WriteOptions::default()), Err(Error::Usage(_))));
+        assert!(matches!(
+            Kind::new(Path::new(picture), &WriteOptions::default()),
+            Err(Error::UnsupportedOutput { .. })
+        ));
     }
     assert!(Kind::new(Path::new("brick.v2"), &WriteOptions::default()).is_ok());
 }
@@ -123,7 +126,7 @@ fn a_preview_is_for_other_programs_and_changes_no_map() {
     write::write(&original.material, &out, Kind::new(&out, &options).unwrap()).unwrap();
     let again: Read<f32> = read(&out, &ReadOptions::default(), &Progress::default()).unwrap();
     assert_eq!(again.material.planes(), original.material.planes());
-    assert!(again.notes.iter().any(|note| note.contains("preview")), "{:?}", again.notes);
+    assert!(again.notes.iter().any(|note| note.to_string().contains("preview")), "{:?}", again.notes);
     let shown = exr::prelude::read_first_rgba_layer_from_file(
         &out,
         |size, _| vec![[0.0_f32; 3]; size.area()],

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::*;
+use crate::golden_loss;
 
 /// A packed 4x1 strip: normal | diffuse | roughness | specular, 8 bits.
 fn strip(folder: &Path, case: &serde_json::Value) -> Material<f32> {
@@ -26,17 +27,14 @@ fn strip(folder: &Path, case: &serde_json::Value) -> Material<f32> {
 
 #[test]
 #[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
-fn golden_cases() {
+fn losses_are_the_golden_ones() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden");
-    for file in std::fs::read_dir(folder.join("loss")).unwrap() {
-        let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
-        let case: serde_json::Value = serde_json::from_str(&text).unwrap();
+    for case in golden_loss::cases() {
         let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).unwrap();
         let (gt, prediction) = (strip(&folder, &case["ground_truth"]), strip(&folder, &case["prediction"]));
         for c in &convention::ALL {
-            let Some(expected) = case["expected"].get(c.name) else { continue };
-            let numbers = expected["per_scene"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap());
-            let want = (expected["loss"].as_f64().unwrap(), numbers.collect());
+            let golden = golden_loss::expected(&case, c).unwrap_or_else(|e| panic!("{e}"));
+            let want = (golden.loss, golden.per_scene);
             for (name, level) in levels() {
                 let got = fused(level, &gt, &prediction, &scenes, c);
                 let [mean, scene] = compare(&got, &want, BOUNDS).unwrap();

@@ -12,11 +12,12 @@ use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::picture::camera::Camera;
 use svbrdf::picture::quantity::Quantity;
 
-use crate::support::gpu::{bumpy, gpu, picture};
+use crate::support::gpu::{STALE_BUILD, bumpy, find_gpu, gpu, picture};
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_report_is_one_line_that_says_what_is_used_and_why() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let line = gpu.report.to_string();
     assert!(!line.contains('\n'));
     assert!(line.starts_with(&gpu.report.name), "{line}");
@@ -25,39 +26,56 @@ fn the_report_is_one_line_that_says_what_is_used_and_why() {
     assert!(gpu.report.max_texture_side >= 4096);
 }
 
-/// This test binary's test of the report, on a machine that seems to have no driver.
-fn report_without_driver(ci: bool) -> (bool, String) {
-    let mut child = Command::new(std::env::current_exe().expect("this program has a path"));
-    child.args(["--exact", "--nocapture", "--test-threads=1"]);
-    child.arg("gpu_parity::adapter::the_report_is_one_line_that_says_what_is_used_and_why");
-    child.env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none").env("WGPU_BACKEND", "vulkan");
-    child.env_remove("CI");
-    if ci {
-        child.env("CI", "true");
+#[test]
+fn the_build_knows_whether_there_is_an_adapter() {
+    let required = std::env::var_os("CI").is_some();
+    match find_gpu() {
+        Ok(gpu) if gpu.report.shading_format == wgpu::TextureFormat::Rgba32Float => {
+            assert!(cfg!(has_f32_adapter), "{}: {STALE_BUILD}", gpu.report);
+        }
+        // Used where nothing else is, and tested only on request: `WGPU_BACKEND=gl`.
+        Ok(opengl) => {
+            assert!(!cfg!(has_f32_adapter), "{}: {STALE_BUILD}", opengl.report);
+            assert!(!required, "no 32-bit renderings in CI: {}", opengl.report);
+        }
+        Err(problem) => {
+            assert!(!cfg!(has_adapter), "{problem}: {STALE_BUILD}");
+            assert!(!required, "no graphics adapter in CI: {problem}");
+        }
     }
+}
+
+/// What `test` of this program prints on a machine that seems to have no driver, and whether it passes.
+fn without_driver(test: &str, variables: &[(&str, &str)]) -> (bool, String) {
+    let mut child = Command::new(std::env::current_exe().expect("this program has a path"));
+    child.args(["--exact", "--include-ignored", "--nocapture", "--test-threads=1"]);
+    child.arg(format!("gpu_parity::adapter::{test}"));
+    child.env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none").env("WGPU_BACKEND", "vulkan");
+    child.env_remove("CI").envs(variables.iter().copied());
     let output = child.output().expect("it runs");
-    let text = [output.stdout, output.stderr].concat();
-    (output.status.success(), String::from_utf8_lossy(&text).into_owned())
+    let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
+    assert!(text.contains("running 1 test"), "{text}");
+    (output.status.success(), text)
 }
 
 #[test]
-fn without_an_adapter_gpu_tests_say_that_they_are_ignored() {
-    let (success, text) = report_without_driver(false);
-    assert!(success, "{text}");
-    assert!(text.contains("ignored: no graphics adapter"), "{text}");
+fn a_missing_adapter_fails_the_tests_that_need_one_and_ci() {
+    let needs_one = "the_report_is_one_line_that_says_what_is_used_and_why";
+    let (passed, text) = without_driver(needs_one, &[]);
+    assert!(!passed && text.contains("no usable graphics adapter"), "{text}");
     assert!(text.contains("mesa-vulkan-drivers") && text.contains("use the CPU"), "{text}");
+
+    let knows = "the_build_knows_whether_there_is_an_adapter";
+    let (passed, text) = without_driver(knows, &[]);
+    assert_eq!(passed, !cfg!(has_adapter), "{text}");
+    let (passed, text) = without_driver(knows, &[("CI", "true")]);
+    assert!(!passed && (text.contains("in CI") || text.contains(STALE_BUILD)), "{text}");
 }
 
 #[test]
-fn without_an_adapter_gpu_tests_fail_in_ci() {
-    let (success, text) = report_without_driver(true);
-    assert!(!success, "{text}");
-    assert!(text.contains("no graphics adapter in CI"), "{text}");
-}
-
-#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_material_beyond_the_limits_is_refused_with_both_sizes() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let mut small = gpu.clone();
     small.report.max_texture_side = 8;
     let refused = |result: Result<(), Error>| {
@@ -71,8 +89,9 @@ fn a_material_beyond_the_limits_is_refused_with_both_sizes() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let mut half = gpu.clone();
     half.report.shading_format = wgpu::TextureFormat::Rgba16Float;
     let scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] };
@@ -116,10 +135,8 @@ fn mirror() -> Material<f32> {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_failure_that_no_function_can_return_waits_to_be_taken() {
-    if gpu().is_none() {
-        return;
-    }
     // A device of its own: other tests take faults too.
     let gpu = Gpu::headless().expect("an adapter");
     assert!(gpu.take_fault().is_none());

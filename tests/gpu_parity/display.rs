@@ -96,8 +96,9 @@ fn gray(value: f32) -> Material<f32> {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn known_values_are_encoded_as_the_standard_says() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let known = [(0.0, 0, 0), (0.002, 7, 1), (0.2, 124, 51), (0.5, 188, 128), (1.0, 255, 255)];
     for (value, as_albedo, as_data) in known {
         for (shown, level) in [(Quantity::Diffuse, as_albedo), (Quantity::Roughness, as_data)] {
@@ -109,8 +110,9 @@ fn known_values_are_encoded_as_the_standard_says() {
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn radiance_is_exposed_before_it_is_encoded() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let material = gray(0.3);
     let on_gpu = gpu.render(&material, &ABOVE, &PRINTED).expect("rendered").pixels[0];
     let shaded = shaded(gpu, &material, Quantity::Rendering);
@@ -123,8 +125,9 @@ fn radiance_is_exposed_before_it_is_encoded() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_texel_is_crisp_and_in_its_place_when_magnified() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     for size in [[5, 3], [4, 4], [1, 1], [1, 3], [3, 1], [16, 9]] {
         let material = bumpy(size[0], size[1]);
         let shaded = shaded(gpu, &material, Quantity::Diffuse);
@@ -141,8 +144,9 @@ fn every_texel_is_crisp_and_in_its_place_when_magnified() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_comparison_of_pictures_goes_red_on_planted_faults() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let material = bumpy(6, 6);
     let shaded = shaded(gpu, &material, Quantity::Diffuse);
     let picture = picture(gpu, [6, 6], &shaded, &shaded, &params(whole([6, 6]), Quantity::Diffuse));
@@ -158,8 +162,9 @@ fn the_comparison_of_pictures_goes_red_on_planted_faults() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_perspective_view_shows_what_the_camera_says() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let camera = Camera {
         origin: Vec3::new(0.3, -2.0, 1.5),
         origin_right: Vec3::zero(),
@@ -212,8 +217,9 @@ fn box_average(material: &Material<f32>, pane: [usize; 2], column: usize, row: u
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     for (size, pane) in
         [([8, 8], [2, 2]), ([6, 9], [4, 6]), ([7, 7], [3, 3]), ([32, 32], [2, 2]), ([90, 60], [9, 6])]
     {
@@ -227,8 +233,9 @@ fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_very_large_map_is_averaged_with_a_stride() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let material = bumpy(400, 400);
     let shaded = shaded(gpu, &material, Quantity::Diffuse);
     let picture = picture(gpu, [4, 4], &shaded, &shaded, &params(whole([400, 400]), Quantity::Diffuse));
@@ -241,8 +248,9 @@ fn a_very_large_map_is_averaged_with_a_stride() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_wipe_shows_the_reference_on_the_left() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let white = shaded(gpu, &gray(1.0), Quantity::Diffuse);
     let black = shaded(gpu, &gray(0.0), Quantity::Diffuse);
     for (x, reference_columns) in [(-1.0, 0), (-0.5, 2), (0.0, 4), (0.5, 6), (1.0, 8)] {
@@ -268,8 +276,9 @@ fn colours_of(values: &[f32], DisplayedDifference { kind, range }: DisplayedDiff
 }
 
 #[test]
+#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
-    let Some(gpu) = gpu_f32() else { return };
+    let gpu = gpu_f32();
     let up = Texel {
         normal: Vec3::new(0.0, 0.0, 1.0),
         diffuse: [0.3, 0.5, 0.2],
@@ -302,8 +311,9 @@ fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn clipped_pixels_are_striped_on_demand() {
-    let Some(gpu) = gpu() else { return };
+    let gpu = gpu();
     let striped = |value: f32, exposure_ev: f32, show_clipping: bool| {
         let shaded = shaded(gpu, &gray(value), Quantity::Rendering);
         let params =

@@ -2,7 +2,6 @@
 
 use std::sync::OnceLock;
 
-use serde_json::Value;
 use svbrdf::error::Error;
 use svbrdf::gpu::Losses;
 use svbrdf::loss::{Comparison, Loss, Plain, Request};
@@ -23,11 +22,10 @@ struct Computer {
 }
 
 impl Computer {
-    /// `None`, said aloud, where there is no adapter.
-    fn get() -> Option<Self> {
+    fn get() -> Self {
         static LOSSES: OnceLock<Losses> = OnceLock::new();
-        let gpu = gpu()?;
-        Some(Self { losses: LOSSES.get_or_init(|| Losses::new(gpu).expect("the loss compiles")) })
+        let losses = LOSSES.get_or_init(|| Losses::new(gpu()).expect("the loss compiles"));
+        Self { losses }
     }
 
     fn try_losses(
@@ -90,8 +88,9 @@ fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let samples = samples::load::<f32>().expect("built in");
     let ground_truth = &samples.ground_truth.material;
     let mut worst = [0.0; 2];
@@ -112,20 +111,18 @@ fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
 
 #[test]
 #[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn losses_are_the_golden_ones() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let mut worst = [0.0; 2];
     for case in golden_loss::cases() {
         let [ground_truth, prediction] =
             ["ground_truth", "prediction"].map(|key| golden_loss::material::<f32>(&case[key]));
         let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).expect("scenes");
         for convention in convention::ALL {
-            let expected = &case["expected"][convention.name];
-            let number = |value: &Value| value.as_f64().expect("a number");
-            let per_scene: Vec<f64> =
-                expected["per_scene"].as_array().expect("a list").iter().map(number).collect();
+            let golden = golden_loss::expected(&case, &convention).unwrap_or_else(|e| panic!("{e}"));
             let got = computer.losses(&ground_truth, &[&prediction], &scenes, &convention);
-            let off = compare(&got, number(&expected["loss"]), &per_scene)
+            let off = compare(&got, golden.loss, &golden.per_scene)
                 .unwrap_or_else(|e| panic!("{}, {}: {e}", prediction.name(), convention.name));
             worst = larger(worst, off);
         }
@@ -143,8 +140,9 @@ fn changed(width: usize, height: usize) -> Material<f32> {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn odd_sizes_are_summed_to_the_last_texel() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     // The last two are one texel more than a block, and more than a band.
     for [width, height] in [[1, 1], [7, 3], [3, 7], [129, 1], [1, 129], [17, 241], [1049, 1001]] {
         let (ground_truth, prediction) = (bumpy(width, height), changed(width, height));
@@ -157,8 +155,9 @@ fn odd_sizes_are_summed_to_the_last_texel() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn equal_materials_have_no_loss_at_all() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     for convention in convention::ALL {
         let material = bumpy(65, 67);
         let scenes = scenes(4, 3, &convention);
@@ -169,8 +168,9 @@ fn equal_materials_have_no_loss_at_all() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn mirrors_and_grazing_lights_have_finite_losses() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let uniform = |roughness, specular| {
         let texel = svbrdf::model::brdf::Texel {
             normal: svbrdf::math::vec3::Vec3::new(0.0, 0.0, 1.0),
@@ -194,8 +194,9 @@ fn mirrors_and_grazing_lights_have_finite_losses() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_same_bits_come_out_every_time() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(200, 100), changed(200, 100));
     let scenes = scenes(6, 3, &PRINTED);
     let once = || computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED);
@@ -204,8 +205,9 @@ fn the_same_bits_come_out_every_time() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn several_predictions_have_the_losses_that_each_has_alone() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let (ground_truth, other, scenes) = (bumpy(90, 70), changed(90, 70), scenes(3, 2, &PRINTED));
     // More than one pass takes.
     let predictions = [&other, &ground_truth, &other, &other, &ground_truth, &other];
@@ -219,8 +221,9 @@ fn several_predictions_have_the_losses_that_each_has_alone() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn many_scenes_have_the_losses_that_each_has_alone() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(5, 4), changed(5, 4));
     // More than one step takes.
     let scenes = scenes(2000, 100, &PRINTED);
@@ -232,8 +235,9 @@ fn many_scenes_have_the_losses_that_each_has_alone() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_cancelled_loss_ends_at_its_next_step() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(8, 8), changed(8, 8));
     let scenes = scenes(6000, 0, &PRINTED);
     let progress = Progress::default();
@@ -249,8 +253,9 @@ fn a_cancelled_loss_ends_at_its_next_step() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let (material, other) = (bumpy(8, 8), bumpy(8, 9));
     let refused = |prediction, scenes: &[Scene]| {
         computer.try_losses(&material, &[prediction], scenes, &PRINTED).expect_err("refused")
@@ -263,8 +268,9 @@ fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_comparison_of_losses_goes_red_on_planted_faults() {
-    let Some(computer) = Computer::get() else { return };
+    let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(64, 48), changed(64, 48));
     let scenes = scenes(3, 2, &PRINTED);
     let want = in_f64(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);

@@ -16,7 +16,7 @@ pub fn wall(text: &str) -> (TempDir, std::path::PathBuf) {
 }
 
 fn says(read: &Read<f64>, part: &str) -> bool {
-    read.said().any(|line| line.contains(part))
+    read.messages().any(|line| line.contains(part))
 }
 
 pub const PBR: &str = "# made by a test
@@ -39,7 +39,7 @@ fn mtl_with_roughness_and_metallic_opens() {
     assert_eq!(read.files.len(), 4);
     assert!(says(&read, "workflow: metallic"), "{:#?}", read.assumptions);
     assert!(says(&read, "map_d -clamp on alpha.png is not used"), "{:?}", read.notes);
-    assert!(says(&read, "Of the .mtl is not used: ka 1 1 1, pr 1."), "{:?}", read.notes);
+    assert!(says(&read, "Statements of the .mtl that are not used: ka 1 1 1, pr 1."), "{:?}", read.notes);
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn an_exponent_stands_for_roughness_and_heights_for_nothing_in_mtl() {
 fn an_mtl_without_what_is_needed_is_refused() {
     for (text, expected) in [
         ("Kd 1 1 1\n", "expected a material (newmtl NAME), found none"),
-        ("newmtl plain\nKd 1 1 1\nPr 0.5\n", "found plain (number 0 of 1) without one"),
+        ("newmtl plain\nKd 1 1 1\nPr 0.5\n", "found none in plain (number 0 of 1, from 0)"),
         ("newmtl wall\nmap_Kd none.png\nPr 0.5\n", "none.png"),
         (
             "newmtl wall\nmap_Pr old rough.png\nKd red\n",

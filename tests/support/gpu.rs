@@ -5,34 +5,33 @@ use std::sync::OnceLock;
 use svbrdf::gpu::{Display, DisplayParams, Gpu, Pane, Shaded};
 use svbrdf::material::{Material, Planes};
 
-/// The adapter, the same for every test; `None`, said aloud, where there is none.
-///
-/// # Panics
-/// In CI, where a software driver is always there.
-pub fn gpu() -> Option<&'static Gpu> {
+/// What to do where the tests and the build disagree on what is there.
+pub const STALE_BUILD: &str = "this machine has changed since the build looked at it: touch build.rs";
+
+/// The adapter, the same for every test, or why there is none.
+pub fn find_gpu() -> Result<&'static Gpu, &'static str> {
     static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
-    match GPU.get_or_init(|| Gpu::headless().map_err(|e| e.to_string())) {
-        Ok(gpu) => Some(gpu),
-        Err(problem) if std::env::var_os("CI").is_some() => panic!("no graphics adapter in CI: {problem}"),
-        Err(problem) => {
-            println!("ignored: no graphics adapter: {problem}");
-            None
-        }
-    }
+    GPU.get_or_init(|| Gpu::headless().map_err(|e| e.to_string())).as_ref().map_err(String::as_str)
 }
 
-/// As [`gpu`], where it renders to 32-bit floats; software GL does not.
+/// The adapter. A test that calls this is ignored where the build found no driver (`has_adapter`, see build.rs).
 ///
 /// # Panics
-/// In CI, where Vulkan is always there.
-pub fn gpu_f32() -> Option<&'static Gpu> {
-    let gpu = gpu()?;
-    if gpu.report.shading_format == wgpu::TextureFormat::Rgba32Float {
-        return Some(gpu);
-    }
-    assert!(std::env::var_os("CI").is_none(), "no 32-bit renderings in CI: {}", gpu.report);
-    println!("ignored: no 32-bit renderings: {}", gpu.report);
-    None
+/// If there is no adapter.
+pub fn gpu() -> &'static Gpu {
+    find_gpu().unwrap_or_else(|problem| {
+        panic!("the build found a graphics driver, but {problem}\n(VK_DRIVER_FILES=none hides all drivers)")
+    })
+}
+
+/// As [`gpu`], but it renders to 32-bit floats. A test that calls this is ignored without `has_f32_adapter`.
+///
+/// # Panics
+/// If there is no adapter, or it renders to fewer bits, as OpenGL does.
+pub fn gpu_f32() -> &'static Gpu {
+    let gpu = gpu();
+    assert_eq!(gpu.report.shading_format, wgpu::TextureFormat::Rgba32Float, "{}", gpu.report);
+    gpu
 }
 
 /// A bumpy material in which no two texels, rows, columns or channels are alike.

@@ -56,8 +56,9 @@ fn statistics(window: &mut Window<'_>) -> Vec<Statistics> {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_statistics_of_a_rendering_are_those_of_the_core_in_f64_and_their_mean_is_the_loss() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     press(&mut window, egui::Key::D);
     let got = statistics(&mut window);
     let scene = window.state().state.scene;
@@ -74,8 +75,9 @@ fn the_statistics_of_a_rendering_are_those_of_the_core_in_f64_and_their_mean_is_
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_difference_of_normals_is_their_angle_in_degrees() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     press(&mut window, egui::Key::D);
     press(&mut window, egui::Key::M);
     let got = statistics(&mut window);
@@ -92,8 +94,9 @@ fn the_difference_of_normals_is_their_angle_in_degrees() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_map_s_difference_is_not_called_logarithmic() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     press(&mut window, egui::Key::D);
     window.get_by_label("Title 1  blurred normals: log difference");
     for _ in 0..4 {
@@ -105,8 +108,9 @@ fn a_map_s_difference_is_not_called_logarithmic() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn exposure_changes_values_and_no_difference() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     press(&mut window, egui::Key::D);
     statistics(&mut window);
     let [ground_truth, prediction] = [GROUND_TRUTH, PREDICTIONS[0]].map(|title| pane(&window, title));
@@ -118,8 +122,9 @@ fn exposure_changes_values_and_no_difference() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_ground_truth_is_never_compared_with_itself() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     let colours = |window: &mut Window<'_>, title: &str| {
         let rect = pane(window, title);
         let picture = pixels(window, rect);
@@ -147,8 +152,9 @@ fn the_ground_truth_is_never_compared_with_itself() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_range_is_dragged_and_automatic_again() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     press(&mut window, egui::Key::D);
     statistics(&mut window);
     let auto = window.state().difference_range();
@@ -175,8 +181,9 @@ fn the_range_is_dragged_and_automatic_again() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_readout_is_that_of_the_pane_under_the_pointer() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     for _ in 0..4 {
         press(&mut window, egui::Key::M);
     }

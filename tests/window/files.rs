@@ -3,8 +3,9 @@
 use super::*;
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_window_starts_on_the_built_in_pair() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     assert_eq!(window.state().names(), ["worn tiles", "blurred normals", "wrong roughness"]);
     let rect = pane(&window, GROUND_TRUTH);
     let picture = pixels(&mut window, rect);
@@ -13,8 +14,9 @@ fn the_window_starts_on_the_built_in_pair() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn dropped_files_replace_the_built_in_pair() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     let assets = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets");
     let mut strips: Vec<_> = std::fs::read_dir(assets)
         .unwrap()
@@ -30,8 +32,9 @@ fn dropped_files_replace_the_built_in_pair() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_file_that_is_not_there_is_an_error_in_the_window_and_keeps_what_was_open() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     window.get_by_label("Open").click();
     window.run_steps(4);
     let field = "Files, folders or name prefixes, one a line:";
@@ -51,8 +54,9 @@ fn a_file_that_is_not_there_is_an_error_in_the_window_and_keeps_what_was_open() 
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_saved_view_is_written_and_said_so() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");
     window.get_by_label("Save").click();
@@ -73,8 +77,9 @@ fn the_saved_view_is_written_and_said_so() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_was_said_already_is_not_said_twice() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     for _ in 0..2 {
         window.input_mut().dropped_files =
             vec![std::sync::Arc::new(Dropped("no/such/brick.png".into())) as _];
@@ -86,8 +91,9 @@ fn what_was_said_already_is_not_said_twice() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_file_is_replaced_only_by_a_person_who_knows() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");
     std::fs::write(&path, "precious").unwrap();
@@ -120,6 +126,7 @@ fn two_sizes(folder: &std::path::Path) -> [std::path::PathBuf; 2] {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
     let folder = tempfile::tempdir().unwrap();
     let [large, small] = two_sizes(folder.path());
@@ -130,7 +137,7 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
             fit,
             ..ViewerOptions::default()
         };
-        let Some(mut window) = window(options) else { return };
+        let mut window = window(options);
         window.set_size(vec2(1200.0, 2000.0));
         wait(&mut window, "the end of reading", |app| !app.is_reading());
         if fit {
@@ -149,6 +156,7 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn guesses_are_refused_where_the_window_was_told_to() {
     let folder = tempfile::tempdir().unwrap();
     let [large, _] = two_sizes(folder.path());
@@ -161,9 +169,7 @@ fn guesses_are_refused_where_the_window_was_told_to() {
     }
     for strict in [false, true] {
         let ground_truth = Some(folder.path().join("map"));
-        let Some(window) = window(ViewerOptions { ground_truth, strict, ..ViewerOptions::default() }) else {
-            return;
-        };
+        let window = window(ViewerOptions { ground_truth, strict, ..ViewerOptions::default() });
         assert_eq!(window.state().names().len(), usize::from(!strict));
         let refused = window.state().messages().iter().any(|text| text.contains("ambiguous"));
         assert_eq!(refused, strict, "{:?}", window.state().messages());
@@ -171,6 +177,7 @@ fn guesses_are_refused_where_the_window_was_told_to() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn predictions_of_one_name_are_told_apart_by_their_folders() {
     let folder = tempfile::tempdir().unwrap();
     let [large, _] = two_sizes(folder.path());
@@ -185,7 +192,7 @@ fn predictions_of_one_name_are_told_apart_by_their_folders() {
         predictions: predictions.to_vec(),
         ..ViewerOptions::default()
     };
-    let Some(mut window) = window(options) else { return };
+    let mut window = window(options);
     wait(&mut window, "the loss", |app| app.losses().is_some());
     assert_eq!(window.state().names(), ["large", "run_a/out.png", "run_b/out.png"]);
     let losses = window.state().losses().unwrap().iter().map(|loss| loss.prediction.clone());

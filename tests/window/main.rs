@@ -27,8 +27,8 @@ use svbrdf::viewer::app::App;
 type Window<'a> = Harness<'a, App>;
 
 /// The window on the given materials (none: the built-in pair), once they have been read.
-fn window<'a>(options: ViewerOptions) -> Option<Window<'a>> {
-    gpu::gpu()?;
+fn window<'a>(options: ViewerOptions) -> Window<'a> {
+    gpu::gpu();
     let mut window = Harness::builder()
         .with_size(vec2(1200.0, 800.0))
         .with_max_steps(16)
@@ -39,7 +39,7 @@ fn window<'a>(options: ViewerOptions) -> Option<Window<'a>> {
     wait(&mut window, "the materials to be read", |app| {
         !app.names().is_empty() || !app.messages().is_empty()
     });
-    Some(window)
+    window
 }
 
 /// Runs frames until `done`, or fails after a generous while.
@@ -55,7 +55,7 @@ fn wait(window: &mut Window<'_>, what: &str, done: impl Fn(&App) -> bool) {
     panic!("waited in vain for {what}");
 }
 
-fn built_in<'a>() -> Option<Window<'a>> {
+fn built_in<'a>() -> Window<'a> {
     window(ViewerOptions::default())
 }
 

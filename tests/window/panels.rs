@@ -3,8 +3,9 @@
 use super::*;
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_double_click_on_a_number_puts_back_its_default() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     press(&mut window, egui::Key::E);
     assert_eq!(window.state().state.exposure_ev, 0.5);
     let at = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Exposure").rect().center();
@@ -18,8 +19,9 @@ fn a_double_click_on_a_number_puts_back_its_default() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     window.set_size(vec2(1200.0, 2000.0));
     window.run_steps(4);
     press(&mut window, egui::Key::Num2);
@@ -34,8 +36,9 @@ fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     for name in ["Near-field scenes", "Distant scenes"] {
         let number = egui::accesskit::Role::SpinButton;
         window.get_by_role_and_label(number, name).click();
@@ -56,8 +59,9 @@ fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     window.set_size(vec2(900.0, 600.0));
     let path =
         |i| format!("/runs/of/a/very/long/name/that/does/not/fit/into/one/line/of/the/window/epoch_{i:04}");
@@ -77,8 +81,9 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_side_panel_stands_beside_the_panes_in_the_smallest_window() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     for size in [vec2(640.0, 420.0), vec2(760.0, 500.0), vec2(1600.0, 900.0)] {
         window.set_size(size);
         window.run_steps(8);

@@ -1,11 +1,11 @@
-//! What reading took for granted, as values that a user can see, doubt and change.
+//! What reading assumed, as values that a user can inspect and change.
 
 use std::fmt;
 
 use serde::Serialize;
 
-/// Why what the user says is assumed.
-pub(crate) const AS_YOU_SAID: &str = "as you said";
+use super::note::SpecifiedBy;
+use super::reason::Reason;
 
 /// What an assumption is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -22,10 +22,10 @@ pub enum What {
     /// Direction of y in the normal map.
     NormalY,
     /// How the components of normals are stored.
-    NormalCode,
+    NormalEncoding,
     /// What a roughness value means.
     Roughness,
-    /// What the renderer that the diffuse was made for does with it.
+    /// Whether the renderer that diffuse was made for scales it by (1 - specular).
     Energy,
     /// A map that is not there.
     Missing,
@@ -36,7 +36,7 @@ pub enum What {
 }
 
 impl What {
-    /// How users read it.
+    /// The name for users.
     pub fn name(self) -> &'static str {
         match self {
             Self::Layout => "layout",
@@ -44,7 +44,7 @@ impl What {
             Self::Albedo => "albedo",
             Self::Specular => "specular",
             Self::NormalY => "normal y",
-            Self::NormalCode => "normal code",
+            Self::NormalEncoding => "normal encoding",
             Self::Roughness => "roughness",
             Self::Energy => "energy",
             Self::Missing => "missing",
@@ -58,33 +58,34 @@ impl What {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Certainty {
-    /// Could as well be otherwise: look at it. `--strict` refuses it.
+    /// Another reading is as plausible. Strict reading refuses it.
     Unsure,
-    /// A convention or the pixels speak for it.
+    /// A convention or the pixels suggest it.
     Likely,
-    /// The file says so.
+    /// The file says so, or the specification of its format does.
     Sure,
-    /// The user said so.
+    /// The user or a sidecar file specified it.
     Given,
 }
 
-/// One thing that was taken for granted, and why.
+/// One thing that was assumed, and why.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Assumption {
     pub what: What,
+    /// The choice, for the user.
     pub chosen: String,
-    pub why: String,
+    pub why: Reason,
     pub certainty: Certainty,
 }
 
 impl Assumption {
-    pub fn new(what: What, chosen: impl fmt::Display, why: impl Into<String>, certainty: Certainty) -> Self {
+    pub fn new(what: What, chosen: impl fmt::Display, why: impl Into<Reason>, certainty: Certainty) -> Self {
         Self { what, chosen: chosen.to_string(), why: why.into(), certainty }
     }
 
-    /// An assumption that the user made.
+    /// What the caller specified.
     pub fn given(what: What, chosen: impl fmt::Display) -> Self {
-        Self::new(what, chosen, AS_YOU_SAID, Certainty::Given)
+        Self::new(what, chosen, Reason::Specified(SpecifiedBy::Caller), Certainty::Given)
     }
 }
 

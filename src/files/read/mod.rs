@@ -1,21 +1,26 @@
 //! Reading a material from files.
 //!
-//! `packed`, `folder`, `layers`, `gltf`, `mtl` and `mtlx` find the maps, `decode` turns a file into the samples that it stores,
-//! `encoding` and `normals` turn samples into linear values. What opens is listed in `docs/formats.md`.
+//! `locate` and `formats` find the maps, `decode` turns a file into the samples that it stores, and `interpret` turns
+//! samples into linear values. What opens is listed in `docs/formats.md`.
 //!
-//! Colour chunks are ignored. What the values mean is said by [`ReadOptions`]; what these leave open is found out from
-//! names and pixels, and recorded as an [`Assumption`].
+//! Colour chunks are ignored. [`ReadOptions`] specify what the values mean; what these leave open is inferred from names
+//! and pixels, and recorded as an [`Assumption`].
 
 mod assumption;
+mod choices;
 mod decode;
+mod extensions;
 mod formats;
 mod grid;
 pub(crate) mod interpret;
+mod layered_options;
 mod locate;
+mod note;
 mod options;
 mod order;
 mod preset;
 mod raster;
+mod reason;
 mod role;
 mod sidecar;
 mod stored;
@@ -24,63 +29,60 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 pub use assumption::{Assumption, Certainty, What};
+pub use extensions::EXTENSIONS;
 pub use grid::Grid;
 pub use interpret::report::MapReport;
 pub use locate::binding::Binding;
+pub use note::{Container, Gray, Note, SpecifiedBy, Subject, Unused};
 pub use options::{
-    Albedo, Energy, NonFinite, NormalCode, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
+    Albedo, Energy, NonFinite, NormalEncoding, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
 };
 pub use order::Order;
 pub use preset::Preset;
-pub use sidecar::Kept;
+pub use reason::{Reason, StorageConvention};
+pub use role::Role;
+pub use sidecar::Sidecar;
 
 use crate::error::Error;
 use crate::material::Material;
 use crate::math::real::Real;
 use crate::progress::Progress;
-use decode::Decoded;
+use extensions::LISTING;
 use formats::{gltf, mtl, mtlx};
 use interpret::{encoding, report};
-use locate::names::Role;
-use locate::{binding, folder, layers, packed};
-use stored::{Found, Source};
+use locate::{binding, folder, picture};
+use stored::{StoredMap, StoredMaterial};
 
-/// Extensions of the files that open as a material or as a map of one.
-pub const EXTENSIONS: [&str; 14] =
-    ["png", "tif", "tiff", "jpg", "jpeg", "hdr", "exr", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json"];
-/// Extensions of files that name their textures.
-const NAMING: [&str; 4] = ["gltf", "glb", "mtl", "mtlx"];
-
-/// A material, and how it came to be.
+/// A material, and how it was read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Read<T> {
     pub material: Material<T>,
-    /// What was taken for granted, each with its reason.
+    /// What was assumed, each with its reason.
     pub assumptions: Vec<Assumption>,
-    /// What else was found, one sentence each, for the user.
-    pub notes: Vec<String>,
+    /// What else was noticed.
+    pub notes: Vec<Note>,
     /// The files that were read, each once, for watching. None for a material from memory.
     pub files: Vec<PathBuf>,
     /// What each map looks like as stored.
     pub maps: Vec<MapReport>,
-    /// What it was read with: what the caller said and, where that was to be asked, what is kept with the material.
+    /// The options that it was read with: those of the caller and, unless it excluded them, those of the sidecar file.
     pub options: ReadOptions,
-    /// What is kept with the material.
-    pub kept: ReadOptions,
+    /// The options of the sidecar file.
+    pub saved: ReadOptions,
 }
 
 impl<T> Read<T> {
     /// Notes and assumptions, a line each.
-    pub fn said(&self) -> impl Iterator<Item = String> {
-        self.notes.iter().cloned().chain(self.assumptions.iter().map(ToString::to_string))
+    pub fn messages(&self) -> impl Iterator<Item = String> {
+        self.notes.iter().map(ToString::to_string).chain(self.assumptions.iter().map(ToString::to_string))
     }
 
-    /// The assumptions that could as well be otherwise.
+    /// The assumptions whose alternatives are as plausible.
     pub fn unsure(&self) -> impl Iterator<Item = &Assumption> {
         self.assumptions.iter().filter(|a| a.certainty == Certainty::Unsure)
     }
 
-    /// Takes no guesses; `path` is what was read.
+    /// Refuses guesses; `path` is what was read.
     ///
     /// # Errors
     /// [`Error::Guessed`].
@@ -92,20 +94,21 @@ impl<T> Read<T> {
     }
 }
 
-/// Reads the material that `path` names: a packed or layered image, a folder, the common prefix of files, or one of them.
+/// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them.
 ///
 /// Each file is one step of `progress`.
 ///
 /// # Errors
 /// [`Error::Unreadable`] where there is no such file or folder, [`Error::BadImage`] where a file is no image, is
 /// broken or too large, [`Error::NotAMaterial`] where a map is missing, claimed twice or gray though it is the
-/// normal map, [`Error::SizesDiffer`] where maps differ in shape, [`Error::OutOfRange`] at NaN and infinity,
-/// [`Error::Cancelled`].
+/// normal map, [`Error::NotPacked`] where a picture is no packed image, [`Error::MapSizesDiffer`] where maps differ in
+/// shape, [`Error::NotFinite`] at NaN and infinity, [`Error::NoSuchExemplar`], [`Error::NoTextures`],
+/// [`Error::BadSidecar`], [`Error::Cancelled`].
 pub fn read<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
     read_bound(path, &[], options, progress)
 }
 
-/// As [`read`], with the maps of `bindings` in the place of what is found at `path`.
+/// As [`read`], with the maps of `bindings` in place of those at `path`.
 ///
 /// # Errors
 /// As [`read`].
@@ -115,55 +118,60 @@ pub fn read_bound<T: Real>(
     options: &ReadOptions,
     progress: &Progress,
 ) -> Result<Read<T>, Error> {
-    let kept = Kept::of(path)?;
-    let said = kept.clone().under(options, bindings);
-    read_said(path, &kept, &said, progress)
+    let saved = Sidecar::load(path)?;
+    let used = saved.clone().overridden_by(options, bindings);
+    read_with(path, &saved, &used, progress)
 }
 
-/// As [`read`], but `options` stand alone: nothing of them is taken from what is [`Kept`] with the material.
+/// As [`read`], but with exactly these `options`: those of the sidecar file are not used.
 ///
 /// # Errors
 /// As [`read`].
 pub fn read_as<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
-    let kept = Kept::of(path)?;
-    let said = Kept { options: *options, ..kept.clone() };
-    read_said(path, &kept, &said, progress)
+    let saved = Sidecar::load(path)?;
+    let used = Sidecar { options: *options, ..saved.clone() };
+    read_with(path, &saved, &used, progress)
 }
 
-fn read_said<T: Real>(path: &Path, kept: &Kept, said: &Kept, progress: &Progress) -> Result<Read<T>, Error> {
-    let options = &said.options.with_preset();
-    let still = said.bindings.iter().filter(|binding| kept.bindings.contains(binding));
-    Kept { bindings: still.cloned().collect(), ..Kept::default() }.check_maps(path)?;
-    let bound = said.bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
+fn read_with<T: Real>(
+    path: &Path,
+    saved: &Sidecar,
+    used: &Sidecar,
+    progress: &Progress,
+) -> Result<Read<T>, Error> {
+    let options = &used.options.with_preset();
+    let remaining = used.bindings.iter().filter(|binding| saved.bindings.contains(binding));
+    Sidecar { bindings: remaining.cloned().collect(), ..Sidecar::default() }.check_maps(path)?;
+    let bound = used.bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
     let mut read = finish(find(&sidecar::material_of(path)?, bound, options, progress)?, options)?;
-    (read.options, read.kept) = (said.options, kept.options);
-    if *kept != Kept::default() {
-        let place = Kept::place(path);
-        kept.credit(&place, &said.options, &mut read.assumptions, &mut read.notes);
-        read.files.push(place);
+    (read.options, read.saved) = (used.options, saved.options);
+    if *saved != Sidecar::default() {
+        let file = Sidecar::path_for(path);
+        saved.attribute(&file, &used.options, &mut read.assumptions, &mut read.notes);
+        read.files.push(file);
     }
     Ok(read)
 }
 
-/// Reads a packed or layered image that lies in memory; `name` is the name of the material.
+/// Reads a packed or layered image from memory; `name` is the name of the material.
 ///
 /// # Errors
 /// As [`read`].
 pub fn read_bytes<T: Real>(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Read<T>, Error> {
     let path = Path::new(name);
     let options = &options.with_preset();
-    let decoded = decode::decode(Cursor::new(bytes), path, "material")?;
-    let found = within(path, decoded, options)?;
-    let read = finish(Found { name: name.to_owned(), ..found }, options)?;
+    let decoded = decode::decode(Cursor::new(bytes), path, Subject::Material)?;
+    let found = picture::assemble(path, decoded, options)?;
+    let read = finish(StoredMaterial { name: name.to_owned(), ..found }, options)?;
     Ok(Read { files: Vec::new(), ..read })
 }
 
 fn find(
     path: &Path,
-    bound: Vec<(Role, Source)>,
+    bound: Vec<(Role, StoredMap)>,
     options: &ReadOptions,
     progress: &Progress,
-) -> Result<Found, Error> {
+) -> Result<StoredMaterial, Error> {
     if path.is_dir() {
         return folder::open(path, path, "", bound, options, progress);
     }
@@ -178,11 +186,11 @@ fn find(
         "gltf" | "glb" => gltf::open(path, options, progress),
         "mtl" => mtl::open(path, options, progress),
         "mtlx" => mtlx::open(path, options, progress),
-        _ => find_in_picture(path, options, progress),
+        _ => picture::open(path, options, progress),
     };
     let mut found = match found {
-        Err(refusal @ Error::NotAMaterial { .. })
-            if options.order.is_none() && !NAMING.contains(&extension.as_str()) =>
+        Err(refusal @ (Error::NotAMaterial { .. } | Error::NotPacked { .. }))
+            if options.order.is_none() && !LISTING.contains(&extension.as_str()) =>
         {
             return folder::open_around(path, bound, options, progress).and_then(Result::ok).ok_or(refusal);
         }
@@ -195,32 +203,11 @@ fn find(
     Ok(found)
 }
 
-/// The material within the picture `path`.
-fn find_in_picture(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
-    progress.begin(1);
-    let decoded = decode::decode_file(path, "material")?;
-    progress.step()?;
-    within(path, decoded, options)
-}
-
-/// The material within one file: a packed picture, or one of named layers.
-fn within(path: &Path, decoded: Decoded, options: &ReadOptions) -> Result<Found, Error> {
-    let Decoded { mut layers, mut notes, native, meaning } = decoded;
-    let mut found = match layers.pop() {
-        Some(only) if layers.is_empty() && !layers::is_named(&only) => {
-            packed::unpack(path, &only.raster, meaning.as_deref(), options)?
-        }
-        last => layers::assemble(path, layers.into_iter().chain(last).collect(), native, options)?,
-    };
-    notes.append(&mut found.notes);
-    Ok(Found { notes, ..found })
-}
-
-fn finish<T: Real>(mut found: Found, options: &ReadOptions) -> Result<Read<T>, Error> {
+fn finish<T: Real>(mut found: StoredMaterial, options: &ReadOptions) -> Result<Read<T>, Error> {
     let maps = report::maps(&found);
-    let transparent = |(name, source): (&str, &Source)| {
-        let noted = source.raster.alpha.is_some() && name != "normal";
-        noted.then(|| format!("The {name} map is partly transparent; its alpha is ignored."))
+    let transparent = |(map, source): (Role, &StoredMap)| {
+        let noted = source.raster.alpha.is_some() && map != Role::Normal;
+        noted.then_some(Note::AlphaIgnored { map })
     };
     let noted: Vec<_> = found.sources().into_iter().filter_map(transparent).collect();
     found.notes.extend(noted);
@@ -233,6 +220,6 @@ fn finish<T: Real>(mut found: Found, options: &ReadOptions) -> Result<Read<T>, E
         files: found.files,
         maps,
         options: *options,
-        kept: ReadOptions::AUTO,
+        saved: ReadOptions::AUTO,
     })
 }

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::locate::names::Role;
+use super::role::Role;
 use crate::error::Error;
 
 /// Most tiles of a material.

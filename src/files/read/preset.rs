@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::options::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow, choices};
+use super::choices::choices;
 use super::order::Order;
 
 choices! {
@@ -44,40 +44,6 @@ impl Preset {
             Self::MaterialGan | Self::LookAhead => Some(Order::DNRS),
             Self::MatFusion => Some(Order::DSRN),
             _ => None,
-        }
-    }
-
-    /// What it says about values. The direction of y is left open where names say it.
-    pub(crate) fn options(self) -> ReadOptions {
-        let linear = (Albedo::Linear, Albedo::Linear);
-        let gamma = (Albedo::Gamma22, Albedo::Gamma22);
-        let srgb = (Albedo::Srgb, Albedo::Srgb);
-        let (same, plain) = (Some(Energy::Deschaintre), Some(Energy::Plain));
-        let up = Some(NormalY::Up);
-        let metallic = Some(Workflow::Metallic);
-        let specular = Some(Workflow::Specular);
-        let ((albedo, of_specular), roughness, normal_y, workflow, energy) = match self {
-            Self::Deschaintre | Self::Deschaintre18 | Self::SurfaceNet => {
-                (linear, Roughness::R, up, specular, same)
-            }
-            Self::Gao => ((Albedo::Gamma22, Albedo::Linear), Roughness::R, up, specular, plain),
-            Self::MaterialGan => (gamma, Roughness::Gamma22, up, specular, same),
-            Self::LookAhead => (gamma, Roughness::R, up, specular, same),
-            Self::MatFusion => (gamma, Roughness::R, up, None, plain),
-            Self::DiffMat => (gamma, Roughness::R, Some(NormalY::Down), metallic, None),
-            Self::OpenSvbrdf => (linear, Roughness::Anisotropic, up, specular, plain),
-            Self::Gltf => (srgb, Roughness::R, up, metallic, None),
-            Self::PolyHaven | Self::AmbientCg => (srgb, Roughness::R, None, metallic, None),
-            Self::SubstanceSg => (srgb, Roughness::Gloss, None, specular, None),
-        };
-        ReadOptions {
-            albedo: Some(albedo),
-            specular: Some(of_specular),
-            roughness: Some(roughness),
-            normal_y,
-            workflow,
-            energy,
-            ..ReadOptions::AUTO
         }
     }
 }

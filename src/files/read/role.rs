@@ -8,7 +8,7 @@ pub enum Role {
     Base,
     Diffuse,
     Specular,
-    /// Reflectance of what is no metal: 0.08 where it is 1.
+    /// Reflectance of dielectrics: 0.08 where it is 1.
     SpecularLevel,
     Roughness,
     Metallic,
@@ -20,11 +20,12 @@ pub enum Role {
     MetallicRoughnessOcclusion,
     /// Red metallic, alpha smoothness: Unity.
     MetallicSmoothness,
-    /// Of no use here, but no riddle either.
+    /// A map that a material does not need, such as occlusion or height.
     Ignored,
 }
 
 impl Role {
+    /// The name for users.
     pub fn name(self) -> &'static str {
         match self {
             Self::Normal => "normal",
@@ -130,5 +131,12 @@ impl Role {
     /// The map that a word stands for.
     pub fn of_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|role| role.words().contains(&word))
+    }
+}
+
+impl serde::Serialize for Role {
+    /// The name.
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
     }
 }

@@ -1,4 +1,4 @@
-//! What was said about a material, kept in a file beside it.
+//! The sidecar file: how a material is read, saved beside it.
 
 use std::fs;
 use std::io::Write as _;
@@ -6,35 +6,38 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
-use super::EXTENSIONS;
-use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
+use super::assumption::{Assumption, Certainty, What};
+use super::extensions::EXTENSIONS;
 use super::locate::binding::Binding;
 use super::locate::names::Label;
+use super::note::{Note, SpecifiedBy};
 use super::options::ReadOptions;
 use crate::error::Error;
-use crate::picture::export;
+use crate::files::atomic;
 use crate::progress::Progress;
 
 /// The name of the file in a folder.
 const IN_FOLDER: &str = "svbrdf.json";
 /// What comes after the name of a file, or a prefix, without its extension.
 const BESIDE: &str = ".svbrdf.json";
-/// The key of the maps that are named one by one.
+/// The key of the maps that are specified one by one.
 const MAPS: &str = "maps";
+/// A former key that is still read.
+const FORMER: &str = "normal-code";
 
-/// What was said about a material: it holds whenever the material is opened and nothing else is said.
+/// How a material is read unless other options are specified: the content of its sidecar file.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Kept {
+pub struct Sidecar {
     pub options: ReadOptions,
     pub bindings: Vec<Binding>,
 }
 
-impl Kept {
-    /// Where it is kept for the material `path`: `svbrdf.json` in a folder, `NAME.svbrdf.json` beside a file `NAME.png`
-    /// or the files of a prefix `NAME_`. Of a file whose name is that of a map, it is that of its folder if this is there
-    /// and no other.
-    pub fn place(path: &Path) -> PathBuf {
-        if is_kept(path) {
+impl Sidecar {
+    /// The sidecar file of the material `path`: `svbrdf.json` in a folder, `NAME.svbrdf.json` beside a file `NAME.png` or
+    /// the files of a prefix `NAME_`. For a file that is named after a map: that of its folder, where this exists and the
+    /// file has none of its own.
+    pub fn path_for(path: &Path) -> PathBuf {
+        if is_sidecar(path) {
             return path.to_owned();
         }
         if path.is_dir() {
@@ -51,19 +54,20 @@ impl Kept {
         if is_map && !own.exists() && common.exists() { common } else { own }
     }
 
-    /// What is kept for the material `path`: nothing where there is no such file.
+    /// Reads the sidecar file of the material `path`; the default where there is none.
     ///
     /// # Errors
-    /// [`Error::Unreadable`], [`Error::BadKept`].
-    pub fn of(path: &Path) -> Result<Self, Error> {
-        let place = Self::place(path);
+    /// [`Error::Unreadable`], [`Error::BadSidecar`].
+    pub fn load(path: &Path) -> Result<Self, Error> {
+        let place = Self::path_for(path);
         if !place.exists() && place != path {
             return Ok(Self::default());
         }
         let bytes = fs::read(&place).map_err(|source| Error::unreadable(&place, source))?;
-        let bad = |problem: String| Error::BadKept { path: place.clone(), problem, keys: keys().join(", ") };
+        let bad =
+            |problem: String| Error::BadSidecar { path: place.clone(), problem, keys: keys().join(", ") };
         let mut all: Map<String, Value> = serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
-        let mut kept = Self::default();
+        let mut sidecar = Self::default();
         let maps = all.remove(MAPS).unwrap_or_else(|| Map::new().into());
         let maps =
             maps.as_object().ok_or_else(|| bad(format!("expected an object after {MAPS}, found {maps}")))?;
@@ -72,51 +76,58 @@ impl Kept {
                 .as_str()
                 .ok_or_else(|| bad(format!("{map}: expected FILE or FILE:PART, found {file}")))?;
             let binding: Binding = format!("{map}={file}").parse().map_err(|e: Error| bad(e.to_string()))?;
-            kept.bindings.push(binding.within(place.parent().unwrap_or(Path::new(""))));
+            sidecar.bindings.push(binding.within(place.parent().unwrap_or(Path::new(""))));
         }
         // One by one, so that an error can say which.
         for (key, value) in &all {
-            if !keys().contains(key) {
+            if !keys().contains(key) && key != FORMER {
                 return Err(bad(format!("unknown key `{key}`")));
             }
             let one = Value::from(Map::from_iter([(key.clone(), value.clone())]));
             serde_json::from_value::<ReadOptions>(one).map_err(|e| bad(format!("{key}: {e}")))?;
         }
-        kept.options = serde_json::from_value(all.into()).map_err(|e| bad(e.to_string()))?;
-        Ok(kept)
+        sidecar.options = serde_json::from_value(all.into()).map_err(|e| bad(e.to_string()))?;
+        Ok(sidecar)
     }
 
-    /// That no map is kept that is not there.
+    /// Checks that every file of its bindings exists.
+    ///
+    /// # Errors
+    /// [`Error::BadSidecar`].
     pub(crate) fn check_maps(&self, path: &Path) -> Result<(), Error> {
         match self.bindings.iter().find(|binding| !binding.file().exists()) {
-            Some(gone) => Err(Error::BadKept {
-                path: Self::place(path),
-                problem: format!("the {} map {} is not there", gone.role().name(), gone.file().display()),
+            Some(missing) => Err(Error::BadSidecar {
+                path: Self::path_for(path),
+                problem: format!(
+                    "the {} map {} does not exist",
+                    missing.role().name(),
+                    missing.file().display()
+                ),
                 keys: keys().join(", "),
             }),
             None => Ok(()),
         }
     }
 
-    /// With `options` and `bindings` before what is kept.
+    /// `options` and `bindings`, and its own where these specify nothing.
     #[must_use]
-    pub fn under(self, options: &ReadOptions, bindings: &[Binding]) -> Self {
-        let replaced = |kept: &Binding| bindings.iter().any(|new| new.role() == kept.role());
-        let old = self.bindings.into_iter().filter(|kept| !replaced(kept));
+    pub fn overridden_by(self, options: &ReadOptions, bindings: &[Binding]) -> Self {
+        let replaced = |old: &Binding| bindings.iter().any(|new| new.role() == old.role());
+        let old = self.bindings.into_iter().filter(|old| !replaced(old));
         Self { options: options.over(self.options), bindings: old.chain(bindings.iter().cloned()).collect() }
     }
 
-    /// Keeps it for the material `path`; returns where.
+    /// Writes the sidecar file of the material `path`; returns its path.
     ///
     /// # Errors
     /// [`Error::Unwritable`].
-    pub fn write(&self, path: &Path) -> Result<PathBuf, Error> {
-        let place = Self::place(path);
+    pub fn save(&self, path: &Path) -> Result<PathBuf, Error> {
+        let place = Self::path_for(path);
         let mut all = object(&self.options);
         all.retain(|_, value| !value.is_null());
         let folder = place.parent().unwrap_or(Path::new(""));
         let maps = self.bindings.iter().map(|binding| {
-            let (map, file) = binding.said_within(folder);
+            let (map, file) = binding.relative_to(folder);
             (map.to_owned(), Value::from(file))
         });
         let maps = Map::from_iter(maps);
@@ -124,45 +135,51 @@ impl Kept {
             all.insert(MAPS.to_owned(), maps.into());
         }
         let text = format!("{:#}\n", Value::from(all));
-        export::replace(&place, &Progress::default(), |file| file.write_all(text.as_bytes()))?;
+        atomic::replace(&place, &Progress::default(), |file| file.write_all(text.as_bytes()))?;
         Ok(place)
     }
 
-    /// Says of the assumptions and notes that come from here, kept at `place`, that they do; `options` are those that
-    /// the material was read with.
-    pub(crate) fn credit(
+    /// Attributes the assumptions and notes that come from here to the sidecar `file`; `options` are those that the
+    /// material was read with.
+    pub(crate) fn attribute(
         &self,
-        place: &Path,
+        file: &Path,
         options: &ReadOptions,
         assumptions: &mut [Assumption],
-        notes: &mut Vec<String>,
+        notes: &mut Vec<Note>,
     ) {
-        let name = place.file_name().unwrap_or_default().to_string_lossy();
-        let says = format!("as {name} says");
-        let (kept, used) = (object(&self.options.with_preset()), object(&options.with_preset()));
-        let is_kept =
-            |key: &str| kept.get(key).is_some_and(|value| !value.is_null() && used.get(key) == Some(value));
+        let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let sidecar = SpecifiedBy::Sidecar(name);
+        let (saved, used) = (object(&self.options.with_preset()), object(&options.with_preset()));
+        let is_saved =
+            |key: &str| saved.get(key).is_some_and(|value| !value.is_null() && used.get(key) == Some(value));
+        let is_any_saved = |what: What| {
+            let mut keys = keys_of(what).iter();
+            keys.find(|key| used.get(**key).is_some_and(|v| !v.is_null())).is_some_and(|key| is_saved(key))
+        };
         for assumption in assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
-            let mut keys = keys_of(assumption.what).iter();
-            if keys.find(|key| used.get(**key).is_some_and(|v| !v.is_null())).is_some_and(|key| is_kept(key))
-            {
-                assumption.why = assumption.why.replacen(AS_YOU_SAID, &says, 1);
+            if let Some(by) = assumption.why.specified_by().filter(|_| is_any_saved(assumption.what)) {
+                *by = sidecar.clone();
             }
         }
         for note in notes.iter_mut() {
-            let is_of_map = |b: &Binding| note.starts_with(&b.note());
-            if self.bindings.iter().any(is_of_map) || (is_kept("flip-v") && note.starts_with("Row 0")) {
-                *note = note.replacen(AS_YOU_SAID, &says, 1);
+            let is_saved = match note {
+                Note::MapSpecified { map, file, .. } => {
+                    self.bindings.iter().any(|b| b.role() == *map && b.file() == file)
+                }
+                Note::RowsFlipped { .. } => is_saved("flip-v"),
+                Note::SpecularMedian { .. } => is_any_saved(What::Specular),
+                _ => false,
+            };
+            if let Some(by) = note.specified_by().filter(|_| is_saved) {
+                *by = sidecar.clone();
             }
         }
-        notes.insert(
-            0,
-            format!("{} says how the material is read, where nothing else does.", place.display()),
-        );
+        notes.insert(0, Note::SidecarUsed { file: file.to_owned() });
     }
 }
 
-/// The keys that say what an assumption says, the plainest first.
+/// The keys that specify an assumption, the most specific first.
 fn keys_of(what: What) -> &'static [&'static str] {
     match what {
         What::Layout => &["order", "grid"],
@@ -170,7 +187,7 @@ fn keys_of(what: What) -> &'static [&'static str] {
         What::Albedo => &["albedo"],
         What::Specular => &["specular-albedo", "albedo"],
         What::NormalY => &["normal-y", "preset"],
-        What::NormalCode => &["normal-code"],
+        What::NormalEncoding => &["normal-encoding"],
         What::Roughness => &["roughness"],
         What::Energy => &["energy"],
         What::Missing => &["dielectric-f0"],
@@ -190,18 +207,18 @@ fn keys() -> Vec<String> {
     options.into_iter().map(|(key, _)| key).chain([MAPS.to_owned()]).collect()
 }
 
-/// Whether `path` is by its name not a material, but what is kept with one.
-fn is_kept(path: &Path) -> bool {
+/// Whether `path` is named like a sidecar file.
+fn is_sidecar(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     name == IN_FOLDER || name.ends_with(BESIDE)
 }
 
-/// The material that is meant by `path`: that of a kept file is the file beside it, its prefix or its folder.
+/// The material that `path` stands for: for a sidecar file the file beside it, its prefix or its folder.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without its folder, [`Error::NotAMaterial`] where several files could be meant.
 pub fn material_of(path: &Path) -> Result<PathBuf, Error> {
-    if !is_kept(path) {
+    if !is_sidecar(path) {
         return Ok(path.to_owned());
     }
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));

@@ -1,32 +1,34 @@
-//! What has been found of a material, still as stored.
+//! The maps of a material as stored, and what is known about them.
 
 use std::path::{Path, PathBuf};
 
-use super::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
+use super::assumption::{Assumption, Certainty, What};
 use super::interpret::transfer::{encoded, linear};
 use super::locate::names::Role;
+use super::note::{Note, SpecifiedBy, Unused};
 use super::options::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow};
 use super::preset::Preset;
 use super::raster::{Raster, Samples};
+use super::reason::Reason;
 use crate::error::Error;
 
 /// A map as stored.
 #[derive(Clone, Debug)]
-pub struct Source {
+pub struct StoredMap {
     pub raster: Raster,
     pub file: PathBuf,
     /// Layer, channel or tile within the file, for people; may be empty.
     pub part: String,
 }
 
-impl Source {
-    /// That there is no use for the map in a workflow.
-    fn unused(&self, workflow: Workflow) -> String {
+impl StoredMap {
+    /// The note that a workflow does not use this map.
+    fn unused(&self, workflow: Workflow) -> Note {
         let part = if self.part.is_empty() { String::new() } else { format!(", {}", self.part) };
-        format!("{}{part} is not used: the workflow is {workflow}.", self.file.display())
+        Note::Unused { what: format!("{}{part}", self.file.display()), why: Unused::Workflow(workflow) }
     }
 
-    /// A map of one value that the file `path` says.
+    /// A map of one value that stands in the file `path`.
     pub fn constant(path: &Path, values: &[f32]) -> Self {
         let raster = Raster::constant("value", values);
         Self { raster, file: path.to_owned(), part: "value".to_owned() }
@@ -47,7 +49,7 @@ impl Source {
         Self { raster: Raster { channels, ..self.raster.without_samples() }, ..self }
     }
 
-    /// Takes the samples out, so that they can be let go; size and names stay.
+    /// Takes the samples out, so that they can be dropped; size and names stay.
     pub fn take(&mut self) -> Self {
         let left = self.raster.without_samples();
         Self {
@@ -58,35 +60,35 @@ impl Source {
     }
 }
 
-/// What a convention says about stored values, with why and how surely. `None` where it says nothing.
+/// What the files tell about stored values. `None` where they tell nothing.
 #[derive(Clone, Debug, Default)]
-pub struct Hints {
-    pub albedo: Hint<Albedo>,
-    pub specular: Hint<Albedo>,
-    pub roughness: Hint<Roughness>,
-    pub normal_y: Hint<NormalY>,
-    pub energy: Hint<Energy>,
+pub struct Inferences {
+    pub albedo: Inferred<Albedo>,
+    pub specular: Inferred<Albedo>,
+    pub roughness: Inferred<Roughness>,
+    pub normal_y: Inferred<NormalY>,
+    pub energy: Inferred<Energy>,
 }
 
-/// A choice, why, and how surely.
-pub type Hint<T> = Option<(T, String, Certainty)>;
+/// A choice with its reason and certainty, if there is any.
+pub type Inferred<T> = Option<(T, Reason, Certainty)>;
 
 /// The maps of a material as stored, and what is known about them.
 #[derive(Debug)]
-pub struct Found {
+pub struct StoredMaterial {
     pub name: String,
-    pub normal: Option<Source>,
+    pub normal: Option<StoredMap>,
     /// Diffuse, or the base colour where there is `metallic`.
-    pub colour: Source,
-    pub specular: Option<Source>,
-    /// How reflective what is no metal is.
-    pub level: Option<Source>,
-    pub roughness: Source,
-    pub metallic: Option<Source>,
-    pub hints: Hints,
+    pub colour: StoredMap,
+    pub specular: Option<StoredMap>,
+    /// The reflectance of dielectrics, 1 for 0.08.
+    pub level: Option<StoredMap>,
+    pub roughness: StoredMap,
+    pub metallic: Option<StoredMap>,
+    pub inferred: Inferences,
     pub assumptions: Vec<Assumption>,
-    /// What the user may want to know, one sentence each.
-    pub notes: Vec<String>,
+    /// What else was noticed.
+    pub notes: Vec<Note>,
     /// Every file that was read, once.
     pub files: Vec<PathBuf>,
 }
@@ -94,11 +96,11 @@ pub struct Found {
 /// The pictures of a material by their role.
 #[derive(Debug, Default)]
 pub struct Pictures {
-    all: Vec<(Role, Source)>,
+    all: Vec<(Role, StoredMap)>,
 }
 
 impl Pictures {
-    pub fn add(&mut self, role: Role, source: Source) {
+    pub fn add(&mut self, role: Role, source: StoredMap) {
         self.all.push((role, source));
     }
 
@@ -106,20 +108,20 @@ impl Pictures {
         self.all.iter().any(|(r, _)| *r == role)
     }
 
-    /// Puts `source` in the place of what there is for its role; there is one colour, diffuse or base.
-    pub fn replace(&mut self, role: Role, source: Source) {
+    /// Replaces the picture of a role; diffuse and base colour replace each other.
+    pub fn replace(&mut self, role: Role, source: StoredMap) {
         let colours = [Role::Base, Role::Diffuse];
         self.all.retain(|(r, _)| *r != role && !(colours.contains(r) && colours.contains(&role)));
         self.all.push((role, source));
     }
 
-    fn take(&mut self, role: Role) -> Option<Source> {
+    fn take(&mut self, role: Role) -> Option<StoredMap> {
         let place = self.all.iter().position(|(r, _)| *r == role)?;
         Some(self.all.swap_remove(place).1)
     }
 
     /// Roughness (0) or metallic (1) out of a picture that holds both.
-    fn packed(&self, which: usize) -> Option<Source> {
+    fn packed(&self, which: usize) -> Option<StoredMap> {
         self.all.iter().find_map(|(role, source)| {
             let channel = role.packing()?[which];
             let plane =
@@ -127,15 +129,15 @@ impl Pictures {
             let raster = source.raster.of(plane?.clone());
             let name = ["red", "green", "blue", "alpha"][channel];
             let before = if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) };
-            Some(Source { raster, file: source.file.clone(), part: before + name })
+            Some(StoredMap { raster, file: source.file.clone(), part: before + name })
         })
     }
 
-    fn roughness(&mut self) -> Option<Source> {
+    fn roughness(&mut self) -> Option<StoredMap> {
         self.take(Role::Roughness).or_else(|| self.packed(0))
     }
 
-    fn metallic(&mut self) -> Option<Source> {
+    fn metallic(&mut self) -> Option<StoredMap> {
         self.take(Role::Metallic).or_else(|| self.packed(1))
     }
 
@@ -143,13 +145,13 @@ impl Pictures {
     ///
     /// # Errors
     /// [`Error::NotAMaterial`] without a colour or without roughness.
-    pub fn into_found(
+    pub fn assemble(
         mut self,
         path: &Path,
         name: String,
         listed: &str,
         options: &ReadOptions,
-    ) -> Result<Found, Error> {
+    ) -> Result<StoredMaterial, Error> {
         let missing = |role: Role| Error::NotAMaterial {
             path: path.to_owned(),
             expected: format!(
@@ -171,7 +173,7 @@ impl Pictures {
             } else {
                 "red metallic, green roughness, blue occlusion"
             };
-            let why = format!("by the name of {}; such packings differ", source.file.display());
+            let why = Reason::PackingName { file: source.file.clone() };
             assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
         }
         let normal = self.take(Role::Normal);
@@ -196,25 +198,24 @@ impl Pictures {
         let colour = colour.ok_or_else(|| missing(Role::Diffuse))?;
         let roughness = roughness.ok_or_else(|| missing(Role::Roughness))?;
         let (chosen, why) = match (use_metallic, specular.is_some()) {
-            (true, _) if options.preset == Some(Preset::MatFusion) => (
-                Workflow::Metallic,
-                "there is a metallic map: d = b (1 - m), s = f + b m as MatFusion has it",
-            ),
-            (true, _) => (Workflow::Metallic, "there is a metallic map: d = b (1 - m), s = f (1 - m) + b m"),
-            (false, true) => (Workflow::Specular, "there is a specular map"),
-            (false, false) => (Workflow::Specular, "there is neither a specular nor a metallic map"),
+            (true, _) => {
+                let matfusion = options.preset == Some(Preset::MatFusion);
+                (Workflow::Metallic, Reason::MetallicMap { matfusion })
+            }
+            (false, true) => (Workflow::Specular, Reason::SpecularMap),
+            (false, false) => (Workflow::Specular, Reason::NeitherMap),
         };
         assumptions.push(match options.workflow {
             Some(given) if given == chosen => Assumption::given(What::Workflow, given),
             Some(given) => Assumption::new(
                 What::Workflow,
                 given,
-                format!("{AS_YOU_SAID}, but there is no metallic map"),
+                Reason::NoMetallicMap(SpecifiedBy::Caller),
                 Certainty::Given,
             ),
             None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
         });
-        Ok(Found {
+        Ok(StoredMaterial {
             name,
             normal,
             colour,
@@ -222,7 +223,7 @@ impl Pictures {
             level,
             roughness,
             metallic,
-            hints: Hints::default(),
+            inferred: Inferences::default(),
             assumptions,
             notes: unused.into_iter().flatten().map(|source| source.unused(chosen)).collect(),
             files,
@@ -230,9 +231,9 @@ impl Pictures {
     }
 }
 
-impl Found {
-    /// Puts `source` in the place of the map of its role.
-    pub fn replace(&mut self, role: Role, source: Source) {
+impl StoredMaterial {
+    /// Replaces the map of a role.
+    pub fn replace(&mut self, role: Role, source: StoredMap) {
         self.files.push(source.file.clone());
         self.files.sort();
         self.files.dedup();
@@ -245,53 +246,55 @@ impl Found {
         }
     }
 
-    /// Every map with its name.
-    pub fn sources(&self) -> Vec<(&'static str, &Source)> {
-        let colour = if self.metallic.is_some() { "base colour" } else { "diffuse" };
+    /// Every map with its role.
+    pub fn sources(&self) -> Vec<(Role, &StoredMap)> {
+        let colour = if self.metallic.is_some() { Role::Base } else { Role::Diffuse };
         let optional = [
-            ("normal", &self.normal),
-            ("specular", &self.specular),
-            ("specular level", &self.level),
-            ("metallic", &self.metallic),
+            (Role::Normal, &self.normal),
+            (Role::Specular, &self.specular),
+            (Role::SpecularLevel, &self.level),
+            (Role::Metallic, &self.metallic),
         ];
-        let always = [(colour, &self.colour), ("roughness", &self.roughness)];
-        let there = optional.into_iter().filter_map(|(name, source)| source.as_ref().map(|s| (name, s)));
+        let always = [(colour, &self.colour), (Role::Roughness, &self.roughness)];
+        let there = optional.into_iter().filter_map(|(role, source)| source.as_ref().map(|s| (role, s)));
         there.chain(always).collect()
     }
 
-    /// The size of the largest map; says so where others are smaller.
+    /// The size of the largest map; records where others are smaller.
+    ///
+    /// # Errors
+    /// [`Error::MapSizesDiffer`] where maps have another shape.
     pub fn common_size(&mut self) -> Result<[usize; 2], Error> {
         let all: Vec<_> = self
             .sources()
             .into_iter()
-            .map(|(name, s)| (format!("{name} map {}", s.file.display()), name, s.raster.size()))
+            .map(|(role, s)| (format!("{} map {}", role.name(), s.file.display()), role, s.raster.size()))
             .collect();
         let Some((largest_whose, _, largest)) = all.iter().max_by_key(|(.., size)| size[0] * size[1]) else {
             return Ok([0; 2]);
         };
         let [width, height] = *largest;
         let mut smaller = Vec::new();
-        for (whose, name, size) in &all {
+        for (whose, role, size) in &all {
             // A single value has every shape.
             if *size == [1, 1] {
                 continue;
             }
             if size[0] * height != size[1] * width {
-                return Err(Error::SizesDiffer {
+                return Err(Error::MapSizesDiffer {
                     first: largest_whose.clone(),
                     first_size: *largest,
                     second: whose.clone(),
                     second_size: *size,
-                    remedy: "resize them so that the maps of a material have one shape",
                 });
             }
             if size != largest {
-                smaller.push(format!("{name} from {} x {}", size[0], size[1]));
+                smaller.push((*role, *size));
             }
         }
         if !smaller.is_empty() {
             let chosen = format!("{width} x {height}");
-            let why = format!("the largest map has it; resampled bilinearly: {}", smaller.join(", "));
+            let why = Reason::SmallerMaps(smaller);
             self.assumptions.push(Assumption::new(What::Size, chosen, why, Certainty::Likely));
         }
         Ok([width, height])

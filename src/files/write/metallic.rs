@@ -1,6 +1,6 @@
 //! From diffuse and specular to a base colour and metallic, as far as these can say it.
 
-/// Reflectance at normal incidence of what is no metal.
+/// Reflectance of dielectrics at normal incidence.
 const DIELECTRIC: f64 = 0.04;
 
 /// Base colour b and metallic m for diffuse d and specular s, all of [0, 1]: the inverse of d = b (1 - m) and
@@ -12,7 +12,7 @@ pub fn base_and_metallic(diffuse: [f64; 3], specular: [f64; 3]) -> ([f64; 3], f6
     ([0, 1, 2].map(base), 1.0 - left)
 }
 
-/// 1 - m = t of 0.04 t^2 - (d + s) t + d = 0: the larger root where it is at most 1, since most is no metal.
+/// 1 - m = t of 0.04 t^2 - (d + s) t + d = 0: the larger root where it is at most 1, since most materials are dielectrics.
 fn left(d: f64, s: f64) -> f64 {
     const ROUNDING: f64 = 1e-6;
     let sum = d + s;

@@ -9,10 +9,10 @@ use std::path::Path;
 use std::str::FromStr;
 
 pub(crate) use exr::NATIVE;
-pub use quantized::held;
+pub use quantized::after_round_trip;
 
 use super::read::Preset;
-use crate::error::Error;
+use crate::error::{Error, OutputProblem};
 use crate::material::Material;
 use crate::picture::export;
 use crate::progress::Progress;
@@ -31,7 +31,7 @@ pub enum Depth {
 }
 
 impl Depth {
-    /// How the command line calls it.
+    /// The name for users.
     pub fn name(self) -> &'static str {
         match self {
             Self::Eight => "8",
@@ -90,37 +90,34 @@ impl Kind {
     /// By the extension of `path` and what `options` say.
     ///
     /// # Errors
-    /// [`Error::Usage`] for a kind of file that is not written, and for a depth, a preset or a preview that it has not.
+    /// [`Error::UnsupportedOutput`] for a kind of file that is not written, and for a depth, a preset or a preview that it has not.
     pub fn new(path: &Path, options: &WriteOptions) -> Result<Self, Error> {
         let WriteOptions { depth, like, preview } = *options;
-        let refuse = |why: &str| Err(Error::Usage(format!("{} {why}", path.display())));
+        let refuse = |problem| Err(Error::UnsupportedOutput { path: path.to_owned(), problem });
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         if NOT_WRITTEN.contains(&extension.as_str()) {
-            return refuse("cannot be written: name an .exr file, a .png file or a folder");
+            return refuse(OutputProblem::Kind);
         }
         let is_exr = extension == "exr";
         if matches!(depth, Some(Depth::Half | Depth::Float)) != is_exr && depth.is_some() {
-            return refuse("cannot have that depth; EXR has half and float, PNG and folders have 8 and 16");
+            return refuse(OutputProblem::Depth);
         }
         if preview && !is_exr {
-            return refuse("cannot have a preview; only EXR has one");
+            return refuse(OutputProblem::Preview);
         }
         let sixteen = depth == Some(Depth::Sixteen);
         match (extension.as_str(), like) {
             ("exr", None) => Ok(Self::Exr { half: depth != Some(Depth::Float), preview }),
-            ("exr", Some(_)) => refuse("is always written in the project's own form; leave out --like"),
+            ("exr", Some(_)) => refuse(OutputProblem::LayeredPreset),
             ("png", like) => {
                 let like = like.unwrap_or(Preset::Deschaintre);
-                let known =
-                    "cannot be packed like that; deschaintre, gao, materialgan, lookahead and matfusion pack";
-                like.order().map_or_else(|| refuse(known), |_| Ok(Self::Packed { sixteen, like }))
+                let refused = || refuse(OutputProblem::PackedPreset);
+                like.order().map_or_else(refused, |_| Ok(Self::Packed { sixteen, like }))
             }
             (_, None) => Ok(Self::Folder { sixteen }),
             (_, Some(Preset::MaterialGan)) => Ok(Self::MaterialGan { sixteen }),
             (_, Some(Preset::Gltf)) => Ok(Self::Gltf { sixteen }),
-            _ => refuse(
-                "cannot be a folder like that; folders are like materialgan or gltf, or have no --like",
-            ),
+            _ => refuse(OutputProblem::FolderPreset),
         }
     }
 }

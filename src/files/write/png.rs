@@ -15,7 +15,7 @@ use crate::progress::Progress;
 
 /// What a picture shows.
 #[derive(Clone, Copy, Debug)]
-enum Shown {
+enum WrittenMap {
     Normal,
     Diffuse,
     Specular,
@@ -27,7 +27,7 @@ enum Shown {
 
 /// The encoding of colours and roughness.
 #[derive(Clone, Copy, Debug)]
-struct Code {
+struct MapEncoding {
     diffuse: Albedo,
     specular: Albedo,
     roughness: Roughness,
@@ -35,7 +35,7 @@ struct Code {
     energy: Energy,
 }
 
-impl From<Preset> for Code {
+impl From<Preset> for MapEncoding {
     fn from(preset: Preset) -> Self {
         let ReadOptions { albedo, specular, roughness, normal_y, energy, .. } = preset.options();
         let diffuse = albedo.unwrap_or(Albedo::Linear);
@@ -44,18 +44,18 @@ impl From<Preset> for Code {
             specular: specular.unwrap_or(diffuse),
             roughness: roughness.unwrap_or(Roughness::R),
             normal_y: normal_y.unwrap_or(NormalY::Up),
-            energy: energy.unwrap_or(Energy::Deschaintre),
+            energy: energy.unwrap_or(Energy::Scaled),
         }
     }
 }
 
-impl Code {
+impl MapEncoding {
     const SRGB: Self = Self {
         diffuse: Albedo::Srgb,
         specular: Albedo::Srgb,
         roughness: Roughness::R,
         normal_y: NormalY::Up,
-        energy: Energy::Deschaintre,
+        energy: Energy::Scaled,
     };
     const MATERIAL_GAN: Self = Self {
         diffuse: Albedo::Gamma22,
@@ -72,26 +72,26 @@ impl Code {
     }
 
     /// (red, green, blue) in [0, 1] of the texel at `index`.
-    fn of(&self, material: &Material<f32>, shown: Shown, index: usize) -> [f64; 3] {
+    fn of(&self, material: &Material<f32>, map: WrittenMap, index: usize) -> [f64; 3] {
         let Planes { normal, diffuse, specular, roughness } = material.planes();
         let at = |planes: &[Vec<f32>; 3]| planes.each_ref().map(|plane| f64::from(plane[index]));
         let rough = || encoded_roughness(f64::from(roughness[index]), self.roughness);
         let colour = |rgb: [f64; 3], albedo| rgb.map(|value| encoded(value, albedo));
-        match shown {
-            Shown::Normal => {
+        match map {
+            WrittenMap::Normal => {
                 let [x, y, z] = at(normal);
                 let y = if self.normal_y == NormalY::Up { y } else { -y };
                 [x, y, z].map(|n| (0.5 * n + 0.5).clamp(0.0, 1.0))
             }
-            Shown::Diffuse if self.energy == Energy::Plain => {
+            WrittenMap::Diffuse if self.energy == Energy::Unscaled => {
                 let [d, s] = [at(diffuse), at(specular)];
                 colour([0, 1, 2].map(|c| d[c] * (1.0 - s[c])), self.diffuse)
             }
-            Shown::Diffuse => colour(at(diffuse), self.diffuse),
-            Shown::Specular => colour(at(specular), self.specular),
-            Shown::Roughness => [rough(); 3],
-            Shown::Base => colour(base_and_metallic(at(diffuse), at(specular)).0, self.diffuse),
-            Shown::Orm => [1.0, rough(), base_and_metallic(at(diffuse), at(specular)).1],
+            WrittenMap::Diffuse => colour(at(diffuse), self.diffuse),
+            WrittenMap::Specular => colour(at(specular), self.specular),
+            WrittenMap::Roughness => [rough(); 3],
+            WrittenMap::Base => colour(base_and_metallic(at(diffuse), at(specular)).0, self.diffuse),
+            WrittenMap::Orm => [1.0, rough(), base_and_metallic(at(diffuse), at(specular)).1],
         }
     }
 }
@@ -100,30 +100,30 @@ impl Code {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Picture<'a> {
     name: &'a str,
-    shown: Shown,
-    code: Code,
+    map: WrittenMap,
+    encoding: MapEncoding,
 }
 
-const fn picture(name: &str, shown: Shown, code: Code) -> Picture<'_> {
-    Picture { name, shown, code }
+const fn picture(name: &str, map: WrittenMap, encoding: MapEncoding) -> Picture<'_> {
+    Picture { name, map, encoding }
 }
 
 pub(crate) const PLAIN: [Picture<'_>; 4] = [
-    picture("normal_gl", Shown::Normal, Code::SRGB),
-    picture("diffuse", Shown::Diffuse, Code::SRGB),
-    picture("roughness", Shown::Roughness, Code::SRGB),
-    picture("specular", Shown::Specular, Code::SRGB),
+    picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
+    picture("diffuse", WrittenMap::Diffuse, MapEncoding::SRGB),
+    picture("roughness", WrittenMap::Roughness, MapEncoding::SRGB),
+    picture("specular", WrittenMap::Specular, MapEncoding::SRGB),
 ];
 pub(crate) const MATERIAL_GAN: [Picture<'_>; 4] = [
-    picture("nom", Shown::Normal, Code::MATERIAL_GAN),
-    picture("dif", Shown::Diffuse, Code::MATERIAL_GAN),
-    picture("rgh", Shown::Roughness, Code::MATERIAL_GAN),
-    picture("spe", Shown::Specular, Code::MATERIAL_GAN),
+    picture("nom", WrittenMap::Normal, MapEncoding::MATERIAL_GAN),
+    picture("dif", WrittenMap::Diffuse, MapEncoding::MATERIAL_GAN),
+    picture("rgh", WrittenMap::Roughness, MapEncoding::MATERIAL_GAN),
+    picture("spe", WrittenMap::Specular, MapEncoding::MATERIAL_GAN),
 ];
 pub(crate) const GLTF: [Picture<'_>; 3] = [
-    picture("normal_gl", Shown::Normal, Code::SRGB),
-    picture("basecolor", Shown::Base, Code::SRGB),
-    picture("occlusion_roughness_metallic", Shown::Orm, Code::SRGB),
+    picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
+    picture("basecolor", WrittenMap::Base, MapEncoding::SRGB),
+    picture("occlusion_roughness_metallic", WrittenMap::Orm, MapEncoding::SRGB),
 ];
 
 /// Four tiles in a row, as `like` orders and encodes them.
@@ -134,25 +134,25 @@ pub(crate) fn packed(
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    let (order, code) = (like.order().unwrap_or(Order::NDRS), Code::from(like));
+    let (order, encoding) = (like.order().unwrap_or(Order::NDRS), MapEncoding::from(like));
     let tiles = order.to_string();
     let [width, height] = material.size();
     let mut bytes = Vec::new();
     for row in 0..height {
         export::check(progress)?;
         for letter in tiles.chars() {
-            let shown = match letter {
-                'n' => Shown::Normal,
-                'd' => Shown::Diffuse,
-                'r' => Shown::Roughness,
-                _ => Shown::Specular,
+            let map = match letter {
+                'n' => WrittenMap::Normal,
+                'd' => WrittenMap::Diffuse,
+                'r' => WrittenMap::Roughness,
+                _ => WrittenMap::Specular,
             };
             for index in row * width..(row + 1) * width {
-                put(code.of(material, shown, index), sixteen, &mut bytes);
+                put(encoding.of(material, map, index), sixteen, &mut bytes);
             }
         }
     }
-    let meaning = format!("packed {order}, {}", code.text());
+    let meaning = format!("packed {order}, {}", encoding.text());
     write(file, [tiles.len() * width, height], sixteen, &meaning, &bytes)
 }
 
@@ -165,17 +165,17 @@ pub(crate) fn folder(
     progress: &Progress,
 ) -> io::Result<()> {
     let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(export::folder_of(path))?;
-    for Picture { name, shown, code } in files {
+    for Picture { name, map, encoding } in files {
         let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
         let mut bytes = Vec::new();
         for row in 0..material.height() {
             export::check(progress)?;
             for index in row * material.width()..(row + 1) * material.width() {
-                put(code.of(material, *shown, index), sixteen, &mut bytes);
+                put(encoding.of(material, *map, index), sixteen, &mut bytes);
             }
         }
         let file = io::BufWriter::new(export::Watched::new(&mut file, progress));
-        write(file, material.size(), sixteen, &code.text(), &bytes)?;
+        write(file, material.size(), sixteen, &encoding.text(), &bytes)?;
     }
     export::check(progress)?;
     // Only an empty folder gives way to a rename.

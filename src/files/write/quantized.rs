@@ -12,7 +12,7 @@ use crate::material::{Material, Planes};
 ///
 /// # Errors
 /// As [`Material::new`], as where a normal becomes too short to have a direction.
-pub fn held(material: &Material<f32>, depth: Depth) -> Result<Material<f32>, Error> {
+pub fn after_round_trip(material: &Material<f32>, depth: Depth) -> Result<Material<f32>, Error> {
     let Planes { normal, diffuse, specular, roughness } = material.planes();
     // Normals are stored as (n + 1) / 2.
     let vector = |levels| {

@@ -17,7 +17,9 @@ const BAR: f32 = 12.0;
 const STEPS: usize = 128;
 /// Widths of the controls and of the statistics, in points.
 const CONTROLS: f32 = 170.0;
-const STATISTICS: f32 = 330.0;
+const STATISTICS: f32 = 360.0;
+/// Width of a name in the statistics, in points.
+const NAME: f32 = 110.0;
 /// How far from 0 the axis goes in units of the range, before there are histograms.
 const AXIS: f64 = 1.5;
 
@@ -90,9 +92,11 @@ impl LegendStrip<'_> {
 
     /// The low and high end of the axis.
     fn axis(&self) -> [f64; 2] {
-        let histogram = self.distributions.and_then(|distributions| distributions.histograms.first());
-        let high = histogram.map_or(AXIS * self.range, |histogram| histogram.high);
-        [if self.kind.is_signed() { -high } else { 0.0 }, high]
+        match self.distributions.and_then(|distributions| distributions.histograms.first()) {
+            Some(histogram) => [histogram.low, histogram.high],
+            None if self.kind.is_signed() => [-AXIS * self.range, AXIS * self.range],
+            None => [0.0, AXIS * self.range],
+        }
     }
 
     /// Histograms over the colour bar, with the handles of the range.
@@ -183,23 +187,37 @@ impl LegendStrip<'_> {
                 }
                 ui.end_row();
                 for (index, statistics) in distributions.statistics.iter().enumerate() {
-                    self.row(ui, index, statistics.as_ref());
+                    self.row(ui, index, statistics.as_ref(), distributions.histograms.get(index));
                     ui.end_row();
                 }
             });
         });
     }
 
-    fn row(&self, ui: &mut egui::Ui, index: usize, statistics: Option<&Statistics>) {
+    fn row(
+        &self,
+        ui: &mut egui::Ui,
+        index: usize,
+        statistics: Option<&Statistics>,
+        histogram: Option<&Histogram>,
+    ) {
         let colour = line_colour(index, ui.visuals().dark_mode);
         let name = self.names.get(index).copied().unwrap_or_default();
-        let number = RichText::new(format!("{} ", index + 1)).monospace().color(colour);
-        let number = if index == self.chosen { number.strong().underline() } else { number };
-        ui.label(number).on_hover_text(name);
-        let Some(Statistics { mean, median, p95, maximum, .. }) = statistics else {
+        let text = RichText::new(format!("{}  {name}", index + 1)).color(colour);
+        let text = if index == self.chosen { text.strong().underline() } else { text };
+        let label = ui.scope(|ui| {
+            ui.set_max_width(NAME);
+            ui.add(egui::Label::new(text).truncate())
+        });
+        let Some(Statistics { mean, minimum, median, p95, maximum, not_finite }) = statistics else {
             ui.label("not finite");
             return;
         };
+        let beyond = histogram.map_or(0, |histogram| histogram.below + histogram.above);
+        label.inner.on_hover_text(format!(
+            "{name}\nminimum {}; {beyond} texels beyond the axis, {not_finite} not finite",
+            digits(*minimum)
+        ));
         for value in [mean, median, p95, maximum] {
             ui.label(RichText::new(digits(*value)).monospace());
         }

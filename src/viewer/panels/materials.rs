@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::files::read::{Certainty, Kept};
+use crate::files::read::{Certainty, Sidecar};
 use crate::viewer::command::{Command, MaterialsCommand};
 use crate::viewer::loaded::Origin;
 use crate::viewer::slots::{Slot, Slots};
@@ -61,7 +61,7 @@ fn save_button(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<
     let button = ui.button("Save assumptions");
     let name = format!("Save assumptions of {}", slot.name());
     button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-    let place = Kept::place(path);
+    let place = Sidecar::path_for(path);
     let hover = format!(
         "Write these assumptions to {}, which is read whenever the material is opened",
         place.display()
@@ -109,7 +109,7 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
         ui.label(if unsure { text.color(ui.visuals().warn_fg_color) } else { text });
     }
     for note in &loaded.notes {
-        ui.label(RichText::new(note).small());
+        ui.label(RichText::new(note.to_string()).small());
     }
     ui.collapsing("As stored", |ui| {
         for map in &loaded.maps {

@@ -16,8 +16,8 @@ pub mod top;
 use eframe::egui::{self, DragValue, Response, RichText};
 
 use crate::files::read::{
-    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalCode, NormalY, Order, Preset, ReadOptions,
-    Reflectance, Roughness, What, Workflow,
+    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset,
+    ReadOptions, Reflectance, Roughness, What, Workflow,
 };
 
 /// A number to drag or type; a double-click resets it to `default`.
@@ -57,7 +57,7 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         albedo,
         specular,
         normal_y,
-        normal_code,
+        normal_encoding,
         roughness,
         energy,
         ..
@@ -69,7 +69,13 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         choice(ui, (name, "albedo"), albedo, &Albedo::ALL, inferred(What::Albedo));
         choice(ui, (name, "specular"), specular, &Albedo::ALL, inferred(What::Specular));
         choice(ui, (name, "normal y"), normal_y, &NormalY::ALL, inferred(What::NormalY));
-        choice(ui, (name, "normal encoding"), normal_code, &NormalCode::ALL, inferred(What::NormalCode));
+        choice(
+            ui,
+            (name, "normal encoding"),
+            normal_encoding,
+            &NormalEncoding::ALL,
+            inferred(What::NormalEncoding),
+        );
         choice(ui, (name, "roughness"), roughness, &Roughness::ALL, inferred(What::Roughness));
         choice(ui, (name, "energy"), energy, &Energy::ALL, inferred(What::Energy));
         grid(ui, name, &mut options.grid);

@@ -29,8 +29,9 @@ fn shown(window: &Window<'_>) -> Vec<String> {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn an_accuracy_is_asked_for_and_kept() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     window.get_by_label("Accuracy").click();
     window.run_steps(3);
@@ -47,8 +48,9 @@ fn an_accuracy_is_asked_for_and_kept() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_time_gives_a_loss_with_its_interval() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     window.get_by_label("Time").click();
     window.run_steps(3);
     enter(&mut window, "Time", "20");
@@ -58,8 +60,9 @@ fn a_time_gives_a_loss_with_its_interval() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     start_a_long_one(&mut window);
     let error = |window: &Window<'_>| {
         let first = window.query_all_by_label_contains("%").find_map(|node| node.value()).unwrap();
@@ -90,8 +93,9 @@ fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn escape_cancels_and_a_change_starts_again() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     start_a_long_one(&mut window);
     press(&mut window, egui::Key::Escape);
     window.get_by_label_contains("Cancelled: +-");
@@ -108,8 +112,9 @@ fn escape_cancels_and_a_change_starts_again() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_newer_request_supersedes_a_running_one() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     start_a_long_one(&mut window);
     enter(&mut window, "Near-field scenes", "7");
     enter(&mut window, "Distant scenes", "3");
@@ -119,8 +124,9 @@ fn a_newer_request_supersedes_a_running_one() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn going_back_to_what_is_shown_stops_what_was_asked_for_in_between() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     let first = shown(&window);
     let was = window.state().settings.loss.clone();
@@ -136,8 +142,9 @@ fn going_back_to_what_is_shown_stops_what_was_asked_for_in_between() {
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_old_numbers_stay_until_the_new_ones_are_there() {
-    let Some(mut window) = built_in() else { return };
+    let mut window = built_in();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     assert_eq!(shown(&window).len(), 3);
     for seed in 1..20 {

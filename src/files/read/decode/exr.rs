@@ -8,9 +8,10 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
-use super::panic_guard::hushed;
+use super::panic_guard::catch_panic;
 use super::{Decoded, Layer, Place, dwa};
 use crate::error::Error;
+use crate::files::read::note::Note;
 use crate::files::read::raster::{Raster, Samples};
 
 /// Blocks of DWA may take so many bytes more than their samples: they are padded to 8 x 8.
@@ -27,7 +28,7 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     let meta = MetaData::read_from_buffered(&mut reader, false).map_err(invalid)?;
     let bytes = check(&meta, place)?;
     reader.seek(SeekFrom::Start(0)).map_err(|e| Error::unreadable(place.path, e))?;
-    hushed(|| dwa::check(&mut reader, &meta, bytes + SMALL))
+    catch_panic(|| dwa::check(&mut reader, &meta, bytes + SMALL))
         .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?
         .map_err(invalid)?;
     let reading = || {
@@ -36,7 +37,7 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     };
     // The library panics at some damaged files, found by damaging many. On threads of its own that would end the
     // program: so it gets none.
-    let image = hushed(reading)
+    let image = catch_panic(reading)
         .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?
         .map_err(invalid)?;
     layers(image, place)
@@ -66,9 +67,7 @@ fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {
     let display = image.attributes.display_window;
     if image.attributes.chromaticities.is_some_and(|c| (c.red.0 - 0.64).abs() + (c.red.1 - 0.33).abs() > 0.01)
     {
-        decoded
-            .notes
-            .push("The EXR names other primaries than those of Rec. 709; its RGB is taken as it is.".into());
+        decoded.notes.push(Note::Primaries);
     }
     for part in image.layer_data {
         let size = [part.size.0, part.size.1];
@@ -142,23 +141,19 @@ fn windowed(
     data: IntegerBounds,
     display: IntegerBounds,
     name: &str,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> Raster {
     if data == display || raster.channels.iter().any(|c| !c.is_float()) {
         return raster;
     }
-    let whose = if name.is_empty() { "The picture".to_owned() } else { format!("Layer {name}") };
+    let layer = name.to_owned();
     let inside = display.size.0 <= super::MAX_SIDE && display.size.1 <= super::MAX_SIDE;
     if data.size == display.size || !inside {
-        notes
-            .push(format!("{whose} has a data window beside its display window; the data is used as it is."));
+        notes.push(Note::DataWindow { layer });
         return raster;
     }
-    notes.push(format!(
-        "{whose} has data for {} x {} of the {} x {} texels of its display window; the rest is 0.",
-        data.size.0, data.size.1, display.size.0, display.size.1
-    ));
     let (width, height) = (display.size.0, display.size.1);
+    notes.push(Note::PartialData { layer, data: [data.size.0, data.size.1], display: [width, height] });
     let place = |plane: &Samples| {
         let value = |index: usize| {
             let column = (index % width) as i64 + i64::from(display.position.0) - i64::from(data.position.0);

@@ -14,7 +14,9 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 
+use super::note::{Note, Subject};
 use super::raster::Raster;
+use super::role::Role;
 use crate::error::Error;
 
 /// Largest side of a map: the largest that material libraries publish.
@@ -43,16 +45,15 @@ pub struct Decoded {
     pub native: bool,
     /// What this program wrote into a packed picture: its order and encoding.
     pub meaning: Option<String>,
-    /// What the user may want to know, one sentence each.
-    pub notes: Vec<String>,
+    /// What else was noticed.
+    pub notes: Vec<Note>,
 }
 
 /// Who is decoding what: for messages.
 #[derive(Clone, Copy, Debug)]
 struct Place<'a> {
     path: &'a Path,
-    /// As in "normal map".
-    what: &'a str,
+    what: Subject,
 }
 
 impl Place<'_> {
@@ -69,9 +70,14 @@ impl Place<'_> {
         self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
     }
 
-    /// Whether colour spaces mean nothing here, as far as is known.
+    /// Whether the picture is known to hold data, for which colour spaces mean nothing.
     fn is_data(self) -> bool {
-        ["normal", "roughness", "metallic"].iter().any(|map| self.what.contains(map))
+        match self.what {
+            Subject::Map(role) => {
+                role.packing().is_some() || matches!(role, Role::Normal | Role::Roughness | Role::Metallic)
+            }
+            _ => false,
+        }
     }
 
     fn truncated(self) -> Error {
@@ -97,17 +103,17 @@ impl Place<'_> {
     }
 }
 
-/// Decodes the file `path`, which is to be `what`, as in "normal map".
+/// Decodes the file `path`, which is expected to be `what`.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
-pub fn decode_file(path: &Path, what: &str) -> Result<Decoded, Error> {
+pub fn decode_file(path: &Path, what: Subject) -> Result<Decoded, Error> {
     let file = File::open(path).map_err(|source| Error::unreadable(path, source))?;
     decode(BufReader::new(file), path, what)
 }
 
 /// As [`decode_file`], from what `reader` gives; `path` is the name for messages.
-pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: &str) -> Result<Decoded, Error> {
+pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: Subject) -> Result<Decoded, Error> {
     let place = Place { path, what };
     let head = reader.fill_buf().map_err(|source| Error::unreadable(path, source))?;
     let begins = |magic: &[u8]| head.starts_with(magic);
@@ -128,7 +134,7 @@ pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: &str) -> Resul
 ///
 /// # Errors
 /// As [`decode_file`]; [`Error::BadImage`] where there are several.
-pub fn decode_one(path: &Path, what: &str) -> Result<(Raster, Vec<String>), Error> {
+pub fn decode_one(path: &Path, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
     let Decoded { mut layers, notes, .. } = decode_file(path, what)?;
     match layers.pop() {
         Some(only) if layers.is_empty() => Ok((only.raster, notes)),

@@ -5,22 +5,22 @@ use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
 thread_local! {
-    static HUSHED: Cell<bool> = const { Cell::new(false) };
+    static SILENT: Cell<bool> = const { Cell::new(false) };
 }
 
 /// What `work` returns, or an error where it panics.
-pub fn hushed<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
+pub fn catch_panic<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let usual = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
-            if !HUSHED.get() {
+            if !SILENT.get() {
                 usual(info);
             }
         }));
     });
-    HUSHED.set(true);
+    SILENT.set(true);
     let result = panic::catch_unwind(AssertUnwindSafe(work));
-    HUSHED.set(false);
+    SILENT.set(false);
     result
 }

@@ -12,6 +12,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 use super::head::PngHead;
 use super::{Decoded, FORMATS, MAX_BYTES, Place, alone, head, planes};
 use crate::error::Error;
+use crate::files::read::note::Note;
 use crate::files::read::raster::{Raster, Samples};
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
@@ -24,10 +25,7 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
             let decoder = PngDecoder::with_limits(reader, limits()).map_err(|e| explain(&e, "PNG", place))?;
             let mut decoded = decode_with(decoder, "PNG", place)?;
             if linear && !place.is_data() {
-                decoded.notes.push(format!(
-                    "The {} says in a gAMA chunk that it is linear, which is ignored: --albedo linear takes it so.",
-                    place.what
-                ));
+                decoded.notes.push(Note::LinearGamma(place.what));
             }
             Ok(Decoded { meaning, ..decoded })
         }
@@ -64,18 +62,17 @@ fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -
     Ok(Decoded { notes, ..alone(raster) })
 }
 
-/// What the file says beside its pixels and nobody heeds.
-fn ignored(decoder: &mut impl ImageDecoder, place: Place<'_>) -> Vec<String> {
+/// Metadata of the file that is ignored.
+fn ignored(decoder: &mut impl ImageDecoder, place: Place<'_>) -> Vec<Note> {
     let mut notes = Vec::new();
     let what = place.what;
     let turned = decoder.orientation().is_ok_and(|turned| turned != Orientation::NoTransforms);
     if turned {
-        notes
-            .push(format!("The {what} has an EXIF orientation, which is ignored: rows are taken as stored."));
+        notes.push(Note::Orientation(what));
     }
     let profile = decoder.icc_profile().ok().flatten().filter(|_| !place.is_data());
     if profile.is_some_and(|profile| !is_srgb(&profile)) {
-        notes.push(format!("The {what} has an ICC profile other than sRGB, which is ignored."));
+        notes.push(Note::Profile(what));
     }
     notes
 }

@@ -12,11 +12,13 @@ use gltf::{Document, Gltf, Texture};
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::decode;
-use crate::files::read::decode::panic_guard::hushed;
+use crate::files::read::decode::panic_guard::catch_panic;
 use crate::files::read::locate::names::Role;
+use crate::files::read::note::{Container, Note, Subject};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
 use crate::files::read::raster::Raster;
-use crate::files::read::stored::{Found, Pictures, Source};
+use crate::files::read::reason::StorageConvention;
+use crate::files::read::stored::{Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 
 /// The file and what it brings along.
@@ -30,11 +32,11 @@ struct Scene {
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
+pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let invalid = |found: &str| bad(path, format!("expected valid glTF, found: {found}"));
     // The library panics at some lengths that a damaged glb claims.
-    let gltf = hushed(|| Gltf::from_slice(&bytes))
+    let gltf = catch_panic(|| Gltf::from_slice(&bytes))
         .map_err(|_| invalid("a contradiction in its lengths"))?
         .map_err(|e| invalid(&e.to_string()))?;
     // The library panics at images that lead nowhere.
@@ -53,47 +55,45 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
     })?;
     progress.begin(3);
     let mut pictures = Pictures::default();
-    let normal = scene.load(material.normal_texture().map(|t| t.texture()), "normal map", progress)?;
+    let normal = scene.load(material.normal_texture().map(|t| t.texture()), Role::Normal, progress)?;
     let textured = match material.pbr_specular_glossiness() {
         Some(spec_gloss) => scene.specular_glossiness(&spec_gloss, &mut pictures, progress)?,
         None => scene.metallic_roughness(&material.pbr_metallic_roughness(), &mut pictures, progress)?,
     };
     if !textured && normal.is_none() {
-        return Err(Error::NotAMaterial {
+        return Err(Error::NoTextures {
             path: path.to_owned(),
-            expected: "a material with textures".to_owned(),
-            found: format!("material {index} of {count} without one"),
-            remedy: "choose another with --exemplar".to_owned(),
+            name: material.name().unwrap_or("the material").to_owned(),
+            exemplar: index,
+            count,
         });
     }
     if let Some(normal) = normal {
         pictures.add(Role::Normal, normal);
     }
     let name = material.name().map_or_else(|| format!("material {index}"), str::to_owned);
-    let mut found = pictures.into_found(path, name, "", options)?;
+    let mut found = pictures.assemble(path, name, "", options)?;
     found.files.push(path.to_owned());
     found.files.sort();
     found.files.dedup();
     let gloss = material.pbr_specular_glossiness().is_some();
     specify(&mut found, if gloss { Roughness::Gloss } else { Roughness::R });
     if count > 1 {
-        let line =
-            format!("The glTF holds {count} materials; this is number {index} from 0. Another: --exemplar.");
-        found.notes.push(line);
+        found.notes.push(Note::Several { container: Container::Gltf, count, index });
     }
     Ok(found)
 }
 
 /// What the specification of glTF 2.0 says.
-fn specify(found: &mut Found, roughness: Roughness) {
-    let why = || "glTF 2.0 is so by its specification".to_owned();
-    found.hints.albedo = Some((Albedo::Srgb, why(), Certainty::Sure));
-    found.hints.specular = found.hints.albedo.clone();
-    found.hints.roughness = Some((roughness, why(), Certainty::Sure));
-    found.hints.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
+fn specify(found: &mut StoredMaterial, roughness: Roughness) {
+    let why = || StorageConvention::Gltf.into();
+    found.inferred.albedo = Some((Albedo::Srgb, why(), Certainty::Sure));
+    found.inferred.specular = found.inferred.albedo.clone();
+    found.inferred.roughness = Some((roughness, why(), Certainty::Sure));
+    found.inferred.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
     found
         .assumptions
-        .insert(0, Assumption::new(What::Layout, "glTF", "the file names its textures", Certainty::Sure));
+        .insert(0, Assumption::new(What::Layout, "glTF", StorageConvention::ListedTextures, Certainty::Sure));
 }
 
 fn bad(path: &Path, problem: String) -> Error {
@@ -104,10 +104,10 @@ impl Scene {
     fn load(
         &self,
         texture: Option<Texture<'_>>,
-        what: &str,
+        map: Role,
         progress: &Progress,
-    ) -> Result<Option<Source>, Error> {
-        let source = texture.map(|texture| self.picture(&texture, what)).transpose()?;
+    ) -> Result<Option<StoredMap>, Error> {
+        let source = texture.map(|texture| self.picture(&texture, Subject::Map(map))).transpose()?;
         progress.step().map(|()| source)
     }
 
@@ -118,13 +118,13 @@ impl Scene {
         pictures: &mut Pictures,
         progress: &Progress,
     ) -> Result<bool, Error> {
-        let colour = self.load(pbr.base_color_texture().map(|t| t.texture()), "base colour map", progress)?;
+        let colour = self.load(pbr.base_color_texture().map(|t| t.texture()), Role::Base, progress)?;
         let orm = pbr.metallic_roughness_texture().map(|t| t.texture());
-        let orm = self.load(orm, "roughness and metallic map", progress)?;
+        let orm = self.load(orm, Role::OcclusionRoughnessMetallic, progress)?;
         let textured = colour.is_some() || orm.is_some();
         let channel = |number: usize, factor: f32| match &orm {
-            Some(orm) => Source { raster: orm.raster.channel(number).scaled(&[factor]), ..orm.clone() },
-            None => Source::constant(&self.path, &[factor]),
+            Some(orm) => StoredMap { raster: orm.raster.channel(number).scaled(&[factor]), ..orm.clone() },
+            None => StoredMap::constant(&self.path, &[factor]),
         };
         let [r, g, b, _] = pbr.base_color_factor();
         pictures.add(Role::Roughness, channel(1, pbr.roughness_factor()));
@@ -140,14 +140,14 @@ impl Scene {
         pictures: &mut Pictures,
         progress: &Progress,
     ) -> Result<bool, Error> {
-        let diffuse = self.load(pbr.diffuse_texture().map(|t| t.texture()), "diffuse map", progress)?;
+        let diffuse = self.load(pbr.diffuse_texture().map(|t| t.texture()), Role::Diffuse, progress)?;
         let both = pbr.specular_glossiness_texture().map(|t| t.texture());
-        let both = self.load(both, "specular and glossiness map", progress)?;
+        let both = self.load(both, Role::Specular, progress)?;
         let textured = diffuse.is_some() || both.is_some();
         let factor = pbr.glossiness_factor();
         let gloss = match &both {
             // Alpha that is 1 everywhere is not kept.
-            Some(Source { raster, .. }) => match raster.alpha.clone() {
+            Some(StoredMap { raster, .. }) => match raster.alpha.clone() {
                 Some(alpha) => raster.of(alpha).scaled(&[factor]),
                 None => Raster::constant("alpha", &[factor]),
             },
@@ -157,20 +157,20 @@ impl Scene {
         let [r, g, b, _] = pbr.diffuse_factor();
         pictures.add(Role::Diffuse, self.colour(diffuse, [r, g, b]));
         pictures.add(Role::Specular, self.colour(both, pbr.specular_factor()));
-        pictures.add(Role::Roughness, Source { raster: gloss, file, part: "alpha".to_owned() });
+        pictures.add(Role::Roughness, StoredMap { raster: gloss, file, part: "alpha".to_owned() });
         Ok(textured)
     }
 
     /// The sRGB picture of a colour times a linear factor, in sRGB.
-    fn colour(&self, source: Option<Source>, factor: [f32; 3]) -> Source {
-        source.unwrap_or_else(|| Source::constant(&self.path, &[1.0; 3])).times(factor, Albedo::Srgb)
+    fn colour(&self, source: Option<StoredMap>, factor: [f32; 3]) -> StoredMap {
+        source.unwrap_or_else(|| StoredMap::constant(&self.path, &[1.0; 3])).times(factor, Albedo::Srgb)
     }
 
     /// The picture of a texture.
-    fn picture(&self, texture: &Texture<'_>, what: &str) -> Result<Source, Error> {
+    fn picture(&self, texture: &Texture<'_>, what: Subject) -> Result<StoredMap, Error> {
         let (raster, file, part) = match texture.source().source() {
             Image::Uri { uri, .. } if uri.starts_with("data:") => {
-                (self.decoded(&self.data(uri)?, what)?, self.path.clone(), what.to_owned())
+                (self.decoded(&self.data(uri)?, what)?, self.path.clone(), what.to_string())
             }
             Image::Uri { uri, .. } => {
                 let file = self.beside(uri);
@@ -182,13 +182,13 @@ impl Scene {
                 let bytes = end.and_then(|end| buffer.get(view.offset()..end));
                 let bytes =
                     bytes.ok_or_else(|| bad(&self.path, format!("{what}: expected it within its buffer")))?;
-                (self.decoded(bytes, what)?, self.path.clone(), what.to_owned())
+                (self.decoded(bytes, what)?, self.path.clone(), what.to_string())
             }
         };
-        Ok(Source { raster, file, part })
+        Ok(StoredMap { raster, file, part })
     }
 
-    fn decoded(&self, bytes: &[u8], what: &str) -> Result<Raster, Error> {
+    fn decoded(&self, bytes: &[u8], what: Subject) -> Result<Raster, Error> {
         let decoded = decode::decode(std::io::Cursor::new(bytes), &self.path, what)?;
         let first = decoded.layers.into_iter().next();
         first

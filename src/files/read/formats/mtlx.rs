@@ -9,8 +9,10 @@ use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::decode;
 use crate::files::read::locate::names::Role;
+use crate::files::read::note::{Container, Note, Subject};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
-use crate::files::read::stored::{Found, Hint, Pictures, Source};
+use crate::files::read::reason::{Known, Reason, StorageConvention};
+use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 
 /// Deeper than any chain of nodes from an input to its picture.
@@ -30,7 +32,7 @@ const INPUTS: [(&str, Role, f32); 7] = [
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
+pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let text = fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
     let document = Document::parse(&text).map_err(|e| Error::BadImage {
         path: path.to_owned(),
@@ -47,7 +49,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         remedy: "translate the material to one of them".to_owned(),
     })?;
     let mut pictures = Pictures::default();
-    let mut albedo: Hint<Albedo> = None;
+    let mut albedo: Inferred<Albedo> = None;
     let gltf = surface.tag_name().name() == "gltf_pbr";
     let mine = |name: &str| {
         if gltf {
@@ -61,7 +63,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         progress.step()?;
         let Some(bound) = bound(surface, name) else {
             if role != Role::Normal && role != Role::Ignored {
-                pictures.add(role, Source::constant(path, &[usual]));
+                pictures.add(role, StoredMap::constant(path, &[usual]));
             }
             continue;
         };
@@ -69,11 +71,11 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
             continue;
         }
         let (source, space) = match bound {
-            Bound::Values(values) => (Source::constant(path, &values), Some("lin_rec709".to_owned())),
+            Bound::Values(values) => (StoredMap::constant(path, &values), Some("lin_rec709".to_owned())),
             Bound::File { file, space, channel } => {
-                let whole = decode::decode_one(&resolved(path, &file), &format!("{} map", role.name()))?.0;
+                let whole = decode::decode_one(&resolved(path, &file), Subject::Map(role))?.0;
                 let raster = channel.map_or(whole.clone(), |c| whole.channel(c));
-                (Source { raster, file: resolved(path, &file), part: String::new() }, space)
+                (StoredMap { raster, file: resolved(path, &file), part: String::new() }, space)
             }
         };
         if role == Role::Base {
@@ -82,20 +84,18 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         pictures.add(role, source);
     }
     let name = surface.attribute("name").unwrap_or("material").to_owned();
-    let mut found = pictures.into_found(path, name, "", options)?;
+    let mut found = pictures.assemble(path, name, "", options)?;
     found.files.push(path.to_owned());
     found.files.sort();
     found.files.dedup();
-    found.hints.albedo = albedo;
-    let why = "MaterialX takes normals so".to_owned();
-    found.hints.normal_y = Some((NormalY::Up, why, Certainty::Likely));
-    let layout = Assumption::new(What::Layout, "MaterialX", "the file names its textures", Certainty::Sure);
+    found.inferred.albedo = albedo;
+    found.inferred.normal_y =
+        Some((NormalY::Up, StorageConvention::MaterialXNormals.into(), Certainty::Likely));
+    let layout =
+        Assumption::new(What::Layout, "MaterialX", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);
     if surfaces.len() > 1 {
-        let count = surfaces.len();
-        found.notes.push(format!(
-            "The file holds {count} surfaces; this is number {index} from 0. Another: --exemplar."
-        ));
+        found.notes.push(Note::Several { container: Container::MaterialX, count: surfaces.len(), index });
     }
     Ok(found)
 }
@@ -170,17 +170,15 @@ fn channel_of(output: &str) -> Option<usize> {
     }
 }
 
-fn colour_space(space: &str) -> (Albedo, String, Certainty) {
-    let why = format!("the file says {space}");
-    match space {
-        "srgb_texture" | "srgb" => (Albedo::Srgb, why, Certainty::Sure),
-        "lin_rec709" | "none" | "raw" => (Albedo::Linear, why, Certainty::Sure),
-        "gamma22" | "g22_rec709" => (Albedo::Gamma22, why, Certainty::Sure),
-        "gamma18" | "gamma24" => {
-            (Albedo::Gamma22, format!("{why}; 2.2 is the nearest that is known"), Certainty::Unsure)
-        }
-        _ => (Albedo::Linear, format!("{why}, which is not known here"), Certainty::Unsure),
-    }
+fn colour_space(space: &str) -> (Albedo, Reason, Certainty) {
+    let (albedo, known, certainty) = match space {
+        "srgb_texture" | "srgb" => (Albedo::Srgb, Known::Exactly, Certainty::Sure),
+        "lin_rec709" | "none" | "raw" => (Albedo::Linear, Known::Exactly, Certainty::Sure),
+        "gamma22" | "g22_rec709" => (Albedo::Gamma22, Known::Exactly, Certainty::Sure),
+        "gamma18" | "gamma24" => (Albedo::Gamma22, Known::Nearly, Certainty::Unsure),
+        _ => (Albedo::Linear, Known::Unknown, Certainty::Unsure),
+    };
+    (albedo, Reason::ColourSpace { space: space.to_owned(), known }, certainty)
 }
 
 /// A file beside the document, or a path of its own.

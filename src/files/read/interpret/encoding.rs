@@ -2,16 +2,20 @@
 
 use rayon::prelude::*;
 
+use super::decide::decide;
 use super::detect;
 use super::normals;
 use super::transfer::{self, linear};
 use super::values::{self, Clamped, finite};
 use super::workflow;
 use crate::error::Error;
-use crate::files::read::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
+use crate::files::read::assumption::{Assumption, Certainty, What};
+use crate::files::read::note::{Gray, Note, SpecifiedBy};
 use crate::files::read::options::{Albedo, ReadOptions, Roughness};
 use crate::files::read::raster::Samples;
-use crate::files::read::stored::{Found, Hint, Source};
+use crate::files::read::reason::{Reason, StorageConvention};
+use crate::files::read::role::Role;
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::material::Planes;
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
@@ -19,12 +23,15 @@ use crate::math::real::Real;
 /// Channels of a gray map that differ by less were gray before they were rounded.
 const ROUNDING: f64 = 2.0 / 255.0;
 
-/// The planes that the maps of `found` stand for, and their (width, height); each map is let go once it is decoded.
+/// The planes that the maps of `found` stand for, and their (width, height); each map is dropped once it is decoded.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] at NaN and infinity, [`Error::SizesDiffer`] where maps have another shape,
+/// [`Error::NotFinite`] at NaN and infinity, [`Error::MapSizesDiffer`] where maps have another shape,
 /// [`Error::NotAMaterial`] where the normal map is gray.
-pub fn planes<T: Real>(found: &mut Found, options: &ReadOptions) -> Result<(Planes<T>, [usize; 2]), Error> {
+pub fn planes<T: Real>(
+    found: &mut StoredMaterial,
+    options: &ReadOptions,
+) -> Result<(Planes<T>, [usize; 2]), Error> {
     let size = found.common_size()?;
     values::check(found, options)?;
     let albedo = albedo(found, options);
@@ -35,55 +42,53 @@ pub fn planes<T: Real>(found: &mut Found, options: &ReadOptions) -> Result<(Plan
         None => normals::flat(found, size),
     };
     let mut clamped = Clamped::default();
-    let mut colour = |source: Source, space: Albedo, name| -> [Vec<T>; 3] {
-        let Source { raster, .. } = source;
+    let mut colour = |source: StoredMap, space: Albedo, map| -> [Vec<T>; 3] {
+        let StoredMap { raster, .. } = source;
         let (from, last) = (raster.size(), raster.channels.len() - 1);
         let mut decode = |plane: &Samples| {
-            let plane = plane.decoded(|v| linear(clamped.unit(finite(v, 0.0), name), space));
+            let plane = plane.decoded(|v| linear(clamped.unit(finite(v, 0.0), map), space));
             resize::plane(plane, from, size, Filter::Value)
         };
         [0, 1, 2].map(|c| decode(&raster.channels[last.min(c)]))
     };
-    let diffuse = colour(found.colour.take(), albedo, "diffuse");
-    let specular = found.specular.take().map(|source| colour(source, specular_space, "specular"));
+    let diffuse = colour(found.colour.take(), albedo, Role::Diffuse);
+    let specular = found.specular.take().map(|source| colour(source, specular_space, Role::Specular));
     let roughness =
         roughness_plane(found.roughness.take(), roughness_code, size, &mut clamped, &mut found.notes);
     let metallic = found
         .metallic
         .take()
-        .map(|source| gray::<T>(source, "metallic", size, &mut clamped, &mut found.notes));
+        .map(|source| gray::<T>(source, Role::Metallic, size, &mut clamped, &mut found.notes));
     let level = found.level.take().map(|source| {
         found.assumptions.push(workflow::level_assumed(&source));
-        gray::<T>(source, "specular level", size, &mut clamped, &mut found.notes)
+        gray::<T>(source, Role::SpecularLevel, size, &mut clamped, &mut found.notes)
     });
-    clamped.say(found);
+    clamped.record(found);
     let maps = workflow::Maps { colour: diffuse, specular, metallic, level };
     let (mut diffuse, specular) = maps.separated(size, found, options);
-    workflow::undo_energy(&mut diffuse, &specular, found, options);
+    workflow::unscale_diffuse(&mut diffuse, &specular, found, options);
     let mut planes = Planes { normal, diffuse, specular, roughness };
     if options.flip_v == Some(true) {
         mirror(&mut planes, size[0]);
-        found.notes.push(format!("Row 0 is taken as the lowest, {AS_YOU_SAID}: the material is mirrored."));
+        found.notes.push(Note::RowsFlipped { by: SpecifiedBy::Caller });
     }
     Ok((planes, size))
 }
 
-/// The red channel of a map of one value; said where the others differ by more than rounding makes them.
+/// The red channel of a gray map; noted where the others differ by more than rounding explains.
 fn gray<T: Real>(
-    source: Source,
-    name: &'static str,
+    source: StoredMap,
+    map: Role,
     size: [usize; 2],
     clamped: &mut Clamped,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> Vec<T> {
     let raster = &source.raster;
     let spread = channel_spread(&raster.channels);
     if spread > ROUNDING {
-        notes.push(format!(
-            "The red, green and blue of the {name} map differ by up to {spread:.4}; red is used."
-        ));
+        notes.push(Note::ChannelsDiffer { map, spread, used: Gray::Red });
     }
-    let plane = raster.channels[0].decoded(|v| clamped.unit(finite(v, 0.0), name));
+    let plane = raster.channels[0].decoded(|v| clamped.unit(finite(v, 0.0), map));
     resize::plane(plane, raster.size(), size, Filter::Value)
 }
 
@@ -100,71 +105,50 @@ fn mirror<T: Real>(planes: &mut Planes<T>, width: usize) {
     }
 }
 
-/// What the user said, else the hint, else `detected`; recorded.
-pub fn decide<T: Copy + std::fmt::Display>(
-    assumptions: &mut Vec<Assumption>,
-    what: What,
-    given: Option<T>,
-    hint: Hint<T>,
-    detected: impl FnOnce() -> (T, String, Certainty),
-) -> T {
-    if let Some(value) = given {
-        assumptions.push(Assumption::given(what, value));
-        return value;
-    }
-    let (value, why, certainty) = hint.unwrap_or_else(detected);
-    assumptions.push(Assumption::new(what, value, why, certainty));
-    value
-}
-
-fn albedo(found: &mut Found, options: &ReadOptions) -> Albedo {
-    let hint = found.hints.albedo.take();
+fn albedo(found: &mut StoredMaterial, options: &ReadOptions) -> Albedo {
+    let hint = found.inferred.albedo.take();
     let specular = found.specular.as_ref().map(|source| detect::specular_median(&source.raster));
     decide(&mut found.assumptions, What::Albedo, options.albedo, hint, || match specular {
-        None => {
-            (Albedo::Srgb, "colours in files of their own are sRGB by custom".to_owned(), Certainty::Likely)
-        }
+        None => (Albedo::Srgb, StorageConvention::SeparateColours.into(), Certainty::Likely),
         Some(median) => by_median(median),
     })
 }
 
-/// What the median of specular says: 0.04 stored as it is, or encoded.
-fn by_median(median: f64) -> (Albedo, String, Certainty) {
-    let measured = format!("the median of specular is {median:.3}");
-    match median {
-        0.03..=0.06 => (Albedo::Linear, format!("{measured}, 0.04 as it is"), Certainty::Likely),
-        0.2..=0.26 => (Albedo::Srgb, format!("{measured}, 0.04 encoded"), Certainty::Likely),
-        _ => (
-            Albedo::Srgb,
-            format!("colours in files of their own are sRGB by custom; {measured}, which tells nothing"),
-            Certainty::Unsure,
-        ),
-    }
+/// What the median of specular suggests: 0.04 stored linearly, or encoded.
+fn by_median(median: f64) -> (Albedo, Reason, Certainty) {
+    let (albedo, suggests, certainty) = match median {
+        0.03..=0.06 => (Albedo::Linear, Some(Albedo::Linear), Certainty::Likely),
+        0.2..=0.26 => (Albedo::Srgb, Some(Albedo::Srgb), Certainty::Likely),
+        _ => (Albedo::Srgb, None, Certainty::Unsure),
+    };
+    (albedo, Reason::SpecularMedian { median, suggests }, certainty)
 }
 
-fn specular_space(found: &mut Found, options: &ReadOptions, albedo: Albedo) -> Albedo {
+fn specular_space(found: &mut StoredMaterial, options: &ReadOptions, albedo: Albedo) -> Albedo {
     let Some(source) = &found.specular else { return albedo };
     let median = detect::specular_median(&source.raster);
-    let hint = found.hints.specular.take();
+    let hint = found.inferred.specular.take();
     let chosen = options.specular.or(options.albedo).or(hint.as_ref().map(|h| h.0)).unwrap_or(albedo);
     let (says, why, certainty) = by_median(median);
     let contradicts =
         (says == Albedo::Linear) != (chosen == Albedo::Linear) && certainty == Certainty::Likely;
     let assumption = if options.specular.or(options.albedo).is_some() {
         if contradicts && !source.raster.is_float() {
-            found.notes.push(format!("Specular is taken as {chosen}, {AS_YOU_SAID}, but {why}: look at it."));
+            found.notes.push(Note::SpecularMedian {
+                chosen,
+                by: SpecifiedBy::Caller,
+                median,
+                suggests: says,
+            });
         }
         Assumption::given(What::Specular, chosen)
     } else if contradicts
         && !source.raster.is_float()
         && hint.as_ref().is_none_or(|(.., certainty)| *certainty != Certainty::Sure)
     {
-        Assumption::new(
-            What::Specular,
-            chosen,
-            format!("by convention, but {why}: look at it"),
-            Certainty::Unsure,
-        )
+        let convention = hint.map_or(StorageConvention::SeparateColours.into(), |(_, why, _)| why);
+        let why = Reason::ContradictedBy(Box::new(convention), Box::new(why));
+        Assumption::new(What::Specular, chosen, why, Certainty::Unsure)
     } else if let Some((_, why, certainty)) = hint {
         Assumption::new(What::Specular, chosen, why, certainty)
     } else {
@@ -174,38 +158,33 @@ fn specular_space(found: &mut Found, options: &ReadOptions, albedo: Albedo) -> A
     chosen
 }
 
-fn roughness_code(found: &mut Found, options: &ReadOptions) -> Roughness {
-    let hint = found.hints.roughness.take();
+fn roughness_code(found: &mut StoredMaterial, options: &ReadOptions) -> Roughness {
+    let hint = found.inferred.roughness.take();
     decide(&mut found.assumptions, What::Roughness, options.roughness, hint, || {
-        (Roughness::R, "it is called roughness".to_owned(), Certainty::Likely)
+        (Roughness::R, StorageConvention::RoughnessName.into(), Certainty::Likely)
     })
 }
 
 /// The first channel, or the mean of channels that differ; the geometric mean of two widths.
 fn roughness_plane<T: Real>(
-    source: Source,
+    source: StoredMap,
     code: Roughness,
     size: [usize; 2],
     clamped: &mut Clamped,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> Vec<T> {
-    let Source { raster, .. } = source;
+    let StoredMap { raster, .. } = source;
     let channels = &raster.channels;
-    let mut value = |v: f64| transfer::roughness(clamped.unit(finite(v, 1.0), "roughness"), code);
+    let mut value = |v: f64| transfer::roughness(clamped.unit(finite(v, 1.0), Role::Roughness), code);
     let largest = channel_spread(channels);
     let plane = if code == Roughness::Anisotropic && channels.len() > 1 {
-        notes.push(format!(
-            "The two widths of the roughness map differ by up to {:.4}; an isotropic lobe stands for both.",
-            channel_spread(&channels[..2])
-        ));
+        notes.push(Note::Anisotropic { spread: channel_spread(&channels[..2]) });
         let width = |i: usize| (channels[0].at(i) * channels[1].at(i)).sqrt();
         (0..channels[0].len()).map(|i| T::of(value(width(i)))).collect()
     } else if largest == 0.0 {
         channels[0].decoded(value)
     } else {
-        notes.push(format!(
-            "The red, green and blue of the roughness map differ by up to {largest:.4}; their mean is used."
-        ));
+        notes.push(Note::ChannelsDiffer { map: Role::Roughness, spread: largest, used: Gray::Mean });
         (0..channels[0].len()).map(|i| T::of(value(mean(channels, i)))).collect()
     };
     resize::plane(plane, raster.size(), size, Filter::Roughness)

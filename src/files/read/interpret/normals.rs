@@ -1,12 +1,13 @@
 //! Normal maps: how their components are stored and where y points.
 
+use super::decide::decide;
 use super::detect;
-use super::encoding::decide;
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::options::{NormalCode as Code, NormalY, ReadOptions};
+use crate::files::read::options::{NormalEncoding, NormalY, ReadOptions};
 use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::stored::{Found, Source};
+use crate::files::read::reason::Reason;
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
 
@@ -14,7 +15,7 @@ use crate::math::real::Real;
 const SHORTEST: f64 = 1e-3;
 /// Below this correlation of the curl test an unlabelled map is taken to be y down.
 const DOWN: f64 = -0.3;
-/// Above this correlation it is taken to be y up for sure enough.
+/// Above this correlation it is taken to be y up.
 const UP: f64 = 0.1;
 
 /// Squared sine of the slope above which z is visibly below 1.
@@ -25,8 +26,8 @@ const STEEP: f64 = 0.05;
 /// # Errors
 /// [`Error::NotAMaterial`] where the map is gray.
 pub fn planes<T: Real>(
-    source: Source,
-    found: &mut Found,
+    source: StoredMap,
+    found: &mut StoredMaterial,
     options: &ReadOptions,
     size: [usize; 2],
 ) -> Result<[Vec<T>; 3], Error> {
@@ -39,16 +40,17 @@ pub fn planes<T: Real>(
             remedy: "give a normal map, not a height map".to_owned(),
         });
     }
-    let (code, why) = code_of(raster);
-    let sure = code == Code::Unsigned || raster.is_float();
+    let (encoding, why) = encoding_of(raster);
+    let sure = encoding == NormalEncoding::Unsigned || raster.is_float();
     let certainty = if sure { Certainty::Likely } else { Certainty::Unsure };
-    let code = decide(&mut found.assumptions, What::NormalCode, options.normal_code, None, || {
-        (code, why, certainty)
-    });
-    let y = normal_y(raster, code, found, options);
-    let (mut planes, missing) = decoded::<T>(raster, code, y);
+    let encoding =
+        decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, None, || {
+            (encoding, why, certainty)
+        });
+    let y = normal_y(raster, encoding, found, options);
+    let (mut planes, missing) = decoded::<T>(raster, encoding, y);
     if missing > 0 {
-        let why = format!("{missing} texels have a vector of no length, or none that is a number");
+        let why = Reason::NoDirection { count: missing };
         found.assumptions.push(Assumption::new(What::Values, "normal (0, 0, 1)", why, Certainty::Unsure));
     }
     let from = raster.size();
@@ -60,39 +62,36 @@ pub fn planes<T: Real>(
 }
 
 /// Normals of a material without a normal map.
-pub fn flat<T: Real>(found: &mut Found, size: [usize; 2]) -> [Vec<T>; 3] {
-    let why = "there is no normal map; the surface is taken to be flat";
-    found.assumptions.push(Assumption::new(What::Missing, "normal (0, 0, 1)", why, Certainty::Unsure));
+pub fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
+    let missing = Assumption::new(What::Missing, "normal (0, 0, 1)", Reason::NoNormalMap, Certainty::Unsure);
+    found.assumptions.push(missing);
     [T::zero(), T::zero(), T::one()].map(|value| vec![value; size[0] * size[1]])
 }
 
-fn code_of(raster: &Raster) -> (Code, String) {
+fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
     let range = |plane: &Samples| {
         let values = raster.sampled().map(|i| plane.at(i));
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
     };
     let least = raster.channels.iter().map(|c| range(c).0).fold(0.0, f64::min);
     if raster.is_float() && least < -0.01 {
-        return (Code::Signed, format!("the least component is {least:.2}"));
+        return (NormalEncoding::Signed, Reason::LeastComponent(least));
     }
     if raster.channels.len() == 2 {
-        return (Code::Xy, "the map has two channels".to_owned());
+        return (NormalEncoding::Xy, Reason::TwoChannels);
     }
     let [x, _, z] = [0, 1, 2].map(|c| range(&raster.channels[c]));
     if let Some(alpha) = &raster.alpha
         && x.0 > 0.98
         && range(alpha).1 - range(alpha).0 > 0.05
     {
-        return (Code::Ag, "red is 1 everywhere, alpha varies".to_owned());
+        return (NormalEncoding::Ag, Reason::RedConstant);
     }
     let score = detect::normal_score(raster);
     if raster.is_float() {
         let signed = detect::signed_normal_score(raster);
         if signed > score {
-            return (
-                Code::Signed,
-                format!("{:.0} % of the texels have length 1 as they are", 100.0 * signed),
-            );
+            return (NormalEncoding::Signed, Reason::UnitLength { signed: true, share: signed });
         }
     }
     // Blue 1 everywhere is also what a flat map has: only slopes that it cannot have tell.
@@ -101,67 +100,67 @@ fn code_of(raster: &Raster) -> (Code, String) {
         x * x + y * y > STEEP
     };
     if z.1 < 0.02 || (z.0 > 0.98 && raster.sampled().any(steep)) {
-        return (Code::Xy, format!("blue is {:.0} everywhere", z.0.round()));
+        return (NormalEncoding::Xy, Reason::BlueConstant(z.0.round()));
     }
-    (Code::Unsigned, format!("{:.0} % of the texels have length 1 then", 100.0 * score))
+    (NormalEncoding::Unsigned, Reason::UnitLength { signed: false, share: score })
 }
 
 /// The vector at `index`, y as stored.
-fn vector(raster: &Raster, code: Code, index: usize) -> [f64; 3] {
+fn vector(raster: &Raster, encoding: NormalEncoding, index: usize) -> [f64; 3] {
     let signed = |value: f64| 2.0 * value - 1.0;
     let with_z = |x: f64, y: f64| [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()];
-    match code {
-        Code::Unsigned => raster.rgb(index).map(signed),
-        Code::Signed if raster.channels.len() == 2 => {
+    match encoding {
+        NormalEncoding::Unsigned => raster.rgb(index).map(signed),
+        NormalEncoding::Signed if raster.channels.len() == 2 => {
             let [x, y, _] = raster.rgb(index);
             with_z(x, y)
         }
-        Code::Signed => raster.rgb(index),
-        Code::Xy => {
+        NormalEncoding::Signed => raster.rgb(index),
+        NormalEncoding::Xy => {
             let [x, y, _] = raster.rgb(index);
             with_z(signed(x), signed(y))
         }
-        Code::Ag => {
+        NormalEncoding::Ag => {
             let x = raster.alpha.as_ref().map_or(0.5, |alpha| alpha.at(index));
             with_z(signed(x), signed(raster.channels[1].at(index)))
         }
     }
 }
 
-fn normal_y(raster: &Raster, code: Code, found: &mut Found, options: &ReadOptions) -> NormalY {
-    let curl = detect::curl(raster.width, raster.height, |index| vector(raster, code, index));
-    let measured = curl.map_or("the map has no slopes to tell by".to_owned(), |c| {
-        format!("the curl correlation is {c:+.2}")
-    });
-    let hint = found.hints.normal_y.take();
+fn normal_y(
+    raster: &Raster,
+    encoding: NormalEncoding,
+    found: &mut StoredMaterial,
+    options: &ReadOptions,
+) -> NormalY {
+    let curl = detect::curl(raster.width, raster.height, |index| vector(raster, encoding, index));
+    let hint = found.inferred.normal_y.take();
     let named = hint.as_ref().is_some_and(|(.., certainty)| *certainty == Certainty::Sure);
     let of_preset = options.preset.and_then(|preset| preset.options().normal_y).filter(|_| !named);
     let given = options.normal_y.or(of_preset);
     if let (None, Some((y, why, _)), Some(curl)) = (given, &hint, curl)
         && ((*y == NormalY::Up && curl < DOWN) || (*y == NormalY::Down && curl > -DOWN))
     {
-        let why = format!("{why}, but {measured}: look at it");
+        let why = Reason::ContradictedBy(Box::new(why.clone()), Box::new(Reason::Curl(Some(curl))));
         found.assumptions.push(Assumption::new(What::NormalY, *y, why, Certainty::Unsure));
         return *y;
     }
     decide(&mut found.assumptions, What::NormalY, given, hint, || match curl {
-        Some(c) if c <= DOWN => {
-            (NormalY::Down, format!("{measured}: no surface with y up has it"), Certainty::Unsure)
-        }
-        Some(c) if c >= UP => (NormalY::Up, measured, Certainty::Likely),
-        None => (NormalY::Up, measured, Certainty::Likely),
-        Some(_) => (NormalY::Up, format!("most maps are so; {measured}"), Certainty::Unsure),
+        Some(c) if c <= DOWN => (NormalY::Down, Reason::CurlDown(c), Certainty::Unsure),
+        Some(c) if c >= UP => (NormalY::Up, Reason::Curl(curl), Certainty::Likely),
+        None => (NormalY::Up, Reason::Curl(None), Certainty::Likely),
+        Some(c) => (NormalY::Up, Reason::MostMapsUp(c), Certainty::Unsure),
     })
 }
 
 /// x, y up, z; and how many had no direction.
-fn decoded<T: Real>(raster: &Raster, code: Code, y: NormalY) -> ([Vec<T>; 3], usize) {
+fn decoded<T: Real>(raster: &Raster, encoding: NormalEncoding, y: NormalY) -> ([Vec<T>; 3], usize) {
     let sign = if y == NormalY::Up { 1.0 } else { -1.0 };
     let count = raster.width * raster.height;
     let mut planes = [0; 3].map(|_| Vec::with_capacity(count));
     let mut missing = 0;
     for index in 0..count {
-        let mut n = vector(raster, code, index);
+        let mut n = vector(raster, encoding, index);
         let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
         if !length.is_finite() || length < SHORTEST {
             missing += 1;

@@ -1,4 +1,4 @@
-//! What maps look like as stored: for the doctor.
+//! What maps look like as stored, for inspection.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -7,12 +7,13 @@ use serde::Serialize;
 
 use super::detect;
 use crate::files::read::raster::Raster;
-use crate::files::read::stored::{Found, Source};
+use crate::files::read::role::Role;
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// One map as stored.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MapReport {
-    pub map: &'static str,
+    pub map: Role,
     pub file: PathBuf,
     /// Layer, channel or tile within the file; may be empty.
     pub part: String,
@@ -29,7 +30,7 @@ pub struct MapReport {
     pub constant: bool,
     /// Share of the texels, in [0, 1], that are the same as their right neighbour.
     pub flat: f64,
-    /// Share of the texels that are no unit vectors; only of normal maps.
+    /// Share of the texels that are not unit vectors; only of normal maps.
     pub non_unit: Option<f64>,
     /// The curl correlation, near 1 where green points up and near -1 where it points down; only of normal maps that
     /// have slopes.
@@ -42,7 +43,7 @@ impl fmt::Display for MapReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [width, height] = self.size;
         let [low, high] = self.range;
-        write!(f, "{:<12} {}", self.map, self.file.display())?;
+        write!(f, "{:<12} {}", self.map.name(), self.file.display())?;
         if !self.part.is_empty() {
             write!(f, ", {}", self.part)?;
         }
@@ -61,7 +62,7 @@ impl fmt::Display for MapReport {
             write!(f, ", {:.1} % at 1", 100.0 * self.clipped)?;
         }
         if let Some(share) = self.non_unit {
-            write!(f, ", {:.1} % no unit vectors", 100.0 * share)?;
+            write!(f, ", {:.1} % not unit vectors", 100.0 * share)?;
         }
         if let Some(curl) = self.curl {
             write!(f, ", curl correlation {curl:+.2}")?;
@@ -73,11 +74,11 @@ impl fmt::Display for MapReport {
     }
 }
 
-pub(crate) fn maps(found: &Found) -> Vec<MapReport> {
+pub(crate) fn maps(found: &StoredMaterial) -> Vec<MapReport> {
     found.sources().into_iter().map(|(map, source)| report(map, source)).collect()
 }
 
-fn report(map: &'static str, source: &Source) -> MapReport {
+fn report(map: Role, source: &StoredMap) -> MapReport {
     let raster = &source.raster;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut clipped, mut count, mut constant) = (0, 0, true);
@@ -107,9 +108,9 @@ fn report(map: &'static str, source: &Source) -> MapReport {
         clipped: f64::from(clipped as u32) / f64::from(count.max(1) as u32),
         constant,
         flat: flat(raster),
-        non_unit: (map == "normal").then_some(1.0 - unit),
-        curl: (map == "normal").then(curl).flatten(),
-        specular_median: (map == "specular").then(|| detect::specular_median(raster)),
+        non_unit: (map == Role::Normal).then_some(1.0 - unit),
+        curl: (map == Role::Normal).then(curl).flatten(),
+        specular_median: (map == Role::Specular).then(|| detect::specular_median(raster)),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::files::read::options::{Albedo, Roughness};
 
-/// Of the logarithmic code: its dark end.
+/// The dark end of the logarithmic encoding.
 const DARK: f64 = 0.01;
 
 /// The reflectance, in [0, 1], that a stored `value` of [0, 1] stands for.

@@ -1,43 +1,46 @@
-//! Samples that no map may have: NaN, infinity, and what lies outside [0, 1].
+//! Samples outside the range of a map: NaN, infinity, and values outside [0, 1].
 
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{NonFinite, ReadOptions};
 use crate::files::read::raster::Samples;
-use crate::files::read::stored::{Found, Source};
+use crate::files::read::reason::Reason;
+use crate::files::read::role::Role;
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 
-/// Refuses the first NaN or infinity of any map, or says how many will be replaced, as `options` have it.
+/// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.
 ///
 /// # Errors
-/// [`Error::OutOfRange`].
-pub fn check(found: &mut Found, options: &ReadOptions) -> Result<(), Error> {
-    let mut said = Vec::new();
+/// [`Error::NotFinite`].
+pub fn check(found: &mut StoredMaterial, options: &ReadOptions) -> Result<(), Error> {
+    let mut replaced = Vec::new();
     for (map, source) in found.sources() {
         let count = NotFinite::of(source);
         let Some((index, value)) = count.first else { continue };
         let NotFinite { nans, infinities, .. } = count;
         match options.non_finite.unwrap_or_default() {
             NonFinite::Refuse => {
-                return Err(Error::OutOfRange {
-                    whose: source.file.display().to_string(),
-                    map,
+                return Err(Error::NotFinite {
+                    path: source.file.clone(),
+                    map: map.name(),
                     column: index % source.raster.width,
                     row: index / source.raster.width,
-                    expected: "finite numbers (--non-finite replace puts others in their place)",
-                    found: format!("{value}, one of {nans} NaN and {infinities} infinite samples"),
+                    value,
+                    nans,
+                    infinities,
                 });
             }
             NonFinite::Replace => {
-                let why = format!("{} samples of the {map} map are NaN or infinite", nans + infinities);
-                said.push(Assumption::new(What::Values, NonFinite::Replace, why, Certainty::Given));
+                let why = Reason::NotFinite { map, count: nans + infinities };
+                replaced.push(Assumption::new(What::Values, NonFinite::Replace, why, Certainty::Given));
             }
         }
     }
-    found.assumptions.extend(said);
+    found.assumptions.extend(replaced);
     Ok(())
 }
 
-/// How many samples of a map are no numbers, and the first of them.
+/// How many samples of a map are not finite, and the first of them.
 #[derive(Default)]
 struct NotFinite {
     first: Option<(usize, f32)>,
@@ -46,7 +49,7 @@ struct NotFinite {
 }
 
 impl NotFinite {
-    fn of(source: &Source) -> Self {
+    fn of(source: &StoredMap) -> Self {
         let mut count = Self::default();
         for channel in &source.raster.channels {
             let Samples::Floats(values) = channel else { continue };
@@ -59,7 +62,7 @@ impl NotFinite {
     }
 }
 
-/// `value`, or `instead` of NaN and infinity.
+/// `value`, or `instead` if it is NaN or infinite.
 pub fn finite(value: f64, instead: f64) -> f64 {
     if value.is_finite() { value } else { instead }
 }
@@ -67,12 +70,12 @@ pub fn finite(value: f64, instead: f64) -> f64 {
 /// Values that lay outside [0, 1], how many for each map, and how far.
 #[derive(Debug, Default)]
 pub struct Clamped {
-    maps: Vec<(&'static str, usize, f64, f64)>,
+    maps: Vec<(Role, usize, f64, f64)>,
 }
 
 impl Clamped {
     /// `value` in [0, 1].
-    pub fn unit(&mut self, value: f64, map: &'static str) -> f64 {
+    pub fn unit(&mut self, value: f64, map: Role) -> f64 {
         if (0.0..=1.0).contains(&value) {
             return value;
         }
@@ -85,10 +88,10 @@ impl Clamped {
         value.clamp(0.0, 1.0)
     }
 
-    /// Says what has been clamped.
-    pub fn say(self, found: &mut Found) {
+    /// Records what has been clamped.
+    pub fn record(self, found: &mut StoredMaterial) {
         for (map, count, low, high) in self.maps {
-            let why = format!("{count} samples of the {map} map lie outside, between {low} and {high}");
+            let why = Reason::OutsideUnit { map, count, low, high };
             let clamped = Assumption::new(What::Values, "clamped to [0, 1]", why, Certainty::Unsure);
             found.assumptions.push(clamped);
         }

@@ -1,22 +1,24 @@
-//! Diffuse and specular out of what the maps of a workflow say.
+//! Diffuse and specular from the maps of a workflow.
 
 use rayon::prelude::*;
 
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{Energy, ReadOptions, Reflectance};
 use crate::files::read::preset::Preset;
-use crate::files::read::stored::{Found, Source};
+use crate::files::read::reason::Reason;
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::math::real::Real;
 
-/// The reflectance of what is no metal where the map of its level is 1.
+/// The reflectance of dielectrics where the map of its level is 1.
 const MOST_DIELECTRIC: f64 = 0.08;
-/// The planes that say what is reflected, linear.
+
+/// The linear planes of the reflectance.
 pub struct Maps<T> {
     /// Diffuse, or the base colour where there is `metallic`.
     pub colour: [Vec<T>; 3],
     pub specular: Option<[Vec<T>; 3]>,
     pub metallic: Option<Vec<T>>,
-    /// How reflective what is no metal is.
+    /// The reflectance of dielectrics, 1 for 0.08.
     pub level: Option<Vec<T>>,
 }
 
@@ -25,7 +27,7 @@ impl<T: Real> Maps<T> {
     pub fn separated(
         self,
         size: [usize; 2],
-        found: &mut Found,
+        found: &mut StoredMaterial,
         options: &ReadOptions,
     ) -> ([Vec<T>; 3], [Vec<T>; 3]) {
         let Self { colour, specular, metallic, level } = self;
@@ -53,15 +55,14 @@ fn missing_specular(given: Option<Reflectance>) -> Assumption {
         Some(dielectric) => Assumption::given(What::Missing, format!("specular {dielectric}")),
         None => {
             let chosen = format!("specular {}", Reflectance::DIELECTRIC);
-            let why = "there is no specular map; it is that of most that is no metal";
-            Assumption::new(What::Missing, chosen, why, Certainty::Likely)
+            Assumption::new(What::Missing, chosen, Reason::NoSpecularMap, Certainty::Likely)
         }
     }
 }
 
-/// What a map of the specular level is taken for.
-pub fn level_assumed(source: &Source) -> Assumption {
-    let why = format!("so the principled model takes what {} is called, 0.04 at 0.5", source.file.display());
+/// What a map of the specular level is read as.
+pub fn level_assumed(source: &StoredMap) -> Assumption {
+    let why = Reason::SpecularLevel { file: source.file.clone() };
     Assumption::new(What::Specular, "0.08 times the level", why, Certainty::Likely)
 }
 
@@ -86,16 +87,16 @@ fn from_base<T: Real>(
     (base, specular)
 }
 
-/// d / (1 - s), at most 1, where it is said that our renderer takes d (1 - s), but that of these maps took d.
-pub fn undo_energy<T: Real>(
+/// d / (1 - s), at most 1, where the renderer that these maps were made for does not scale diffuse by (1 - s).
+pub fn unscale_diffuse<T: Real>(
     diffuse: &mut [Vec<T>; 3],
     specular: &[Vec<T>; 3],
-    found: &mut Found,
+    found: &mut StoredMaterial,
     options: &ReadOptions,
 ) {
-    let hint = found.hints.energy.take();
-    let said = options.energy.or(hint.as_ref().map(|h| h.0));
-    if said != Some(Energy::Plain) {
+    let hint = found.inferred.energy.take();
+    let energy = options.energy.or(hint.as_ref().map(|h| h.0));
+    if energy != Some(Energy::Unscaled) {
         return;
     }
     let mut clamped = 0;
@@ -104,13 +105,13 @@ pub fn undo_energy<T: Real>(
         clamped += usize::from(value > left);
         *d = if value >= left { T::of(f64::from(value > 0.0)) } else { T::of(value / left) };
     }
-    let chosen = "plain, d / (1 - s)";
+    let chosen = "diffuse not scaled by (1 - specular): d / (1 - s) is used";
     found.assumptions.push(match (options.energy, hint) {
         (None, Some((_, why, certainty))) => Assumption::new(What::Energy, chosen, why, certainty),
         _ => Assumption::given(What::Energy, chosen),
     });
     if clamped > 0 {
-        let why = format!("{clamped} samples reflect more than all light with their specular");
+        let why = Reason::MoreThanAllLight { count: clamped };
         found.assumptions.push(Assumption::new(What::Values, "diffuse 1", why, Certainty::Unsure));
     }
 }

@@ -1,4 +1,4 @@
-//! Maps that the user names one by one.
+//! Maps that are specified one by one.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -6,9 +6,9 @@ use std::str::FromStr;
 use super::layers;
 use super::names::Role;
 use crate::error::Error;
-use crate::files::read::assumption::AS_YOU_SAID;
 use crate::files::read::decode::{self, Layer};
-use crate::files::read::stored::Source;
+use crate::files::read::note::{Note, SpecifiedBy, Subject};
+use crate::files::read::stored::StoredMap;
 
 /// `normal=FILE`, or `roughness=FILE:g` for one channel or layer of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Binding {
     part: Option<String>,
 }
 
-/// The maps that can be named.
+/// The maps that can be specified.
 const ROLES: [(&str, Role); 6] = [
     ("normal", Role::Normal),
     ("diffuse", Role::Diffuse),
@@ -55,9 +55,9 @@ impl FromStr for Binding {
     }
 }
 
-/// What is said of a map that was named.
-pub(crate) fn note(role: Role, file: &Path) -> String {
-    format!("The {} map is {}, {AS_YOU_SAID}.", role.name(), file.display())
+/// The note of a map that the caller specified.
+pub(crate) fn note(map: Role, file: &Path) -> Note {
+    Note::MapSpecified { map, file: file.to_owned(), by: SpecifiedBy::Caller }
 }
 
 impl Binding {
@@ -69,17 +69,13 @@ impl Binding {
         &self.file
     }
 
-    pub(crate) fn note(&self) -> String {
-        note(self.role, &self.file)
-    }
-
-    /// The same with a file that is beside others in `folder`, where it has no path of its own.
+    /// The same, with a relative path of the file taken from `folder`.
     pub(crate) fn within(self, folder: &Path) -> Self {
         Self { file: folder.join(self.file), ..self }
     }
 
     /// The name of the map, and `FILE` or `FILE:PART` as seen from `folder`.
-    pub(crate) fn said_within(&self, folder: &Path) -> (&'static str, String) {
+    pub(crate) fn relative_to(&self, folder: &Path) -> (&'static str, String) {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         // The folder of a file that was named without one.
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
@@ -94,13 +90,13 @@ impl Binding {
     ///
     /// # Errors
     /// [`Error::Unreadable`], [`Error::BadImage`], also where the file has no such part.
-    pub(crate) fn load(&self) -> Result<(Role, Source), Error> {
-        let what = format!("{} map", self.role.name());
+    pub(crate) fn load(&self) -> Result<(Role, StoredMap), Error> {
+        let what = Subject::Map(self.role);
         let Some(part) = &self.part else {
-            let (raster, _) = decode::decode_one(&self.file, &what)?;
-            return Ok((self.role, Source { raster, file: self.file.clone(), part: String::new() }));
+            let (raster, _) = decode::decode_one(&self.file, what)?;
+            return Ok((self.role, StoredMap { raster, file: self.file.clone(), part: String::new() }));
         };
-        let mut all = decode::decode_file(&self.file, &what)?.layers;
+        let mut all = decode::decode_file(&self.file, what)?.layers;
         let channel = ["r", "g", "b", "a"].iter().position(|letter| letter == part);
         let raster = match (all.iter().position(|layer| layer.name == *part), channel) {
             (Some(place), _) => Some(all.swap_remove(place).raster),
@@ -118,6 +114,6 @@ impl Binding {
             problem: format!("{what}: expected the part {part}, found {}", super::directory::listing(&names)),
             remedy: "name a channel (r, g, b, a) that it has, or one of its layers".to_owned(),
         })?;
-        Ok((self.role, Source { raster, file: self.file.clone(), part: part.clone() }))
+        Ok((self.role, StoredMap { raster, file: self.file.clone(), part: part.clone() }))
     }
 }

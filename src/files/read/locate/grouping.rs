@@ -6,13 +6,14 @@ use std::path::Path;
 use super::directory::listing;
 use super::names::{Label, Role, words};
 use crate::error::Error;
+use crate::files::read::note::{Note, Unused};
 
 /// Extensions of the pictures that count, the better one of two last.
 const EXTENSIONS: [&str; 8] = ["jpg", "jpeg", "hdr", "png", "tif", "tiff", "npy", "exr"];
 /// The word of files that are maps by their numbers alone.
 pub const NUMBERED: &str = "0 to 3";
 
-/// A file that its name says to be a map.
+/// A file whose name names a map.
 #[derive(Clone, Debug)]
 pub struct Named {
     pub file: String,
@@ -32,9 +33,9 @@ impl Named {
 #[derive(Debug, Default)]
 pub struct Set {
     pub files: Vec<Named>,
-    /// Pictures whose names say nothing.
-    pub riddles: Vec<String>,
-    pub notes: Vec<String>,
+    /// Pictures whose names name no map.
+    pub unlabelled: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 type Groups = BTreeMap<Vec<String>, Vec<Named>>;
@@ -58,7 +59,7 @@ pub fn choose(
             Some(label) => {
                 groups.entry(label.stem.clone()).or_default().push(Named { file: name.clone(), label })
             }
-            None => set.riddles.push(name.clone()),
+            None => set.unlabelled.push(name.clone()),
         }
     }
     share(&mut groups);
@@ -67,9 +68,9 @@ pub fn choose(
     let mut complete: Vec<_> =
         groups.iter().filter(|(_, files)| is_whole(files)).map(|(s, _)| s.clone()).collect();
     if complete.is_empty() {
-        let numbered = numbered(&set.riddles);
+        let numbered = numbered(&set.unlabelled);
         complete = numbered.keys().cloned().collect();
-        set.riddles.retain(|name| !numbered.values().flatten().any(|n| n.file == *name));
+        set.unlabelled.retain(|name| !numbered.values().flatten().any(|n| n.file == *name));
         groups.extend(numbered);
     }
     let files = match (wanted, complete.as_slice()) {
@@ -164,19 +165,20 @@ fn best(
     path: &Path,
     mut files: Vec<Named>,
     bound: &[Role],
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> Result<Vec<Named>, Error> {
     files.sort_by_key(Named::rank);
     let mut chosen: Vec<Named> = Vec::new();
     for file in files.into_iter().rev() {
         if file.label.role == Role::Ignored || bound.contains(&file.label.role) {
-            notes.push(format!("{} is not used.", file.file));
+            notes.push(Note::Unused { what: file.file, why: Unused::NotAMap });
             continue;
         }
         match chosen.iter().find(|c| c.label.role == file.label.role) {
             None => chosen.push(file),
             Some(better) if better.rank() > file.rank() => {
-                notes.push(format!("{} is not used: {} is taken before it.", file.file, better.file));
+                let why = Unused::Inferior { to: better.file.clone() };
+                notes.push(Note::Unused { what: file.file, why });
             }
             Some(equal) => {
                 let (first, second) = if file.file < equal.file { (&file, equal) } else { (equal, &file) };

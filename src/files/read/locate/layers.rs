@@ -6,10 +6,12 @@ use super::names::{Label, Role};
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::decode::Layer;
+use crate::files::read::note::{Note, Unused};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
-use crate::files::read::stored::{Found, Pictures, Source};
+use crate::files::read::reason::StorageConvention;
+use crate::files::read::stored::{Pictures, StoredMap, StoredMaterial};
 
-/// Whether the name of a layer says which map it is.
+/// Whether the name of a layer names a map.
 pub fn is_named(layer: &Layer) -> bool {
     Label::of(&layer.name).is_some()
 }
@@ -19,7 +21,11 @@ pub fn name(layer: &Layer) -> String {
     if layer.name.is_empty() { "one without a name".to_owned() } else { format!("`{}`", layer.name) }
 }
 
-/// The maps among `layers`, by their names; others are left aside and named.
+fn unused(layer: &str) -> Note {
+    Note::Unused { what: format!("Layer {layer}"), why: Unused::NotAMap }
+}
+
+/// The maps among `layers`, by their names; others are reported as not used.
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where maps are missing, or one is there twice.
@@ -28,7 +34,7 @@ pub fn assemble(
     layers: Vec<Layer>,
     native: bool,
     options: &ReadOptions,
-) -> Result<Found, Error> {
+) -> Result<StoredMaterial, Error> {
     let names: Vec<String> = layers.iter().map(name).collect();
     let listed = format!("the layers {}", super::directory::listing(&names));
     let mut pictures = Pictures::default();
@@ -36,7 +42,7 @@ pub fn assemble(
     let mut floats = true;
     for Layer { name, raster } in layers {
         match Label::of(&name) {
-            Some(label) if label.role == Role::Ignored => notes.push(format!("Layer {name} is not used.")),
+            Some(label) if label.role == Role::Ignored => notes.push(unused(&name)),
             Some(label) if pictures.has(label.role) => {
                 return Err(Error::NotAMaterial {
                     path: path.to_owned(),
@@ -47,32 +53,31 @@ pub fn assemble(
             }
             Some(label) => {
                 floats &= raster.is_float();
-                pictures
-                    .add(label.role, Source { raster, file: path.to_owned(), part: format!("layer {name}") });
+                pictures.add(
+                    label.role,
+                    StoredMap { raster, file: path.to_owned(), part: format!("layer {name}") },
+                );
             }
-            None if name.is_empty() => {
-                notes.push("The unnamed layer is taken as a preview and ignored.".to_owned())
-            }
-            None => notes.push(format!("Layer {name} is not used.")),
+            None if name.is_empty() => notes.push(Note::Preview),
+            None => notes.push(unused(&name)),
         }
     }
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    let mut found = pictures.into_found(path, name, &listed, options)?;
-    let layout =
-        Assumption::new(What::Layout, "layers", "the names of the layers say the maps", Certainty::Sure);
+    let mut found = pictures.assemble(path, name, &listed, options)?;
+    let layout = Assumption::new(What::Layout, "layers", StorageConvention::LayerNames, Certainty::Sure);
     found.assumptions.insert(0, layout);
     notes.append(&mut found.notes);
     found.notes = notes;
     if floats {
         let (why, certainty) = if native {
-            ("svbrdf wrote the file", Certainty::Sure)
+            (StorageConvention::Native, Certainty::Sure)
         } else {
-            ("floats are linear", Certainty::Likely)
+            (StorageConvention::Floats, Certainty::Likely)
         };
-        found.hints.albedo = Some((Albedo::Linear, why.to_owned(), certainty));
-        found.hints.specular = found.hints.albedo.clone();
-        found.hints.roughness = Some((Roughness::R, why.to_owned(), certainty));
-        found.hints.normal_y = native.then(|| (NormalY::Up, why.to_owned(), certainty));
+        found.inferred.albedo = Some((Albedo::Linear, why.into(), certainty));
+        found.inferred.specular = found.inferred.albedo.clone();
+        found.inferred.roughness = Some((Roughness::R, why.into(), certainty));
+        found.inferred.normal_y = native.then(|| (NormalY::Up, why.into(), certainty));
     }
     Ok(found)
 }

@@ -7,3 +7,4 @@ pub mod grouping;
 pub mod layers;
 pub mod names;
 pub mod packed;
+pub mod picture;

@@ -5,14 +5,16 @@ use std::path::Path;
 
 use super::names::Role;
 use crate::error::Error;
-use crate::files::read::assumption::{AS_YOU_SAID, Assumption, Certainty, What};
+use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::grid::Grid;
 use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
+use crate::files::read::note::{Container, Note, SpecifiedBy};
 use crate::files::read::options::{Albedo, Energy, NormalY, ReadOptions, Roughness};
 use crate::files::read::order::Order;
 use crate::files::read::preset::Preset;
 use crate::files::read::raster::Raster;
-use crate::files::read::stored::{Found, Hint, Pictures, Source};
+use crate::files::read::reason::{Reason, StorageConvention};
+use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 
 /// Of a picture of diffuse alone.
 const ROUGHNESS: f32 = 0.5;
@@ -23,20 +25,20 @@ struct Choice {
     grid: Grid,
     order: Order,
     first: usize,
-    why: String,
+    why: Reason,
     certainty: Certainty,
 }
 
-/// Takes a packed image apart, or says that it is none.
+/// Takes a packed image apart.
 ///
 /// # Errors
-/// [`Error::NotAMaterial`] where it has not the shape of one, or no tile looks like normals in a shape that needs it.
+/// [`Error::NotPacked`] where it does not have the shape of one, or no tile looks like normals in a shape that needs it.
 pub fn unpack(
     path: &Path,
     image: &Raster,
     meaning: Option<&str>,
     options: &ReadOptions,
-) -> Result<Found, Error> {
+) -> Result<StoredMaterial, Error> {
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let own = meaning
         .and_then(|text| Own::of(text, image))
@@ -52,16 +54,16 @@ pub fn unpack(
     for (place, role) in order.roles().enumerate() {
         let number = first + place;
         let raster = image.crop(grid.corner(number, tile), tile);
-        pictures.add(role, Source { raster, file: path.to_owned(), part: format!("tile {}", number + 1) });
+        pictures.add(role, StoredMap { raster, file: path.to_owned(), part: format!("tile {}", number + 1) });
     }
     if !pictures.has(Role::Roughness) {
-        pictures.add(Role::Roughness, Source::constant(path, &[ROUGHNESS]));
+        pictures.add(Role::Roughness, StoredMap::constant(path, &[ROUGHNESS]));
     }
-    let mut found = pictures.into_found(path, name, "", options)?;
+    let mut found = pictures.assemble(path, name, "", options)?;
     if order == Order::D {
-        let why = "a picture of diffuse alone says nothing of it";
         let chosen = format!("roughness {ROUGHNESS}");
-        found.assumptions.push(Assumption::new(What::Missing, chosen, why, Certainty::Unsure));
+        let missing = Assumption::new(What::Missing, chosen, Reason::DiffuseAlone, Certainty::Unsure);
+        found.assumptions.push(missing);
     }
     match own {
         Some(own) => own.hint(&mut found),
@@ -71,20 +73,16 @@ pub fn unpack(
     found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
     let photos = if grid.rows == 1 || grid.columns == 1 { first } else { 0 };
     if photos > 0 {
-        let count = grid.count();
-        found.notes.push(format!("The first {photos} of {count} tiles are taken as photos and ignored."));
+        found.notes.push(Note::Photos { count: photos, tiles: grid.count() });
     }
     if is_stack(grid, order.len()) {
-        found.notes.push(format!(
-            "The image holds {} materials, one a row; this is number {} from 0. Another: --exemplar.",
-            grid.rows,
-            first / grid.columns
-        ));
+        let index = first / grid.columns;
+        found.notes.push(Note::Several { container: Container::Image, count: grid.rows, index });
     }
     Ok(found)
 }
 
-/// What this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy plain`.
+/// What this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy scaled`.
 struct Own {
     order: Order,
     diffuse: Albedo,
@@ -95,8 +93,6 @@ struct Own {
 }
 
 impl Own {
-    const WHY: &str = "svbrdf wrote the file, which says so";
-
     /// `None` where the text or the shape of the picture is none that this program writes.
     fn of(text: &str, image: &Raster) -> Option<Self> {
         let mut parts = text.split(", ");
@@ -115,39 +111,45 @@ impl Own {
 
     fn choice(&self) -> Choice {
         let grid = Grid { columns: self.order.len(), rows: 1 };
-        Choice { grid, order: self.order, first: 0, why: Self::WHY.to_owned(), certainty: Certainty::Sure }
+        Choice {
+            grid,
+            order: self.order,
+            first: 0,
+            why: StorageConvention::NativeText.into(),
+            certainty: Certainty::Sure,
+        }
     }
 
-    fn hint(&self, found: &mut Found) {
-        fn sure<T>(value: T) -> Hint<T> {
-            Some((value, Own::WHY.to_owned(), Certainty::Sure))
+    fn hint(&self, found: &mut StoredMaterial) {
+        fn sure<T>(value: T) -> Inferred<T> {
+            Some((value, StorageConvention::NativeText.into(), Certainty::Sure))
         }
-        found.hints.albedo = sure(self.diffuse);
-        found.hints.specular = sure(self.specular);
-        found.hints.roughness = sure(self.roughness);
-        found.hints.normal_y = sure(self.normal_y);
-        found.hints.energy = sure(self.energy);
+        found.inferred.albedo = sure(self.diffuse);
+        found.inferred.specular = sure(self.specular);
+        found.inferred.roughness = sure(self.roughness);
+        found.inferred.normal_y = sure(self.normal_y);
+        found.inferred.energy = sure(self.energy);
     }
 }
 
 /// What goes with an order, by those who use it. Nothing where none is known to.
-fn hint(found: &mut Found, order: Order, image: &Raster) {
+fn hint(found: &mut StoredMaterial, order: Order, image: &Raster) {
     let (albedo, roughness, why) = match order {
-        _ if image.is_float() => (Albedo::Linear, Roughness::R, "floats are linear"),
-        Order::NDRS => (Albedo::Linear, Roughness::R, "so do Deschaintre et al. store this order"),
+        _ if image.is_float() => (Albedo::Linear, Roughness::R, StorageConvention::Floats),
+        Order::NDRS => (Albedo::Linear, Roughness::R, StorageConvention::DeschaintreOrder),
         Order::DNRS | Order::DNR | Order::NDSR => {
-            (Albedo::Gamma22, Roughness::Gamma22, "so do MaterialGAN and its heirs store this order")
+            (Albedo::Gamma22, Roughness::Gamma22, StorageConvention::MaterialGanOrder)
         }
-        Order::DSRN => (Albedo::Gamma22, Roughness::R, "so does MatFusion store this order"),
-        Order::IBRM => (Albedo::Srgb, Roughness::R, "so does svbrdf-evaluation seem to store this order"),
+        Order::DSRN => (Albedo::Gamma22, Roughness::R, StorageConvention::MatFusionOrder),
+        Order::IBRM => (Albedo::Srgb, Roughness::R, StorageConvention::SvbrdfEvaluationOrder),
         _ => return,
     };
     let certainty = if order == Order::IBRM { Certainty::Unsure } else { Certainty::Likely };
-    found.hints.albedo = Some((albedo, why.to_owned(), certainty));
-    found.hints.specular = found.hints.albedo.clone();
-    found.hints.roughness = Some((roughness, why.to_owned(), Certainty::Likely));
-    let why = "so do all who are known to pack maps";
-    found.hints.normal_y = Some((NormalY::Up, why.to_owned(), Certainty::Likely));
+    found.inferred.albedo = Some((albedo, why.into(), certainty));
+    found.inferred.specular = found.inferred.albedo.clone();
+    found.inferred.roughness = Some((roughness, why.into(), Certainty::Likely));
+    let why = StorageConvention::PackedNormals;
+    found.inferred.normal_y = Some((NormalY::Up, why.into(), Certainty::Likely));
 }
 
 /// Every way to divide the image into square tiles, in the order in which they are tried; or the one that was said.
@@ -174,10 +176,16 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
     if let Some(order) = options.order {
         if order.len() == 1 && options.grid.is_none() {
             let grid = Grid { columns: 1, rows: 1 };
-            return Some(placed(grid, order, options, AS_YOU_SAID.to_owned(), Certainty::Given));
+            return Some(placed(
+                grid,
+                order,
+                options,
+                Reason::Specified(SpecifiedBy::Caller),
+                Certainty::Given,
+            ));
         }
         let grid = *grids.iter().find(|g| g.count() >= order.len())?;
-        return Some(placed(grid, order, options, AS_YOU_SAID.to_owned(), Certainty::Given));
+        return Some(placed(grid, order, options, Reason::Specified(SpecifiedBy::Caller), Certainty::Given));
     }
     if let Some(choice) = grids.iter().find_map(|&grid| recognized(image, grid, options)) {
         return Some(choice);
@@ -191,13 +199,13 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
     }
     let none = scores.iter().all(|&score| score < NORMAL_AT_LEAST);
     let (order, why) = match options.preset.and_then(Preset::order) {
-        Some(order) => (order, "no tile tells; it is the order of the preset"),
+        Some(order) => (order, Reason::PresetOrder),
         None if none && grid.columns == 4 && name.to_lowercase().contains("svbrdf") => {
-            (Order::IBRM, "no tile looks like normals, and svbrdf-evaluation gives such names")
+            (Order::IBRM, Reason::SvbrdfEvaluationName)
         }
-        None => (Order::NDRS, "no tile looks like normals more than all others; this is the usual order"),
+        None => (Order::NDRS, Reason::UsualOrder),
     };
-    Some(placed(grid, order, options, why.to_owned(), Certainty::Unsure))
+    Some(placed(grid, order, options, why, Certainty::Unsure))
 }
 
 /// Whether every row of `grid` is a material of `count` tiles.
@@ -206,7 +214,7 @@ fn is_stack(grid: Grid, count: usize) -> bool {
 }
 
 /// `order` in `grid`: in a strip at its end, after the photos; in a stack in the row that the user chose.
-fn placed(grid: Grid, order: Order, options: &ReadOptions, why: String, certainty: Certainty) -> Choice {
+fn placed(grid: Grid, order: Order, options: &ReadOptions, why: Reason, certainty: Certainty) -> Choice {
     let end = if is_stack(grid, order.len()) {
         (options.exemplar.unwrap_or(0).min(grid.rows - 1) + 1) * grid.columns
     } else {
@@ -250,31 +258,11 @@ fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choic
         (5.., place) if place + 4 == count => Order::NDRS,
         _ => return None,
     };
-    let why = format!(
-        "tile {} looks like normals ({:.0} % of its pixels), the next best {:.0} %",
-        place + 1,
-        100.0 * best,
-        100.0 * second
-    );
+    let why = Reason::NormalTile { number: place + 1, share: best, next: second };
     Some(Choice { grid, order, first: start + count - order.len(), why, certainty: Certainty::Likely })
 }
 
 fn refusal(path: &Path, image: &Raster, options: &ReadOptions) -> Error {
-    let found = format!("{} x {} pixels", image.width, image.height);
-    let (expected, found, remedy) = match options.grid {
-        Some(grid) => (
-            format!("a packed image of {grid} tiles with room for the order"),
-            found,
-            "say another --grid, or leave it out",
-        ),
-        None => (
-            "a packed strip of square tiles, any photos and then normal | diffuse | roughness | specular, \
-            4 or more times as wide as high, or another grid in which one tile looks like normals"
-                .to_owned(),
-            found + " without one",
-            "correct the strip, say its --order or its --grid (--order d takes all of it as diffuse), or give a folder \
-             or prefix of one file a map",
-        ),
-    };
-    Error::NotAMaterial { path: path.to_owned(), expected, found, remedy: remedy.to_owned() }
+    let grid = options.grid.map(|grid| [grid.columns, grid.rows]);
+    Error::NotPacked { path: path.to_owned(), size: image.size(), grid }
 }

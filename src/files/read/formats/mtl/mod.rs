@@ -10,8 +10,10 @@ use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::decode;
 use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score};
 use crate::files::read::locate::names::{Label, Role};
+use crate::files::read::note::{Container, Note, Subject, Unused};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
-use crate::files::read::stored::{Found, Hint, Pictures, Source};
+use crate::files::read::reason::{Reason, StorageConvention};
+use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 use statement::{Entry, Texture, entries, is_picture};
 
@@ -23,7 +25,7 @@ const BUMPS: [&str; 2] = ["map_bump", "bump"];
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Found, Error> {
+pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let text = String::from_utf8_lossy(&bytes);
     let all = entries(&text);
@@ -35,11 +37,11 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         remedy: "export the model with its materials".to_owned(),
     })?;
     if !entry.lines.iter().any(|(key, _)| is_picture(key)) {
-        return Err(Error::NotAMaterial {
+        return Err(Error::NoTextures {
             path: path.to_owned(),
-            expected: "a material with textures".to_owned(),
-            found: format!("{} (number {index} of {}) without one", entry.name, all.len()),
-            remedy: "choose another with --exemplar".to_owned(),
+            name: entry.name.clone(),
+            exemplar: index,
+            count: all.len(),
         });
     }
     progress.begin(6);
@@ -54,42 +56,36 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<F
         notes: Vec::new(),
     };
     let pictures = reading.pictures()?;
-    reading.say_unused();
+    reading.note_unused();
     let Reading { assumptions, notes, spaces, .. } = reading;
-    let mut found = pictures.into_found(path, entry.name.clone(), "the statements of the .mtl", options)?;
+    let mut found = pictures.assemble(path, entry.name.clone(), "the statements of the .mtl", options)?;
     found.files.push(path.to_owned());
     found.files.sort();
     found.files.dedup();
-    let space = |map: &str| spaces.iter().find(|(whose, _)| *whose == map).map(|(_, space)| *space);
+    let space = |map: Role| spaces.iter().find(|(whose, _)| *whose == map).map(|(_, space)| *space);
     let hint = |space| {
-        let why = if space == Albedo::Srgb {
-            "colours beside an .mtl are sRGB by custom"
-        } else {
-            "floats are linear"
-        };
-        (space, why.to_owned(), Certainty::Likely)
+        let why =
+            if space == Albedo::Srgb { StorageConvention::MtlColours } else { StorageConvention::Floats };
+        (space, why.into(), Certainty::Likely)
     };
-    found.hints.albedo = space("diffuse").map(hint);
-    found.hints.specular = space("specular").map(hint);
-    found.hints.normal_y = found.normal.as_ref().and_then(|source| named_y(&source.file));
-    let layout = Assumption::new(What::Layout, "MTL", "the file names its textures", Certainty::Sure);
+    found.inferred.albedo = space(Role::Diffuse).map(hint);
+    found.inferred.specular = space(Role::Specular).map(hint);
+    found.inferred.normal_y = found.normal.as_ref().and_then(|source| named_y(&source.file));
+    let layout = Assumption::new(What::Layout, "MTL", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);
     found.assumptions.extend(assumptions);
     found.notes.splice(0..0, notes);
     if all.len() > 1 {
-        let count = all.len();
-        found.notes.push(format!(
-            "The .mtl holds {count} materials; this is number {index} from 0. Another: --exemplar."
-        ));
+        found.notes.push(Note::Several { container: Container::Mtl, count: all.len(), index });
     }
     Ok(found)
 }
 
-/// What the name of a normal map says of its y.
-fn named_y(file: &Path) -> Hint<NormalY> {
-    let name = file.file_name()?.to_string_lossy();
+/// What the name of a normal map tells about its y.
+fn named_y(file: &Path) -> Inferred<NormalY> {
+    let name = file.file_name()?.to_string_lossy().into_owned();
     let y = Label::of(&file.file_stem()?.to_string_lossy())?.normal_y?;
-    Some((y, format!("{name} is called so"), Certainty::Sure))
+    Some((y, Reason::FileName { file: name }, Certainty::Sure))
 }
 
 /// The material `entry` while it is read.
@@ -101,31 +97,31 @@ struct Reading<'a> {
     /// Keywords that have been made use of.
     used: Vec<&'a str>,
     /// How each map of colours is stored.
-    spaces: Vec<(&'static str, Albedo)>,
+    spaces: Vec<(Role, Albedo)>,
     assumptions: Vec<Assumption>,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 impl<'a> Reading<'a> {
     fn pictures(&mut self) -> Result<Pictures, Error> {
         let mut pictures = Pictures::default();
-        let colour = self.colour("map_kd", "kd", "diffuse")?;
+        let colour = self.colour("map_kd", "kd", Role::Diffuse)?;
         let packed = self.is_packed();
-        let roughness = self.value("map_pr", "pr", "roughness")?;
-        let specular = if packed { self.load(&["map_ks"], "packed roughness and metallic")? } else { None };
+        let roughness = self.value("map_pr", "pr", Role::Roughness)?;
+        let specular = if packed { self.load(&["map_ks"], Role::OcclusionRoughnessMetallic)? } else { None };
         let metallic = if self.has("map_pm") || !self.has("map_ks") {
-            self.value("map_pm", "pm", "metallic")?
+            self.value("map_pm", "pm", Role::Metallic)?
         } else {
             None
         };
         let is_metallic = packed || metallic.is_some();
         if let Some(packed) = specular {
-            let why = "nvdiffrec writes it so beside map_Kd";
+            let why = StorageConvention::NvdiffrecPacking;
             let layout = "map_Ks is occlusion | roughness | metallic";
             self.assumptions.push(Assumption::new(What::Layout, layout, why, Certainty::Likely));
             pictures.add(Role::OcclusionRoughnessMetallic, packed);
         } else if !is_metallic && self.has("map_ks") {
-            let specular = self.colour("map_ks", "ks", "specular")?;
+            let specular = self.colour("map_ks", "ks", Role::Specular)?;
             specular.into_iter().for_each(|source| pictures.add(Role::Specular, source));
         }
         if let Some(metallic) = metallic {
@@ -185,90 +181,86 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The factor beside a picture of colours, said.
-    fn beside(&mut self, key: &str, what: &str) -> Result<[f32; 3], Error> {
+    /// The factor beside a picture of colours, recorded.
+    fn beside(&mut self, key: &str, map: Role) -> Result<[f32; 3], Error> {
         const ALONE: [f32; 3] = [1.0; 3];
         let Some(factor) = self.factor(key)?.filter(|f| *f != ALONE) else { return Ok(ALONE) };
         if factor == [0.0; 3] {
-            self.notes.push(format!("{key} 0 is not used: nothing would be left of the {what} map."));
+            let what = format!("{key} 0");
+            self.notes.push(Note::Unused { what, why: Unused::FactorZero { map } });
             return Ok(ALONE);
         }
         if self.of_blender {
-            self.notes.push(format!(
-                "{key} {factor:?} is not used: Blender, which wrote it, takes the picture alone."
-            ));
+            self.notes.push(Note::Unused { what: format!("{key} {factor:?}"), why: Unused::Blender });
             return Ok(ALONE);
         }
-        let chosen = format!("{what} times {factor:?}");
-        let why = format!(
-            "{key} is a factor by the definition of MTL; some programs take the picture alone (--map)"
-        );
+        let chosen = format!("{} times {factor:?}", map.name());
+        let why = Reason::MtlFactor { key: key.to_owned() };
         self.assumptions.push(Assumption::new(What::Values, chosen, why, Certainty::Unsure));
         Ok(factor)
     }
 
-    fn colour(&mut self, map: &str, key: &str, what: &'static str) -> Result<Option<Source>, Error> {
-        match self.load(&[map], what)? {
+    fn colour(&mut self, map: &str, key: &str, role: Role) -> Result<Option<StoredMap>, Error> {
+        match self.load(&[map], role)? {
             Some(source) => {
                 let space = if source.raster.is_float() { Albedo::Linear } else { Albedo::Srgb };
-                self.spaces.push((what, space));
-                Ok(Some(source.times(self.beside(key, what)?, space)))
+                self.spaces.push((role, space));
+                Ok(Some(source.times(self.beside(key, role)?, space)))
             }
             None => {
-                self.spaces.push((what, Albedo::Srgb));
-                let white = Source::constant(self.path, &[1.0; 3]);
+                self.spaces.push((role, Albedo::Srgb));
+                let white = StoredMap::constant(self.path, &[1.0; 3]);
                 Ok(self.factor(key)?.map(|factor| white.times(factor, Albedo::Srgb)))
             }
         }
     }
 
     /// A picture, or a value where there is none.
-    fn value(&mut self, map: &str, key: &str, what: &str) -> Result<Option<Source>, Error> {
-        match self.load(&[map], what)? {
+    fn value(&mut self, map: &str, key: &str, role: Role) -> Result<Option<StoredMap>, Error> {
+        match self.load(&[map], role)? {
             Some(source) => Ok(Some(source)),
-            None => Ok(self.factor(key)?.map(|factor| Source::constant(self.path, &factor[..1]))),
+            None => Ok(self.factor(key)?.map(|factor| StoredMap::constant(self.path, &factor[..1]))),
         }
     }
 
     /// The roughness of the highlight that Blinn and Phong's exponent `Ns` makes.
-    fn by_exponent(&mut self) -> Option<Source> {
+    fn by_exponent(&mut self) -> Option<StoredMap> {
         let exponent: f32 = self.line(&["ns"])?.parse().ok().filter(|n: &f32| n.is_finite() && *n >= 0.0)?;
         let roughness = (2.0 / (exponent + 2.0)).powf(0.25);
-        let why = format!(
-            "there is neither map_Pr nor Pr; the highlight of Ns {exponent} is as wide: r = (2 / (Ns + 2))^(1/4)"
-        );
+        let why = Reason::Exponent(exponent);
         let chosen = format!("roughness {roughness:.3}");
         self.assumptions.push(Assumption::new(What::Missing, chosen, why, Certainty::Unsure));
-        Some(Source::constant(self.path, &[roughness]))
+        Some(StoredMap::constant(self.path, &[roughness]))
     }
 
-    fn normal(&mut self) -> Result<Option<Source>, Error> {
-        if let Some(normal) = self.load(&NORMALS, "normal")? {
+    fn normal(&mut self) -> Result<Option<StoredMap>, Error> {
+        if let Some(normal) = self.load(&NORMALS, Role::Normal)? {
             return Ok(Some(normal));
         }
-        let Some(bump) = self.load(&BUMPS, "normal")? else { return Ok(None) };
+        let Some(bump) = self.load(&BUMPS, Role::Normal)? else { return Ok(None) };
         if bump.raster.is_float() || normal_score(&bump.raster) >= NORMAL_AT_LEAST {
             return Ok(Some(bump));
         }
-        self.notes.push(format!("{} is not used: it holds heights, not normals.", bump.file.display()));
+        let what = bump.file.display().to_string();
+        self.notes.push(Note::Unused { what, why: Unused::Heights });
         Ok(None)
     }
 
     /// The picture that the first of the statements `keys` names.
-    fn load(&mut self, keys: &[&str], what: &str) -> Result<Option<Source>, Error> {
+    fn load(&mut self, keys: &[&str], map: Role) -> Result<Option<StoredMap>, Error> {
         self.progress.step()?;
         let Some(rest) = self.line(keys) else { return Ok(None) };
         let texture = Texture::of(rest);
         let file = texture.path(self.path);
         let Texture { file: said, channel, unused } = texture;
         if file != self.path.with_file_name(&said) {
-            self.notes.push(format!("{said} is not there; {} is taken.", file.display()));
+            self.notes.push(Note::Substituted { file: said, by: file.clone() });
         }
-        let (mut raster, notes) = decode::decode_one(&file, &format!("{what} map"))?;
-        self.notes.push(format!("The {what} map is {}.", file.display()));
+        let (mut raster, notes) = decode::decode_one(&file, Subject::Map(map))?;
+        self.notes.push(Note::MapFile { map, file: file.display().to_string() });
         self.notes.extend(notes);
         if !unused.is_empty() {
-            self.notes.push(format!("Of the {what} map {} is not used.", unused.join(", ")));
+            self.notes.push(Note::OptionsUnused { map, options: unused });
         }
         match channel {
             Some(3) => {
@@ -277,10 +269,10 @@ impl<'a> Reading<'a> {
             Some(channel) => raster = raster.channel(channel),
             None => {}
         }
-        Ok(Some(Source { raster, file, part: String::new() }))
+        Ok(Some(StoredMap { raster, file, part: String::new() }))
     }
 
-    fn say_unused(&mut self) {
+    fn note_unused(&mut self) {
         let (mut pictures, mut others): (Vec<_>, Vec<_>) = (Vec::new(), Vec::new());
         for (key, rest) in self.entry.lines.iter().filter(|(key, _)| !self.used.contains(&key.as_str())) {
             if is_picture(key) {
@@ -289,9 +281,10 @@ impl<'a> Reading<'a> {
                 others.push(format!("{key} {rest}"))
             }
         }
-        self.notes.extend(pictures.into_iter().map(|picture| format!("{picture} is not used.")));
+        let unused = |what| Note::Unused { what, why: Unused::NotAMap };
+        self.notes.extend(pictures.into_iter().map(unused));
         if !others.is_empty() {
-            self.notes.push(format!("Of the .mtl is not used: {}.", others.join(", ")));
+            self.notes.push(Note::StatementsUnused(others));
         }
     }
 }

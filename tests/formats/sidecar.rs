@@ -1,6 +1,6 @@
 //! What is kept with a material, in a file beside it.
 
-use svbrdf::files::read::{Binding, Kept, read_as, read_bound};
+use svbrdf::files::read::{Binding, Sidecar, read_as, read_bound};
 
 use super::*;
 
@@ -12,8 +12,8 @@ fn glossy() -> (tempfile::TempDir, std::path::PathBuf) {
     (folder, path)
 }
 
-fn why<T>(read: &Read<T>, what: What) -> &str {
-    read.assumptions.iter().find(|a| a.what == what).map_or("", |a| &a.why)
+fn why<T>(read: &Read<T>, what: What) -> String {
+    read.assumptions.iter().find(|a| a.what == what).map_or(String::new(), |a| a.why.to_string())
 }
 
 #[test]
@@ -25,18 +25,21 @@ fn what_is_kept_beside_a_file_holds_until_something_else_is_said() {
         assert_same(&read, EIGHT_BITS);
         assert_eq!(read.material.name(), "a");
         assert_eq!(certainty(&read, What::Roughness), Some(Certainty::Given));
-        assert_eq!(why(&read, What::Roughness), "as a.svbrdf.json says");
+        assert_eq!(why(&read, What::Roughness), "as saved in a.svbrdf.json");
         assert!(read.files.iter().any(|file| file.ends_with("a.svbrdf.json")), "{:?}", read.files);
     }
     let other = open_as(&path, &ReadOptions { roughness: Some(Roughness::R), ..ReadOptions::AUTO });
     assert!(worst(&other.material) > 0.1);
-    assert_eq!(why(&other, What::Roughness), "as you said");
+    assert_eq!(why(&other, What::Roughness), "as specified");
     // A preset says it, too.
     let other = open_as(&path, &ReadOptions { preset: Some(Preset::Deschaintre), ..ReadOptions::AUTO });
-    assert_eq!((chosen(&other, What::Roughness), why(&other, What::Roughness)), ("r", "as you said"));
+    assert_eq!(
+        (chosen(&other, What::Roughness), why(&other, What::Roughness).as_str()),
+        ("r", "as specified")
+    );
     let alone = read_as::<f64>(&path, &ReadOptions::AUTO, &Progress::default()).unwrap();
     assert!(worst(&alone.material) > 0.1);
-    assert_eq!(alone.kept.roughness, Some(Roughness::Gloss));
+    assert_eq!(alone.saved.roughness, Some(Roughness::Gloss));
 }
 
 #[test]
@@ -47,7 +50,7 @@ fn everything_that_can_be_said_can_be_kept() {
         albedo: Some(Albedo::Linear),
         specular: Some(Albedo::Gamma22),
         normal_y: Some(NormalY::Down),
-        normal_code: Some("xy".parse().unwrap()),
+        normal_encoding: Some("xy".parse().unwrap()),
         roughness: Some(Roughness::Gloss),
         workflow: Some("specular".parse().unwrap()),
         dielectric: Some("0.05".parse().unwrap()),
@@ -60,9 +63,9 @@ fn everything_that_can_be_said_can_be_kept() {
     };
     let text = |name: &str| format!("{name}={}", folder.path().join("a b.png").display());
     let bindings: Vec<Binding> = ["normal", "specular"].map(|map| (text(map) + ":r").parse().unwrap()).into();
-    let kept = Kept { options, bindings };
-    let place = kept.write(&path).unwrap();
-    assert_eq!(Kept::of(&path).unwrap(), kept);
+    let kept = Sidecar { options, bindings };
+    let place = kept.save(&path).unwrap();
+    assert_eq!(Sidecar::load(&path).unwrap(), kept);
     let written = std::fs::read_to_string(place).unwrap();
     for line in
         [r#""dielectric-f0": 0.05"#, r#""grid": "4x1""#, r#""normal": "a b.png:r""#, r#""flip-v": true"#]
@@ -71,10 +74,10 @@ fn everything_that_can_be_said_can_be_kept() {
     }
     // The name of a map alone does not make it one.
     std::fs::copy(&path, folder.path().join("metal.png")).unwrap();
-    assert!(Kept::place(&folder.path().join("metal.png")).ends_with("metal.svbrdf.json"));
-    Kept::default().write(&path).unwrap();
-    assert_eq!(std::fs::read_to_string(Kept::place(&path)).unwrap(), "{}\n");
-    assert_eq!(Kept::of(&path).unwrap(), Kept::default());
+    assert!(Sidecar::path_for(&folder.path().join("metal.png")).ends_with("metal.svbrdf.json"));
+    Sidecar::default().save(&path).unwrap();
+    assert_eq!(std::fs::read_to_string(Sidecar::path_for(&path)).unwrap(), "{}\n");
+    assert_eq!(Sidecar::load(&path).unwrap(), Sidecar::default());
 }
 
 #[test]
@@ -86,14 +89,18 @@ fn maps_can_be_kept_in_a_folder() {
     for opened in ["", "svbrdf.json", "normal.png"] {
         let read = open(&folder.path().join(opened));
         assert_same(&read, EIGHT_BITS);
-        let note = "other.png, as svbrdf.json says";
-        assert!(read.notes.iter().any(|n| n.contains(note)), "{opened}: {:?}", read.notes);
+        let note = "other.png, as saved in svbrdf.json";
+        assert!(read.notes.iter().any(|n| n.to_string().contains(note)), "{opened}: {:?}", read.notes);
     }
-    assert_eq!(Kept::place(&folder.path().join("normal.png")), folder.path().join("svbrdf.json"));
-    assert_eq!(Kept::place(&folder.path().join("other.png")), folder.path().join("other.svbrdf.json"));
+    assert_eq!(Sidecar::path_for(&folder.path().join("normal.png")), folder.path().join("svbrdf.json"));
+    assert_eq!(Sidecar::path_for(&folder.path().join("other.png")), folder.path().join("other.svbrdf.json"));
     let said = format!("roughness={}", folder.path().join("normal.png").display()).parse().unwrap();
     let read = read_bound::<f64>(folder.path(), &[said], &ReadOptions::AUTO, &Progress::default()).unwrap();
-    assert!(read.notes.iter().any(|n| n.contains("normal.png, as you said")), "{:?}", read.notes);
+    assert!(
+        read.notes.iter().any(|n| n.to_string().contains("normal.png, as specified")),
+        "{:?}",
+        read.notes
+    );
 }
 
 #[test]
@@ -104,7 +111,7 @@ fn what_is_kept_for_a_prefix_is_beside_its_files() {
     for opened in ["w", "w_", "w.svbrdf.json"] {
         let read = open(&folder.path().join(opened));
         assert_same(&read, EIGHT_BITS);
-        assert_eq!(why(&read, What::Roughness), "as w.svbrdf.json says", "{opened}");
+        assert_eq!(why(&read, What::Roughness), "as saved in w.svbrdf.json", "{opened}");
     }
 }
 
@@ -127,13 +134,13 @@ fn what_is_kept_wrongly_is_refused_with_its_place() {
         std::fs::write(&place, text).unwrap();
         let message = refusal(&path);
         assert!(
-            message.contains("a.svbrdf.json does not say how") && message.contains(expected),
+            message.contains("a.svbrdf.json does not specify how") && message.contains(expected),
             "{message}"
         );
         assert!(message.contains("dielectric-f0, energy"), "the known keys: {message}");
     }
     std::fs::write(&place, r#"{"maps": {"normal": "none.png"}}"#).unwrap();
-    assert!(refusal(&path).contains("the normal map") && refusal(&path).contains("none.png is not there"));
+    assert!(refusal(&path).contains("the normal map") && refusal(&path).contains("none.png does not exist"));
     std::fs::write(&place, "{}").unwrap();
     save(folder.path(), "a.jpg", &packed("NDRS", 4, linear), ImageFormat::Jpeg);
     assert!(refusal(&place).contains("expected one material beside it"), "{}", refusal(&place));

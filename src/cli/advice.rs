@@ -1,0 +1,43 @@
+//! Which options of the command line help: the library names none.
+
+use svbrdf::error::{Error, OutputProblem};
+use svbrdf::files::read::{Assumption, Note, Reason, Subject};
+
+/// What to do about an error on the command line.
+pub fn of_error(error: &Error) -> Option<&'static str> {
+    Some(match error {
+        Error::Guessed { .. } => "specify it by an option, or leave out --strict",
+        Error::SizesDiffer { .. } => "--resize-to gt, pred or a width brings materials to one size",
+        Error::TooLarge { .. } => "give a smaller width to --resize-to",
+        Error::NotFinite { .. } => "--non-finite replace puts other numbers in their place",
+        Error::NoSuchExemplar { .. } | Error::NoTextures { .. } => "--exemplar K chooses a material",
+        Error::NotPacked { grid: Some(_), .. } => "specify another --grid, or leave it out",
+        Error::NotPacked { grid: None, .. } => {
+            "--order and --grid specify the tiles; --order d reads the whole picture as diffuse"
+        }
+        Error::UnsupportedOutput { problem: OutputProblem::LayeredPreset, .. } => "leave out --like",
+        Error::UnsupportedOutput { problem: OutputProblem::FolderPreset, .. } => {
+            "--like materialgan or gltf, or no --like, writes a folder"
+        }
+        _ => return None,
+    })
+}
+
+/// A note with the option that would change what it reports.
+pub fn with_option(note: &Note) -> String {
+    match note {
+        Note::Several { .. } => format!("{note} Another: --exemplar."),
+        Note::LinearGamma(Subject::Map(_) | Subject::Material | Subject::Picture) => {
+            format!("{note} --albedo linear uses it.")
+        }
+        _ => note.to_string(),
+    }
+}
+
+/// An assumption with the option that would change it, where its name alone does not tell.
+pub fn assumption_with_option(assumption: &Assumption) -> String {
+    match assumption.why {
+        Reason::MtlFactor { .. } => format!("{assumption}; --map specifies the picture alone"),
+        _ => assumption.to_string(),
+    }
+}

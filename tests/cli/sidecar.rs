@@ -1,0 +1,53 @@
+//! Options that are saved in a sidecar file.
+
+use svbrdf::files::read::ReadOptions;
+use svbrdf::progress::Progress;
+
+use super::*;
+
+#[test]
+fn saved_options_hold_for_every_command_until_others_are_specified() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    let report = succeed(folder.path(), "info a.png --roughness gloss --exemplar 0 --save");
+    assert!(report.contains("roughness: gloss: as specified"), "{report}");
+    let saved: Value = serde_json::from_str(&std::fs::read_to_string(of("a.svbrdf.json")).unwrap()).unwrap();
+    assert_eq!(saved, json!({"roughness": "gloss", "exemplar": 0}));
+
+    let read = succeed(folder.path(), "info a.png");
+    assert!(read.contains("roughness: gloss: as saved in a.svbrdf.json"), "{read}");
+    assert!(read.contains("a.svbrdf.json specifies how the material is read"), "{read}");
+    assert_eq!(succeed(folder.path(), "info a.svbrdf.json"), read);
+    // The same material as with the option, and another one than without.
+    std::fs::copy(of("a.png"), of("c.png")).unwrap();
+    let converted = |args: &str| {
+        let _ = std::fs::remove_file(of("out.exr"));
+        succeed(folder.path(), &format!("convert {args} out.exr --depth float"));
+        let read = svbrdf::files::read::read::<f32>(&of("out.exr"), &ReadOptions::AUTO, &Progress::default());
+        read.unwrap().material.planes().clone()
+    };
+    let saved = converted("a.png");
+    assert_eq!(saved, converted("c.png --roughness gloss"));
+    assert_ne!(saved, converted("c.png"));
+    assert_ne!(saved, converted("a.png --roughness r"));
+    RgbImage::from_pixel(8, 8, Rgb([99; 3])).save(of("r.png")).unwrap();
+    // Saved again, new options are added and specified ones replaced.
+    let again = "info a.png --roughness alpha --map roughness=r.png --grid 4x1 --save";
+    assert!(succeed(folder.path(), again).contains("roughness: alpha: as specified"));
+    let saved: Value = serde_json::from_str(&std::fs::read_to_string(of("a.svbrdf.json")).unwrap()).unwrap();
+    assert_eq!(
+        saved,
+        json!({"roughness": "alpha", "exemplar": 0, "grid": "4x1", "maps": {"roughness": "r.png"}})
+    );
+}
+
+#[test]
+fn nothing_is_saved_of_options_that_are_refused() {
+    let folder = folder();
+    fail(folder.path(), "info a.png --grid 5x1 --save", 1);
+    std::fs::write(folder.path().join("a.svbrdf.json"), r#"{"albdo": "srgb"}"#).unwrap();
+    let message = fail(folder.path(), "info a.png", 1);
+    assert!(message.contains("unknown key `albdo`"), "{message}");
+    fail(folder.path(), "info a.png --save --albedo srgb", 1);
+    assert!(std::fs::read_to_string(folder.path().join("a.svbrdf.json")).unwrap().contains("albdo"));
+}
