@@ -9,12 +9,12 @@
 mod support;
 
 use divan::counter::ItemsCount;
+use glam::Vec3;
 use svbrdf::gpu::{
     DisplayMode, DisplayParams, Encoding, Gpu, Losses, MaterialTextures, ShadeParams, Shaded, Shading,
 };
 use svbrdf::loss::{Comparison, Request, Sampling};
 use svbrdf::material::Material;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::picture::camera::Camera;
@@ -102,12 +102,12 @@ fn shade(bencher: divan::Bencher<'_, '_>, side: usize) {
 /// The whole material, a texel a pixel, seen from above.
 fn display_params() -> DisplayParams {
     let camera = Camera {
-        origin: Vec3::new(0.0, 0.0, 1.0),
+        origin: Vec3::Z,
         origin_right: Vec3::new(1.0, 0.0, 0.0),
         origin_up: Vec3::new(0.0, 1.0, 0.0),
-        direction: Vec3::new(0.0, 0.0, -1.0),
-        direction_right: Vec3::zero(),
-        direction_up: Vec3::zero(),
+        direction: Vec3::NEG_Z,
+        direction_right: Vec3::ZERO,
+        direction_up: Vec3::ZERO,
     };
     DisplayParams {
         camera,

@@ -1,8 +1,8 @@
 //! Algorithm 3 at 200 single points against numbers that were computed elsewhere with 60 digits.
 
+use glam::DVec3;
 use serde::Deserialize;
-use svbrdf::math::real::Real;
-use svbrdf::math::vec3::Vec3;
+use svbrdf::math::real::{Real, Vec3, Vector};
 use svbrdf::model::brdf::{self, Model, Texel};
 use svbrdf::model::convention::{Convention, GUIDED_2020, MULTI_IMAGE_2019, PRINTED};
 
@@ -62,7 +62,7 @@ fn rows() -> Vec<Row> {
 impl Row {
     fn texel<T: Real>(&self) -> Texel<T> {
         Texel {
-            normal: Vec3::from(self.n).normalize().cast(),
+            normal: DVec3::from(self.n).normalize().cast(),
             diffuse: self.d.map(T::of),
             specular: self.s.map(T::of),
             roughness: T::of(self.r),
@@ -70,7 +70,7 @@ impl Row {
     }
 
     fn directions<T: Real>(&self) -> [Vec3<T>; 2] {
-        [self.l, self.v].map(|w| Vec3::from(w).cast())
+        [self.l, self.v].map(|w| DVec3::from(w).cast())
     }
 
     /// The terms where they reach the result: elsewhere the condition number of the result, which is constant 0,
@@ -95,7 +95,7 @@ impl Row {
 type Code<T> = fn(&Model<T>, &Row) -> [T; 3];
 
 fn code<T: Real>(model: &Model<T>, row: &Row) -> [T; 3] {
-    let [l, v] = row.directions();
+    let [l, v] = row.directions::<T>();
     brdf::render(model, &row.texel(), l, v)
 }
 
@@ -175,8 +175,8 @@ fn check_term<T: Rounding>(name: &str, expected: fn(&Terms) -> [f64; 3], code: C
 }
 
 fn half_vector<T: Real>(row: &Row) -> Vec3<T> {
-    let [l, v] = row.directions::<T>().map(Vec3::normalize);
-    brdf::half_vector(row.texel().normal, l, v)
+    let [l, v] = row.directions::<T>().map(Vector::normalize);
+    brdf::half_vector(row.texel::<T>().normal, l, v)
 }
 
 /// The GGX width, after the floor of the roughness.
@@ -186,20 +186,20 @@ fn width<T: Real>(model: &Model<T>, row: &Row) -> T {
 }
 
 fn d<T: Real>(model: &Model<T>, row: &Row) -> [T; 3] {
-    [brdf::distribution(model, row.texel().normal, half_vector(row), width(model, row)); 3]
+    [brdf::distribution(model, row.texel::<T>().normal, half_vector::<T>(row), width(model, row)); 3]
 }
 
 fn g<T: Real>(model: &Model<T>, row: &Row) -> [T; 3] {
-    let n = row.texel().normal;
+    let n = row.texel::<T>().normal;
     let k = width(model, row) * T::of(0.5);
     let factor = |w: Vec3<T>| brdf::geometry_factor(model, n.dot(w.normalize()).max(T::zero()), k);
-    let [l, v] = row.directions();
+    let [l, v] = row.directions::<T>();
     [factor(l) * factor(v); 3]
 }
 
 fn f<T: Real>(_: &Model<T>, row: &Row) -> [T; 3] {
-    let [_, v] = row.directions::<T>().map(Vec3::normalize);
-    let weight = brdf::fresnel_weight(v.dot(half_vector(row)).max(T::zero()).min(T::one()));
+    let [_, v] = row.directions::<T>().map(Vector::normalize);
+    let weight = brdf::fresnel_weight(v.dot(half_vector::<T>(row)).max(T::zero()).min(T::one()));
     row.s.map(|s| brdf::fresnel(T::of(s), weight))
 }
 
@@ -217,7 +217,7 @@ fn the_terms_d_g_and_f_are_right_in_both_precisions() {
 fn planted_faults_are_seen() {
     let faults: [(&str, Code<f64>); 4] = [
         ("light and view swapped", |model, row| {
-            let [l, v] = row.directions();
+            let [l, v] = row.directions::<f64>();
             brdf::render(model, &row.texel(), v, l)
         }),
         ("one channel 1e-12 too bright", |model, row| {
@@ -227,7 +227,7 @@ fn planted_faults_are_seen() {
         ("normal mirrored", |model, row| {
             let mut texel: Texel<f64> = row.texel();
             texel.normal.y = -texel.normal.y;
-            let [l, v] = row.directions();
+            let [l, v] = row.directions::<f64>();
             brdf::render(model, &texel, l, v)
         }),
         ("NaN", |_, _| [f64::NAN; 3]),

@@ -5,10 +5,10 @@ mod adapter;
 mod display;
 mod loss;
 
+use glam::{DVec3, Vec3};
 use serde::Deserialize;
 use svbrdf::gpu::Gpu;
 use svbrdf::material::Material;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::brdf::{self, Model, Texel};
 use svbrdf::model::convention::{self, Convention, PRINTED};
 use svbrdf::model::scene::{self, Kind, Scene};
@@ -135,7 +135,7 @@ struct Row {
 impl Row {
     fn point(&self) -> Point {
         let texel = Texel {
-            normal: Vec3::from(self.n).normalize().cast(),
+            normal: DVec3::from(self.n).normalize().as_vec3(),
             diffuse: self.d.map(|x| x as f32),
             specular: self.s.map(|x| x as f32),
             roughness: self.r as f32,

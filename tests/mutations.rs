@@ -8,8 +8,8 @@ use std::path::Path;
 
 use exr::prelude::Compression;
 use image::{DynamicImage, ImageFormat};
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng as _, SeedableRng as _};
 use svbrdf::error::Error;
 use svbrdf::files::read::{
     Binding, Grid, NonFinite, Order, Read, ReadOptions, Reflectance, read, read_bytes,

@@ -1,12 +1,12 @@
 //! What must hold for any material, light and view.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use glam::DVec3;
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng as _, SeedableRng as _};
 use rayon::ThreadPoolBuilder;
 use svbrdf::loss::{Compute, Loss, Plain};
 use svbrdf::material::{Material, Planes};
-use svbrdf::math::real::Real;
-use svbrdf::math::vec3::Vec3;
+use svbrdf::math::real::{Real, Vec3, Vector as _};
 use svbrdf::model::brdf::{self, Model, Texel};
 use svbrdf::model::convention::{self, PRINTED};
 use svbrdf::model::scene::{Kind, Scene, sample};
@@ -29,11 +29,11 @@ impl Random {
     }
 
     /// A unit vector at least `least_z` above the plane.
-    fn direction(&mut self, least_z: f64) -> Vec3<f64> {
+    fn direction(&mut self, least_z: f64) -> DVec3 {
         let z = self.between(least_z, 1.0);
         let phi = self.between(0.0, std::f64::consts::TAU);
         let rho = (1.0 - z * z).sqrt();
-        Vec3::new(rho * phi.cos(), rho * phi.sin(), z)
+        DVec3::new(rho * phi.cos(), rho * phi.sin(), z)
     }
 
     fn texel<T: Real>(&mut self) -> Texel<T> {
@@ -71,7 +71,7 @@ fn asymmetry<T: Real>(reflected: impl Fn(&Texel<T>, Vec3<T>, Vec3<T>) -> [T; 3])
     let mut worst = 0.0f64;
     for _ in 0..20_000 {
         let texel = random.texel();
-        let [l, v] = [(); 2].map(|()| random.direction(0.01).cast::<T>());
+        let [l, v] = [(); 2].map(|()| random.direction(0.01).cast::<Vec3<T>>());
         for (there, back) in reflected(&texel, l, v).into_iter().zip(reflected(&texel, v, l)) {
             let (there, back) = (there.f64(), back.f64());
             worst = worst.max((there - back).abs() / there.max(back));
@@ -95,7 +95,7 @@ fn swapping_light_and_view_changes_the_rendering() {
 }
 
 /// Every combination of smooth, rough, black, white, grazing, near and far.
-fn extremes() -> impl Iterator<Item = (Texel<f32>, Vec3<f32>, Vec3<f32>)> {
+fn extremes() -> impl Iterator<Item = (Texel<f32>, glam::Vec3, glam::Vec3)> {
     const ROUGHNESS: [f32; 6] = [0.0, 1e-6, 1e-4, 1.0 / 255.0, 0.5, 1.0];
     const ALBEDO: [[f32; 2]; 4] = [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
     const NORMALS: [[f64; 3]; 4] = [[0.0, 0.0, 1.0], [1.0, 0.0, 1e-3], [0.6, 0.0, -0.8], [-0.6, 0.64, 0.48]];
@@ -105,13 +105,13 @@ fn extremes() -> impl Iterator<Item = (Texel<f32>, Vec3<f32>, Vec3<f32>)> {
 
     let directions: Vec<_> = SIDES
         .into_iter()
-        .flat_map(|[x, y]| HEIGHTS.into_iter().map(move |z| Vec3::new(x * (1.0 - z), y * (1.0 - z), z)))
+        .flat_map(|[x, y]| HEIGHTS.into_iter().map(move |z| glam::Vec3::new(x * (1.0 - z), y * (1.0 - z), z)))
         .flat_map(|w| LENGTHS.into_iter().map(move |length| w * length))
         .collect();
     let texels = NORMALS.into_iter().flat_map(|n| {
         ROUGHNESS.into_iter().flat_map(move |roughness| {
             ALBEDO.into_iter().map(move |[d, s]| Texel {
-                normal: Vec3::from(n).normalize().cast(),
+                normal: DVec3::from(n).normalize().as_vec3(),
                 diffuse: [d; 3],
                 specular: [s; 3],
                 roughness,
@@ -144,10 +144,10 @@ fn extreme_points_stay_finite_and_never_turn_negative_in_f32() {
 fn nothing_is_reflected_of_a_light_below_the_texel_or_the_plane() {
     let model = Model::<f32>::from(&PRINTED);
     let mut texel = Random::of_seed(2).texel();
-    texel.normal = Vec3::new(1.0, 0.0, 0.0);
+    texel.normal = glam::Vec3::X;
     for l in [[-0.6, 0.0, 0.8], [0.6, 0.0, -0.8], [0.6, 0.8, 0.0], [0.0, 0.6, 0.8]] {
-        let v = Vec3::new(0.5, 0.1, 0.7);
-        assert_eq!(brdf::render(&model, &texel, Vec3::from(l), v), [0.0; 3], "{l:?}");
+        let v = glam::Vec3::new(0.5, 0.1, 0.7);
+        assert_eq!(brdf::render(&model, &texel, l.into(), v), [0.0; 3], "{l:?}");
     }
 }
 

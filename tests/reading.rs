@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use glam::DVec3;
 use image::{DynamicImage, GrayAlphaImage, GrayImage, Rgb, RgbImage, RgbaImage};
 use svbrdf::error::Error;
 use svbrdf::files::read::{Albedo, NormalY, Read, ReadOptions, read, read_bytes};
 use svbrdf::material::Material;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::progress::Progress;
 use svbrdf::samples;
 use svbrdf::samples::generate;
@@ -25,7 +25,7 @@ fn assert_is_the_fixture(material: &Material<f64>) {
         let (x, y) = (index as u32 % SIDE, index as u32 / SIDE);
         let [n, d, r, s] = [0, 1, 2, 3].map(|map| bytes_at(map, x, y).map(|byte| f64::from(byte) / 255.0));
         let texel = material.texel(index);
-        assert_eq!(texel.normal, Vec3::from(n.map(|value| 2.0 * value - 1.0)).normalize(), "({x}, {y})");
+        assert_eq!(texel.normal, DVec3::from(n.map(|value| 2.0 * value - 1.0)).normalize(), "({x}, {y})");
         assert_eq!(texel.diffuse, d, "({x}, {y})");
         assert_eq!(texel.roughness, r[0], "({x}, {y})");
         assert_eq!(texel.specular, s, "({x}, {y})");
@@ -131,7 +131,7 @@ fn sixteen_bits_keep_their_precision() {
     assert_eq!(single.material.texel(3).diffuse[0], (12_345.0 / 65_535.0) as f32);
 
     let normal = open(with_map(0, image).path()).material.texel(0).normal;
-    let expected = Vec3::from([12_345.0, 12_346.0, 50_000.0].map(|code| 2.0 * (code / 65_535.0) - 1.0));
+    let expected = DVec3::from([12_345.0, 12_346.0, 50_000.0].map(|code| 2.0 * (code / 65_535.0) - 1.0));
     assert_eq!(normal, expected.normalize());
 }
 

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use glam::DVec3;
 use statrs::distribution::{ContinuousCDF, Normal};
 use svbrdf::material::Grid;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::convention::{self, Convention, PRINTED, SINGLE_IMAGE_2018};
 use svbrdf::model::scene::{Kind, Scene, sample};
 
@@ -17,7 +17,7 @@ const COUNT: usize = 20_000;
 type Coordinates = Vec<(&'static str, Vec<f64>)>;
 
 /// sin^2 of the polar angle, and the azimuth.
-fn cosine_coordinates(w: Vec3<f64>, convention: &Convention) -> [f64; 2] {
+fn cosine_coordinates(w: DVec3, convention: &Convention) -> [f64; 2] {
     let u1 = (1.0 - w.z * w.z - 0.001) / (convention.u1_max - 0.001);
     [u1, (w.y.atan2(w.x) / TAU).rem_euclid(1.0)]
 }
@@ -29,12 +29,12 @@ fn distance_coordinate(distance: f64, sigma: f64) -> f64 {
 
 /// P_S, the direction and the distances of a near-field scene, recovered from its view and light alone.
 fn near_coordinates(scene: &Scene, convention: &Convention) -> [f64; 6] {
-    let raised = |p: [f64; 3]| Vec3::new(p[0], p[1], p[2] - convention.shift_z);
+    let raised = |p: [f64; 3]| DVec3::new(p[0], p[1], p[2] - convention.shift_z);
     let (view, light) = (raised(scene.view), raised(scene.light));
     // view = a (wx, wy, wz) + shift, light = b (-wx, -wy, wz) + shift
     let ratio = view.z / light.z;
     let shift = [view.x + ratio * light.x, view.y + ratio * light.y].map(|sum| sum / (1.0 + ratio));
-    let w = view - Vec3::new(shift[0], shift[1], 0.0);
+    let w = view - DVec3::new(shift[0], shift[1], 0.0);
     let distance = w.length();
     let [u1, u2] = cosine_coordinates(w.normalize(), convention);
     let light_distance = distance_coordinate(distance / ratio, convention.light_distance_sigma);
@@ -43,7 +43,7 @@ fn near_coordinates(scene: &Scene, convention: &Convention) -> [f64; 6] {
 }
 
 fn distant_coordinates(scene: &Scene, convention: &Convention) -> [f64; 4] {
-    let of = |p: [f64; 3]| cosine_coordinates(Vec3::from(p), convention);
+    let of = |p: [f64; 3]| cosine_coordinates(DVec3::from(p), convention);
     let ([a, b], [c, d]) = (of(scene.view), of(scene.light));
     [a, b, c, d]
 }
@@ -164,7 +164,7 @@ fn light_and_view_stay_above_the_plane() {
             assert_eq!(scene.check(), Ok(()));
             if scene.kind == Kind::Distant {
                 assert!(scene.view[2] >= least_z && scene.light[2] >= least_z, "{scene:?}");
-                let length = Vec3::from(scene.view).length();
+                let length = DVec3::from(scene.view).length();
                 assert!((length - 1.0).abs() < GEOMETRY_F64, "{length}");
             }
         }
@@ -238,19 +238,19 @@ fn the_texels_lie_where_linspace_puts_them() {
     for side in [2, 3, 5, 256, 511] {
         let grid = Grid { width: side, height: side };
         for i in 0..side {
-            let [x, y, z] = grid.position::<f64>(i, i).to_array();
+            let [x, y, z] = grid.position::<DVec3>(i, i).to_array();
             let (expected, close) = (linspace(side, i), |a: f64, b: f64| (a - b).abs() <= GEOMETRY_F64);
             assert!(close(x, expected) && close(y, -expected) && z == 0.0, "{side}, {i}: {x}, {y}, {z}");
         }
-        assert_eq!(grid.position::<f32>(0, 0).to_array(), [-1.0, 1.0, 0.0]);
+        assert_eq!(grid.position::<glam::Vec3>(0, 0).to_array(), [-1.0, 1.0, 0.0]);
     }
 }
 
 #[test]
 fn texels_are_square_and_one_column_is_in_the_middle() {
     let wide = Grid { width: 9, height: 5 };
-    assert_eq!(wide.position::<f64>(0, 0).to_array(), [-1.0, 0.5, 0.0]);
-    assert_eq!(wide.position::<f64>(8, 4).to_array(), [1.0, -0.5, 0.0]);
-    assert_eq!(Grid { width: 1, height: 1 }.position::<f64>(0, 0).to_array(), [0.0; 3]);
-    assert_eq!(Grid { width: 1, height: 3 }.position::<f64>(0, 0).x, 0.0);
+    assert_eq!(wide.position::<DVec3>(0, 0).to_array(), [-1.0, 0.5, 0.0]);
+    assert_eq!(wide.position::<DVec3>(8, 4).to_array(), [1.0, -0.5, 0.0]);
+    assert_eq!(Grid { width: 1, height: 1 }.position::<DVec3>(0, 0).to_array(), [0.0; 3]);
+    assert_eq!(Grid { width: 1, height: 3 }.position::<DVec3>(0, 0).x, 0.0);
 }

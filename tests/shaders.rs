@@ -6,7 +6,9 @@ use std::mem::offset_of;
 use std::path::Path;
 
 use svbrdf::gpu::shaders::ALL;
-use svbrdf::gpu::uniforms::{Band, Camera, Display, LogSum, Model, Point, Rays, Shading};
+use svbrdf::gpu::uniforms::{
+    Band, CameraUniforms, DisplayUniforms, LogSum, ModelUniforms, ProbePoint, SceneUniforms, ShadingUniforms,
+};
 use wgpu::naga;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
@@ -19,9 +21,9 @@ struct Layout {
 }
 
 macro_rules! layout {
-    ($name:ident { $($member:ident),+ }) => {
+    ($name:ident is $wgsl:ident { $($member:ident),+ }) => {
         Layout {
-            name: stringify!($name),
+            name: stringify!($wgsl),
             size: size_of::<$name>(),
             members: vec![$((stringify!($member), offset_of!($name, $member))),+],
         }
@@ -30,25 +32,14 @@ macro_rules! layout {
 
 fn layouts() -> Vec<Layout> {
     vec![
-        layout!(Model { intensity, roughness_floor, light_z_floor, clamp_n_dot_h, d_floor, g_floor }),
-        layout!(Rays { view, near, light }),
-        layout!(Shading { rays, model, quantity, largest }),
-        layout!(Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
-        layout!(Display {
-            camera,
-            background,
-            encoding,
-            exposure,
-            epsilon,
-            wipe,
-            mode,
-            show_clipping,
-            difference,
-            range
-        }),
-        layout!(Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
-        layout!(LogSum { larger, smaller, exponent }),
-        layout!(Point { normal, roughness, diffuse, specular, w_l, w_v }),
+        layout!(ModelUniforms is Model { intensity, roughness_floor, light_z_floor, clamp_n_dot_h, d_floor, g_floor }),
+        layout!(SceneUniforms is Rays { view, near, light }),
+        layout!(ShadingUniforms is Shading { rays, model, quantity, largest }),
+        layout!(CameraUniforms is Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
+        layout!(DisplayUniforms is Display { camera, background, encoding, exposure, epsilon, wipe, mode, show_clipping, difference, range }),
+        layout!(Band is Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
+        layout!(LogSum is LogSum { larger, smaller, exponent }),
+        layout!(ProbePoint is Point { normal, roughness, diffuse, specular, w_l, w_v }),
     ]
 }
 

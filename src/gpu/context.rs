@@ -4,13 +4,7 @@ use wgpu::{Adapter, Backends, Device, DeviceDescriptor, InstanceDescriptor, Queu
 
 use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY, select};
 use super::fault::Faults;
-use super::{MaterialTextures, ShadeParams, Shading};
 use crate::error::Error;
-use crate::image::Image;
-use crate::material::Material;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::picture::quantity::Quantity;
 
 /// A graphics device, its queue, and what is known about it. Clones share the device.
 #[derive(Clone, Debug)]
@@ -69,26 +63,6 @@ impl Gpu {
     /// The first failure since the last call that no function could return: of drawing, or of the driver.
     pub fn take_fault(&self) -> Option<Error> {
         self.faults.take()
-    }
-
-    /// Algorithm 3 over a whole material, as [`crate::render::render`] computes it on the CPU.
-    ///
-    /// # Errors
-    /// [`Error::UnusableScene`] where [`Scene::check`] refuses the scene, [`Error::Gpu`] where the adapter cannot
-    /// render to 32-bit floats, the material is too large for it, or it fails.
-    pub fn render(
-        &self,
-        material: &Material<f32>,
-        scene: &Scene,
-        convention: &Convention,
-    ) -> Result<Image<f32>, Error> {
-        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
-        let textures = MaterialTextures::upload(self, material)?;
-        let shading = Shading::new(self)?;
-        let target = shading.target(self, material.size())?;
-        let params = ShadeParams { scene: *scene, convention: *convention, quantity: Quantity::Rendering };
-        shading.draw(self, &textures, &params, &target);
-        target.read_back(self)
     }
 
     fn new(adapter: &Adapter, device: Device, queue: Queue, reason: String) -> Result<Self, Error> {

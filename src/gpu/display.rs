@@ -6,69 +6,11 @@ use wgpu::{
 };
 
 use super::fault::scoped;
+use super::params::DisplayParams;
 use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
-use super::{Gpu, Shaded, shaders, uniforms};
+use super::uniforms::DisplayUniforms;
+use super::{Gpu, Shaded, shaders};
 use crate::error::Error;
-use crate::picture::camera::Camera;
-use crate::picture::difference::Difference;
-use crate::picture::quantity::Quantity;
-
-/// How a pane shows its pictures.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DisplayParams {
-    pub camera: Camera,
-    /// Radiance is multiplied by 2 to this power.
-    pub exposure_ev: f32,
-    pub mode: DisplayMode,
-    /// The difference of the first picture from the reference, shown in place of the first; both have the same size.
-    pub difference: Option<DisplayedDifference>,
-    pub encoding: Encoding,
-    /// Stripes pixels of [`Encoding::Radiance`] that are too bright in a channel (magenta) or black (blue).
-    pub show_clipping: bool,
-    /// Epsilon of the difference's logarithms: that of the convention.
-    pub epsilon: f32,
-    /// What is shown beside the material, already encoded for the screen.
-    pub background: [f32; 3],
-}
-
-/// Which of a pane's two pictures is shown where.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum DisplayMode {
-    /// The first.
-    Value,
-    /// The reference left of this x of the pane, which runs from -1 to 1, and the first right of it.
-    Wipe(f32),
-}
-
-/// A difference shown as colours: [`heat`](crate::picture::colour_map::heat), or
-/// [`diverging`](crate::picture::colour_map::diverging) where it is signed. Exposure does not change it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DisplayedDifference {
-    pub kind: Difference,
-    /// The difference that has the last colour; positive.
-    pub range: f32,
-}
-
-/// How numbers become colours of the screen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Encoding {
-    /// Exposed, then sRGB.
-    Radiance,
-    /// sRGB, never exposed.
-    Albedo,
-    /// As they are.
-    Data,
-}
-
-impl From<Quantity> for Encoding {
-    fn from(quantity: Quantity) -> Self {
-        match quantity {
-            Quantity::Rendering => Self::Radiance,
-            Quantity::Diffuse | Quantity::Specular => Self::Albedo,
-            Quantity::Normal | Quantity::Roughness => Self::Data,
-        }
-    }
-}
 
 /// The pipeline of pass 2.
 #[derive(Debug)]
@@ -87,7 +29,7 @@ pub struct Pane {
 impl Pane {
     /// Sets how the next frame shows the pane.
     pub fn write(&self, queue: &Queue, params: &DisplayParams) {
-        queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&uniforms::Display::from(params)));
+        queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&DisplayUniforms::from(params)));
     }
 }
 
@@ -116,7 +58,7 @@ impl Display {
     /// A pane of two pictures; the same one twice where there is no reference. Shows nothing before
     /// [`Pane::write`]. A failure waits in [`Gpu::take_fault`].
     pub fn pane(&self, gpu: &Gpu, shown: &Shaded, reference: &Shaded) -> Pane {
-        let uniforms = uniform_buffer(&gpu.device, &[0; size_of::<uniforms::Display>()]);
+        let uniforms = uniform_buffer(&gpu.device, &[0; size_of::<DisplayUniforms>()]);
         let resources = [
             uniforms.as_entire_binding(),
             BindingResource::TextureView(&shown.view),

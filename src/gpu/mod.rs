@@ -16,10 +16,12 @@ mod context;
 mod display;
 mod fault;
 mod loss;
+mod params;
 mod pipeline;
 #[cfg(feature = "testing")]
 mod probe;
 mod read_back;
+mod render;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod shaders;
 #[cfg(feature = "testing")]
@@ -38,13 +40,15 @@ pub use loss::Losses;
 #[cfg(not(feature = "testing"))]
 #[allow(unused_imports, reason = "the window uses them all")]
 pub(crate) use {
-    display::{Display, DisplayMode, DisplayParams, DisplayedDifference, Encoding, Pane},
-    shading::{ShadeParams, Shaded, Shading},
+    display::{Display, Pane},
+    params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
+    shading::{Shaded, Shading},
     textures::MaterialTextures,
 };
 #[cfg(feature = "testing")]
 pub use {
-    display::{Display, DisplayMode, DisplayParams, DisplayedDifference, Encoding, Pane},
-    shading::{ShadeParams, Shaded, Shading},
+    display::{Display, Pane},
+    params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
+    shading::{Shaded, Shading},
     textures::MaterialTextures,
 };

@@ -7,10 +7,10 @@ use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 use super::fault::scoped;
 use super::pipeline::{bind, buffer_type, compute, layout, module, uniform_buffer};
 use super::read_back::{read, read_buffer};
-use super::uniforms::{Model, Point};
+use super::uniforms::{ModelUniforms, ProbePoint};
 use super::{Gpu, shaders};
 use crate::error::Error;
-use crate::model::brdf::{self, Texel};
+use crate::model::brdf::{Model, Texel};
 
 /// Points that one dispatch computes: within every adapter's limits.
 const CHUNK: usize = 1 << 18;
@@ -18,20 +18,20 @@ const CHUNK: usize = 1 << 18;
 const WORKGROUP: usize = 64;
 
 impl Gpu {
-    /// The shader's `render` for every (texel, w_l, w_v) of `inputs`: [`brdf::render`] on the device.
+    /// The shader's `render` for every (texel, w_l, w_v) of `inputs`: [`render`](crate::model::brdf::render) on the device.
     ///
     /// # Errors
     /// [`Error::Gpu`] where the adapter has no compute shaders or fails.
     pub fn probe(
         &self,
-        model: &brdf::Model<f32>,
+        model: &Model<f32>,
         inputs: &[(Texel<f32>, [f32; 3], [f32; 3])],
     ) -> Result<Vec<[f32; 3]>, Error> {
         let mut radiances = Vec::with_capacity(inputs.len());
         for chunk in inputs.chunks(CHUNK) {
-            let points: Vec<Point> = chunk.iter().map(point).collect();
-            let buffer =
-                scoped(&self.device, "probing the shader", || dispatch(self, &Model::from(model), &points))?;
+            let points: Vec<ProbePoint> = chunk.iter().map(point).collect();
+            let model = ModelUniforms::from(model);
+            let buffer = scoped(&self.device, "probing the shader", || dispatch(self, &model, &points))?;
             let bytes = read(self, &buffer)?;
             let values: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
             radiances.extend(values.into_iter().map(|[r, g, b, _]| [r, g, b]));
@@ -40,8 +40,8 @@ impl Gpu {
     }
 }
 
-fn point((texel, w_l, w_v): &(Texel<f32>, [f32; 3], [f32; 3])) -> Point {
-    Point {
+fn point((texel, w_l, w_v): &(Texel<f32>, [f32; 3], [f32; 3])) -> ProbePoint {
+    ProbePoint {
         normal: texel.normal.to_array(),
         roughness: texel.roughness,
         diffuse: texel.diffuse,
@@ -53,7 +53,7 @@ fn point((texel, w_l, w_v): &(Texel<f32>, [f32; 3], [f32; 3])) -> Point {
 }
 
 /// Computes `points` and copies the results into the buffer that is returned.
-fn dispatch(gpu: &Gpu, model: &Model, points: &[Point]) -> wgpu::Buffer {
+fn dispatch(gpu: &Gpu, model: &ModelUniforms, points: &[ProbePoint]) -> wgpu::Buffer {
     let device = &gpu.device;
     let storage = |read_only| buffer_type(BufferBindingType::Storage { read_only });
     let types = [buffer_type(BufferBindingType::Uniform), storage(true), storage(false)];

@@ -7,24 +7,15 @@ use wgpu::{
 };
 
 use super::fault::scoped;
+use super::params::ShadeParams;
 use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
 use super::textures::extent;
-use super::{Gpu, MaterialTextures, shaders, uniforms};
+use super::uniforms::ShadingUniforms;
+use super::{Gpu, MaterialTextures, shaders};
 use crate::error::Error;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::picture::quantity::Quantity;
 
 /// The largest 16-bit float.
 const LARGEST_F16: f32 = 65504.0;
-
-/// What is shaded, and how.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ShadeParams {
-    pub scene: Scene,
-    pub convention: Convention,
-    pub quantity: Quantity,
-}
 
 /// The pipeline of pass 1.
 #[derive(Debug)]
@@ -95,7 +86,7 @@ impl Shading {
             TextureFormat::Rgba16Float => LARGEST_F16,
             _ => f32::MAX,
         };
-        let uniforms = uniforms::Shading::new(params, largest);
+        let uniforms = ShadingUniforms::new(params, largest);
         let buffer = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
         let [normal_roughness, diffuse, specular] = &textures.views;
         let maps = [normal_roughness, diffuse, specular].map(wgpu::BindingResource::TextureView);

@@ -1,22 +1,21 @@
-//! What the shaders are given, laid out as WGSL lays it out; a test holds every offset against naga's.
+//! Uniforms and storage of the shaders, laid out as in WGSL; a test compares every offset with naga's reflection.
 //!
-//! Names are those of the WGSL structs and of their members; members called `pad` are not in WGSL.
+//! Members have their names in WGSL; members called `pad` are not in WGSL.
 
 use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
 
-use super::display::{DisplayMode, DisplayParams, Encoding};
-use super::shading::ShadeParams;
-use crate::math::vec3::Vec3;
-use crate::model::brdf;
-use crate::model::scene::{self, Kind};
-use crate::picture::camera;
+use super::params::{DisplayMode, DisplayParams, Encoding, ShadeParams};
+use crate::model::brdf::Model;
+use crate::model::scene::{Kind, Scene};
+use crate::picture::camera::Camera;
 use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 
 /// `Model` of brdf.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Model {
+pub struct ModelUniforms {
     pub intensity: f32,
     pub roughness_floor: f32,
     pub light_z_floor: f32,
@@ -26,8 +25,8 @@ pub struct Model {
     pub pad: [u32; 2],
 }
 
-impl From<&brdf::Model<f32>> for Model {
-    fn from(m: &brdf::Model<f32>) -> Self {
+impl From<&Model<f32>> for ModelUniforms {
+    fn from(m: &Model<f32>) -> Self {
         Self {
             intensity: m.intensity,
             roughness_floor: m.roughness_floor,
@@ -43,17 +42,17 @@ impl From<&brdf::Model<f32>> for Model {
 /// `Rays` of scene.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Rays {
+pub struct SceneUniforms {
     pub view: [f32; 3],
     pub near: u32,
     pub light: [f32; 3],
     pub pad: u32,
 }
 
-impl From<&scene::Scene> for Rays {
-    fn from(scene: &scene::Scene) -> Self {
+impl From<&Scene> for SceneUniforms {
+    fn from(scene: &Scene) -> Self {
         // What a texel at the origin sees is what the core computes with, in its precision.
-        let (light, view) = scene.rays::<f32>().from_texel(Vec3::zero());
+        let (light, view) = scene.rays::<f32>().from_texel(Vec3::ZERO);
         Self {
             view: view.to_array(),
             near: (scene.kind == Kind::Near).into(),
@@ -66,15 +65,15 @@ impl From<&scene::Scene> for Rays {
 /// `Shading` of shade.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Shading {
-    pub rays: Rays,
-    pub model: Model,
+pub struct ShadingUniforms {
+    pub rays: SceneUniforms,
+    pub model: ModelUniforms,
     pub quantity: u32,
     pub largest: f32,
     pub pad: [u32; 2],
 }
 
-impl Shading {
+impl ShadingUniforms {
     /// For a target whose largest number is `largest`.
     pub(super) fn new(params: &ShadeParams, largest: f32) -> Self {
         let quantity = match params.quantity {
@@ -84,8 +83,8 @@ impl Shading {
             Quantity::Specular => 3,
             Quantity::Roughness => 4,
         };
-        let model = Model::from(&brdf::Model::from(&params.convention));
-        Self { rays: Rays::from(&params.scene), model, quantity, largest, pad: [0; 2] }
+        let model = ModelUniforms::from(&Model::from(&params.convention));
+        Self { rays: SceneUniforms::from(&params.scene), model, quantity, largest, pad: [0; 2] }
     }
 }
 
@@ -93,7 +92,7 @@ impl Shading {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Band {
-    pub model: Model,
+    pub model: ModelUniforms,
     pub size: [u32; 2],
     pub first: u32,
     pub texels: u32,
@@ -123,7 +122,7 @@ impl LogSum {
 /// `Point` of probe.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Point {
+pub struct ProbePoint {
     pub normal: [f32; 3],
     pub roughness: f32,
     pub diffuse: [f32; 3],
@@ -142,7 +141,7 @@ pub type Padded = [f32; 4];
 /// `Camera` of camera.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Camera {
+pub struct CameraUniforms {
     pub origin: Padded,
     pub origin_right: Padded,
     pub origin_up: Padded,
@@ -151,9 +150,9 @@ pub struct Camera {
     pub direction_up: Padded,
 }
 
-impl From<&camera::Camera> for Camera {
-    fn from(c: &camera::Camera) -> Self {
-        let padded = |v: Vec3<f32>| [v.x, v.y, v.z, 0.0];
+impl From<&Camera> for CameraUniforms {
+    fn from(c: &Camera) -> Self {
+        let padded = |v: Vec3| v.extend(0.0).to_array();
         Self {
             origin: padded(c.origin),
             origin_right: padded(c.origin_right),
@@ -168,8 +167,8 @@ impl From<&camera::Camera> for Camera {
 /// `Display` of display.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Display {
-    pub camera: Camera,
+pub struct DisplayUniforms {
+    pub camera: CameraUniforms,
     pub background: [f32; 3],
     pub encoding: u32,
     pub exposure: f32,
@@ -182,7 +181,7 @@ pub struct Display {
     pub pad: u32,
 }
 
-impl From<&DisplayParams> for Display {
+impl From<&DisplayParams> for DisplayUniforms {
     fn from(p: &DisplayParams) -> Self {
         let (mode, wipe) = match p.mode {
             DisplayMode::Value => (0, 0.0),
@@ -203,7 +202,7 @@ impl From<&DisplayParams> for Display {
             Encoding::Data => 2,
         };
         Self {
-            camera: Camera::from(&p.camera),
+            camera: CameraUniforms::from(&p.camera),
             background: p.background,
             encoding,
             exposure: p.exposure_ev.exp2(),

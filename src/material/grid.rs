@@ -1,7 +1,6 @@
 //! Where the texels of a material lie.
 
-use crate::math::real::Real;
-use crate::math::vec3::Vec3;
+use crate::math::real::{Real as _, Vector};
 
 /// Where the texels of a material lie in the plane z = 0.
 ///
@@ -35,10 +34,10 @@ impl Grid {
     }
 
     /// The position C of the texel in column `column` of row `row`.
-    pub fn position<T: Real>(&self, column: usize, row: usize) -> Vec3<T> {
+    pub fn position<V: Vector>(&self, column: usize, row: usize) -> V {
         let scale = self.width.saturating_sub(1).max(1) as f64;
         let x = (2.0 * column as f64 - (self.width - 1) as f64) / scale;
         let y = ((self.height - 1) as f64 - 2.0 * row as f64) / scale;
-        Vec3::new(T::of(x), T::of(y), T::zero())
+        V::from([x, y, 0.0].map(V::Scalar::of))
     }
 }

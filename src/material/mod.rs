@@ -20,9 +20,10 @@ pub(crate) mod resize;
 
 pub use grid::Grid;
 
+use glam::DVec3;
+
 use crate::error::Error;
-use crate::math::real::Real;
-use crate::math::vec3::Vec3;
+use crate::math::real::{Real, Vector as _};
 use crate::model::brdf::Texel;
 use resize::Filter;
 
@@ -236,7 +237,7 @@ fn normalize_normals<T: Real>(
     let [xs, ys, zs] = normal;
     for (index, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
         // In f64, so that f32 normals are the correctly rounded ones.
-        let n = Vec3::new(x.f64(), y.f64(), z.f64());
+        let n = DVec3::new(x.f64(), y.f64(), z.f64());
         if !n.is_direction() {
             let (column, row) = place(index);
             return Err(Error::OutOfRange {

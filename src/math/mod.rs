@@ -1,4 +1,3 @@
 //! The two precisions that everything is computed in, and their vectors.
 
 pub mod real;
-pub mod vec3;

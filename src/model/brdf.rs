@@ -5,12 +5,11 @@
 //! `1 / (NoL NoV)` of the microfacet denominator already cancelled.
 
 use super::convention::Convention;
-use crate::math::real::Real;
-use crate::math::vec3::Vec3;
+use crate::math::real::{Real, Vec3, Vector};
 
 /// One texel of a material: what is reflected, without where from and where to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Texel<T> {
+pub struct Texel<T: Real> {
     /// Unit normal in the frame of the surface (x right, y up, z out of it).
     pub normal: Vec3<T>,
     /// Diffuse albedo, linear RGB in [0, 1].
@@ -48,7 +47,7 @@ impl<T: Real> From<&Convention> for Model<T> {
 /// The half vector of unit `l` and `v`.
 ///
 /// Where `l = -v` it has no direction; the normal `n` stands in, so that the result stays finite.
-pub fn half_vector<T: Real>(n: Vec3<T>, l: Vec3<T>, v: Vec3<T>) -> Vec3<T> {
+pub fn half_vector<V: Vector>(n: V, l: V, v: V) -> V {
     let sum = l + v;
     if sum.is_direction() { sum.normalize() } else { n }
 }
@@ -124,10 +123,10 @@ pub fn reflectance<T: Real>(model: &Model<T>, texel: &Texel<T>, l: Vec3<T>, v: V
 pub fn render<T: Real>(model: &Model<T>, texel: &Texel<T>, w_l: Vec3<T>, w_v: Vec3<T>) -> [T; 3] {
     let l = w_l.normalize();
     let n_dot_l = texel.normal.dot(l);
-    if n_dot_l <= T::zero() || l.z <= T::zero() {
+    if n_dot_l <= T::zero() || l.z() <= T::zero() {
         return [T::zero(); 3];
     }
     let v = w_v.normalize();
-    let e = irradiance(model, n_dot_l, l.z);
+    let e = irradiance(model, n_dot_l, l.z());
     reflectance(model, texel, l, v).map(|f| (f * e).min(T::max_value()))
 }

@@ -6,15 +6,16 @@
 
 use std::path::Path;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use glam::DVec3;
+use rand::distr::Open01;
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt as _, SeedableRng as _};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::convention::Convention;
 use crate::error::Error;
-use crate::math::real::Real;
-use crate::math::vec3::Vec3;
+use crate::math::real::{Real, Vec3, Vector as _};
 
 /// Mean of the logarithm of a near-field distance (Algorithm 1).
 const DISTANCE_MU: f64 = 0.5;
@@ -51,7 +52,7 @@ pub struct Scene {
 
 /// A scene in the precision that it is rendered in.
 #[derive(Clone, Copy, Debug)]
-pub struct Rays<T> {
+pub struct Rays<T: Real> {
     kind: Kind,
     view: Vec3<T>,
     light: Vec3<T>,
@@ -71,7 +72,7 @@ impl Scene {
     /// The scene in precision `T`. Directions are normalized in f64 first, so that no length is too long for f32.
     pub fn rays<T: Real>(&self) -> Rays<T> {
         let cast = |p: [f64; 3]| {
-            let p = Vec3::from(p);
+            let p = DVec3::from(p);
             match self.kind {
                 Kind::Near => p.cast(),
                 Kind::Distant => p.normalize().cast(),
@@ -84,9 +85,9 @@ impl Scene {
     /// light distance.
     pub fn near_from_point(point: [f64; 6], convention: &Convention) -> Self {
         let [sx, sy, u1, u2, view, light] = point;
-        let shift = Vec3::new(2.0 * sx - 1.0, 2.0 * sy - 1.0, convention.shift_z);
+        let shift = DVec3::new(2.0 * sx - 1.0, 2.0 * sy - 1.0, convention.shift_z);
         let w = cosine(u1, u2, convention);
-        let mirrored = Vec3::new(-w.x, -w.y, w.z);
+        let mirrored = DVec3::new(-w.x, -w.y, w.z);
         let view = w * log_normal(view, VIEW_DISTANCE_SIGMA) + shift;
         let light = mirrored * log_normal(light, convention.light_distance_sigma) + shift;
         Self { kind: Kind::Near, view: view.to_array(), light: light.to_array() }
@@ -117,7 +118,7 @@ impl Scene {
             }
             let unit = match self.kind {
                 Kind::Near => 1.0,
-                Kind::Distant => Vec3::from(p).length(),
+                Kind::Distant => DVec3::from(p).length(),
             };
             // NaN where a direction has no length.
             let height = p[2] / unit;
@@ -132,11 +133,11 @@ impl Scene {
 }
 
 /// Algorithm 2: a cosine-distributed direction from two numbers of [0, 1). Its z is at least `sqrt(1 - u1_max)`.
-pub fn cosine(u1: f64, u2: f64, convention: &Convention) -> Vec3<f64> {
+pub fn cosine(u1: f64, u2: f64, convention: &Convention) -> DVec3 {
     let u1 = U1_MIN + (convention.u1_max - U1_MIN) * u1;
     let rho = u1.sqrt();
     let phi = std::f64::consts::TAU * u2;
-    Vec3::new(rho * phi.cos(), rho * phi.sin(), (1.0 - u1).sqrt())
+    DVec3::new(rho * phi.cos(), rho * phi.sin(), (1.0 - u1).sqrt())
 }
 
 /// The `u` quantile of exp(Normal(0.5, sigma)), for `u` in (0, 1).
@@ -153,7 +154,7 @@ fn point<const N: usize>(seed: u64, stream: u64, index: u64) -> [f64; N] {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream(stream);
     generator.set_word_pos(WORDS_PER_POINT * u128::from(index));
-    std::array::from_fn(|_| ((generator.next_u64() >> 12) as f64 + 0.5) / (1u64 << 52) as f64)
+    std::array::from_fn(|_| generator.sample(Open01))
 }
 
 /// The scenes that Algorithm 1 draws for a seed: `near` near-field ones, then `distant` distant ones.

@@ -3,8 +3,9 @@
 //! Flat, orthographic and perspective views are one thing: a ray whose origin and direction are linear in the pane's
 //! coordinates. `shaders/camera.wgsl` is the twin of [`Camera::plane_from_ndc`].
 
+use glam::{DVec3, Mat3, Vec3};
+
 use crate::material::Grid;
-use crate::math::vec3::Vec3;
 use crate::model::scene::{Kind, Scene};
 
 /// Room left around the material when it is fitted into a pane.
@@ -18,12 +19,12 @@ const FAR_AWAY: f32 = 100.0;
 /// `origin + x origin_right + y origin_up` and runs along `direction + x direction_right + y direction_up`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    pub origin: Vec3<f32>,
-    pub origin_right: Vec3<f32>,
-    pub origin_up: Vec3<f32>,
-    pub direction: Vec3<f32>,
-    pub direction_right: Vec3<f32>,
-    pub direction_up: Vec3<f32>,
+    pub origin: Vec3,
+    pub origin_right: Vec3,
+    pub origin_up: Vec3,
+    pub direction: Vec3,
+    pub direction_right: Vec3,
+    pub direction_up: Vec3,
 }
 
 impl Camera {
@@ -32,21 +33,21 @@ impl Camera {
         let [half_width, half_height] = grid.half_extent();
         let reach = half_height.max(half_width / aspect) * MARGIN;
         Self {
-            origin: Vec3::new(0.0, 0.0, 1.0),
-            origin_right: Vec3::new(reach * aspect, 0.0, 0.0),
-            origin_up: Vec3::new(0.0, reach, 0.0),
-            direction: Vec3::new(0.0, 0.0, -1.0),
-            direction_right: Vec3::zero(),
-            direction_up: Vec3::zero(),
+            origin: Vec3::Z,
+            origin_right: Vec3::X * (reach * aspect),
+            origin_up: Vec3::Y * reach,
+            direction: Vec3::NEG_Z,
+            direction_right: Vec3::ZERO,
+            direction_up: Vec3::ZERO,
         }
     }
 
     /// The material as the view of `scene` sees it: in perspective from a position, in parallel from a direction;
     /// always towards the middle of the material, fitted into a pane of `aspect` = width / height.
     pub fn of_scene(scene: &Scene, grid: Grid, aspect: f32) -> Self {
-        let view = Vec3::from(scene.view).cast::<f32>();
-        let forward = view.normalize() * -1.0;
-        let right = forward.cross(Vec3::new(0.0, 1.0, 0.0)).normalize();
+        let view = DVec3::from(scene.view).as_vec3();
+        let forward = -view.normalize();
+        let right = forward.cross(Vec3::Y).normalize();
         let up = right.cross(forward);
         match scene.kind {
             Kind::Near => Self::perspective(view, [right, up, forward], grid, aspect),
@@ -54,7 +55,7 @@ impl Camera {
         }
     }
 
-    fn perspective(eye: Vec3<f32>, [right, up, forward]: [Vec3<f32>; 3], grid: Grid, aspect: f32) -> Self {
+    fn perspective(eye: Vec3, [right, up, forward]: [Vec3; 3], grid: Grid, aspect: f32) -> Self {
         let nearest = 0.05 * eye.length();
         let reach = corners(grid)
             .map(|corner| {
@@ -67,15 +68,15 @@ impl Camera {
         let reach = (reach * MARGIN).min(WIDEST);
         Self {
             origin: eye,
-            origin_right: Vec3::zero(),
-            origin_up: Vec3::zero(),
+            origin_right: Vec3::ZERO,
+            origin_up: Vec3::ZERO,
             direction: forward,
             direction_right: right * (reach * aspect),
             direction_up: up * reach,
         }
     }
 
-    fn parallel([right, up, forward]: [Vec3<f32>; 3], grid: Grid, aspect: f32) -> Self {
+    fn parallel([right, up, forward]: [Vec3; 3], grid: Grid, aspect: f32) -> Self {
         let reach = corners(grid)
             .map(|corner| corner.dot(up).abs().max(corner.dot(right).abs() / aspect))
             .into_iter()
@@ -86,8 +87,8 @@ impl Camera {
             origin_right: right * (reach * aspect),
             origin_up: up * reach,
             direction: forward,
-            direction_right: Vec3::zero(),
-            direction_up: Vec3::zero(),
+            direction_right: Vec3::ZERO,
+            direction_up: Vec3::ZERO,
         }
     }
 
@@ -117,9 +118,9 @@ impl Camera {
     }
 
     /// Where in the pane the point `p` is seen, x right and y up; `None` where it is behind the view.
-    pub fn ndc_from_point(&self, p: Vec3<f32>) -> Option<[f32; 2]> {
+    pub fn ndc_from_point(&self, p: Vec3) -> Option<[f32; 2]> {
         let q = p - self.origin;
-        if self.origin_right == Vec3::zero() {
+        if self.origin_right == Vec3::ZERO {
             let [s, x, y] = solve([self.direction, self.direction_right, self.direction_up], q)?;
             (s > 0.0).then(|| [x / s, y / s])
         } else {
@@ -130,16 +131,15 @@ impl Camera {
 }
 
 /// The corners of the material, outer edges of its texels included.
-fn corners(grid: Grid) -> [Vec3<f32>; 4] {
+fn corners(grid: Grid) -> [Vec3; 4] {
     let [x, y] = grid.half_extent();
     [[-x, -y], [x, -y], [-x, y], [x, y]].map(|[x, y]| Vec3::new(x, y, 0.0))
 }
 
-/// The coefficients of `q` in the basis of three vectors (Cramer's rule); `None` where they lie in a plane.
-fn solve([a, b, c]: [Vec3<f32>; 3], q: Vec3<f32>) -> Option<[f32; 3]> {
-    let determinant = a.dot(b.cross(c));
-    let all = [q.dot(b.cross(c)), a.dot(q.cross(c)), a.dot(b.cross(q))].map(|x| x / determinant);
-    all.iter().all(|x| x.is_finite()).then_some(all)
+/// The coefficients of `q` in the basis of three vectors; `None` where they lie in a plane.
+fn solve([a, b, c]: [Vec3; 3], q: Vec3) -> Option<[f32; 3]> {
+    let coefficients = Mat3::from_cols(a, b, c).try_inverse()? * q;
+    coefficients.is_finite().then(|| coefficients.to_array())
 }
 
 #[cfg(test)]

@@ -2,12 +2,12 @@
 //!
 //! `shaders/difference.wgsl` is the twin of [`Difference::of_texel`].
 
+use glam::DVec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::quantity::Quantity;
 use crate::image::Image;
-use crate::math::vec3::Vec3;
 
 /// How a prediction p differs from the ground truth g at a texel: the mean over RGB of the expression given, with the
 /// epsilon of the convention; for normals an angle.
@@ -89,7 +89,7 @@ impl Difference {
             Self::Signed => mean(&|g, p| p - g),
             Self::Relative => mean(&|g, p| (p - g).abs() / (g + epsilon)),
             Self::Angle => {
-                let [g, p] = [Vec3::from(g), Vec3::from(p)];
+                let [g, p] = [DVec3::from(g), DVec3::from(p)];
                 g.cross(p).length().atan2(g.dot(p)).to_degrees()
             }
         }

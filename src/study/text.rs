@@ -14,7 +14,23 @@ use crate::text::{percent, time};
 /// Target errors of the summary, as shares of the loss.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
-const CSV_HEADING: &str = "scenes,near,distant,sampler,texels,precision,backend,maps,seconds,error,shift,seeds,runs,pareto,options\n";
+const CSV_HEADING: [&str; 15] = [
+    "scenes",
+    "near",
+    "distant",
+    "sampler",
+    "texels",
+    "precision",
+    "backend",
+    "maps",
+    "seconds",
+    "error",
+    "shift",
+    "seeds",
+    "runs",
+    "pareto",
+    "options",
+];
 
 impl Study {
     /// The cheapest setting for each of a few target errors, with the options of `svbrdf loss` that select it.
@@ -74,38 +90,42 @@ impl Study {
         Family::ALL.into_iter().filter_map(line).collect()
     }
 
-    /// One row per point (RFC 4180).
-    pub fn csv(&self) -> String {
-        CSV_HEADING.to_owned() + &self.points.iter().map(csv_row).collect::<String>()
-    }
-
-    /// Writes [`Study::csv`]; the file appears when it is complete, or not at all.
+    /// Writes every point, a row each (RFC 4180); the file appears when it is complete, or not at all.
     ///
     /// # Errors
     /// [`Error::Unwritable`], [`Error::Cancelled`].
     pub fn write_csv(&self, path: &Path, progress: &Progress) -> Result<(), Error> {
-        export::replace(path, progress, |file| std::io::Write::write_all(file, self.csv().as_bytes()))
+        export::replace(path, progress, |file| {
+            let mut writer = csv::Writer::from_writer(file);
+            writer.write_record(CSV_HEADING)?;
+            for point in &self.points {
+                writer.write_record(csv_row(point))?;
+            }
+            writer.flush()
+        })
     }
 }
 
-fn csv_row(p: &Point) -> String {
+fn csv_row(p: &Point) -> [String; 15] {
     let c = &p.choice;
     let precision = if c.precision == Precision::F64 { "f64" } else { "f32" };
     let backend = if c.backend == Device::Gpu { "gpu" } else { "cpu" };
-    format!(
-        "{},{},{},{},{},{precision},{backend},{},{:.4e},{:.4e},{:.4e},{},{},{},{}\n",
-        c.scenes,
-        c.near(),
-        c.distant(),
-        c.sampler,
-        c.texels,
-        c.maps.name(),
-        p.seconds,
-        p.error,
-        p.shift,
-        p.seeds,
-        p.runs,
-        p.pareto,
-        c.options()
-    )
+    let short = |number: f64| format!("{number:.4e}");
+    [
+        c.scenes.to_string(),
+        c.near().to_string(),
+        c.distant().to_string(),
+        c.sampler.to_string(),
+        c.texels.to_string(),
+        precision.to_owned(),
+        backend.to_owned(),
+        c.maps.name().to_owned(),
+        short(p.seconds),
+        short(p.error),
+        short(p.shift),
+        p.seeds.to_string(),
+        p.runs.to_string(),
+        p.pareto.to_string(),
+        c.options(),
+    ]
 }

@@ -1,9 +1,9 @@
 //! The handles of light (a sun) and view (an eye) over the material, and of the wipe line.
 
 use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2};
+use glam::Vec3;
 
 use super::theme;
-use crate::math::vec3::Vec3;
 use crate::picture::camera::Camera;
 
 /// Distance, in points, within which a press grabs a handle or the wipe line.

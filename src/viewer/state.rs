@@ -1,9 +1,9 @@
 //! What the panes show, and how: everything that undo covers.
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::differences::Differences;
-use crate::math::vec3::Vec3;
 use crate::model::convention::{self, Convention};
 use crate::model::scene::{Kind, Scene};
 use crate::picture::difference::Difference;
@@ -160,7 +160,7 @@ pub fn set_endpoint(scene: &mut Scene, which: Endpoint, p: [f64; 3]) {
 
 /// The projection of an endpoint onto the plane, where its handle is: of a direction, its (x, y) on the unit hemisphere.
 pub fn over_plane(scene: &Scene, which: Endpoint) -> [f64; 2] {
-    let p = Vec3::from(endpoint(scene, which));
+    let p = DVec3::from(endpoint(scene, which));
     let p = if scene.kind == Kind::Distant { p.normalize() } else { p };
     [p.x, p.y]
 }
@@ -196,7 +196,7 @@ pub fn scale_distance(scene: &mut Scene, which: Endpoint, factor: f64) {
 /// `upwards` towards it, both in radians. The distance stays.
 pub fn orbit(scene: &mut Scene, which: Endpoint, sideways: f64, upwards: f64) {
     const STEEPEST: f64 = std::f64::consts::FRAC_PI_2 - 1e-3;
-    let p = Vec3::from(endpoint(scene, which));
+    let p = DVec3::from(endpoint(scene, which));
     let length = p.length();
     let longitude = (p.x.atan2(p.z) + sideways).clamp(-STEEPEST, STEEPEST);
     let latitude = ((p.y / length).asin() + upwards).clamp(-STEEPEST, STEEPEST);
@@ -230,9 +230,9 @@ mod tests {
         scene.view = [0.3, -0.4, 1.7];
         let c = [0.25, 0.5];
         put_highlight(&mut scene, c);
-        let at = Vec3::new(c[0], c[1], 0.0);
-        let l = (Vec3::from(scene.light) - at).normalize();
-        let v = (Vec3::from(scene.view) - at).normalize();
+        let at = DVec3::new(c[0], c[1], 0.0);
+        let l = (DVec3::from(scene.light) - at).normalize();
+        let v = (DVec3::from(scene.view) - at).normalize();
         let h = (l + v).normalize();
         assert!((h.z - 1.0).abs() < 1e-12, "{h:?}");
     }
@@ -240,11 +240,11 @@ mod tests {
     #[test]
     fn orbiting_keeps_the_distance_and_stays_above_the_plane() {
         let mut scene = ViewState::default().scene;
-        let before = Vec3::from(scene.light).length();
+        let before = DVec3::from(scene.light).length();
         for _ in 0..100 {
             orbit(&mut scene, Endpoint::Light, 0.3, -0.2);
             assert!(scene.light[2] >= LOWEST && scene.light[0] > 0.0);
-            assert!((Vec3::from(scene.light).length() - before).abs() < 1e-9);
+            assert!((DVec3::from(scene.light).length() - before).abs() < 1e-9);
         }
     }
 
@@ -252,7 +252,7 @@ mod tests {
     fn a_direction_that_is_moved_over_the_plane_stays_on_the_hemisphere() {
         let mut scene = Scene { kind: Kind::Distant, ..ViewState::default().scene };
         move_over_plane(&mut scene, Endpoint::Light, [3.0, 4.0]);
-        assert!((Vec3::from(scene.light).length() - 1.0).abs() < 1e-4);
+        assert!((DVec3::from(scene.light).length() - 1.0).abs() < 1e-4);
         move_over_plane(&mut scene, Endpoint::Light, [0.3, -0.2]);
         let [x, y] = over_plane(&scene, Endpoint::Light);
         assert!((x - 0.3).abs() < 1e-12 && (y + 0.2).abs() < 1e-12);

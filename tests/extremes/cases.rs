@@ -1,8 +1,8 @@
 //! The cases: a table of values for each axis, and random ones.
 
 use exr::prelude::f16;
+use glam::{DVec3, Vec3};
 use svbrdf::material::{Material, Planes};
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::{self, Convention};
 
@@ -62,7 +62,7 @@ impl Format {
         }
     }
 
-    fn normal(self, n: Vec3<f64>) -> Vec3<f32> {
+    fn normal(self, n: DVec3) -> Vec3 {
         let component = |x: f64| match self {
             Self::Bits8 => 2.0 * self.value(0.5 + 0.5 * x) - 1.0,
             _ => self.value(x),
@@ -80,8 +80,8 @@ pub struct Batch {
     /// A row of texels.
     pub material: Material<f32>,
     /// From the texels to the light and to the viewer, of any length.
-    pub w_l: Vec3<f32>,
-    pub w_v: Vec3<f32>,
+    pub w_l: Vec3,
+    pub w_v: Vec3,
 }
 
 impl Batch {
@@ -107,17 +107,17 @@ pub fn row(texels: &[Texel<f32>]) -> Material<f32> {
 }
 
 /// `axis` turned by `angle` towards the side that `azimuth` names. Both in radians.
-pub fn turned(axis: Vec3<f64>, angle: f64, azimuth: f64) -> Vec3<f64> {
-    let other = if axis.x.abs() < 0.5 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 1.0, 0.0) };
+pub fn turned(axis: DVec3, angle: f64, azimuth: f64) -> DVec3 {
+    let other = if axis.x.abs() < 0.5 { DVec3::X } else { DVec3::Y };
     let x = axis.cross(other).normalize();
     let side = x * azimuth.cos() + axis.cross(x) * azimuth.sin();
     axis * angle.cos() + side * angle.sin()
 }
 
 /// The half vector, or z where light and view are opposite.
-fn half_way(l: Vec3<f64>, v: Vec3<f64>) -> Vec3<f64> {
+fn half_way(l: DVec3, v: DVec3) -> DVec3 {
     let sum = l + v;
-    if sum.length() > 1e-9 { sum.normalize() } else { Vec3::new(0.0, 0.0, 1.0) }
+    if sum.length() > 1e-9 { sum.normalize() } else { DVec3::Z }
 }
 
 /// The values of a case, as indices into the axes, in this order: roughness, NoH, light, view, diffuse, specular,
@@ -171,19 +171,19 @@ fn batch_of_table(convention: usize, i: usize) -> (Batch, Vec<[Indices; 3]>) {
             [r, n_dot_h, light, view, diffuse, specular, light_distance, view_distance, format, convention]
         }));
     }
-    let [w_l, w_v] = [l * DISTANCE[light_distance], v * DISTANCE[view_distance]].map(Vec3::cast);
+    let [w_l, w_v] = [l * DISTANCE[light_distance], v * DISTANCE[view_distance]].map(|w| w.as_vec3());
     let near = (light + view + round).is_multiple_of(4);
     (Batch { convention: convention::ALL[convention], near, material: row(&texels), w_l, w_v }, places)
 }
 
 /// Unit vectors to a light at height `z` on the side `azimuth`, and to the view.
-fn directions(z: f64, view: View, azimuth: f64) -> (Vec3<f64>, Vec3<f64>) {
+fn directions(z: f64, view: View, azimuth: f64) -> (DVec3, DVec3) {
     let at = |z: f64, azimuth: f64| {
         let rho = ((1.0 - z) * (1.0 + z)).sqrt();
-        Vec3::new(rho * azimuth.cos(), rho * azimuth.sin(), z)
+        DVec3::new(rho * azimuth.cos(), rho * azimuth.sin(), z)
     };
     let l = at(z, azimuth);
-    let mirrored = Vec3::new(-l.x, -l.y, l.z);
+    let mirrored = DVec3::new(-l.x, -l.y, l.z);
     let v = match view {
         View::Height(z) => at(z, 2.0 * azimuth),
         View::Mirror => mirrored,
@@ -206,12 +206,12 @@ pub fn random(index: u64) -> Batch {
     let h = half_way(l, v);
     let texels: Vec<_> = (0..RANDOM_TEXELS).map(|_| texel(&mut g, h)).collect();
     let mut distance = || 10f64.powf(10.0 * g.uniform() - 4.0);
-    let [w_l, w_v] = [l, v].map(|w| (w * distance()).cast());
+    let [w_l, w_v] = [l, v].map(|w| (w * distance()).as_vec3());
     let convention = convention::ALL[index as usize % 4];
     Batch { convention, near: (index / 4).is_multiple_of(8), material: row(&texels), w_l, w_v }
 }
 
-fn texel(g: &mut Generator, h: Vec3<f64>) -> Texel<f32> {
+fn texel(g: &mut Generator, h: DVec3) -> Texel<f32> {
     let [log_angle, azimuth] = [g.uniform(), g.uniform()];
     let normal = match g.pick(4) {
         0 => g.normal(),

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
-use svbrdf::math::vec3::Vec3;
+use glam::Vec3;
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::Convention;
 
@@ -29,12 +29,12 @@ fn unit(a: &BigVec) -> BigVec {
     from_fn(|i| &a[i] / &length)
 }
 
-fn vector(a: Vec3<f32>) -> BigVec {
+fn vector(a: Vec3) -> BigVec {
     a.to_array().map(|x| big(x.into()))
 }
 
 /// The radiance R of a texel, rounded to f64 at the end. The inputs count as exact; the normal is brought to length 1.
-pub fn radiance(c: &Convention, texel: &Texel<f32>, w_l: Vec3<f32>, w_v: Vec3<f32>) -> [f64; 3] {
+pub fn radiance(c: &Convention, texel: &Texel<f32>, w_l: Vec3, w_v: Vec3) -> [f64; 3] {
     let [zero, one, two] = [0.0, 1.0, 2.0].map(big);
     let [n, l, v] = [texel.normal, w_l, w_v].map(|w| unit(&vector(w)));
     let n_dot_l = dot(&n, &l);

@@ -2,8 +2,8 @@
 
 use std::fmt::{Display, Write as _};
 
+use glam::DVec3;
 use rayon::prelude::*;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::PRINTED;
 
@@ -60,14 +60,14 @@ fn batch(pair: u64) -> Batch {
     let mut g = Generator::new(5, pair);
     let mut near_zenith = || {
         let [angle, azimuth] = [0.35 * g.uniform(), std::f64::consts::TAU * g.uniform()];
-        turned(Vec3::new(0.0, 0.0, 1.0), angle, azimuth).cast()
+        turned(DVec3::Z, angle, azimuth).as_vec3()
     };
-    let (w_l, w_v): (Vec3<f32>, Vec3<f32>) = (near_zenith(), near_zenith());
-    let h = (w_l.cast::<f64>() + w_v.cast()).normalize();
+    let (w_l, w_v) = (near_zenith(), near_zenith());
+    let h = (w_l.as_dvec3() + w_v.as_dvec3()).normalize();
     let texel = |i: usize| {
         let azimuth = std::f64::consts::TAU * g.uniform();
         Texel {
-            normal: turned(h, at(ANGLES, i % COLUMNS, COLUMNS), azimuth).cast(),
+            normal: turned(h, at(ANGLES, i % COLUMNS, COLUMNS), azimuth).as_vec3(),
             diffuse: [0.0; 3],
             specular: [1.0; 3],
             roughness: at(ROUGHNESSES, i / COLUMNS, ROWS) as f32,

@@ -104,11 +104,11 @@ fn defects_of_the_fused_kernel_are_seen() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn defects_of_the_gpu_are_seen() {
     use exr::prelude::f16;
-    use svbrdf::math::vec3::Vec3;
+    use glam::Vec3;
 
     let on_gpu = |b: Batch| rungs::on_gpu(&[b]).unwrap().remove(0);
     held_to_sense(Rung::Gpu, |b| on_gpu(with_material(b, b.material.clone())));
-    let coarse = |w: Vec3<f32>| Vec3::from(w.to_array().map(|x| f16::from_f32(x).to_f32()));
+    let coarse = |w: Vec3| Vec3::from(w.to_array().map(|x| f16::from_f32(x).to_f32()));
     let mediump = |b: &Batch| {
         let texels: Vec<_> = b.texels().map(|t| Texel { normal: coarse(t.normal), ..t }).collect();
         on_gpu(with_material(b, row(&texels)))

@@ -1,6 +1,6 @@
 //! What a case should give, how well it is conditioned, and the region that it is reported in.
 
-use svbrdf::math::vec3::Vec3;
+use glam::DVec3;
 use svbrdf::model::brdf::{self, Model, Texel};
 
 use super::cases::Batch;
@@ -98,7 +98,7 @@ pub struct Place {
 }
 
 impl Place {
-    fn of(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> Self {
+    fn of(model: &Model<f64>, texel: &Texel<f64>, l: DVec3, v: DVec3) -> Self {
         let n = texel.normal;
         Self {
             rough: texel.roughness.max(model.roughness_floor),
@@ -115,7 +115,7 @@ impl Place {
 /// The texel in f64, its normal brought to length 1.
 pub fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
     Texel {
-        normal: texel.normal.cast().normalize(),
+        normal: texel.normal.as_dvec3().normalize(),
         diffuse: texel.diffuse.map(f64::from),
         specular: texel.specular.map(f64::from),
         roughness: texel.roughness.into(),
@@ -123,7 +123,7 @@ pub fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
 }
 
 /// `brdf::render` behind its normalization: `l` and `v` may be a little off length 1.
-fn shade(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> [f64; 3] {
+fn shade(model: &Model<f64>, texel: &Texel<f64>, l: DVec3, v: DVec3) -> [f64; 3] {
     let n_dot_l = texel.normal.dot(l);
     if n_dot_l <= 0.0 || l.z <= 0.0 {
         return [0.0; 3];
@@ -135,7 +135,7 @@ fn shade(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> 
 /// See [`Truth::one_ulp`]. The numbers are the components of n, l and v, once l and v have length 1, the roughness, and
 /// the albedos. Rounding a component of l and v changes their length too, which turns h where they are opposite; where
 /// l + v is no longer than a few ulps, h is all rounding.
-fn one_ulp(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> [f64; 3] {
+fn one_ulp(model: &Model<f64>, texel: &Texel<f64>, l: DVec3, v: DVec3) -> [f64; 3] {
     let from = shade(model, texel, l, v);
     if from != [0.0; 3] && (l + v).length() < 4.0 * ULP {
         return [f64::INFINITY; 3];
@@ -149,10 +149,10 @@ fn one_ulp(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -
                 *most = most.max(change);
             }
         };
-        let turned = |w: Vec3<f64>, axis: usize| {
+        let turned = |w: DVec3, axis: usize| {
             let mut w = w.to_array();
             w[axis] *= step;
-            Vec3::from(w)
+            DVec3::from(w)
         };
         for axis in 0..3 {
             moved(&Texel { normal: turned(texel.normal, axis), ..*texel }, l, v);
@@ -170,11 +170,11 @@ fn one_ulp(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -
 impl Truth {
     pub fn of(batch: &Batch) -> Vec<Self> {
         let model = Model::from(&batch.convention);
-        let [l, v] = [batch.w_l, batch.w_v].map(|w| w.cast::<f64>().normalize());
+        let [l, v] = [batch.w_l, batch.w_v].map(|w| w.as_dvec3().normalize());
         batch.texels().map(|texel| Self::of_texel(&model, &in_f64(&texel), l, v)).collect()
     }
 
-    fn of_texel(model: &Model<f64>, texel: &Texel<f64>, l: Vec3<f64>, v: Vec3<f64>) -> Self {
+    fn of_texel(model: &Model<f64>, texel: &Texel<f64>, l: DVec3, v: DVec3) -> Self {
         /// An operation of f64 is off by this share of what one of f32 is off by.
         const F64_BY_F32: f64 = f64::EPSILON / f32::EPSILON as f64;
         let expected = brdf::render(model, texel, l, v);

@@ -1,7 +1,7 @@
 //! What computes the cases: the ladder of precision, and what it is compared with.
 
+use glam::Vec3;
 use svbrdf::material::Material;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::brdf::{self, Model, Texel};
 use svbrdf::model::convention::{Convention, GUIDED_2020, PRINTED};
 use svbrdf::model::scene::{Kind, Scene};
@@ -65,7 +65,7 @@ pub fn levels() -> Vec<(&'static str, Level)> {
 
 /// The fused kernel; `None` where light or view are not above the plane, which no scene may have.
 pub fn fused(level: Level, batch: &Batch) -> Option<Vec<Rgb>> {
-    let position = |w: Vec3<f32>| w.cast().to_array();
+    let position = |w: Vec3| w.as_dvec3().to_array();
     let kind = if batch.near { Kind::Near } else { Kind::Distant };
     let scene = Scene { kind, view: position(batch.w_v), light: position(batch.w_l) };
     scene.check().ok()?;
@@ -137,6 +137,6 @@ pub fn cancelling(batch: &Batch) -> Option<Vec<Rgb>> {
 pub fn clamped(batch: &Batch) -> Option<Vec<Rgb>> {
     let convention = Convention { intensity: 1.0, ..GUIDED_2020 };
     let model = Model::from(&convention);
-    let radiance = |t| brdf::render(&model, &in_f64(&t), batch.w_l.cast(), batch.w_v.cast());
+    let radiance = |t| brdf::render(&model, &in_f64(&t), batch.w_l.as_dvec3(), batch.w_v.as_dvec3());
     (batch.convention == PRINTED).then(|| batch.texels().map(radiance).collect())
 }

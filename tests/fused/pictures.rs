@@ -21,7 +21,7 @@ fn compare_to_f64(
     scene: &Scene,
     c: &Convention,
 ) -> Result<Worst, String> {
-    let (exact, model, rays) = (material.cast::<f64>(), Model::from(c), scene.rays());
+    let (exact, model, rays) = (material.cast::<f64>(), Model::from(c), scene.rays::<f64>());
     let want = render(&exact, scene, c, &Progress::default()).unwrap();
     let width = material.width();
     let bounds: Vec<_> = (0..want.pixels.len())

@@ -2,10 +2,10 @@
 
 use std::process::Command;
 
+use glam::Vec3;
 use svbrdf::error::Error;
 use svbrdf::gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shading};
 use svbrdf::material::Material;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
@@ -105,12 +105,12 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
     let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering };
     shading.draw(&half, &textures, &params, &target);
     let camera = Camera {
-        origin: Vec3::new(0.0, 0.0, 1.0),
+        origin: Vec3::Z,
         origin_right: Vec3::new(1.0, 0.0, 0.0),
         origin_up: Vec3::new(0.0, 1.0, 0.0),
-        direction: Vec3::new(0.0, 0.0, -1.0),
-        direction_right: Vec3::zero(),
-        direction_up: Vec3::zero(),
+        direction: Vec3::NEG_Z,
+        direction_right: Vec3::ZERO,
+        direction_up: Vec3::ZERO,
     };
     let params = DisplayParams {
         camera,
@@ -129,8 +129,7 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
 
 /// Straight under the light, its highlight is brighter than any 16-bit number.
 fn mirror() -> Material<f32> {
-    let texel =
-        Texel { normal: Vec3::new(0.0, 0.0, 1.0), diffuse: [0.0; 3], specular: [1.0; 3], roughness: 0.0 };
+    let texel = Texel { normal: Vec3::Z, diffuse: [0.0; 3], specular: [1.0; 3], roughness: 0.0 };
     Material::uniform("mirror", 2, 2, &texel).expect("valid")
 }
 

@@ -1,11 +1,11 @@
 //! Pass 2: what a window would show.
 
+use glam::Vec3;
 use svbrdf::gpu::{
     DisplayMode, DisplayParams, DisplayedDifference, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded,
     Shading,
 };
 use svbrdf::material::Material;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
@@ -37,9 +37,9 @@ fn flat(centre: [f32; 2], half_width: f32, half_height: f32) -> Camera {
         origin: Vec3::new(centre[0], centre[1], 1.0),
         origin_right: Vec3::new(half_width, 0.0, 0.0),
         origin_up: Vec3::new(0.0, half_height, 0.0),
-        direction: Vec3::new(0.0, 0.0, -1.0),
-        direction_right: Vec3::zero(),
-        direction_up: Vec3::zero(),
+        direction: Vec3::NEG_Z,
+        direction_right: Vec3::ZERO,
+        direction_up: Vec3::ZERO,
     }
 }
 
@@ -90,8 +90,7 @@ fn diffuse(material: &Material<f32>, column: usize, row: usize) -> [f64; 3] {
 }
 
 fn gray(value: f32) -> Material<f32> {
-    let texel =
-        Texel { normal: Vec3::new(0.0, 0.0, 1.0), diffuse: [value; 3], specular: [0.0; 3], roughness: value };
+    let texel = Texel { normal: Vec3::Z, diffuse: [value; 3], specular: [0.0; 3], roughness: value };
     Material::uniform("gray", 4, 4, &texel).expect("valid")
 }
 
@@ -167,8 +166,8 @@ fn a_perspective_view_shows_what_the_camera_says() {
     let gpu = gpu();
     let camera = Camera {
         origin: Vec3::new(0.3, -2.0, 1.5),
-        origin_right: Vec3::zero(),
-        origin_up: Vec3::zero(),
+        origin_right: Vec3::ZERO,
+        origin_up: Vec3::ZERO,
         direction: Vec3::new(-0.1, 1.0, -0.75),
         direction_right: Vec3::new(0.9, 0.1, 0.0),
         direction_up: Vec3::new(0.0, 0.6, 0.8),

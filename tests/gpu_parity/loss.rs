@@ -173,7 +173,7 @@ fn mirrors_and_grazing_lights_have_finite_losses() {
     let computer = Computer::get();
     let uniform = |roughness, specular| {
         let texel = svbrdf::model::brdf::Texel {
-            normal: svbrdf::math::vec3::Vec3::new(0.0, 0.0, 1.0),
+            normal: glam::Vec3::Z,
             diffuse: [0.0; 3],
             specular: [specular; 3],
             roughness,

@@ -1,8 +1,8 @@
 //! Random and extreme points of the BRDF, the same on every rung of precision, and how far f32 may be off there.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-use svbrdf::math::vec3::Vec3;
+use glam::DVec3;
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng as _, SeedableRng as _};
 use svbrdf::model::brdf::{self, Model, Texel};
 
 /// Half the distance of 1 and the next f32.
@@ -42,14 +42,14 @@ impl Generator {
         values[self.pick(N)]
     }
 
-    fn azimuth(&mut self, z: f64) -> Vec3<f64> {
+    fn azimuth(&mut self, z: f64) -> DVec3 {
         let phi = std::f64::consts::TAU * self.uniform();
         let rho = (1.0 - z * z).max(0.0).sqrt();
-        Vec3::new(rho * phi.cos(), rho * phi.sin(), z)
+        DVec3::new(rho * phi.cos(), rho * phi.sin(), z)
     }
 
     /// A unit direction: anywhere above the plane, at the zenith, grazing, or below the plane.
-    pub fn direction(&mut self) -> Vec3<f64> {
+    pub fn direction(&mut self) -> DVec3 {
         let z = match self.pick(8) {
             0 => 1.0,
             1 => self.one_of([1e-6, 1e-5, 1e-4, 1e-3, 0.01]),
@@ -60,7 +60,7 @@ impl Generator {
     }
 
     /// Mostly out of the plane; now and then exactly along z, or nearly in the plane.
-    pub fn normal(&mut self) -> Vec3<f64> {
+    pub fn normal(&mut self) -> DVec3 {
         let z = match self.pick(4) {
             0 => 1.0,
             1 => self.uniform(),
@@ -82,7 +82,7 @@ impl Generator {
 
     /// A direction for a light along `l`: any, its mirror image on `n`, `l` itself, or its opposite, the last
     /// three a little off.
-    pub fn partner(&mut self, n: Vec3<f64>, l: Vec3<f64>) -> Vec3<f64> {
+    pub fn partner(&mut self, n: DVec3, l: DVec3) -> DVec3 {
         let exact = match self.pick(6) {
             0 | 1 => n * (2.0 * n.dot(l)) - l,
             2 => l,
@@ -96,10 +96,10 @@ impl Generator {
     fn point(&mut self) -> Point {
         let (n, l) = (self.normal(), self.direction());
         let v = self.partner(n, l);
-        let mut lengthened = |w: Vec3<f64>| (w * 10f64.powf(4.0 * self.uniform() - 2.0)).cast().to_array();
+        let mut lengthened = |w: DVec3| (w * 10f64.powf(4.0 * self.uniform() - 2.0)).as_vec3().to_array();
         let (w_l, w_v) = (lengthened(l), lengthened(v));
         let texel = Texel {
-            normal: n.cast(),
+            normal: n.as_vec3(),
             diffuse: [(); 3].map(|()| self.albedo()),
             specular: [(); 3].map(|()| self.albedo()),
             roughness: self.roughness(),
@@ -110,14 +110,14 @@ impl Generator {
 
 /// A point in f64, exactly.
 #[cfg(feature = "gpu")]
-pub fn exact((texel, w_l, w_v): &Point) -> (Texel<f64>, Vec3<f64>, Vec3<f64>) {
+pub fn exact((texel, w_l, w_v): &Point) -> (Texel<f64>, DVec3, DVec3) {
     let texel = Texel {
-        normal: texel.normal.cast(),
+        normal: texel.normal.as_dvec3(),
         diffuse: texel.diffuse.map(f64::from),
         specular: texel.specular.map(f64::from),
         roughness: f64::from(texel.roughness),
     };
-    (texel, Vec3::from(*w_l).cast(), Vec3::from(*w_v).cast())
+    (texel, w_l.map(f64::from).into(), w_v.map(f64::from).into())
 }
 
 /// How far each channel of `brdf::render` may be off where every operation, on vectors of length about 1, is off by
@@ -126,13 +126,7 @@ pub fn exact((texel, w_l, w_v): &Point) -> (Texel<f64>, Vec3<f64>, Vec3<f64>) {
 /// Not one condition number: where the lobe is narrower than that error (r < 0.002 or so), the radiance is not
 /// linear in it. So D is taken over all half vectors within reach; the other factors are smooth, and taken to first
 /// order. Where l is nearly -v, the half vector's reach grows as 1 / |l + v|.
-pub fn error_bound(
-    model: &Model<f64>,
-    texel: &Texel<f64>,
-    w_l: Vec3<f64>,
-    w_v: Vec3<f64>,
-    ulps: f64,
-) -> [f64; 3] {
+pub fn error_bound(model: &Model<f64>, texel: &Texel<f64>, w_l: DVec3, w_v: DVec3, ulps: f64) -> [f64; 3] {
     let e = ulps * U;
     let (n, l, v) = (texel.normal, w_l.normalize(), w_v.normalize());
     let n_dot_l = n.dot(l);

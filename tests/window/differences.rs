@@ -1,7 +1,6 @@
 //! The difference as a quantity: in every layout, with its numbers, its range and its colours.
 
 use svbrdf::material::Material;
-use svbrdf::math::vec3::Vec3;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::Scene;
 use svbrdf::picture::statistics::Statistics;
@@ -34,7 +33,7 @@ fn log_differences(scene: &Scene, prediction: usize) -> Vec<f64> {
 fn angles(prediction: usize) -> Vec<f64> {
     let materials = materials();
     let texels = materials[0].width() * materials[0].height();
-    let normal = |index: usize, texel: usize| Vec3::from(materials[index].texel(texel).normal.to_array());
+    let normal = |index: usize, texel: usize| materials[index].texel(texel).normal;
     (0..texels)
         .map(|i| normal(0, i).dot(normal(prediction, i)).clamp(-1.0, 1.0).acos().to_degrees())
         .collect()

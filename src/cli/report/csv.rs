@@ -1,18 +1,55 @@
 //! One table for spreadsheets (RFC 4180, with a heading); an unknown value is an empty cell.
 
+use std::io;
+
 use svbrdf::loss::Loss;
 use svbrdf::model::scene::Kind;
 
-use super::Printed;
+use super::printed::Printed;
 
-const HEADING: &str = "prediction,loss,standard_error,interval95_low,interval95_high,\
-    convention,epsilon,width,height,near,distant,seed,sampler,texels,precision,backend,\
-    target_error,target_reached,path,ground_truth,ground_truth_path\n";
+const HEADING: [&str; 21] = [
+    "prediction",
+    "loss",
+    "standard_error",
+    "interval95_low",
+    "interval95_high",
+    "convention",
+    "epsilon",
+    "width",
+    "height",
+    "near",
+    "distant",
+    "seed",
+    "sampler",
+    "texels",
+    "precision",
+    "backend",
+    "target_error",
+    "target_reached",
+    "path",
+    "ground_truth",
+    "ground_truth_path",
+];
 
-pub(super) fn write(printed: &Printed) -> String {
+pub(super) fn write(printed: &Printed) -> io::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(HEADING)?;
+    let common = common(printed);
+    for (loss, path) in printed.report.outcome.losses.iter().zip(printed.prediction_paths()) {
+        let ground_truth = [&*printed.report.ground_truth, printed.ground_truth_path().unwrap_or_default()];
+        let names = [path.unwrap_or_default()].into_iter().chain(ground_truth);
+        let cells = cells(loss).into_iter().chain(common.clone());
+        writer.write_record(cells.chain(names.map(str::to_owned)))?;
+    }
+    let bytes = writer.into_inner().map_err(csv::IntoInnerError::into_error)?;
+    String::from_utf8(bytes).map_err(io::Error::other)
+}
+
+/// The cells that are the same in every row.
+fn common(printed: &Printed) -> [String; 13] {
     let report = &printed.report;
     let [width, height] = report.size;
-    let common = [
+    [
         report.convention.name.to_owned(),
         report.convention.epsilon.to_string(),
         width.to_string(),
@@ -27,44 +64,16 @@ pub(super) fn write(printed: &Printed) -> String {
         or_empty(printed.target().map(|(error, _)| error)),
         or_empty(printed.target().map(|(_, reached)| reached)),
     ]
-    .join(",");
-    let ground_truth =
-        [&*report.ground_truth, printed.ground_truth_path().unwrap_or_default()].map(quoted).join(",");
-    let row = |(loss, path): (&Loss, Option<&str>)| {
-        format!("{},{common},{},{ground_truth}\n", cells(loss), quoted(path.unwrap_or_default()))
-    };
-    let rows: String = report.outcome.losses.iter().zip(printed.prediction_paths()).map(row).collect();
-    format!("{HEADING}{rows}")
 }
 
 fn or_empty(value: Option<impl ToString>) -> String {
     value.map_or(String::new(), |value| value.to_string())
 }
 
-fn cells(loss: &Loss) -> String {
+/// The prediction and its loss.
+fn cells(loss: &Loss) -> [String; 5] {
     let estimate = &loss.estimate;
     let (low, high) = (estimate.interval95.map(|i| i[0]), estimate.interval95.map(|i| i[1]));
-    let numbers = [Some(estimate.mean), estimate.standard_error, low, high].map(or_empty);
-    format!("{},{}", quoted(&loss.prediction), numbers.join(","))
-}
-
-/// A cell that may hold commas, quotes or line breaks.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quoted;
-
-    #[test]
-    fn only_cells_that_need_it_are_quoted() {
-        assert_eq!(quoted("plain name"), "plain name");
-        assert_eq!(quoted("a,b"), "\"a,b\"");
-        assert_eq!(quoted("7\" disc"), "\"7\"\" disc\"");
-    }
+    let [mean, error, low, high] = [Some(estimate.mean), estimate.standard_error, low, high].map(or_empty);
+    [loss.prediction.clone(), mean, error, low, high]
 }

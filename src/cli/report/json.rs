@@ -8,7 +8,7 @@ use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::report::Report;
 
-use super::Printed;
+use super::printed::Printed;
 
 /// A scene file, too: `--scenes` takes it.
 #[derive(Serialize)]

@@ -4,9 +4,9 @@ use std::io::{self, Seek, Write};
 
 use exr::image::{AnyChannel, AnyChannels, FlatSamples};
 use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage, f16};
+use glam::DVec3;
 
 use crate::material::{Material, Planes};
-use crate::math::vec3::Vec3;
 use crate::model::convention::PRINTED;
 use crate::model::scene::{Kind, Scene};
 use crate::picture::export::Provenance;
@@ -76,7 +76,7 @@ fn text(name: &str) -> Text {
 pub(crate) fn half_normals([xs, ys, zs]: &[Vec<f32>; 3]) -> [Vec<f32>; 3] {
     const MOST_ROUNDS: usize = 16;
     let round = |n: [f32; 3]| n.map(|x| f16::from_f32(x).to_f32());
-    let again = |n: [f32; 3]| round(Vec3::from(n.map(f64::from)).normalize().to_array().map(|x| x as f32));
+    let again = |n: [f32; 3]| round(DVec3::from(n.map(f64::from)).normalize().to_array().map(|x| x as f32));
     let mut planes = [0; 3].map(|_| Vec::with_capacity(xs.len()));
     for ((&x, &y), &z) in xs.iter().zip(ys).zip(zs) {
         let mut n = round([x, y, z]);

@@ -69,9 +69,10 @@ impl Backend<f32> for Losses {
         let count = 3.0 * (ground_truth.width() * ground_truth.height()) as f64;
         let mut losses = Vec::with_capacity(comparison.predictions().len());
         for (group, plan) in groups {
-            let job = Job { gpu, passes: &self.passes, plan, convention: comparison.convention(), scenes };
+            let group_loss =
+                GroupLoss { gpu, passes: &self.passes, plan, convention: comparison.convention(), scenes };
             let materials: Vec<_> = [ground_truth].iter().chain(group).copied().collect();
-            let sums = job.run(&materials, progress)?;
+            let sums = group_loss.run(&materials, progress)?;
             losses.extend(sums.into_iter().map(|sums| sums.into_iter().map(|sum| sum / count).collect()));
         }
         if losses.iter().flatten().any(|loss: &f64| !loss.is_finite()) {
@@ -81,8 +82,8 @@ impl Backend<f32> for Losses {
     }
 }
 
-/// The ground truth and as many predictions as one pass takes.
-struct Job<'a> {
+/// The losses of a group: as many predictions as one pass takes.
+struct GroupLoss<'a> {
     gpu: &'a Gpu,
     passes: &'a Passes,
     plan: Plan,
@@ -90,7 +91,7 @@ struct Job<'a> {
     scenes: &'a [Scene],
 }
 
-impl Job<'_> {
+impl GroupLoss<'_> {
     /// For each prediction the sum over texels and channels of each scene.
     fn run(&self, materials: &[&Material<f32>], progress: &Progress) -> Result<Vec<Vec<f64>>, Error> {
         let buffers = Buffers::new(self.gpu, self.passes, &self.plan, materials.len())?;

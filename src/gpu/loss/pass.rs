@@ -12,10 +12,10 @@ use crate::error::Error;
 use crate::gpu::fault::scoped;
 use crate::gpu::pipeline::{bind, buffer_type, compute, layout, module};
 use crate::gpu::read_back::{read_after, read_buffer};
-use crate::gpu::uniforms::{Band, LogSum, Model, Rays};
+use crate::gpu::uniforms::{Band, LogSum, ModelUniforms, SceneUniforms};
 use crate::gpu::{Gpu, shaders};
 use crate::material::{Material, Planes};
-use crate::model::brdf;
+use crate::model::brdf::Model;
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 
@@ -52,7 +52,7 @@ impl Passes {
         blocks: usize,
     ) -> Result<Submitted, Error> {
         let sums = scenes.len() * buffers.predictions * blocks;
-        let rays: Vec<Rays> = scenes.iter().map(Rays::from).collect();
+        let rays: Vec<SceneUniforms> = scenes.iter().map(SceneUniforms::from).collect();
         scoped(&gpu.device, "computing a loss", || {
             gpu.queue.write_buffer(&buffers.scenes, 0, bytemuck::cast_slice(&rays));
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -104,7 +104,7 @@ impl Buffers {
         scoped(&gpu.device, "taking memory for a loss", || {
             let storage = |bytes: usize, usage| create(gpu, bytes, BufferUsages::STORAGE | usage);
             let band = create(gpu, size_of::<Band>(), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
-            let scenes = storage(plan.scenes_per_step * size_of::<Rays>(), BufferUsages::COPY_DST);
+            let scenes = storage(plan.scenes_per_step * size_of::<SceneUniforms>(), BufferUsages::COPY_DST);
             let planes = materials * PLANES * plan.texels_per_band * size_of::<f32>();
             let planes = storage(planes, BufferUsages::COPY_DST);
             let lane_sums = storage(sums * LANES, BufferUsages::empty());
@@ -124,7 +124,7 @@ impl Buffers {
         convention: &Convention,
     ) -> Result<(), Error> {
         let band = Band {
-            model: Model::from(&brdf::Model::from(convention)),
+            model: ModelUniforms::from(&Model::from(convention)),
             size: self.size,
             first: texels.start as u32,
             texels: texels.len() as u32,

@@ -1,6 +1,7 @@
 //! The sums of a loss, block by block.
 
 use fearless_simd::{Fallback, Simd};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::compare::LogSum;
@@ -66,7 +67,7 @@ impl<'a> Job<'a> {
         progress: &Progress,
         per_scene: &mut [Vec<f64>],
     ) -> Result<(), Error> {
-        let reach = self.ground_truth.grid().position::<f64>(0, 0).length();
+        let reach = self.ground_truth.grid().position::<DVec3>(0, 0).length();
         let sources: Vec<_> = scenes.iter().map(|s| Source::new(s, self.convention, reach)).collect();
         let groups: Vec<_> = sources.chunks(SCENES_PER_GROUP).collect();
         let sums = (0..groups.len() * self.blocks)

@@ -1,10 +1,10 @@
 //! What all materials share: the light, the half vector and the Fresnel power of a scene at every texel of a tile.
 
 use fearless_simd::{Simd, prelude::*};
+use glam::DVec3;
 
 use super::lanes::{Lanes, V, neg_mul_add};
 use super::tile::{Places, Plane, vectors};
-use crate::math::vec3::Vec3;
 use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
 
@@ -49,8 +49,8 @@ impl Source {
     /// `reach` is the largest distance of a texel from the origin.
     pub(crate) fn new(scene: &Scene, convention: &Convention, reach: f64) -> Self {
         let lift = |p: [f64; 3]| {
-            let p = if scene.kind == Kind::Near { p } else { Vec3::from(p).normalize().to_array() };
-            Vec3::from([p[0], p[1], p[2].max(LOWEST)])
+            let p = if scene.kind == Kind::Near { p } else { DVec3::from(p).normalize().to_array() };
+            DVec3::from([p[0], p[1], p[2].max(LOWEST)])
         };
         let (light, view) = (lift(scene.light), lift(scene.view));
         let near = scene.kind == Kind::Near;

@@ -1,6 +1,7 @@
 //! Whole images through the kernel: the same geometry and the same radiance, without a comparison.
 
 use fearless_simd::{Fallback, Simd};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::TEXELS_PER_BLOCK;
@@ -59,7 +60,7 @@ impl<'a> View<'a> {
             planes: tile::planes(material.planes()).collect(),
             model: Model::without_epsilon(convention),
             axes: Axes::from(grid),
-            source: Source::new(scene, convention, grid.position::<f64>(0, 0).length()),
+            source: Source::new(scene, convention, grid.position::<DVec3>(0, 0).length()),
         }
     }
 

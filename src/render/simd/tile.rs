@@ -1,6 +1,7 @@
 //! What is kept in the nearest cache while all scenes pass over a few texels.
 
 use fearless_simd::{Simd, prelude::*};
+use glam::Vec3;
 
 use super::lanes::{Lanes, V};
 use crate::material::{Grid, Planes};
@@ -149,8 +150,8 @@ impl From<Grid> for Axes {
     fn from(grid: Grid) -> Self {
         Self {
             grid,
-            x: (0..grid.width).map(|column| grid.position(column, 0).x).collect(),
-            y: (0..grid.height).map(|row| grid.position(0, row).y).collect(),
+            x: (0..grid.width).map(|column| grid.position::<Vec3>(column, 0).x).collect(),
+            y: (0..grid.height).map(|row| grid.position::<Vec3>(0, row).y).collect(),
         }
     }
 }
@@ -180,7 +181,7 @@ impl Places {
             At::Run(range) => range,
             At::Listed(texels) => {
                 for ((x, y), &texel) in self.x.0.iter_mut().zip(&mut self.y.0).zip(*texels) {
-                    let position = axes.grid.position::<f32>(texel % width, texel / width);
+                    let position = axes.grid.position::<Vec3>(texel % width, texel / width);
                     (*x, *y) = (position.x, position.y);
                 }
                 return;

@@ -1,0 +1,72 @@
+//! What the two passes compute: plain values, no device.
+
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::picture::camera::Camera;
+use crate::picture::difference::Difference;
+use crate::picture::quantity::Quantity;
+
+/// What is shaded, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadeParams {
+    pub scene: Scene,
+    pub convention: Convention,
+    pub quantity: Quantity,
+}
+
+/// How a pane shows its pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplayParams {
+    pub camera: Camera,
+    /// Radiance is multiplied by 2 to this power.
+    pub exposure_ev: f32,
+    pub mode: DisplayMode,
+    /// The difference of the first picture from the reference, shown in place of the first; both have the same size.
+    pub difference: Option<DisplayedDifference>,
+    pub encoding: Encoding,
+    /// Stripes pixels of [`Encoding::Radiance`] that are too bright in a channel (magenta) or black (blue).
+    pub show_clipping: bool,
+    /// Epsilon of the difference's logarithms: that of the convention.
+    pub epsilon: f32,
+    /// What is shown beside the material, already encoded for the screen.
+    pub background: [f32; 3],
+}
+
+/// Which of a pane's two pictures is shown where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DisplayMode {
+    /// The first.
+    Value,
+    /// The reference left of this x of the pane, which runs from -1 to 1, and the first right of it.
+    Wipe(f32),
+}
+
+/// A difference shown as colours: [`heat`](crate::picture::colour_map::heat), or
+/// [`diverging`](crate::picture::colour_map::diverging) where it is signed. Exposure does not change it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplayedDifference {
+    pub kind: Difference,
+    /// The difference that has the last colour; positive.
+    pub range: f32,
+}
+
+/// How numbers become colours of the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// Exposed, then sRGB.
+    Radiance,
+    /// sRGB, never exposed.
+    Albedo,
+    /// As they are.
+    Data,
+}
+
+impl From<Quantity> for Encoding {
+    fn from(quantity: Quantity) -> Self {
+        match quantity {
+            Quantity::Rendering => Self::Radiance,
+            Quantity::Diffuse | Quantity::Specular => Self::Albedo,
+            Quantity::Normal | Quantity::Roughness => Self::Data,
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! One rendering on the device, read back.
+
+use super::{Gpu, MaterialTextures, ShadeParams, Shading};
+use crate::error::Error;
+use crate::image::Image;
+use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::picture::quantity::Quantity;
+
+impl Gpu {
+    /// Algorithm 3 over a whole material, as [`crate::render::render`] computes it on the CPU.
+    ///
+    /// # Errors
+    /// [`Error::UnusableScene`] where [`Scene::check`] refuses the scene, [`Error::Gpu`] where the adapter cannot
+    /// render to 32-bit floats, the material is too large for it, or it fails.
+    pub fn render(
+        &self,
+        material: &Material<f32>,
+        scene: &Scene,
+        convention: &Convention,
+    ) -> Result<Image<f32>, Error> {
+        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+        let textures = MaterialTextures::upload(self, material)?;
+        let shading = Shading::new(self)?;
+        let target = shading.target(self, material.size())?;
+        let params = ShadeParams { scene: *scene, convention: *convention, quantity: Quantity::Rendering };
+        shading.draw(self, &textures, &params, &target);
+        target.read_back(self)
+    }
+}
