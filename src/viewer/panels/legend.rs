@@ -47,7 +47,7 @@ impl LegendStrip<'_> {
             ui.allocate_ui(vec2(CONTROLS, HISTOGRAM + BAR), |ui| {
                 ui.vertical(|ui| self.controls(ui, &mut commands));
             });
-            let statistics = if ui.available_width() > 2.0 * STATISTICS { STATISTICS } else { 0.0 };
+            let statistics = if ui.available_width() > STATISTICS + 200.0 { STATISTICS } else { 0.0 };
             let width = (ui.available_width() - statistics - 16.0).max(80.0);
             commands.extend(self.scale(ui, width));
             if statistics > 0.0 {
