@@ -7,6 +7,7 @@ mod options;
 mod packed;
 mod pictures;
 mod png;
+mod practice;
 mod sets;
 mod sidecar;
 mod written;

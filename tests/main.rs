@@ -7,6 +7,7 @@ mod support;
 mod bad_input;
 mod cli;
 mod coverage;
+mod detection;
 #[cfg(feature = "viewer")]
 mod end_to_end;
 mod extremes;
@@ -20,6 +21,7 @@ mod layering;
 mod mutations;
 mod physics;
 mod reading;
+mod real_files;
 mod sampling;
 mod scene_files;
 #[cfg(feature = "gpu")]

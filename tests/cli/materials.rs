@@ -99,7 +99,7 @@ fn materials_of_one_name_are_told_apart_by_their_paths() {
         succeed(folder.path(), &format!("convert {}.png {run}/out", if run == "runA" { "a" } else { "b" }));
     }
     let table = succeed(folder.path(), "loss gt.png runA/out runB/out");
-    for line in ["\nrunA/out  ", "\nrunB/out  ", "\nrunB/out less runA/out, "] {
+    for line in ["\nrunA/out  ", "\nrunB/out  ", "\nrunB/out - runA/out, "] {
         assert!(table.contains(line), "{line} is missing in {table}");
     }
     let json = losses_as_json(folder.path(), "runA/out runB/out a.png");

@@ -1,11 +1,12 @@
 //! Defects that a rung might have, shown to its comparator.
 
+use glam::DVec3;
 use svbrdf::material::Material;
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::{GUIDED_2020, PRINTED};
 use svbrdf::render::simd::Level;
 
-use super::cases::{self, Batch, row};
+use super::cases::{self, Batch, row, turned};
 use super::regions::{Region, Truth};
 use super::rungs::{self, Rgb, Rung};
 use super::survey::Survey;
@@ -13,6 +14,23 @@ use super::survey::Survey;
 /// Random batches that the fused kernel accepts.
 fn batches() -> Vec<Batch> {
     (0..80).map(cases::random).filter(|b| b.w_l.z > 0.0 && b.w_v.z > 0.0).collect()
+}
+
+/// Peaks of mirrors where light, view and normals are nearly z. Their lengths are off by half an ulp of z, their x and
+/// y by far less: well-conditioned, although the lobes are as narrow as an ulp of z.
+fn peaks_near_z() -> Vec<Batch> {
+    let batch = |i: u32| {
+        let l = turned(DVec3::Z, 1e-4 * f64::from(i), f64::from(i));
+        let texel = |j: i32| Texel {
+            normal: turned(l, 10f64.powf(-7.0 + 0.05 * f64::from(j)), f64::from(j)).as_vec3(),
+            diffuse: [0.5; 3],
+            specular: [0.5; 3],
+            roughness: 0.0,
+        };
+        let material = row(&(0..20).map(texel).collect::<Vec<_>>());
+        Batch { convention: PRINTED, near: false, material, w_l: l.as_vec3(), w_v: l.as_vec3() }
+    };
+    (1..40).map(batch).collect()
 }
 
 /// The same light and view over other texels.
@@ -97,6 +115,9 @@ fn defects_of_the_fused_kernel_are_seen() {
         rungs::fused(level, &with_material(b, row(&texels))).unwrap()
     };
     held(Rung::Fused, &batches, rough).expect_err("another floor of the roughness");
+    let peaks = peaks_near_z();
+    held(Rung::Fused, &peaks, |b| rungs::fused(level, b).unwrap()).expect("no fault");
+    held(Rung::Fused, &peaks, |b| rungs::projecting(b).unwrap()).expect_err("no cross product");
 }
 
 #[cfg(feature = "gpu")]

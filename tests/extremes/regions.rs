@@ -9,6 +9,8 @@ use crate::support::tolerance::{FUSED_ULPS, POINT_ULPS};
 
 /// One ulp of f32 relative to a number just above a power of two.
 const ULP: f64 = f32::EPSILON as f64;
+/// |l + v| below which light and view are nearly opposite: 174 degrees apart.
+const OPPOSITE: f64 = 0.1;
 /// Where one ulp of an input changes the result by more, relative to it, no f32 can be right to 1e-3.
 pub const ILL_CONDITIONED: f64 = 1e-4;
 
@@ -67,11 +69,12 @@ impl Region {
     }
 }
 
-/// What f64 says of one texel, for each channel.
+/// The result in f64 at one texel, and how sensitive it is, per channel.
 pub struct Truth {
     pub expected: [f64; 3],
-    /// Relative change of the result where one number of the input is moved by one ulp of f32: the largest. Or by four
-    /// ulps, a fourth of the change: a result that is only just steady is not.
+    /// The largest relative change of the result where one number of the input is moved by one ulp of f32, or a fourth of
+    /// the change where it is moved by four. Where light and view are nearly opposite, also the change over all half
+    /// vectors that one ulp of l and v can reach: there a highlight can be narrower than one step.
     pub one_ulp: [f64; 3],
     pub region: [Region; 3],
     /// How far f32 may be off, and the fused kernel: `error_bound`.
@@ -178,8 +181,16 @@ impl Truth {
         /// An operation of f64 is off by this share of what one of f32 is off by.
         const F64_BY_F32: f64 = f64::EPSILON / f32::EPSILON as f64;
         let expected = brdf::render(model, texel, l, v);
-        let one_ulp = one_ulp(model, texel, l, v);
         let place = Place::of(model, texel, l, v);
+        let mut one_ulp = one_ulp(model, texel, l, v);
+        if place.sum < OPPOSITE {
+            /// One ulp of f32 in the unit of `error_bound`.
+            const ONE_ULP: f64 = 2.0;
+            let reach = error_bound(model, texel, l, v, ONE_ULP);
+            for c in (0..3).filter(|&c| expected[c] > 0.0) {
+                one_ulp[c] = one_ulp[c].max(reach[c] / expected[c]);
+            }
+        }
         let region = [0, 1, 2].map(|c| place.region(expected[c], one_ulp[c]));
         let bound = |ulps| error_bound(model, texel, l, v, ulps).map(|b| b + f64::from(f32::MIN_POSITIVE));
         let (bound, fused_bound) = (bound(POINT_ULPS), bound(FUSED_ULPS));
@@ -198,8 +209,6 @@ impl Place {
     fn region(&self, expected: f64, one_ulp: f64) -> Region {
         /// Sine of the angle, 5.7 degrees, within which of a horizon a light or a view is grazing.
         const GRAZING: f64 = 0.1;
-        /// |l + v| below which they are nearly opposite: they are 174 degrees apart.
-        const OPPOSITE: f64 = 0.1;
         /// A highlight reaches this many GGX widths from the mirror direction: there D is 1/4000 of its peak.
         const WIDTHS: f64 = 8.0;
         let in_highlight = self.sine < WIDTHS * self.rough * self.rough;

@@ -106,8 +106,8 @@ pub fn on_gpu(_: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
     None
 }
 
-/// f32 as [`in_f32`], but for D = (1/pi) (a / (NoH^2 (a^2 - 1) + 1))^2; only for the convention `printed`.
-pub fn cancelling(batch: &Batch) -> Option<Vec<Rgb>> {
+/// `printed` in f32, with |n x h|^2 + a^2 NoH^2, the denominator of D, computed by `denominator` from n, h, NoH and a.
+fn with_denominator(batch: &Batch, denominator: impl Fn(Vec3, Vec3, f32, f32) -> f32) -> Option<Vec<Rgb>> {
     let model = Model::<f32>::from(&PRINTED);
     let (l, v) = (batch.w_l.normalize(), batch.w_v.normalize());
     let radiance = |t: Texel<f32>| {
@@ -119,7 +119,7 @@ pub fn cancelling(batch: &Batch) -> Option<Vec<Rgb>> {
         let (n_dot_h, v_dot_h) = (t.normal.dot(h), v.dot(h).clamp(0.0, 1.0));
         let n_dot_v = t.normal.dot(v).max(0.0);
         let a = t.roughness.max(model.roughness_floor).powi(2);
-        let ratio = a / (n_dot_h * n_dot_h * (a * a - 1.0) + 1.0);
+        let ratio = a / denominator(t.normal, h, n_dot_h, a);
         let d = std::f32::consts::FRAC_1_PI * (ratio * ratio);
         let factor = |cosine| brdf::geometry_factor(&model, cosine, 0.5 * a);
         let lobe = factor(n_dot_l) * factor(n_dot_v) * d * 0.25;
@@ -131,6 +131,17 @@ pub fn cancelling(batch: &Batch) -> Option<Vec<Rgb>> {
         })
     };
     (batch.convention == PRINTED).then(|| widened(batch.texels().map(radiance)))
+}
+
+/// The denominator of D as it is printed, which cancels; only for the convention `printed`.
+pub fn cancelling(batch: &Batch) -> Option<Vec<Rgb>> {
+    with_denominator(batch, |_, _, n_dot_h, a| n_dot_h * n_dot_h * (a * a - 1.0) + 1.0)
+}
+
+/// The denominator of D from what is left of h without its part along n, as the fast path of the fused kernel computes
+/// it; only for the convention `printed`.
+pub fn projecting(batch: &Batch) -> Option<Vec<Rgb>> {
+    with_denominator(batch, |n, h, n_dot_h, a| (h - n * n_dot_h).length_squared() + (a * n_dot_h).powi(2))
 }
 
 /// What the clamps that the released codes share make of `printed`, without their factor on R.

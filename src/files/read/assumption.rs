@@ -83,6 +83,13 @@ impl Assumption {
         Self { what, chosen: chosen.to_string(), why: why.into(), certainty }
     }
 
+    /// Whether it is unsure, or inferred without anything that says so.
+    pub fn is_guess(&self) -> bool {
+        let interprets = !matches!(self.what, What::Missing | What::Size | What::Values);
+        let is_stated = self.certainty >= Certainty::Sure || self.why.is_stated();
+        self.certainty == Certainty::Unsure || (interprets && !is_stated)
+    }
+
     /// What the caller specified.
     pub fn given(what: What, chosen: impl fmt::Display) -> Self {
         Self::new(what, chosen, Reason::Specified(SpecifiedBy::Caller), Certainty::Given)

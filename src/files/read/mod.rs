@@ -9,6 +9,7 @@
 mod assumption;
 mod choices;
 mod decode;
+mod evidence;
 mod extensions;
 mod formats;
 mod grid;
@@ -23,12 +24,14 @@ mod raster;
 mod reason;
 mod role;
 mod sidecar;
+mod storage_convention;
 mod stored;
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 pub use assumption::{Assumption, Certainty, What};
+pub use evidence::Evidence;
 pub use extensions::EXTENSIONS;
 pub use grid::Grid;
 pub use interpret::report::MapReport;
@@ -39,9 +42,10 @@ pub use options::{
 };
 pub use order::Order;
 pub use preset::Preset;
-pub use reason::{Reason, StorageConvention};
+pub use reason::Reason;
 pub use role::Role;
 pub use sidecar::Sidecar;
+pub use storage_convention::StorageConvention;
 
 use crate::error::Error;
 use crate::material::Material;
@@ -84,10 +88,16 @@ impl<T> Read<T> {
 
     /// Refuses guesses; `path` is what was read.
     ///
+    /// What passes is read by what the user, a specification, or the names of files, layers and formats say: nothing is
+    /// unsure, the interpretation of no value rests on a measurement of pixels alone, and nothing that changes the look
+    /// is ignored.
+    ///
     /// # Errors
     /// [`Error::Guessed`].
     pub fn refuse_guesses(&self, path: &Path) -> Result<(), Error> {
-        match self.unsure().map(ToString::to_string).collect::<Vec<_>>() {
+        let assumptions = self.assumptions.iter().filter(|a| a.is_guess()).map(ToString::to_string);
+        let ignored = self.notes.iter().filter(|note| note.changes_look()).map(ToString::to_string);
+        match assumptions.chain(ignored).collect::<Vec<_>>() {
             guesses if guesses.is_empty() => Ok(()),
             guesses => Err(Error::Guessed { path: path.to_owned(), guesses: guesses.join("; ") }),
         }

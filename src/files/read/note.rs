@@ -33,6 +33,8 @@ pub enum Unused {
     Unlabelled,
     /// Another file holds the same map in a better form.
     Inferior { to: String },
+    /// It is constant, and another picture of its map is not.
+    Constant { other: String },
     /// The workflow does not use this map.
     Workflow(Workflow),
     /// It holds heights, not normals.
@@ -140,6 +142,17 @@ impl Note {
         match self {
             Self::MapFile { .. } => true,
             Self::MapSpecified { by, .. } => *by == SpecifiedBy::Caller,
+            _ => false,
+        }
+    }
+
+    /// Whether it reports that something is ignored or changed that may alter the look of the material.
+    pub fn changes_look(&self) -> bool {
+        match self {
+            Self::ChannelsDiffer { .. } | Self::Anisotropic { .. } | Self::SpecularMedian { .. } => true,
+            Self::LinearGamma(_) | Self::Profile(_) | Self::Primaries => true,
+            Self::DataWindow { .. } | Self::PartialData { .. } | Self::OptionsUnused { .. } => true,
+            Self::Unused { why, .. } => matches!(why, Unused::FactorZero { .. } | Unused::Heights),
             _ => false,
         }
     }
@@ -261,6 +274,7 @@ impl fmt::Display for Unused {
             Self::NotAMap => Ok(()),
             Self::Unlabelled => f.write_str(": its name does not name a map"),
             Self::Inferior { to } => write!(f, ": {to} is preferred"),
+            Self::Constant { other } => write!(f, ": it is constant, and {other} is not"),
             Self::Workflow(workflow) => write!(f, ": the workflow is {workflow}"),
             Self::Heights => f.write_str(": it holds heights, not normals"),
             Self::FactorZero { map } => write!(f, ": nothing would be left of the {} map", map.name()),

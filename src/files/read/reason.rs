@@ -4,70 +4,10 @@ use std::fmt;
 use std::path::PathBuf;
 
 use super::choices::{Albedo, NormalY};
+use super::evidence::Evidence;
 use super::note::SpecifiedBy;
 use super::role::Role;
-
-/// A convention that files follow, by their format, names or layout.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StorageConvention {
-    /// This program wrote the file.
-    Native,
-    /// This program wrote the file, with its encoding in a text chunk.
-    NativeText,
-    Floats,
-    SeparateColours,
-    MtlColours,
-    DeschaintreOrder,
-    MaterialGanOrder,
-    MatFusionOrder,
-    SvbrdfEvaluationOrder,
-    PackedNormals,
-    DiffMatNames,
-    MaterialGanNames,
-    NumberedResults,
-    GammadNames,
-    DeschaintreNames,
-    SurfaceNetFolder,
-    Gltf,
-    MaterialXNormals,
-    /// The file lists its textures.
-    ListedTextures,
-    LayerNames,
-    RoughnessName,
-    NvdiffrecPacking,
-    /// The built-in materials.
-    BuiltIn,
-}
-
-impl fmt::Display for StorageConvention {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Native => "svbrdf wrote the file",
-            Self::NativeText => "svbrdf wrote the file, with its encoding",
-            Self::Floats => "floats are linear",
-            Self::SeparateColours => "colours in separate files are sRGB by convention",
-            Self::MtlColours => "colours of an .mtl are sRGB by convention",
-            Self::DeschaintreOrder => "Deschaintre et al. store this order in this way",
-            Self::MaterialGanOrder => "MaterialGAN and its successors store this order in this way",
-            Self::MatFusionOrder => "MatFusion stores this order in this way",
-            Self::SvbrdfEvaluationOrder => "svbrdf-evaluation appears to store this order in this way",
-            Self::PackedNormals => "all known sources of packed maps do this",
-            Self::DiffMatNames => "DiffMat writes these names and depths, with y down by default",
-            Self::MaterialGanNames => "MaterialGAN and its successors use these names and this encoding",
-            Self::NumberedResults => "the results of Deschaintre et al. 2020 are numbered in this way",
-            Self::GammadNames => "the names contain gammad",
-            Self::DeschaintreNames => "the networks of Deschaintre et al. write these names, linear",
-            Self::SurfaceNetFolder => "the data sets of SurfaceNet look like this, and are linear",
-            Self::Gltf => "the specification of glTF 2.0 defines it",
-            Self::MaterialXNormals => "MaterialX defines normals in this way",
-            Self::ListedTextures => "the file lists its textures",
-            Self::LayerNames => "the names of the layers name the maps",
-            Self::RoughnessName => "the map is named roughness",
-            Self::NvdiffrecPacking => "nvdiffrec writes it beside map_Kd",
-            Self::BuiltIn => "the built-in materials are stored in this way",
-        })
-    }
-}
+use super::storage_convention::StorageConvention;
 
 /// Why something was assumed.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,6 +36,31 @@ pub enum Reason {
     ColourSpace {
         space: String,
         known: Known,
+    },
+    /// Colours of 8 or 16 bits are display-encoded unless the evidence, weighed as log odds of linear, says otherwise.
+    Weighed {
+        log_odds: f64,
+        evidence: Vec<Evidence>,
+    },
+    /// There are a metallic and a specular map, and no name tells which workflow is meant.
+    BothWorkflows,
+    /// The channels of a picture that is named after one gray map differ as those of a packed picture do.
+    PackedChannels {
+        map: Role,
+        file: PathBuf,
+    },
+    /// A picture looks like normals, but is named after another map.
+    LooksLikeNormals {
+        map: Role,
+        file: PathBuf,
+    },
+    /// Only its name, which is the name of the set, suggests that a picture is the colour.
+    NameOfSet {
+        file: String,
+    },
+    /// The picture has no alpha, which should hold smoothness.
+    OpaqueSmoothness {
+        file: PathBuf,
     },
     // What pixels say.
     SpecularMedian {
@@ -175,6 +140,34 @@ pub enum Known {
 }
 
 impl Reason {
+    /// Whether a specification, a name, or the user says so: not only a measurement of pixels, and not a custom that a
+    /// file need not follow.
+    pub fn is_stated(&self) -> bool {
+        use StorageConvention as C;
+        match self {
+            Self::Specified(_) | Self::NoMetallicMap(_) | Self::FileName { .. } | Self::NormalName { .. } => {
+                true
+            }
+            Self::MetallicMap { .. } | Self::SpecularMap | Self::NeitherMap => true,
+            Self::ColourSpace { known, .. } => *known == Known::Exactly,
+            // A flat map points nowhere.
+            Self::Curl(None) => true,
+            // A picture that is named after normals holds them in the usual way where their lengths confirm it.
+            Self::UnitLength { signed, share } => *signed || *share > 0.9,
+            Self::LeastComponent(_) | Self::TwoChannels => true,
+            Self::Weighed { log_odds, evidence } => {
+                *log_odds < 0.0 && evidence.iter().all(Evidence::is_custom)
+            }
+            Self::StorageConvention(convention) => match convention {
+                C::Native | C::NativeText | C::Gltf | C::MaterialXNormals | C::ListedTextures => true,
+                C::LayerNames | C::GammadNames | C::RoughnessName | C::BuiltIn | C::Floats => true,
+                C::SeparateColours | C::MtlColours | C::SpecularGlossiness => true,
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
     /// Who specified it, where someone did.
     pub(crate) fn specified_by(&mut self) -> Option<&mut SpecifiedBy> {
         match self {
@@ -278,6 +271,31 @@ impl fmt::Display for Reason {
                     Known::Nearly => "; 2.2 is the nearest that is known",
                     Known::Unknown => ", which is not known here",
                 })
+            }
+            Self::Weighed { evidence, .. } => {
+                let all: Vec<_> = evidence.iter().map(ToString::to_string).collect();
+                f.write_str(&all.join("; "))
+            }
+            Self::BothWorkflows => f.write_str("there are both a specular and a metallic map"),
+            Self::PackedChannels { map, file } => write!(
+                f,
+                "the channels of {} differ although it is named after the {} map",
+                file.display(),
+                map.name()
+            ),
+            Self::LooksLikeNormals { map, file } => {
+                write!(
+                    f,
+                    "{} looks like normals although it is named after the {} map",
+                    file.display(),
+                    map.name()
+                )
+            }
+            Self::NameOfSet { file } => {
+                write!(f, "{file} has the name of the set, and no other file is its colour")
+            }
+            Self::OpaqueSmoothness { file } => {
+                write!(f, "{} has no alpha, which holds smoothness", file.display())
             }
             Self::MetallicMap { matfusion: false } => {
                 f.write_str("there is a metallic map: d = b (1 - m), s = f (1 - m) + b m")

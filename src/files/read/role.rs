@@ -20,6 +20,8 @@ pub enum Role {
     MetallicRoughnessOcclusion,
     /// Red metallic, alpha smoothness: Unity.
     MetallicSmoothness,
+    /// Red, green and blue specular, alpha glossiness: the extension of glTF.
+    SpecularGlossiness,
     /// A map that a material does not need, such as occlusion or height.
     Ignored,
 }
@@ -39,6 +41,7 @@ impl Role {
             | Self::RoughnessMetallicOcclusion
             | Self::MetallicRoughnessOcclusion
             | Self::MetallicSmoothness => "packed roughness and metallic",
+            Self::SpecularGlossiness => "specular and glossiness",
             Self::Ignored => "unused",
         }
     }
@@ -47,7 +50,9 @@ impl Role {
     pub fn words(self) -> &'static [&'static str] {
         match self {
             Self::Normal => &["normal", "normals", "nor", "nrm", "nrml", "norm", "nom", "nmap", "n"],
-            Self::Base => &["basecolor", "basecolour", "albedo", "color", "colour", "col", "alb", "bc", "kd"],
+            Self::Base => {
+                &["basecolor", "basecolour", "basemap", "albedo", "color", "colour", "col", "alb", "bc", "kd"]
+            }
             Self::Diffuse => &["diffuse", "diff", "dif", "d", "pd"],
             Self::Specular => &["specular", "spec", "spe", "spc", "specularity", "s", "ps"],
             Self::SpecularLevel => &["specularlevel"],
@@ -67,6 +72,7 @@ impl Role {
             Self::RoughnessMetallicOcclusion => &["rmo", "rma", "roughnessmetallicocclusion"],
             Self::MetallicRoughnessOcclusion => &["mra"],
             Self::MetallicSmoothness => &["metallicsmoothness", "maskmap"],
+            Self::SpecularGlossiness => &["specularglossiness", "specgloss", "specularsmoothness"],
             Self::Ignored => &[
                 "ao",
                 "ambientocclusion",
@@ -102,7 +108,7 @@ impl Role {
         }
     }
 
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Normal,
         Self::Base,
         Self::Diffuse,
@@ -114,6 +120,7 @@ impl Role {
         Self::RoughnessMetallicOcclusion,
         Self::MetallicRoughnessOcclusion,
         Self::MetallicSmoothness,
+        Self::SpecularGlossiness,
         Self::Ignored,
     ];
 
@@ -126,6 +133,12 @@ impl Role {
             Self::MetallicSmoothness => Some([3, 0]),
             _ => None,
         }
+    }
+
+    /// The names that a file of this map can have, for messages: the words that need no others beside them.
+    pub fn examples(self) -> String {
+        let words = self.words().iter().filter(|word| word.len() > 2);
+        words.copied().collect::<Vec<_>>().join(", ")
     }
 
     /// The map that a word stands for.

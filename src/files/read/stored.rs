@@ -124,9 +124,15 @@ impl Pictures {
     fn packed(&self, which: usize) -> Option<StoredMap> {
         self.all.iter().find_map(|(role, source)| {
             let channel = role.packing()?[which];
-            let plane =
-                if channel == 3 { source.raster.alpha.as_ref() } else { source.raster.channels.get(channel) };
-            let raster = source.raster.of(plane?.clone());
+            let raster = match channel {
+                // Alpha that is 1 everywhere is not kept.
+                3 => source
+                    .raster
+                    .alpha
+                    .clone()
+                    .map_or_else(|| Raster::constant("alpha", &[1.0]), |alpha| source.raster.of(alpha)),
+                _ => source.raster.of(source.raster.channels.get(channel)?.clone()),
+            };
             let name = ["red", "green", "blue", "alpha"][channel];
             let before = if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) };
             Some(StoredMap { raster, file: source.file.clone(), part: before + name })
@@ -155,9 +161,9 @@ impl Pictures {
         let missing = |role: Role| Error::NotAMaterial {
             path: path.to_owned(),
             expected: format!(
-                "one picture for the {} map (named {})",
+                "one picture for the {} map (named after one of {})",
                 role.name(),
-                role.words()[..3].join(", ")
+                role.examples()
             ),
             found: listed.to_owned(),
             remedy: "add or rename the file, or open a packed one by itself".to_owned(),
@@ -176,15 +182,25 @@ impl Pictures {
             let why = Reason::PackingName { file: source.file.clone() };
             assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
         }
+        if let Some((_, source)) =
+            self.all.iter().find(|(r, s)| *r == Role::MetallicSmoothness && s.raster.alpha.is_none())
+            && !self.has(Role::Roughness)
+        {
+            let why = Reason::OpaqueSmoothness { file: source.file.clone() };
+            assumptions.push(Assumption::new(What::Layout, "smoothness 1", why, Certainty::Unsure));
+        }
         let normal = self.take(Role::Normal);
+        let is_packed = !self.has(Role::Metallic);
         let roughness = self.roughness();
         let metallic = self.metallic();
         let (specular, level) = (self.take(Role::Specular), self.take(Role::SpecularLevel));
         let (base, diffuse) = (self.take(Role::Base), self.take(Role::Diffuse));
         let use_metallic = match options.workflow {
             Some(workflow) => workflow == Workflow::Metallic && metallic.is_some(),
-            None => metallic.is_some() && (base.is_some() || specular.is_none()),
+            // A packed picture holds metallic on purpose; a lone metallic map may have come along with specular.
+            None => metallic.is_some() && (base.is_some() || specular.is_none() || is_packed),
         };
+        let is_ambiguous = metallic.is_some() && specular.is_some() && base.is_none();
         let (first, second) = if use_metallic { (base, diffuse) } else { (diffuse, base) };
         let (colour, mut unused) = if first.is_some() { (first, vec![second]) } else { (second, Vec::new()) };
         let no_specular = use_metallic || options.workflow == Some(Workflow::Metallic);
@@ -213,6 +229,9 @@ impl Pictures {
                 Reason::NoMetallicMap(SpecifiedBy::Caller),
                 Certainty::Given,
             ),
+            None if is_ambiguous => {
+                Assumption::new(What::Workflow, chosen, Reason::BothWorkflows, Certainty::Unsure)
+            }
             None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
         });
         Ok(StoredMaterial {

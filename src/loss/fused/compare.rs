@@ -1,11 +1,11 @@
 //! The sum of |ln a - ln b| over many numbers, with one logarithm at the end.
 //!
-//! It is ln(product of max(a, b)) - ln(product of min(a, b)): mantissas are multiplied, exponents added as integers.
+//! It equals ln(product of max(a, b)) - ln(product of min(a, b)). Mantissas are multiplied, exponents added as integers.
 
 use fearless_simd::{Simd, prelude::*};
 
 use crate::render::simd::lanes::V;
-use crate::render::simd::shade::Radiance;
+use crate::render::simd::shade::TileRadiance;
 use crate::render::simd::tile::vectors;
 
 /// Unsigned integers as wide as the floats of [`V`].
@@ -16,7 +16,7 @@ const MANTISSA: u32 = 0x007f_ffff;
 /// The bits of 1.
 const ONE: u32 = 0x3f80_0000;
 
-/// Running products, one in each lane. Each factor rounds once: n factors are off by about sqrt(n) 4e-8.
+/// Running products, one per lane. Each factor rounds once, so n factors are off by about sqrt(n) 4e-8.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LogSum<S: Simd> {
     /// Mantissas in [1, 2) of the products of the larger and of the smaller numbers.
@@ -33,17 +33,17 @@ impl<S: Simd> LogSum<S> {
         Self { larger: one, smaller: one, exponent: Bits::<S>::splat(simd, 0) }
     }
 
-    /// Adds all texels and channels of a tile, whose radiances are positive and, unless `CAREFUL`, below 2^21: six
-    /// factors fit a float without taking its exponent off.
+    /// Adds all texels and channels of a tile. Radiances are positive and, unless `SAFE`, below 2^21: the product of six
+    /// of them and a mantissa fits a float.
     #[inline(always)]
-    pub(super) fn add<const CAREFUL: bool>(&mut self, simd: S, a: &Radiance, b: &Radiance) {
+    pub(super) fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
         for pair in 0..vectors::<S>() / 2 {
             for i in [2 * pair, 2 * pair + 1] {
-                let load = |radiance: &Radiance| radiance.0.each_ref().map(|plane| plane.load(simd, i));
+                let load = |radiance: &TileRadiance| radiance.0.each_ref().map(|plane| plane.load(simd, i));
                 let (a, b): ([V<S>; 3], [V<S>; 3]) = (load(a), load(b));
                 let larger: [V<S>; 3] = std::array::from_fn(|c| a[c].max(b[c]));
                 let smaller: [V<S>; 3] = std::array::from_fn(|c| a[c].min(b[c]));
-                if CAREFUL {
+                if SAFE {
                     for c in 0..3 {
                         self.multiply(larger[c], smaller[c]);
                         self.normalize();

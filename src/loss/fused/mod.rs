@@ -1,16 +1,16 @@
-//! The rendering loss in f32 at the speed of the machine: all scenes pass over a few texels while these are in cache.
+//! The rendering loss in f32 with SIMD instructions: all scenes pass over one tile of texels while it is in cache.
 //!
-//! One source, compiled for every instruction set and chosen at run time. [`Plain`](super::Plain) is the twin that it
-//! is tested against. For a tile of `tile::TEXELS` texels and each scene three passes follow each other: the
-//! geometry that all materials share (`geometry`), the radiance of each material (`shade`), and the comparison of
-//! the ground truth with each prediction (`compare`). Buffers between them stay in the nearest cache. Whole images
-//! (`picture`) come from the first two passes.
+//! One source is compiled for every instruction set, and the widest one is chosen at run time. It is tested against
+//! [`Plain`](super::Plain). For each tile and scene three passes follow each other: the geometry that all materials
+//! share (`render::simd::geometry`), the radiance of each material (`render::simd::shade`), and the comparison of the
+//! ground truth with each prediction (`compare`). The buffers between them stay in the L1 cache.
 //!
-//! Sums have an order: a block of tiles gives one f64 for each scene and prediction, which nothing else that is
-//! computed influences, and blocks are added in their order. So neither the number of threads nor the other scenes
-//! and predictions of a batch change a bit. Instruction sets do: they differ in the last bits.
+//! Sums have an order. A block of tiles gives one f64 per scene and prediction, which depends on that scene and that
+//! prediction only, and blocks are added in order. So neither the number of threads nor the other scenes and
+//! predictions of a batch change a bit. Instruction sets differ in the last bits.
 
 mod compare;
+mod inputs;
 mod pass;
 mod sums;
 
@@ -19,9 +19,10 @@ use crate::error::Error;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::simd::Level;
-use sums::{Job, SCENES_PER_GROUP};
+use inputs::LossInputs;
+use sums::SCENES_PER_GROUP;
 
-/// Most sums that are held at a time.
+/// The most sums held in memory at a time.
 const MAX_SUMS: usize = 1 << 20;
 
 /// The loss on the processor in f32, many times faster than [`Plain`](super::Plain).
@@ -57,13 +58,13 @@ impl Backend<f32> for Fused {
             return Ok(Vec::new());
         }
         let level = self.level.unwrap_or_else(Level::best);
-        let job = Job::new(comparison.ground_truth(), predictions, texels, comparison.convention());
+        let inputs = LossInputs::new(comparison.ground_truth(), predictions, texels, comparison.convention());
         let groups: usize = scenes.len().div_ceil(SCENES_PER_GROUP);
-        progress.begin((groups * job.blocks) as u64);
-        let per_batch = SCENES_PER_GROUP * (MAX_SUMS / (SCENES_PER_GROUP * job.blocks)).max(1);
+        progress.begin((groups * inputs.blocks) as u64);
+        let per_batch = SCENES_PER_GROUP * (MAX_SUMS / (SCENES_PER_GROUP * inputs.blocks)).max(1);
         let mut per_scene = vec![Vec::with_capacity(scenes.len()); predictions.len()];
         for batch in scenes.chunks(per_batch) {
-            job.run(level, batch, progress, &mut per_scene)?;
+            inputs.append_losses(level, batch, progress, &mut per_scene)?;
         }
         Ok(per_scene)
     }

@@ -1,110 +1,109 @@
-//! One scene passes over the tile that is in cache: all materials are rendered, and compared.
+//! One scene over the tile in cache: all materials are rendered and compared.
 
 use super::compare::LogSum;
-use super::sums::Job;
-use crate::render::simd::geometry::{Ray, Rays, Source};
+use super::inputs::LossInputs;
+use crate::render::simd::geometry::{Geometry, KernelScene, TileGeometry};
 use crate::render::simd::lanes::{Lanes, V};
-use crate::render::simd::shade::{Model, Radiance};
-use crate::render::simd::tile::{At, Places, Terms};
+use crate::render::simd::shade::{ShadingParams, TileRadiance};
+use crate::render::simd::tile::{MaterialTerms, Positions, TexelSpan};
 
-/// The texels that are in cache.
-pub(super) struct Tile {
-    places: Places,
-    rays: Rays,
-    ground_truth: Terms,
-    predictions: Vec<Terms>,
-    expected: Radiance,
-    got: Radiance,
+/// The tile of all materials that is in cache.
+pub(super) struct LossTile {
+    positions: Positions,
+    geometry: TileGeometry,
+    ground_truth: MaterialTerms,
+    predictions: Vec<MaterialTerms>,
+    expected: TileRadiance,
+    predicted: TileRadiance,
 }
 
-impl Tile {
+impl LossTile {
     pub(super) fn new(predictions: usize) -> Self {
         Self {
-            places: Places::ZERO,
-            rays: Rays::ZERO,
-            ground_truth: Terms::ZERO,
-            predictions: vec![Terms::ZERO; predictions],
-            expected: Radiance::ZERO,
-            got: Radiance::ZERO,
+            positions: Positions::ZERO,
+            geometry: TileGeometry::ZERO,
+            ground_truth: MaterialTerms::ZERO,
+            predictions: vec![MaterialTerms::ZERO; predictions],
+            expected: TileRadiance::ZERO,
+            predicted: TileRadiance::ZERO,
         }
     }
 
     #[inline(always)]
-    pub(super) fn fill(&mut self, job: &Job<'_>, at: &At<'_>) {
-        self.places.fill(&job.axes, at);
-        let floor = job.model.roughness_floor;
-        self.ground_truth.fill(job.ground_truth.planes(), at, floor);
-        for (terms, material) in self.predictions.iter_mut().zip(job.predictions) {
-            terms.fill(material.planes(), at, floor);
+    pub(super) fn fill(&mut self, inputs: &LossInputs<'_>, span: &TexelSpan<'_>) {
+        self.positions.fill(&inputs.axes, span);
+        let floor = inputs.params.roughness_floor;
+        self.ground_truth.fill(inputs.ground_truth.planes(), span, floor);
+        for (terms, material) in self.predictions.iter_mut().zip(inputs.predictions) {
+            terms.fill(material.planes(), span, floor);
         }
     }
 
-    /// Adds the differences in one scene, whose geometry is `distant` if that is the same everywhere, to the sums of
-    /// the predictions.
+    /// Adds the differences in one scene to the sums of the predictions. `distant` is the geometry of a distant scene.
     #[inline(always)]
     pub(super) fn add<S: Lanes>(
         &mut self,
         simd: S,
-        model: &Model,
-        source: &Source,
-        distant: Option<Ray<V<S>>>,
+        params: &ShadingParams,
+        scene: &KernelScene,
+        distant: Option<Geometry<V<S>>>,
         sums: &mut [LogSum<S>],
     ) {
         match distant {
-            Some(ray) => self.add_rays(
+            Some(geometry) => self.add_with(
                 simd,
-                model,
-                source,
+                params,
+                scene,
                 sums,
                 #[inline(always)]
-                |_, _| ray,
+                |_, _| geometry,
             ),
             None => {
-                self.rays.fill(simd, source, &self.places);
-                self.add_rays(
+                self.geometry.fill(simd, scene, &self.positions);
+                self.add_with(
                     simd,
-                    model,
-                    source,
+                    params,
+                    scene,
                     sums,
                     #[inline(always)]
-                    |rays, i| rays.load(simd, i),
+                    |geometry, i| geometry.load(simd, i),
                 );
             }
         }
     }
 
     #[inline(always)]
-    fn add_rays<S: Lanes>(
+    fn add_with<S: Lanes>(
         &mut self,
         simd: S,
-        model: &Model,
-        source: &Source,
+        params: &ShadingParams,
+        scene: &KernelScene,
         sums: &mut [LogSum<S>],
-        ray: impl Fn(&Rays, usize) -> Ray<V<S>>,
+        geometry: impl Fn(&TileGeometry, usize) -> Geometry<V<S>>,
     ) {
-        let rays = &self.rays;
-        let (expected, got) = (&mut self.expected, &mut self.got);
-        let expected_tame = expected.render(
+        let tile = &self.geometry;
+        let (expected, predicted) = (&mut self.expected, &mut self.predicted);
+        let expected_is_small = expected.render(
             simd,
-            model,
-            source,
+            params,
+            scene,
             &self.ground_truth,
             #[inline(always)]
-            |i| ray(rays, i),
+            |i| geometry(tile, i),
         );
         for (terms, sum) in self.predictions.iter().zip(sums) {
-            let got_tame = got.render(
+            let predicted_is_small = predicted.render(
                 simd,
-                model,
-                source,
+                params,
+                scene,
                 terms,
                 #[inline(always)]
-                |i| ray(rays, i),
+                |i| geometry(tile, i),
             );
-            if got_tame && expected_tame {
-                sum.add::<false>(simd, expected, got);
+            if predicted_is_small && expected_is_small {
+                sum.add::<false>(simd, expected, predicted);
             } else {
-                sum.add::<true>(simd, expected, got);
+                sum.add::<true>(simd, expected, predicted);
             }
         }
     }

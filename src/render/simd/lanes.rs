@@ -1,8 +1,8 @@
-//! What the kernel needs beyond portable SIMD: fast reciprocals, and which instruction sets there are.
+//! What the kernel needs beyond portable SIMD: reciprocal estimates, prefetching, and the choice of an instruction set.
 
 use fearless_simd::{Fallback, Simd, prelude::*};
 
-use super::tile::TEXELS;
+use super::size::TEXELS;
 
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::x86::{Avx2, Avx512, Sse2, Sse4_2};
@@ -14,9 +14,9 @@ const FLOATS_PER_LINE: usize = 16;
 /// A vector of the native width of the instruction set `S`.
 pub(crate) type V<S> = <S as Simd>::f32s;
 
-/// Reciprocals: exact by default, an estimate where that is faster. The kernel follows each with a Newton step.
+/// Reciprocals and prefetching per instruction set. The kernel refines each estimate with a Newton step.
 ///
-/// The estimates are the vendor's: the last bits of a loss may differ between makes of processors.
+/// The default reciprocals are exact. Estimates differ between processor vendors, and so may the last bits of a loss.
 pub(crate) trait Lanes: Simd {
     /// 1 / x, within a relative 1.5 x 2^-12.
     #[inline(always)]
@@ -30,8 +30,7 @@ pub(crate) trait Lanes: Simd {
         V::<Self>::splat(self, 1.0) / x.sqrt()
     }
 
-    /// Asks for the cache lines of `values` before they are needed, into the second cache: in the first one, planes that
-    /// lie at like places of their pages push each other out.
+    /// Prefetches `values` into the L2 cache. In L1, planes at equal offsets within their pages would evict each other.
     #[inline(always)]
     fn prefetch(self, _values: &[f32; TEXELS]) {}
 }
@@ -99,7 +98,7 @@ mod x86 {
     estimate!(Avx512, __m512, _mm512_rsqrt14_ps);
 }
 
-/// An instruction set that this machine has.
+/// An instruction set of this machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Level(pub(crate) fearless_simd::Level);
 
@@ -109,8 +108,8 @@ impl Level {
         Self(fearless_simd::Level::new())
     }
 
-    /// Every instruction set that the kernel is written for on this architecture, the scalar one first; `None`
-    /// where this machine lacks it.
+    /// Every instruction set that the kernel supports on this architecture, scalar first; `None` where this machine
+    /// lacks it.
     pub fn all() -> Vec<(&'static str, Option<Self>)> {
         let mut all = vec![("scalar", Some(Self(fearless_simd::Level::fallback())))];
         let best = fearless_simd::Level::new();

@@ -1,17 +1,15 @@
-//! Algorithm 3 in f32 at the speed of the machine: a few texels at a time, while these are in cache.
+//! Algorithm 3 in f32 with SIMD instructions, one tile of texels at a time.
 //!
-//! One source, compiled for every instruction set and chosen at run time. For a tile of texels, the geometry that
-//! all materials share (`geometry`) is followed by the radiance of each material (`shade`). Whole images (`picture`)
-//! come from these two passes; the loss compares what they give.
+//! One source is compiled for every instruction set, and the widest one is chosen at run time. For each tile, the
+//! geometry that all materials share (`geometry`) is followed by the radiance of each material (`shade`). Whole
+//! images (`image`) are these two passes; the loss adds a third, which compares radiances.
 
 pub(crate) mod geometry;
+mod image;
 pub(crate) mod lanes;
-mod picture;
 pub(crate) mod shade;
+pub(crate) mod size;
 pub(crate) mod tile;
 
+pub use image::render_at;
 pub use lanes::Level;
-pub use picture::render_at;
-
-/// Texels that one thread works on at a time, and whose logarithm the loss takes at once.
-pub(crate) const TEXELS_PER_BLOCK: usize = 16 * tile::TEXELS;

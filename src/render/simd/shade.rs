@@ -1,45 +1,58 @@
 //! Algorithm 3 over a tile: the radiance plus epsilon, from the terms of a material and the geometry of a scene.
+//!
+//! There are three ways to compute it. The fast path is right where no width a = rough^2 is below [`NARROW`] and no
+//! highlight overflows. The narrow path takes a cross product for the denominator of D, and is right for any width. The
+//! overflow-safe path takes the cross product too, and divides before it multiplies.
 
 use fearless_simd::prelude::*;
 
-use super::geometry::{Ray, Source, dot, sum};
+use super::geometry::{Geometry, KernelScene, cross, dot, sum};
 use super::lanes::{Lanes, V, neg_mul_add};
-use super::tile::{Plane, Terms, vectors};
+use super::tile::{MaterialTerms, TilePlane, vectors};
 use crate::model::convention::Convention;
 
-/// Where a highlight or a boost is above it, radiances are computed and multiplied in the careful way.
-const TAME: f32 = 1_048_576.0;
+/// Largest highlight and light scale of the fast and the narrow path. Above, a tile takes the overflow-safe path.
+const FAST_LIMIT: f32 = 1_048_576.0;
 
-/// Largest radiance and largest factor of one, 2^126: two of its mantissas fit a float.
+/// Largest radiance and largest factor of one, 2^126. The product of two mantissas of such numbers fits a float.
 const LARGEST: f32 = 8.507_059e37;
+
+/// A tile with a smaller GGX width than that of r = 0.01 takes the narrow path.
+///
+/// The fast path takes what is left of q without its part along n. A normal that is off unit length by 2 u, and 3 u of
+/// rounding in n . q, leave up to 7 u |q| along n, with u = 2^-24. It adds as a square to |n x q|^2 + (a n . q)^2, so D
+/// is off by a relative 2 (7 u / a)^2 at most: 3.5e-5 at a = 1e-4, but 1 at a = 6e-7.
+const NARROW: f32 = 0.01 * 0.01;
 
 /// The clamps of a convention, in the units of the kernel.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Clamps {
     /// Whether there are any.
     any: bool,
-    /// Where n . q is below, NoH counts as 0.
+    /// Where n . q is below it, NoH counts as 0.
     behind: f32,
     d_floor: f32,
     g_floor: f32,
 }
 
-/// What of a convention the kernel needs.
+/// The numbers of a convention that shading needs.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Model {
+pub(crate) struct ShadingParams {
     clamps: Clamps,
     epsilon: f32,
     pub(crate) roughness_floor: f32,
+    /// A tile with a smaller GGX width takes the narrow path.
+    narrow: f32,
 }
 
-impl Model {
-    /// Of a convention whose epsilon is 0: radiances stay as they are.
+impl ShadingParams {
+    /// Those of a convention with an epsilon of 0: the radiance itself.
     pub(crate) fn without_epsilon(convention: &Convention) -> Self {
         Self { epsilon: 0.0, ..Self::from(convention) }
     }
 }
 
-impl From<&Convention> for Model {
+impl From<&Convention> for ShadingParams {
     fn from(c: &Convention) -> Self {
         let clamps = Clamps {
             any: c.clamp_n_dot_h || c.d_floor > 0.0 || c.g_floor > 0.0,
@@ -47,116 +60,123 @@ impl From<&Convention> for Model {
             d_floor: c.d_floor as f32,
             g_floor: (2.0 * c.g_floor) as f32,
         };
-        Self { clamps, epsilon: c.epsilon as f32, roughness_floor: c.roughness_floor as f32 }
+        // A floor of the denominator of D bounds it as a^2 does.
+        let narrow = if clamps.d_floor < NARROW * NARROW { NARROW } else { 0.0 };
+        Self { clamps, epsilon: c.epsilon as f32, roughness_floor: c.roughness_floor as f32, narrow }
     }
 }
 
-/// R + epsilon of every texel of a tile; R itself where the epsilon of the model is 0.
+/// R + epsilon of every texel of a tile; R itself where the epsilon is 0.
 #[derive(Clone, Debug)]
-pub(crate) struct Radiance(pub(crate) [Plane; 3]);
+pub(crate) struct TileRadiance(pub(crate) [TilePlane; 3]);
 
-impl Radiance {
-    pub(crate) const ZERO: Self = Self([Plane::ZERO; 3]);
+impl TileRadiance {
+    pub(crate) const ZERO: Self = Self([TilePlane::ZERO; 3]);
 
-    /// Renders a tile, again and carefully where that is needed; says whether it was not. `ray(i)` is the geometry of
-    /// vector i.
+    /// Renders a tile. Returns whether all radiances are below 2 [`FAST_LIMIT`]; where one is not, the tile was rendered
+    /// a second time on the overflow-safe path. `geometry(i)` is the geometry of vector i.
     #[inline(always)]
     pub(crate) fn render<S: Lanes>(
         &mut self,
         simd: S,
-        model: &Model,
-        source: &Source,
-        terms: &Terms,
-        ray: impl Fn(usize) -> Ray<V<S>>,
+        params: &ShadingParams,
+        scene: &KernelScene,
+        terms: &MaterialTerms,
+        geometry: impl Fn(usize) -> Geometry<V<S>>,
     ) -> bool {
-        let tame = if model.clamps.any {
-            self.fill::<S, true, false>(simd, model, terms, &ray)
-        } else {
-            self.fill::<S, false, false>(simd, model, terms, &ray)
+        let below_limit = match (params.clamps.any, terms.least_a < params.narrow) {
+            (false, false) => self.fill::<S, false, false, false>(simd, params, terms, &geometry),
+            (false, true) => self.fill::<S, false, true, false>(simd, params, terms, &geometry),
+            (true, false) => self.fill::<S, true, false, false>(simd, params, terms, &geometry),
+            (true, true) => self.fill::<S, true, true, false>(simd, params, terms, &geometry),
         };
-        if tame && source.most_boost <= TAME {
+        if below_limit && scene.largest_light_scale <= FAST_LIMIT {
             return true;
         }
-        if model.clamps.any {
-            self.fill::<S, true, true>(simd, model, terms, &ray);
+        if params.clamps.any {
+            self.fill::<S, true, true, true>(simd, params, terms, &geometry);
         } else {
-            self.fill::<S, false, true>(simd, model, terms, &ray);
+            self.fill::<S, false, true, true>(simd, params, terms, &geometry);
         }
         false
     }
 
-    /// Renders a tile.
+    /// Renders a tile on one of the three paths: fast, `NARROW`, or `NARROW` and overflow-safe (`SAFE`).
     ///
-    /// Says whether every value is tame: finite and below 2 [`TAME`]. Where one is not, render it again with
-    /// `CAREFUL`.
+    /// Returns whether every highlight is a number and at most [`FAST_LIMIT`].
     #[inline(always)]
-    fn fill<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
+    fn fill<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
         &mut self,
         simd: S,
-        model: &Model,
-        terms: &Terms,
-        ray: impl Fn(usize) -> Ray<V<S>>,
+        params: &ShadingParams,
+        terms: &MaterialTerms,
+        geometry: impl Fn(usize) -> Geometry<V<S>>,
     ) -> bool {
         let mut highlights = V::<S>::splat(simd, 0.0);
         for i in 0..vectors::<S>() {
-            let ray = ray(i);
-            let (lobe, e) = lobe::<S, CLAMPED, CAREFUL>(simd, &model.clamps, terms, &ray, i);
-            // Sums of positive numbers: at least the largest, and NaN or infinite if any one is.
+            let geometry = geometry(i);
+            let (lobe, e) = lobe::<S, CLAMPED, NARROW, SAFE>(simd, &params.clamps, terms, &geometry, i);
+            // The sum of positive numbers is at least the largest, and NaN or infinite if any one is.
             highlights += lobe;
-            // The chain from the lobe, which comes last, is kept short: (s (1 - w) + w) lobe + (lambert E + epsilon).
-            let rest = V::<S>::splat(simd, 1.0) - ray.weight;
+            // (s (1 - w) + w) lobe + (lambert E + epsilon): only one operation waits for the lobe, which comes last.
+            let weight = geometry.fresnel_weight;
+            let rest = V::<S>::splat(simd, 1.0) - weight;
             for c in 0..3 {
-                let fresnel = terms.specular[c].load(simd, i).mul_add(rest, ray.weight);
-                let diffuse = terms.lambert[c].load(simd, i).mul_add(e, V::<S>::splat(simd, model.epsilon));
+                let fresnel = terms.specular[c].load(simd, i).mul_add(rest, weight);
+                let diffuse = terms.lambert[c].load(simd, i).mul_add(e, V::<S>::splat(simd, params.epsilon));
                 let value = fresnel.mul_add(lobe, diffuse);
-                let value = if CAREFUL { value.min(V::<S>::splat(simd, LARGEST)) } else { value };
+                let value = if SAFE { value.min(V::<S>::splat(simd, LARGEST)) } else { value };
                 self.0[c].store::<S>(i, value);
             }
         }
-        highlights.simd_le(V::<S>::splat(simd, TAME)).all_true()
+        highlights.simd_le(V::<S>::splat(simd, FAST_LIMIT)).all_true()
     }
 }
 
 /// (pi G D / 4 E, E) with the irradiance E = NoL / (pi l.z) times the convention's intensity.
 ///
-/// pi D = (a |q|^2 / (|n x q|^2 + a^2 (n . q)^2))^2. |n x q| is the length of what is left of q without
-/// its part along n, exact to a rounding of q; where n is off unit length by a rounding, that adds along n, across
-/// what is left, and counts only squared.
+/// pi D = (a |q|^2 / (|n x q|^2 + a^2 (n . q)^2))^2. |n x q| is the length of what is left of q without its part along
+/// n, where a is not `NARROW`.
 #[inline(always)]
-fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool>(
+fn lobe<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
     simd: S,
     clamps: &Clamps,
-    terms: &Terms,
-    ray: &Ray<V<S>>,
+    terms: &MaterialTerms,
+    geometry: &Geometry<V<S>>,
     i: usize,
 ) -> (V<S>, V<S>) {
     let splat = |c| V::<S>::splat(simd, c);
     let n = terms.normal.each_ref().map(|p| p.load(simd, i));
     let a = terms.a.load(simd, i);
-    let q = sum(ray.light, ray.view);
-    let n_dot_l = dot(n, ray.light).max(splat(0.0));
-    let n_dot_v = dot(n, ray.view).max(splat(0.0));
+    let q = sum(geometry.light, geometry.view);
+    let n_dot_l = dot(n, geometry.light).max(splat(0.0));
+    let n_dot_v = dot(n, geometry.view).max(splat(0.0));
     // Not the sum of the two: where light and view are nearly opposite, that rounds far above the short q.
     let n_dot_q = dot(n, q);
-    let e = n_dot_l * ray.boost;
+    let e = n_dot_l * geometry.light_scale;
 
-    let across: [V<S>; 3] = std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], q[c]));
+    let across: [V<S>; 3] = if NARROW {
+        cross::<S>(n, q)
+    } else {
+        std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], q[c]))
+    };
     let along = a * n_dot_q;
     // In this order only three additions wait for `across`.
     let mut d = across.iter().fold(along * along, |sum, &c| c.mul_add(c, sum));
     let mut factor_l = n_dot_l.mul_add(terms.one_minus_k.load(simd, i), a);
     let mut factor_v = n_dot_v.mul_add(terms.one_minus_k.load(simd, i), a);
-    let peak = a * ray.square;
+    let peak = a * geometry.square;
     if CLAMPED {
-        d = n_dot_q.simd_lt(splat(clamps.behind)).select(ray.square, d).max(ray.square * clamps.d_floor);
+        let square = geometry.square;
+        d = n_dot_q.simd_lt(splat(clamps.behind)).select(square, d).max(square * clamps.d_floor);
         factor_l = factor_l.max(splat(clamps.g_floor));
         factor_v = factor_v.max(splat(clamps.g_floor));
     }
-    if CAREFUL {
-        // Never below its least, a^2 |q|^2, and ratios first: none overflows, none is 0 / 0.
+    if SAFE {
+        // d is at least a^2 |q|^2. With ratios first, none overflows and none is 0 / 0.
         let ratio = peak / d.max(a * peak);
         let lobe = (ratio / factor_l * (ratio / factor_v) * e).min(splat(LARGEST));
-        // Infinity times no light is not a number.
+        // Infinity times an irradiance of 0 is not a number.
         return (e.simd_gt(splat(0.0)).select(lobe, splat(0.0)), e);
     }
     // One reciprocal and its Newton step: (peak / d)^2 / g = (peak / (d g))^2 g.

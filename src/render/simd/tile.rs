@@ -1,32 +1,25 @@
-//! What is kept in the nearest cache while all scenes pass over a few texels.
+//! The material terms and positions of one tile, kept in the L1 cache while all scenes pass over it.
 
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
 use super::lanes::{Lanes, V};
+use super::size::TEXELS;
 use crate::material::{Grid, Planes};
 
-/// Texels of a tile. Its planes (22 KiB for two materials) stay in the nearest cache; a multiple of two vectors of
-/// every instruction set.
-pub(crate) const TEXELS: usize = 128;
-
-/// How many texels before they are needed memory is asked for: what the last scene of a tile asks of the very next one
-/// comes too late.
-pub(crate) const AHEAD: usize = 2 * TEXELS;
-
-/// One number for each texel of a tile, aligned so that no vector straddles two cache lines.
+/// One number per texel of a tile, aligned so that no vector straddles two cache lines.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(crate) struct Plane([f32; TEXELS]);
+pub(crate) struct TilePlane([f32; TEXELS]);
 
-impl Plane {
+impl TilePlane {
     pub(crate) const ZERO: Self = Self([0.0; TEXELS]);
 
     pub(crate) fn values(&self) -> &[f32; TEXELS] {
         &self.0
     }
 
-    /// Texels per vector times `index`, and on.
+    /// Vector number `index`.
     #[inline(always)]
     pub(crate) fn load<S: Simd>(&self, simd: S, index: usize) -> V<S> {
         let at = index * V::<S>::LEN;
@@ -39,11 +32,11 @@ impl Plane {
         value.store_slice(&mut self.0[at..at + V::<S>::LEN]);
     }
 
-    /// The first texels are those `at` some of a plane, the others `pad`.
+    /// Copies the texels `span` of a plane, and pads the rest of the tile with `pad`.
     #[inline(always)]
-    fn fill(&mut self, plane: &[f32], at: &At<'_>, pad: f32) {
-        match at {
-            At::Run(range) => match plane[range.clone()].try_into() {
+    fn fill(&mut self, plane: &[f32], span: &TexelSpan<'_>, pad: f32) {
+        match span {
+            TexelSpan::Run(range) => match plane[range.clone()].try_into() {
                 Ok(values) => self.0 = values,
                 Err(_) => {
                     let (used, unused) = self.0.split_at_mut(range.len());
@@ -51,7 +44,7 @@ impl Plane {
                     unused.fill(pad);
                 }
             },
-            At::Listed(texels) => {
+            TexelSpan::Listed(texels) => {
                 let (used, unused) = self.0.split_at_mut(texels.len());
                 for (value, &texel) in used.iter_mut().zip(*texels) {
                     *value = plane[texel];
@@ -62,11 +55,12 @@ impl Plane {
     }
 }
 
-/// At most [`TEXELS`] texels of a picture, as row * width + column.
+/// At most [`TEXELS`] texels of a material, each as row * width + column.
 #[derive(Clone, Debug)]
-pub(crate) enum At<'a> {
-    /// One after another.
+pub(crate) enum TexelSpan<'a> {
+    /// Consecutive texels.
     Run(std::ops::Range<usize>),
+    /// Any texels, in any order.
     Listed(&'a [usize]),
 }
 
@@ -78,43 +72,50 @@ pub(crate) const fn vectors<S: Simd>() -> usize {
 
 /// The terms of a material that do not depend on the scene.
 #[derive(Clone, Debug)]
-pub(crate) struct Terms {
-    pub(crate) normal: [Plane; 3],
+pub(crate) struct MaterialTerms {
+    pub(crate) normal: [TilePlane; 3],
     /// The GGX width a = rough^2; k = a / 2.
-    pub(crate) a: Plane,
+    pub(crate) a: TilePlane,
+    /// The smallest a of the tile.
+    pub(crate) least_a: f32,
     /// 1 - k.
-    pub(crate) one_minus_k: Plane,
-    pub(crate) specular: [Plane; 3],
+    pub(crate) one_minus_k: TilePlane,
+    pub(crate) specular: [TilePlane; 3],
     /// d (1 - s).
-    pub(crate) lambert: [Plane; 3],
+    pub(crate) lambert: [TilePlane; 3],
 }
 
-impl Terms {
+impl MaterialTerms {
     pub(crate) const ZERO: Self = Self {
-        normal: [Plane::ZERO; 3],
-        a: Plane::ZERO,
-        one_minus_k: Plane::ZERO,
-        specular: [Plane::ZERO; 3],
-        lambert: [Plane::ZERO; 3],
+        normal: [TilePlane::ZERO; 3],
+        a: TilePlane::ZERO,
+        least_a: 0.0,
+        one_minus_k: TilePlane::ZERO,
+        specular: [TilePlane::ZERO; 3],
+        lambert: [TilePlane::ZERO; 3],
     };
 
-    /// The terms of the texels `at`. The rest of the tile is lit from nowhere: n = 0, R = 0 in
-    /// every material, so that it adds nothing to a loss.
+    /// Computes the terms of the texels `span`. The rest of the tile gets n = 0, so that R = 0 in every material and
+    /// it adds nothing to a loss.
     #[inline(always)]
-    pub(crate) fn fill(&mut self, planes: &Planes<f32>, at: &At<'_>, roughness_floor: f32) {
+    pub(crate) fn fill(&mut self, planes: &Planes<f32>, span: &TexelSpan<'_>, roughness_floor: f32) {
         for (tile, plane) in self.normal.iter_mut().zip(&planes.normal) {
-            tile.fill(plane, at, 0.0);
+            tile.fill(plane, span, 0.0);
         }
-        self.a.fill(&planes.roughness, at, 1.0);
+        self.a.fill(&planes.roughness, span, 1.0);
+        // Positive floats are ordered as their bits are. A minimum of integers vectorizes, that of floats does not.
+        let mut least = 1.0f32.to_bits();
         for (a, other) in self.a.0.iter_mut().zip(&mut self.one_minus_k.0) {
             let rough = a.max(roughness_floor);
             *a = rough * rough;
             *other = 1.0 - 0.5 * *a;
+            least = least.min(a.to_bits());
         }
+        self.least_a = f32::from_bits(least);
         for channel in 0..3 {
             let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
-            specular.fill(&planes.specular[channel], at, 0.0);
-            lambert.fill(&planes.diffuse[channel], at, 0.0);
+            specular.fill(&planes.specular[channel], span, 0.0);
+            lambert.fill(&planes.diffuse[channel], span, 0.0);
             for (l, s) in lambert.0.iter_mut().zip(&specular.0) {
                 *l *= 1.0 - s;
             }
@@ -122,13 +123,13 @@ impl Terms {
     }
 }
 
-/// The planes of a material, in the order that a tile is filled.
+/// The planes of a material, in the order in which a tile is filled.
 pub(crate) fn planes(planes: &Planes<f32>) -> impl Iterator<Item = &[f32]> {
     let vectors = planes.normal.iter().chain(&planes.specular).chain(&planes.diffuse);
     vectors.chain([&planes.roughness]).map(Vec::as_slice)
 }
 
-/// Asks for the tile at `start` of some planes, so that memory works while the kernel computes.
+/// Prefetches the tile at `start` of some planes.
 #[inline(always)]
 pub(crate) fn prefetch<S: Lanes>(simd: S, planes: &[&[f32]], start: usize) {
     for plane in planes {
@@ -138,15 +139,15 @@ pub(crate) fn prefetch<S: Lanes>(simd: S, planes: &[&[f32]], start: usize) {
     }
 }
 
-/// A grid, and the coordinates of all its columns and rows, which runs of texels need.
+/// A grid with the coordinates of its columns and rows, which runs of texels need.
 #[derive(Debug)]
-pub(crate) struct Axes {
+pub(crate) struct GridAxes {
     grid: Grid,
     x: Vec<f32>,
     y: Vec<f32>,
 }
 
-impl From<Grid> for Axes {
+impl From<Grid> for GridAxes {
     fn from(grid: Grid) -> Self {
         Self {
             grid,
@@ -156,30 +157,30 @@ impl From<Grid> for Axes {
     }
 }
 
-impl Axes {
-    /// For listed texels only.
+impl GridAxes {
+    /// Axes for listed texels only.
     pub(crate) fn without_runs(grid: Grid) -> Self {
         Self { grid, x: Vec::new(), y: Vec::new() }
     }
 }
 
-/// Where the texels of a tile lie.
+/// The positions of the texels of a tile.
 #[derive(Clone, Debug)]
-pub(crate) struct Places {
-    pub(crate) x: Plane,
-    pub(crate) y: Plane,
+pub(crate) struct Positions {
+    pub(crate) x: TilePlane,
+    pub(crate) y: TilePlane,
 }
 
-impl Places {
-    pub(crate) const ZERO: Self = Self { x: Plane::ZERO, y: Plane::ZERO };
+impl Positions {
+    pub(crate) const ZERO: Self = Self { x: TilePlane::ZERO, y: TilePlane::ZERO };
 
-    /// The places of the texels `at`; the rest of the tile keeps what it had.
+    /// Computes the positions of the texels `span`; the rest of the tile keeps its values.
     #[inline(always)]
-    pub(crate) fn fill(&mut self, axes: &Axes, at: &At<'_>) {
+    pub(crate) fn fill(&mut self, axes: &GridAxes, span: &TexelSpan<'_>) {
         let width = axes.grid.width;
-        let at = match at {
-            At::Run(range) => range,
-            At::Listed(texels) => {
+        let range = match span {
+            TexelSpan::Run(range) => range,
+            TexelSpan::Listed(texels) => {
                 for ((x, y), &texel) in self.x.0.iter_mut().zip(&mut self.y.0).zip(*texels) {
                     let position = axes.grid.position::<Vec3>(texel % width, texel / width);
                     (*x, *y) = (position.x, position.y);
@@ -187,11 +188,11 @@ impl Places {
                 return;
             }
         };
-        let mut next = at.start;
-        while next < at.end {
+        let mut next = range.start;
+        while next < range.end {
             let (row, column) = (next / width, next % width);
-            let count = (width - column).min(at.end - next);
-            let tile = next - at.start..next - at.start + count;
+            let count = (width - column).min(range.end - next);
+            let tile = next - range.start..next - range.start + count;
             self.x.0[tile.clone()].copy_from_slice(&axes.x[column..column + count]);
             self.y.0[tile].fill(axes.y[row]);
             next += count;

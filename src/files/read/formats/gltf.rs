@@ -17,7 +17,7 @@ use crate::files::read::locate::names::Role;
 use crate::files::read::note::{Container, Note, Subject};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
 use crate::files::read::raster::Raster;
-use crate::files::read::reason::StorageConvention;
+use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::{Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 

@@ -11,7 +11,8 @@ use crate::files::read::decode;
 use crate::files::read::locate::names::Role;
 use crate::files::read::note::{Container, Note, Subject};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
-use crate::files::read::reason::{Known, Reason, StorageConvention};
+use crate::files::read::reason::{Known, Reason};
+use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::colour;
 use super::decide::decide;
 use super::detect;
 use super::normals;
@@ -13,9 +14,10 @@ use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::note::{Gray, Note, SpecifiedBy};
 use crate::files::read::options::{Albedo, ReadOptions, Roughness};
 use crate::files::read::raster::Samples;
-use crate::files::read::reason::{Reason, StorageConvention};
+use crate::files::read::reason::Reason;
 use crate::files::read::role::Role;
-use crate::files::read::stored::{StoredMap, StoredMaterial};
+use crate::files::read::storage_convention::StorageConvention;
+use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::material::Planes;
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
@@ -34,8 +36,8 @@ pub fn planes<T: Real>(
 ) -> Result<(Planes<T>, [usize; 2]), Error> {
     let size = found.common_size()?;
     values::check(found, options)?;
-    let albedo = albedo(found, options);
-    let specular_space = specular_space(found, options, albedo);
+    let (albedo, weighed) = albedo(found, options);
+    let specular_space = specular_space(found, options, weighed);
     let roughness_code = roughness_code(found, options);
     let normal = match found.normal.take() {
         Some(source) => normals::planes(source, found, options, size)?,
@@ -105,13 +107,15 @@ fn mirror<T: Real>(planes: &mut Planes<T>, width: usize) {
     }
 }
 
-fn albedo(found: &mut StoredMaterial, options: &ReadOptions) -> Albedo {
-    let hint = found.inferred.albedo.take();
-    let specular = found.specular.as_ref().map(|source| detect::specular_median(&source.raster));
-    decide(&mut found.assumptions, What::Albedo, options.albedo, hint, || match specular {
-        None => (Albedo::Srgb, StorageConvention::SeparateColours.into(), Certainty::Likely),
-        Some(median) => by_median(median),
-    })
+/// How diffuse is stored, and how specular is by the evidence of both, where nothing else tells.
+fn albedo(found: &mut StoredMaterial, options: &ReadOptions) -> (Albedo, Inferred<Albedo>) {
+    let weighed = found.specular.as_ref().map(|specular| colour::weigh(&found.colour, specular));
+    let [diffuse, specular] = weighed.map_or([None, None], |both| both.map(Some));
+    let inferred = found.inferred.albedo.take();
+    let albedo = decide(&mut found.assumptions, What::Albedo, options.albedo, inferred, || {
+        diffuse.unwrap_or((Albedo::Srgb, StorageConvention::SeparateColours.into(), Certainty::Likely))
+    });
+    (albedo, specular)
 }
 
 /// What the median of specular suggests: 0.04 stored linearly, or encoded.
@@ -124,11 +128,13 @@ fn by_median(median: f64) -> (Albedo, Reason, Certainty) {
     (albedo, Reason::SpecularMedian { median, suggests }, certainty)
 }
 
-fn specular_space(found: &mut StoredMaterial, options: &ReadOptions, albedo: Albedo) -> Albedo {
-    let Some(source) = &found.specular else { return albedo };
+fn specular_space(found: &mut StoredMaterial, options: &ReadOptions, weighed: Inferred<Albedo>) -> Albedo {
+    let Some(source) = &found.specular else { return Albedo::Srgb };
     let median = detect::specular_median(&source.raster);
     let hint = found.inferred.specular.take();
-    let chosen = options.specular.or(options.albedo).or(hint.as_ref().map(|h| h.0)).unwrap_or(albedo);
+    let is_known = hint.is_some();
+    let hint = hint.or(weighed);
+    let chosen = options.specular.or(options.albedo).or(hint.as_ref().map(|h| h.0)).unwrap_or(Albedo::Srgb);
     let (says, why, certainty) = by_median(median);
     let contradicts =
         (says == Albedo::Linear) != (chosen == Albedo::Linear) && certainty == Certainty::Likely;
@@ -143,6 +149,7 @@ fn specular_space(found: &mut StoredMaterial, options: &ReadOptions, albedo: Alb
         }
         Assumption::given(What::Specular, chosen)
     } else if contradicts
+        && is_known
         && !source.raster.is_float()
         && hint.as_ref().is_none_or(|(.., certainty)| *certainty != Certainty::Sure)
     {

@@ -1,5 +1,6 @@
 //! From stored samples to the linear values of a material.
 
+pub mod colour;
 pub mod decide;
 pub mod detect;
 pub mod encoding;

@@ -1,7 +1,7 @@
 //! Normal maps: how their components are stored and where y points.
 
 use super::decide::decide;
-use super::detect;
+use super::detect::{self, NORMAL_AT_LEAST};
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{NormalEncoding, NormalY, ReadOptions};
@@ -17,6 +17,9 @@ const SHORTEST: f64 = 1e-3;
 const DOWN: f64 = -0.3;
 /// Above this correlation it is taken to be y up.
 const UP: f64 = 0.1;
+
+/// Share of the texels of an unsigned map that filters may have made negative.
+const OVERSHOOT: f64 = 0.1;
 
 /// Squared sine of the slope above which z is visibly below 1.
 const STEEP: f64 = 0.05;
@@ -41,8 +44,11 @@ pub fn planes<T: Real>(
         });
     }
     let (encoding, why) = encoding_of(raster);
-    let sure = encoding == NormalEncoding::Unsigned || raster.is_float();
-    let certainty = if sure { Certainty::Likely } else { Certainty::Unsure };
+    let is_usual = encoding == NormalEncoding::Unsigned || raster.is_float();
+    // Where few texels have unit length, either reading may be wrong.
+    let is_unit =
+        !matches!(why, Reason::UnitLength { share, .. } if raster.is_float() && share < NORMAL_AT_LEAST);
+    let certainty = if is_usual && is_unit { Certainty::Likely } else { Certainty::Unsure };
     let encoding =
         decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, None, || {
             (encoding, why, certainty)
@@ -73,12 +79,8 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
         let values = raster.sampled().map(|i| plane.at(i));
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
     };
-    let least = raster.channels.iter().map(|c| range(c).0).fold(0.0, f64::min);
-    if raster.is_float() && least < -0.01 {
-        return (NormalEncoding::Signed, Reason::LeastComponent(least));
-    }
     if raster.channels.len() == 2 {
-        return (NormalEncoding::Xy, Reason::TwoChannels);
+        return two_channels(raster);
     }
     let [x, _, z] = [0, 1, 2].map(|c| range(&raster.channels[c]));
     if let Some(alpha) = &raster.alpha
@@ -89,6 +91,7 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
     }
     let score = detect::normal_score(raster);
     if raster.is_float() {
+        // Filters overshoot: lengths tell signed from unsigned, a negative value does not.
         let signed = detect::signed_normal_score(raster);
         if signed > score {
             return (NormalEncoding::Signed, Reason::UnitLength { signed: true, share: signed });
@@ -103,6 +106,17 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
         return (NormalEncoding::Xy, Reason::BlueConstant(z.0.round()));
     }
     (NormalEncoding::Unsigned, Reason::UnitLength { signed: false, share: score })
+}
+
+/// Of x and y alone: signed where a share of the components is negative that overshoot does not explain.
+fn two_channels(raster: &Raster) -> (NormalEncoding, Reason) {
+    let is_negative = |i: &usize| raster.channels.iter().any(|channel| channel.at(*i) < -0.01);
+    let (count, negative) = (raster.sampled().count(), raster.sampled().filter(is_negative).count());
+    if raster.is_float() && negative as f64 > OVERSHOOT * count as f64 {
+        let values = raster.sampled().flat_map(|i| raster.channels.iter().map(move |c| c.at(i)));
+        return (NormalEncoding::Signed, Reason::LeastComponent(values.fold(0.0, f64::min)));
+    }
+    (NormalEncoding::Xy, Reason::TwoChannels)
 }
 
 /// The vector at `index`, y as stored.

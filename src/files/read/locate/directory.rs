@@ -44,8 +44,17 @@ pub fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Err
     Ok(names)
 }
 
-/// The file names for a message, no matter how many they are.
+/// Files that other programs leave beside pictures.
+fn is_junk(name: &str) -> bool {
+    let name = name.to_lowercase();
+    [".import", ".meta", ".uid"].iter().any(|end| name.ends_with(end))
+        || name == "thumbs.db"
+        || name == "desktop.ini"
+}
+
+/// The file names for a message, no matter how many they are, without those that other programs leave.
 pub fn listing(names: &[String]) -> String {
+    let names: Vec<&str> = names.iter().map(String::as_str).filter(|name| !is_junk(name)).collect();
     match names.len() {
         0 => "no files".to_owned(),
         count if count > MOST_LISTED => {

@@ -10,18 +10,17 @@ use super::directory::{self, list, listing, material_name};
 use super::grouping::{self, Named, Set};
 use super::names::{Label, Role};
 use super::picture;
+use super::reading::{Reading, is_colour};
 use crate::error::Error;
-use crate::files::read::assumption::{Assumption, Certainty, What};
+use crate::files::read::assumption::Certainty;
 use crate::files::read::decode;
 use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score};
-use crate::files::read::note::{Note, Subject, Unused};
-use crate::files::read::options::{Albedo, NormalY, ReadOptions, Reflectance, Roughness, Workflow};
-use crate::files::read::reason::{Reason, StorageConvention};
-use crate::files::read::stored::{Inferences, Pictures, StoredMap, StoredMaterial};
+use crate::files::read::note::{Note, Subject};
+use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness, Workflow};
+use crate::files::read::reason::Reason;
+use crate::files::read::storage_convention::StorageConvention;
+use crate::files::read::stored::{Inferences, StoredMap, StoredMaterial};
 use crate::progress::Progress;
-
-/// An unlabelled picture is the normal map where this share of its pixels looks like normals.
-const NORMAL_ALL_OVER: f64 = 0.95;
 
 /// Reads the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
 ///
@@ -153,26 +152,23 @@ impl Assembly<'_> {
             progress.step().and(decoded)
         };
         let decoded: Vec<_> = set.files.par_iter().map(load).collect::<Result<_, _>>()?;
-        let mut pictures = Pictures::default();
-        let mut notes = Vec::new();
-        let mut floats = true;
-        let is_opensvbrdf = set.files.iter().any(|f| f.label.word == "axay");
-        for (named, (mut raster, said)) in set.files.iter().zip(decoded) {
-            let Named { file, label } = named;
-            notes.push(Note::MapFile { map: label.role, file: file.clone() });
-            notes.extend(said);
-            floats &= raster.is_float() || !is_colour(label.role);
-            if label.word == grouping::NUMBERED
-                && label.role == Role::Normal
+        let mut reading = Reading::new(folder, &set.files);
+        for (named, (raster, said)) in set.files.iter().zip(decoded) {
+            let (named, raster, said) = match reading.other_normals(&set, named, &raster) {
+                Some((other, raster, said)) => (other, raster, said),
+                None => (named, raster, said),
+            };
+            if reading.is_contested(&set, named) {
+                return Err(two_pictures(path, named, &set.normals[0]));
+            }
+            reading.notes.extend(said);
+            if named.label.word == grouping::NUMBERED
+                && named.label.role == Role::Normal
                 && normal_score(&raster) < NORMAL_AT_LEAST
             {
-                return Err(numbers_mislead(path, file));
+                return Err(numbers_mislead(path, &named.file));
             }
-            if is_opensvbrdf && label.word == "ps" {
-                raster = raster.scaled(&[Reflectance::DIELECTRIC.value() as f32]);
-                notes.push(Note::SpecularFactor { file: file.clone() });
-            }
-            pictures.add(label.role, StoredMap { raster, file: folder.join(file), part: String::new() });
+            reading.add(named, raster);
         }
         // Whoever specifies a specular map wants it to be used.
         let named = bound.iter().any(|(role, _)| *role == Role::Specular) && options.workflow.is_none();
@@ -181,21 +177,14 @@ impl Assembly<'_> {
             ..*options
         };
         for (role, source) in bound {
-            notes.push(binding::note(role, &source.file));
-            floats &= source.raster.is_float() || !is_colour(role);
-            pictures.replace(role, source);
+            reading.notes.push(binding::note(role, &source.file));
+            reading.floats &= source.raster.is_float() || !is_colour(role);
+            reading.pictures.replace(role, source);
         }
-        let mut doubts = Vec::new();
-        for file in set.unlabelled {
-            let rescued = if pictures.has(Role::Normal) { None } else { rescued(&folder.join(&file)) };
-            let Some(source) = rescued else {
-                notes.push(Note::Unused { what: file, why: Unused::Unlabelled });
-                continue;
-            };
-            pictures.add(Role::Normal, source);
-            let chosen = format!("normal is {file}");
-            doubts.push(Assumption::new(What::Layout, chosen, Reason::NormalPixels, Certainty::Unsure));
+        for file in &set.unlabelled {
+            reading.rescue(file);
         }
+        let Reading { pictures, mut notes, floats, mut doubts, is_glossy, .. } = reading;
         let mut found = pictures.assemble(path, name, &listing(names), options)?;
         found.assumptions.append(&mut doubts);
         found.inferred = inferred(folder, &set.files, floats);
@@ -204,6 +193,12 @@ impl Assembly<'_> {
             found.inferred.albedo = Some((Albedo::Gamma22, why(), Certainty::Likely));
             found.inferred.normal_y = Some((NormalY::Down, why(), Certainty::Unsure));
         }
+        if is_glossy {
+            let why = || StorageConvention::SpecularGlossiness.into();
+            found.inferred.albedo = Some((Albedo::Srgb, why(), Certainty::Sure));
+            found.inferred.specular = found.inferred.albedo.clone();
+            found.inferred.roughness = Some((Roughness::Gloss, why(), Certainty::Sure));
+        }
         notes.extend(set.notes);
         notes.append(&mut found.notes);
         found.notes = notes;
@@ -211,8 +206,15 @@ impl Assembly<'_> {
     }
 }
 
-fn is_colour(role: Role) -> bool {
-    matches!(role, Role::Base | Role::Diffuse | Role::Specular)
+/// Two pictures of normals, neither of which is constant.
+fn two_pictures(path: &Path, one: &Named, other: &Named) -> Error {
+    let (first, second) = if one.file < other.file { (one, other) } else { (other, one) };
+    Error::NotAMaterial {
+        path: path.to_owned(),
+        expected: "one picture for the normal map".to_owned(),
+        found: format!("{} and {}", first.file, second.file),
+        remedy: "give the prefix that only the files of this material share, or move one away".to_owned(),
+    }
 }
 
 fn numbers_mislead(path: &Path, file: &str) -> Error {
@@ -222,13 +224,6 @@ fn numbers_mislead(path: &Path, file: &str) -> Error {
         found: format!("{file} without the look of normals"),
         remedy: "name the files by their maps".to_owned(),
     }
-}
-
-/// The picture `file`, if it looks like a normal map all over.
-fn rescued(file: &Path) -> Option<StoredMap> {
-    let (raster, _) = decode::decode_one(file, Subject::Picture).ok()?;
-    let score = normal_score(&raster);
-    (score > NORMAL_ALL_OVER).then(|| StoredMap { raster, file: file.to_owned(), part: String::new() })
 }
 
 /// Whether the files look as DiffMat writes them: whole names, colour in 8 bits, gray in 16.

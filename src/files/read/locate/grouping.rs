@@ -22,7 +22,7 @@ pub struct Named {
 
 impl Named {
     /// The higher, the better a source for its map.
-    fn rank(&self) -> (u8, Option<usize>) {
+    pub fn rank(&self) -> (u8, Option<usize>) {
         let extension =
             Path::new(&self.file).extension().unwrap_or_default().to_string_lossy().to_lowercase();
         (self.label.rank(), EXTENSIONS.iter().position(|e| *e == extension))
@@ -33,6 +33,8 @@ impl Named {
 #[derive(Debug, Default)]
 pub struct Set {
     pub files: Vec<Named>,
+    /// Other pictures of the normal map, which count where the chosen one is constant.
+    pub normals: Vec<Named>,
     /// Pictures whose names name no map.
     pub unlabelled: Vec<String>,
     pub notes: Vec<Note>,
@@ -63,7 +65,9 @@ pub fn choose(
         }
     }
     share(&mut groups);
-    groups.retain(|_, files| files.len() > 1 || !files[0].label.is_short());
+    // A short word counts beside other maps, or beside a picture that has the name of the set.
+    let has_colour = |stem: &[String]| set.unlabelled.iter().any(|name| is_named_as(name, stem));
+    groups.retain(|stem, files| files.len() > 1 || !files[0].label.is_short() || has_colour(stem));
     let is_whole = |files: &[Named]| is_complete(files, bound);
     let mut complete: Vec<_> =
         groups.iter().filter(|(_, files)| is_whole(files)).map(|(s, _)| s.clone()).collect();
@@ -87,8 +91,15 @@ pub fn choose(
             });
         }
     };
-    set.files = best(path, files, bound, &mut set.notes)?;
+    let (files, normals) = best(path, files, bound, &mut set.notes)?;
+    (set.files, set.normals) = (files, normals);
     Ok(set)
+}
+
+/// Whether the name of a file is that of a set and nothing more, as `brick.png` beside `brick_n.png`.
+pub fn is_named_as(name: &str, stem: &[String]) -> bool {
+    let own = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    !stem.is_empty() && words(&own) == stem
 }
 
 /// Whether a file of this name counts as a picture.
@@ -100,7 +111,7 @@ pub fn is_picture(name: &str) -> bool {
 fn is_complete(files: &[Named], bound: &[Role]) -> bool {
     let has = |is: fn(Role) -> bool| files.iter().map(|f| f.label.role).chain(bound.iter().copied()).any(is);
     has(|role| matches!(role, Role::Base | Role::Diffuse))
-        && has(|role| role == Role::Roughness || role.packing().is_some())
+        && has(|role| matches!(role, Role::Roughness | Role::SpecularGlossiness) || role.packing().is_some())
 }
 
 /// The stem of what the file shares with others, as in `bishop_shared_metallic`; `None` for others.
@@ -160,15 +171,15 @@ fn numbered(names: &[String]) -> Groups {
     groups.into_iter().filter_map(whole).collect()
 }
 
-/// One file a map: the better of two, with a note; an error where neither is.
+/// One file a map: the better of two, with a note; an error where neither is. And the other pictures of normals.
 fn best(
     path: &Path,
     mut files: Vec<Named>,
     bound: &[Role],
     notes: &mut Vec<Note>,
-) -> Result<Vec<Named>, Error> {
+) -> Result<(Vec<Named>, Vec<Named>), Error> {
     files.sort_by_key(Named::rank);
-    let mut chosen: Vec<Named> = Vec::new();
+    let (mut chosen, mut normals): (Vec<Named>, Vec<Named>) = (Vec::new(), Vec::new());
     for file in files.into_iter().rev() {
         if file.label.role == Role::Ignored || bound.contains(&file.label.role) {
             notes.push(Note::Unused { what: file.file, why: Unused::NotAMap });
@@ -178,8 +189,13 @@ fn best(
             None => chosen.push(file),
             Some(better) if better.rank() > file.rank() => {
                 let why = Unused::Inferior { to: better.file.clone() };
-                notes.push(Note::Unused { what: file.file, why });
+                notes.push(Note::Unused { what: file.file.clone(), why });
+                if file.label.role == Role::Normal {
+                    normals.push(file);
+                }
             }
+            // One of them may be constant.
+            Some(_) if file.label.role == Role::Normal && normals.is_empty() => normals.push(file),
             Some(equal) => {
                 let (first, second) = if file.file < equal.file { (&file, equal) } else { (equal, &file) };
                 return Err(Error::NotAMaterial {
@@ -192,5 +208,5 @@ fn best(
             }
         }
     }
-    Ok(chosen)
+    Ok((chosen, normals))
 }

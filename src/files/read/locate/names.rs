@@ -17,7 +17,16 @@ pub struct Label {
 impl Label {
     /// The last telling word of a name wins: `metal_spec_rough` is a roughness map.
     pub fn of(name: &str) -> Option<Self> {
-        let words: Vec<String> = words(name).into_iter().filter(|word| !is_size_or_format(word)).collect();
+        let mut words: Vec<String> =
+            words(name).into_iter().filter(|word| !is_size_or_format(word)).collect();
+        if let Some(label) = both_of_blender(&words) {
+            return Some(label);
+        }
+        // Unreal's T_NAME_B: beside T, and only there, a B is a base colour.
+        if words.len() > 2 && words[0] == "t" && words.last().is_some_and(|last| last == "b") {
+            words.pop();
+            words.push("bc".to_owned());
+        }
         (1..=words.len()).rev().find_map(|end| {
             (1..=end.min(4)).rev().find_map(|count| {
                 let start = end - count;
@@ -39,9 +48,8 @@ impl Label {
     /// What the word says about a roughness map.
     pub fn roughness(&self) -> Option<Roughness> {
         match self.word.as_str() {
-            "glossiness" | "gloss" | "glossy" | "smoothness" | "metallicsmoothness" | "maskmap" => {
-                Some(Roughness::Gloss)
-            }
+            "glossiness" | "gloss" | "glossy" | "smoothness" | "metallicsmoothness" | "maskmap"
+            | "specularglossiness" | "specgloss" | "specularsmoothness" => Some(Roughness::Gloss),
             "axay" => Some(Roughness::Anisotropic),
             _ => None,
         }
@@ -58,10 +66,30 @@ impl Label {
     }
 }
 
+/// The picture that Blender's export to glTF packs of two and names after both: `X_Metallic-X_Roughness`.
+fn both_of_blender(words: &[String]) -> Option<Label> {
+    let half = words.len() / 2;
+    let (first, second) = words.split_at(half);
+    let (a, b) = (first.split_last()?, second.split_last()?);
+    let roles = [a.0, b.0].map(|word| Role::of_word(word));
+    let both = [[Role::Metallic, Role::Roughness], [Role::Roughness, Role::Metallic]];
+    let is_both = a.1 == b.1 && !a.1.is_empty() && both.iter().any(|pair| roles == pair.map(Some));
+    is_both.then(|| Label {
+        role: Role::OcclusionRoughnessMetallic,
+        word: "metallicroughness".to_owned(),
+        stem: a.1.to_vec(),
+        normal_y: None,
+    })
+}
+
 fn meaning(word: &str) -> Option<(Role, Option<NormalY>)> {
-    for (ending, y) in
-        [("opengl", NormalY::Up), ("gl", NormalY::Up), ("directx", NormalY::Down), ("dx", NormalY::Down)]
-    {
+    for (ending, y) in [
+        ("opengl", NormalY::Up),
+        ("ogl", NormalY::Up),
+        ("gl", NormalY::Up),
+        ("directx", NormalY::Down),
+        ("dx", NormalY::Down),
+    ] {
         let normal = word.strip_suffix(ending).and_then(Role::of_word);
         if normal == Some(Role::Normal) {
             return Some((Role::Normal, Some(y)));
@@ -146,9 +174,16 @@ mod tests {
             ("ax_ay_texture", Role::Roughness),
             ("Rock_MaskMap", Role::MetallicSmoothness),
             ("Rock_SpecularLevel", Role::SpecularLevel),
+            ("material_0_specularGlossiness", Role::SpecularGlossiness),
+            ("X_Metallic-X_Roughness", Role::OcclusionRoughnessMetallic),
+            ("old_Roughness-old_Metallic", Role::OcclusionRoughnessMetallic),
+            ("metal_plate_rough", Role::Roughness),
+            ("T_Rock_B", Role::Base),
+            ("Rock_BaseMap", Role::Base),
         ] {
             assert_eq!(role(name), Some(expected), "{name}");
         }
+        assert_eq!(role("plan_b"), None);
         assert_eq!(role("abnormal"), None);
         assert_eq!(role("Metal049A"), None);
     }
@@ -159,6 +194,8 @@ mod tests {
         assert_eq!(y("a_NormalGL"), Some(NormalY::Up));
         assert_eq!(y("a_nor_dx_4k"), Some(NormalY::Down));
         assert_eq!(y("a_Normal_DirectX"), Some(NormalY::Down));
+        assert_eq!(y("rock_normal-ogl"), Some(NormalY::Up));
+        assert_eq!(y("NormalOGL"), Some(NormalY::Up));
         assert_eq!(y("a_normal"), None);
     }
 

@@ -13,7 +13,8 @@ use crate::files::read::options::{Albedo, Energy, NormalY, ReadOptions, Roughnes
 use crate::files::read::order::Order;
 use crate::files::read::preset::Preset;
 use crate::files::read::raster::Raster;
-use crate::files::read::reason::{Reason, StorageConvention};
+use crate::files::read::reason::Reason;
+use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
 
 /// Of a picture of diffuse alone.
@@ -234,6 +235,16 @@ fn scores(image: &Raster, grid: Grid, tiles: Range<usize>) -> Vec<f64> {
     tiles.map(score).collect()
 }
 
+/// Whether in each row the tile at `place` looks like normals, and most of all tiles: else one picture of normals with
+/// flat and steep parts passes for a stack.
+fn every_row_has_normals(image: &Raster, grid: Grid, place: usize) -> bool {
+    (0..grid.rows).all(|row| {
+        let start = row * grid.columns;
+        let scores = scores(image, grid, start..start + grid.columns);
+        scores[place] >= NORMAL_AT_LEAST && scores.iter().all(|&score| score <= scores[place])
+    })
+}
+
 /// The order by the one tile that looks like normals; `None` where none or several do.
 fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choice> {
     let (start, count) = if is_stack(grid, 0) {
@@ -258,6 +269,9 @@ fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choic
         (5.., place) if place + 4 == count => Order::NDRS,
         _ => return None,
     };
+    if is_stack(grid, 0) && !every_row_has_normals(image, grid, place) {
+        return None;
+    }
     let why = Reason::NormalTile { number: place + 1, share: best, next: second };
     Some(Choice { grid, order, first: start + count - order.len(), why, certainty: Certainty::Likely })
 }

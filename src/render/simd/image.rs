@@ -1,14 +1,14 @@
-//! Whole images through the kernel: the same geometry and the same radiance, without a comparison.
+//! Whole images from the geometry and the radiance of each tile.
 
 use fearless_simd::{Fallback, Simd};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::TEXELS_PER_BLOCK;
-use super::geometry::{Rays, Source};
+use super::geometry::{KernelScene, TileGeometry};
 use super::lanes::{Lanes, Level, dispatch};
-use super::shade::{Model, Radiance};
-use super::tile::{self, AHEAD, At, Axes, Places, TEXELS, Terms, prefetch};
+use super::shade::{ShadingParams, TileRadiance};
+use super::size::{AHEAD, TEXELS, TEXELS_PER_BLOCK};
+use super::tile::{self, GridAxes, MaterialTerms, Positions, TexelSpan, prefetch};
 use crate::error::Error;
 use crate::image::Image;
 use crate::material::{Material, Planes};
@@ -30,95 +30,100 @@ pub fn render_at(
     scene.check().map_err(|problem| Error::UnusableScene { problem })?;
     let (width, height) = (material.width(), material.height());
     let mut pixels = vec![[0.0; 3]; width * height];
-    let view = View::new(material, scene, convention);
+    let inputs = ImageInputs::new(material, scene, convention);
     progress.begin(pixels.len().div_ceil(TEXELS_PER_BLOCK) as u64);
     pixels.par_chunks_mut(TEXELS_PER_BLOCK).enumerate().try_for_each_init(
-        || Tile::ZERO,
+        || ImageTile::ZERO,
         |tile, (block, pixels)| {
-            dispatch!(level, simd => view.block(simd, tile, block * TEXELS_PER_BLOCK, pixels));
+            dispatch!(level, simd => inputs.block(simd, tile, block * TEXELS_PER_BLOCK, pixels));
             progress.step()
         },
     )?;
     Ok(Image { width, height, pixels })
 }
 
-/// A material in a scene.
-struct View<'a> {
+/// A material and a scene.
+struct ImageInputs<'a> {
     material: &'a Planes<f32>,
-    /// The same, as a list.
+    /// The planes of the material as a list, for prefetching.
     planes: Vec<&'a [f32]>,
-    model: Model,
-    axes: Axes,
-    source: Source,
+    params: ShadingParams,
+    axes: GridAxes,
+    scene: KernelScene,
 }
 
-impl<'a> View<'a> {
+impl<'a> ImageInputs<'a> {
     fn new(material: &'a Material<f32>, scene: &Scene, convention: &Convention) -> Self {
         let grid = material.grid();
         Self {
             material: material.planes(),
             planes: tile::planes(material.planes()).collect(),
-            model: Model::without_epsilon(convention),
-            axes: Axes::from(grid),
-            source: Source::new(scene, convention, grid.position::<DVec3>(0, 0).length()),
+            params: ShadingParams::without_epsilon(convention),
+            axes: GridAxes::from(grid),
+            scene: KernelScene::new(scene, convention, grid.position::<DVec3>(0, 0).length()),
         }
     }
 
     /// Renders the texels from `start` on into `pixels`.
     #[inline(always)]
-    fn block<S: Lanes>(&self, simd: S, tile: &mut Tile, start: usize, pixels: &mut [[f32; 3]]) {
+    fn block<S: Lanes>(&self, simd: S, tile: &mut ImageTile, start: usize, pixels: &mut [[f32; 3]]) {
         for (i, pixels) in pixels.chunks_mut(TEXELS).enumerate() {
             let at = start + i * TEXELS;
             prefetch(simd, &self.planes, at + AHEAD);
-            tile.render(simd, self, &At::Run(at..at + pixels.len()));
+            tile.render(simd, self, &TexelSpan::Run(at..at + pixels.len()));
             tile.copy_to(pixels);
         }
     }
 }
 
-/// The texels that are in cache.
-struct Tile {
-    places: Places,
-    rays: Rays,
-    terms: Terms,
-    radiance: Radiance,
+/// The tile of an image that is in cache.
+struct ImageTile {
+    positions: Positions,
+    geometry: TileGeometry,
+    terms: MaterialTerms,
+    radiance: TileRadiance,
 }
 
-impl Tile {
-    const ZERO: Self =
-        Self { places: Places::ZERO, rays: Rays::ZERO, terms: Terms::ZERO, radiance: Radiance::ZERO };
+impl ImageTile {
+    const ZERO: Self = Self {
+        positions: Positions::ZERO,
+        geometry: TileGeometry::ZERO,
+        terms: MaterialTerms::ZERO,
+        radiance: TileRadiance::ZERO,
+    };
 
     #[inline(always)]
-    fn render<S: Lanes>(&mut self, simd: S, view: &View<'_>, at: &At<'_>) {
-        self.terms.fill(view.material, at, view.model.roughness_floor);
-        if let Some(ray) = view.source.distant(simd) {
+    fn render<S: Lanes>(&mut self, simd: S, inputs: &ImageInputs<'_>, span: &TexelSpan<'_>) {
+        let (params, scene) = (&inputs.params, &inputs.scene);
+        self.terms.fill(inputs.material, span, params.roughness_floor);
+        if let Some(geometry) = scene.distant(simd) {
             self.radiance.render(
                 simd,
-                &view.model,
-                &view.source,
+                params,
+                scene,
                 &self.terms,
                 #[inline(always)]
-                |_| ray,
+                |_| geometry,
             );
             return;
         }
-        self.places.fill(&view.axes, at);
-        self.rays.fill(simd, &view.source, &self.places);
-        let rays = &self.rays;
+        self.positions.fill(&inputs.axes, span);
+        self.geometry.fill(simd, scene, &self.positions);
+        let geometry = &self.geometry;
         self.radiance.render(
             simd,
-            &view.model,
-            &view.source,
+            params,
+            scene,
             &self.terms,
             #[inline(always)]
-            |i| rays.load(simd, i),
+            |i| geometry.load(simd, i),
         );
     }
 
-    /// From planes to pixels.
+    /// Copies the radiance planes to pixels.
     #[inline(always)]
     fn copy_to(&self, pixels: &mut [[f32; 3]]) {
-        let [red, green, blue] = self.radiance.0.each_ref().map(tile::Plane::values);
+        let [red, green, blue] = self.radiance.0.each_ref().map(tile::TilePlane::values);
         for (((pixel, r), g), b) in pixels.iter_mut().zip(red).zip(green).zip(blue) {
             *pixel = [*r, *g, *b];
         }

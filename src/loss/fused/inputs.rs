@@ -1,0 +1,59 @@
+//! The inputs of the kernel that do not depend on the scenes.
+
+use std::ops::Range;
+
+use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::render::simd::shade::ShadingParams;
+use crate::render::simd::size::TEXELS_PER_BLOCK;
+use crate::render::simd::tile::{self, GridAxes, TexelSpan};
+
+/// Materials, texels and convention of a loss.
+pub(super) struct LossInputs<'a> {
+    pub(super) ground_truth: &'a Material<f32>,
+    pub(super) predictions: &'a [&'a Material<f32>],
+    pub(super) convention: &'a Convention,
+    pub(super) params: ShadingParams,
+    pub(super) axes: GridAxes,
+    /// The texels that are compared; `None`: all.
+    listed: Option<&'a [usize]>,
+    /// All planes of all materials, for prefetching; none where texels are listed.
+    pub(super) planes: Vec<&'a [f32]>,
+    /// The number of texels that are compared.
+    pub(super) texels: usize,
+    /// The number of blocks of at most [`TEXELS_PER_BLOCK`] texels.
+    pub(super) blocks: usize,
+}
+
+impl<'a> LossInputs<'a> {
+    pub(super) fn new(
+        ground_truth: &'a Material<f32>,
+        predictions: &'a [&'a Material<f32>],
+        listed: Option<&'a [usize]>,
+        convention: &'a Convention,
+    ) -> Self {
+        let grid = ground_truth.grid();
+        let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
+        let planes = [&ground_truth].into_iter().chain(predictions);
+        let planes = planes.flat_map(|m| tile::planes(m.planes())).filter(|_| listed.is_none());
+        Self {
+            ground_truth,
+            predictions,
+            convention,
+            params: ShadingParams::from(convention),
+            axes: if listed.is_none() { GridAxes::from(grid) } else { GridAxes::without_runs(grid) },
+            listed,
+            planes: planes.collect(),
+            texels,
+            blocks: texels.div_ceil(TEXELS_PER_BLOCK),
+        }
+    }
+
+    /// The texels number `range.start` to `range.end` (excluded) of those that are compared.
+    pub(super) fn span(&self, range: Range<usize>) -> TexelSpan<'a> {
+        match self.listed {
+            None => TexelSpan::Run(range),
+            Some(texels) => TexelSpan::Listed(&texels[range]),
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! How often what is inferred is right: real and made materials of which it is known, each also re-encoded the other way.
+//!
+//! `cargo test --test main -- detection --ignored --nocapture` prints the tables of docs/formats.md.
+
+use std::path::{Path, PathBuf};
+
+use image::{Rgb, RgbImage};
+use svbrdf::files::read::{Assumption, Certainty, Read, ReadOptions, What, read};
+use svbrdf::progress::Progress;
+use tempfile::tempdir;
+
+use crate::support::pictures::srgb;
+
+/// Below `../shared`: the picture of diffuse or base colour, that of specular if there is one, and whether they are
+/// display-encoded.
+const COLOURS: [(&str, &str, bool); 15] = [
+    ("data/ambientcg_Metal049A_1K-JPG/Metal049A_1K-JPG_Color.jpg", "", true),
+    ("data/polyhaven_arm_wooden_table_02/textures/wooden_table_02_diff_1k.jpg", "", true),
+    (
+        "data/gltf_orm_FlightHelmet_LeatherParts/FlightHelmet_Materials_LeatherPartsMat_BaseColor.png",
+        "",
+        true,
+    ),
+    ("data/diffmat_style_png16_dxnormal_derived/basecolor.png", "", true),
+    ("data/materialgan_style_folder_derived/dif.png", "data/materialgan_style_folder_derived/spe.png", true),
+    (
+        "data/surfacenet_style_folder_derived/metal049a/diffuse.png",
+        "data/surfacenet_style_folder_derived/metal049a/specular.png",
+        false,
+    ),
+    (
+        "data/deschaintre_outputs_naming_derived/metal049a-outputs-1-.png",
+        "data/deschaintre_outputs_naming_derived/metal049a-outputs-3-.png",
+        false,
+    ),
+    (
+        "data/deschaintre_outputs_naming_derived/metal049a-outputs_gammad-1-.png",
+        "data/deschaintre_outputs_naming_derived/metal049a-outputs_gammad-3-.png",
+        true,
+    ),
+    ("real/matfuse_castle_brick/diffuse.png", "real/matfuse_castle_brick/specular.png", true),
+    ("real/matfuse_clean_pebbles/diffuse.png", "real/matfuse_clean_pebbles/specular.png", true),
+    ("real/matfuse_old_wood_floor/diffuse.png", "real/matfuse_old_wood_floor/specular.png", true),
+    ("real/substance_default/DefaultMaterial_Base_Color.png", "", true),
+    ("real/polyhaven_sofa/sofa_03_diff_1k.jpg", "", true),
+    ("real/polyhaven_cabinet/painted_wooden_cabinet_02_diff_1k.jpg", "", true),
+    ("real/materialx/Images/wood_color.jpg", "", true),
+];
+
+/// Below `../shared`: a picture of normals, and whether y points up.
+const NORMALS: [(&str, bool); 11] = [
+    ("data/ambientcg_Metal049A_1K-JPG/Metal049A_1K-JPG_NormalGL.jpg", true),
+    ("data/ambientcg_Metal049A_1K-JPG/Metal049A_1K-JPG_NormalDX.jpg", false),
+    ("data/diffmat_style_png16_dxnormal_derived/normal.png", false),
+    ("data/materialgan_style_folder_derived/nom.png", true),
+    ("data/surfacenet_style_folder_derived/metal049a/normal.png", true),
+    ("data/deschaintre_outputs_naming_derived/metal049a-outputs-0-.png", true),
+    ("data/gltf_orm_FlightHelmet_LeatherParts/FlightHelmet_Materials_LeatherPartsMat_Normal.png", true),
+    ("data/polyhaven_arm_wooden_table_02/textures/wooden_table_02_nor_gl_1k.jpg", true),
+    ("real/polyhaven_sofa/sofa_03_nor_gl_1k.jpg", true),
+    ("real/polyhaven_cabinet/painted_wooden_cabinet_02_nor_gl_1k.jpg", true),
+    ("real/substance_default/DefaultMaterial_Normal_DirectX.png", false),
+];
+
+/// Answers right and wrong, each by whether it is marked as unsure.
+#[derive(Debug, Default, PartialEq)]
+struct Table {
+    right: usize,
+    right_unsure: usize,
+    wrong: usize,
+    wrong_unsure: usize,
+}
+
+impl Table {
+    fn count(&mut self, is_right: bool, is_unsure: bool) {
+        *match (is_right, is_unsure) {
+            (true, false) => &mut self.right,
+            (true, true) => &mut self.right_unsure,
+            (false, false) => &mut self.wrong,
+            (false, true) => &mut self.wrong_unsure,
+        } += 1;
+    }
+
+    fn row(&self, name: &str) -> String {
+        let Self { right, right_unsure, wrong, wrong_unsure } = self;
+        format!("| {name} | {right} | {right_unsure} | {wrong_unsure} | {wrong} |")
+    }
+}
+
+fn shared(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared").join(name)
+}
+
+fn load(name: &str) -> RgbImage {
+    image::open(shared(name)).unwrap_or_else(|e| panic!("{name}: {e}")).to_rgb8()
+}
+
+/// The picture with every code encoded, or decoded, as sRGB.
+fn recoded(picture: &RgbImage, encode: bool) -> RgbImage {
+    let decode = |v: f64| if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
+    let code = |c: u8| {
+        let value = f64::from(c) / 255.0;
+        (255.0 * if encode { srgb(value) } else { decode(value) }).round() as u8
+    };
+    RgbImage::from_fn(picture.width(), picture.height(), |x, y| Rgb(picture.get_pixel(x, y).0.map(code)))
+}
+
+/// What is inferred of pictures under names that tell nothing else.
+fn inferred(pictures: &[(&str, &RgbImage)]) -> Read<f32> {
+    let folder = tempdir().unwrap();
+    for (name, picture) in pictures {
+        picture.save(folder.path().join(name)).unwrap();
+    }
+    read(folder.path(), &ReadOptions::AUTO, &Progress::default()).unwrap()
+}
+
+fn assumption<T>(read: &Read<T>, what: What) -> &Assumption {
+    read.assumptions.iter().find(|a| a.what == what).unwrap()
+}
+
+/// The tables of colours: by the evidence, and by the median of specular alone, as it was before.
+fn colours() -> [Table; 2] {
+    let [mut now, mut before] = [Table::default(), Table::default()];
+    for (colour, specular, is_encoded) in COLOURS {
+        let colour_picture = load(colour);
+        let specular_picture = (!specular.is_empty()).then(|| load(specular));
+        let gray = RgbImage::from_pixel(colour_picture.width(), colour_picture.height(), Rgb([128; 3]));
+        for flip in [false, true] {
+            let one = |picture: &RgbImage| if flip { recoded(picture, !is_encoded) } else { picture.clone() };
+            let truth = is_encoded != flip;
+            let mut pictures = vec![("diffuse.png", one(&colour_picture)), ("roughness.png", gray.clone())];
+            pictures.extend(specular_picture.as_ref().map(|picture| ("specular.png", one(picture))));
+            let borrowed: Vec<_> = pictures.iter().map(|(name, picture)| (*name, picture)).collect();
+            let read = inferred(&borrowed);
+            let known = assumption(&read, What::Albedo);
+            let (says, unsure) = (known.chosen != "linear", known.certainty == Certainty::Unsure);
+            now.count(says == truth, unsure);
+            println!(
+                "{colour}, re-encoded {flip}: {known}; {}",
+                if says == truth { "right" } else { "WRONG" }
+            );
+            let median = read.maps.iter().find_map(|map| map.specular_median);
+            let old = median.map_or((true, false), |median| match median {
+                0.03..=0.06 => (false, false),
+                0.2..=0.26 => (true, false),
+                _ => (true, true),
+            });
+            before.count(old.0 == truth, old.1);
+        }
+    }
+    [now, before]
+}
+
+/// The table of y of normals.
+fn normals() -> Table {
+    let mut table = Table::default();
+    for (normal, is_up) in NORMALS {
+        let whole = load(normal);
+        let gray = RgbImage::from_pixel(whole.width(), whole.height(), Rgb([128; 3]));
+        for flip in [false, true] {
+            let green = |g: u8| if flip { 255 - g } else { g };
+            let picture = RgbImage::from_fn(whole.width(), whole.height(), |x, y| {
+                let [r, g, b] = whole.get_pixel(x, y).0;
+                Rgb([r, green(g), b])
+            });
+            let read =
+                inferred(&[("normal.png", &picture), ("basecolor.png", &gray), ("roughness.png", &gray)]);
+            let known = assumption(&read, What::NormalY);
+            let truth = if is_up != flip { "up" } else { "down" };
+            println!(
+                "{normal}, flipped {flip}: {known}; {}",
+                if known.chosen == truth { "right" } else { "WRONG" }
+            );
+            table.count(known.chosen == truth, known.certainty == Certainty::Unsure);
+        }
+    }
+    table
+}
+
+#[test]
+#[ignore = "prints the tables of docs/formats.md, and takes long"]
+fn the_tables_of_what_is_inferred() {
+    let [now, before] = colours();
+    println!("| detector | right | right, unsure | wrong, unsure | wrong |\n|---|---|---|---|---|");
+    println!("{}", before.row("encoding of colours, by the median of specular"));
+    println!("{}", now.row("encoding of colours, by all evidence"));
+    println!("{}", normals().row("y of normals"));
+}
+
+#[test]
+fn an_answer_is_counted_in_its_place() {
+    let mut table = Table::default();
+    for (right, unsure) in [(true, false), (false, true), (false, false), (false, false)] {
+        table.count(right, unsure);
+    }
+    assert_eq!(table.row("x"), "| x | 1 | 0 | 1 | 2 |");
+}

@@ -1,0 +1,206 @@
+//! Sets of files that people have: what their names and channels mean.
+
+use image::{Rgb, Rgba, RgbaImage};
+use svbrdf::files::read::Role;
+
+use super::*;
+
+const DARK: f64 = 0.31;
+
+fn gray(folder: &Path, name: &str, value: f64) {
+    save(folder, name, &picture(SIDE, SIDE, |_, _| [value; 3]), ImageFormat::Png);
+}
+
+/// Bumpy normals, y up.
+fn bumpy(folder: &Path, name: &str) {
+    save(folder, name, &picture(SIDE, SIDE, |x, y| stored(0, x, y, |v| v)), ImageFormat::Png);
+}
+
+/// A picture that varies from left to right in the given channels, the others constant.
+fn channels(folder: &Path, name: &str, of: impl Fn(f64) -> [f64; 3]) {
+    let image = picture(SIDE, SIDE, |x, _| of(x as f64 / (SIDE - 1) as f64));
+    save(folder, name, &image, ImageFormat::Png);
+}
+
+fn mean_roughness(read: &Read<f64>) -> f64 {
+    let plane = &read.material.planes().roughness;
+    plane.iter().sum::<f64>() / plane.len() as f64
+}
+
+fn is_doubted(read: &Read<f64>, what: What) -> bool {
+    read.unsure().any(|a| a.what == what)
+}
+
+#[test]
+fn one_statistic_of_specular_does_not_make_colours_linear() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "diffuse.png", 0.4);
+    gray(folder.path(), "roughness.png", 0.5);
+    bumpy(folder.path(), "normal_gl.png");
+    // From 0 to 0.44, with a median of 0.055.
+    let varied = |u: f64| [if u < 0.5 { 0.11 * u } else { 0.055 + 0.77 * (u - 0.5) }; 3];
+    channels(folder.path(), "specular.png", varied);
+    assert_eq!(chosen(&open(folder.path()), What::Albedo), "srgb");
+    // All of it at 0.04: then it is linear, and so is diffuse.
+    gray(folder.path(), "specular.png", 0.04);
+    let read = open(folder.path());
+    assert_eq!((chosen(&read, What::Albedo), chosen(&read, What::Specular)), ("linear", "linear"));
+    gray(folder.path(), "specular.png", 0.22);
+    assert_eq!(chosen(&open(folder.path()), What::Specular), "srgb");
+    // Bright diffuse and specular at a linear 0.04: the evidence disagrees.
+    gray(folder.path(), "diffuse.png", 0.98);
+    gray(folder.path(), "specular.png", 0.04);
+    let read = open(folder.path());
+    assert_eq!((chosen(&read, What::Albedo), chosen(&read, What::Specular)), ("srgb", "linear"));
+    assert!(is_doubted(&read, What::Albedo), "{:#?}", read.assumptions);
+}
+
+#[test]
+fn a_roughness_of_packed_channels_is_not_their_mean() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "basecolor.png", 0.5);
+    bumpy(folder.path(), "normal_gl.png");
+    // As a glTF exporter writes it: red and blue are white.
+    channels(folder.path(), "roughness.png", |u| [1.0, 2.0 * DARK * u, 1.0]);
+    let read = open(folder.path());
+    assert!((mean_roughness(&read) - DARK).abs() < EIGHT_BITS, "{}", mean_roughness(&read));
+    assert!(is_doubted(&read, What::Layout) && read.material.texel(3).specular[0] < 0.05);
+    // Roughness and metallic.
+    channels(folder.path(), "roughness.png", |u| [1.0, 2.0 * DARK * u, u]);
+    let read = open(folder.path());
+    assert!((mean_roughness(&read) - DARK).abs() < EIGHT_BITS);
+    assert!(is_doubted(&read, What::Layout) && read.maps.iter().any(|map| map.map == Role::Metallic));
+    assert!(read.refuse_guesses(folder.path()).is_err());
+    // Gray, with the noise of a JPEG: no doubt.
+    channels(folder.path(), "roughness.png", |u| [u, (u + 0.02).min(1.0), u]);
+    assert!(!is_doubted(&open(folder.path()), What::Layout));
+}
+
+#[test]
+fn a_picture_of_blender_that_is_named_after_both_maps_holds_both() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "X_BaseColor.png", 0.5);
+    channels(folder.path(), "X_Metallic-X_Roughness.png", |u| [0.0, DARK, u]);
+    let read = open(folder.path());
+    assert!((mean_roughness(&read) - DARK).abs() < EIGHT_BITS);
+    assert!(read.material.texel(SIDE - 1).diffuse[0] < 1e-9, "the metal is lost");
+}
+
+#[test]
+fn specular_and_glossiness_in_one_picture_are_taken_apart() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "m_diffuse.png", 0.5);
+    let image = RgbaImage::from_fn(SIDE as u32, SIDE as u32, |x, _| Rgba([90, 90, 90, 40 + x as u8]));
+    save(folder.path(), "m_specularGlossiness.png", &image.into(), ImageFormat::Png);
+    let read = open(folder.path());
+    let expected = |c: u8| ((f64::from(c) / 255.0 + 0.055) / 1.055).powf(2.4);
+    let texel = read.material.texel(5);
+    assert!((texel.specular[0] - expected(90)).abs() < 1e-9, "{texel:?}");
+    assert!((texel.roughness - (1.0 - 45.0 / 255.0)).abs() < 1e-9, "{texel:?}");
+    assert_eq!(certainty(&read, What::Roughness), Some(Certainty::Sure));
+}
+
+#[test]
+fn names_of_libraries_and_engines_open() {
+    for names in [
+        ["rock_normal-ogl", "rock_albedo", "rock_roughness"],
+        ["rock_NormalOGL", "rock_BaseColor", "rock_Roughness"],
+        ["xyz_2K_Normal", "xyz_2K_Albedo", "xyz_2K_Gloss"],
+        ["T_Rock_N", "T_Rock_B", "T_Rock_R"],
+        ["Rock_Normal", "Rock_BaseMap", "Rock_MaskMap"],
+        ["brick_n", "brick", "brick_r"],
+    ] {
+        let folder = tempdir().unwrap();
+        bumpy(folder.path(), &format!("{}.png", names[0]));
+        gray(folder.path(), &format!("{}.png", names[1]), 0.25);
+        gray(folder.path(), &format!("{}.png", names[2]), 0.0);
+        let read = open(folder.path());
+        let color = read.material.texel(0).diffuse[0];
+        assert!(color > 0.03 && color < 0.08, "{names:?}: {color}");
+        assert!(read.material.planes().normal[0].iter().any(|x| x.abs() > 0.05), "{names:?}: flat");
+    }
+}
+
+#[test]
+fn of_two_pictures_of_normals_y_up_is_preferred_and_a_constant_one_is_not_the_map() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "a_albedo.png", 0.5);
+    gray(folder.path(), "a_roughness.png", 0.5);
+    bumpy(folder.path(), "a_normal-ogl.png");
+    bumpy(folder.path(), "a_normal-dx.png");
+    let read = open(folder.path());
+    assert_eq!(chosen(&read, What::NormalY), "up");
+    assert!(read.messages().any(|line| line.contains("a_normal-dx.png is not used")));
+    save(
+        folder.path(),
+        "a_normal-ogl.png",
+        &image::RgbImage::from_pixel(SIDE as u32, SIDE as u32, Rgb([128, 128, 255])).into(),
+        ImageFormat::Png,
+    );
+    let read = open(folder.path());
+    assert!(read.material.planes().normal[0].iter().any(|x| x.abs() > 0.05), "the constant one is used");
+}
+
+#[test]
+fn specular_beside_packed_metallic_does_not_switch_the_workflow_in_silence() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "a_diff.png", 0.5);
+    gray(folder.path(), "a_spec.png", 0.3);
+    channels(folder.path(), "a_arm.png", |u| [1.0, DARK, u]);
+    let read = open(folder.path());
+    assert_eq!(chosen(&read, What::Workflow), "metallic");
+    assert!(is_doubted(&read, What::Workflow));
+}
+
+#[test]
+fn floats_of_normals_that_overshoot_are_not_signed() {
+    let folder = tempdir().unwrap();
+    for (map, name) in ["normal", "diffuse", "roughness", "specular"].iter().enumerate() {
+        // Unsigned normals, with one overshoot.
+        let value = |i: usize, v: f32| match (map, i) {
+            (0, 7) => -0.16,
+            (0, _) => 0.5 * v + 0.5,
+            _ => v,
+        };
+        map_exr(&folder.path().join(format!("{name}.exr")), map, value);
+    }
+    assert_eq!(chosen(&open(folder.path()), What::NormalEncoding), "unsigned");
+}
+
+#[test]
+fn strict_reading_takes_names_and_specifications_only() {
+    let folder = tempdir().unwrap();
+    bumpy(folder.path(), "normal_gl.png");
+    gray(folder.path(), "basecolor.png", 0.5);
+    gray(folder.path(), "metallic.png", 0.0);
+    gray(folder.path(), "roughness.png", 0.5);
+    let is_refused = || open(folder.path()).refuse_guesses(folder.path()).is_err();
+    assert!(!is_refused(), "{:#?}", open(folder.path()).assumptions);
+    // Where y points is measured then.
+    std::fs::rename(folder.path().join("normal_gl.png"), folder.path().join("normal.png")).unwrap();
+    assert!(is_refused());
+    // A packed image is recognized by its pixels; with its order and the conventions of its source it is specified.
+    let packed = save(folder.path(), "a.png", &packed("NDRS", 4, linear), ImageFormat::Png);
+    assert!(open(&packed).refuse_guesses(&packed).is_err());
+    let specified =
+        ReadOptions { preset: Some(Preset::Deschaintre), order: Some(Order::NDRS), ..ReadOptions::AUTO };
+    let read = open_as(&packed, &specified);
+    assert!(read.refuse_guesses(&packed).is_ok(), "{:#?}", read.assumptions);
+}
+
+#[test]
+fn a_missing_map_lists_its_names_and_no_junk() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "rock_albedo.png", 0.5);
+    for junk in ["rock_albedo.png.import", "rock.meta", "Thumbs.db"] {
+        std::fs::write(folder.path().join(junk), "x").unwrap();
+    }
+    let message = refusal(folder.path());
+    for name in ["roughness", "rgh", "glossiness", "smoothness", "rock_albedo.png"] {
+        assert!(message.contains(name), "{name}: {message}");
+    }
+    assert!(
+        !message.contains(".import") && !message.contains("Thumbs") && !message.contains("meta"),
+        "{message}"
+    );
+}
