@@ -113,6 +113,7 @@ fn display_params() -> DisplayParams {
         camera,
         exposure_ev: 0.0,
         mode: DisplayMode::Value,
+        difference: None,
         encoding: Encoding::Radiance,
         show_clipping: false,
         epsilon: 0.01,

@@ -13,3 +13,10 @@ fn heat(amount: f32) -> vec3f {
     let colour = c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * (c5 + t * c6)))));
     return clamp(colour, vec3f(0.0), vec3f(1.0));
 }
+
+// Of signed amounts: negative ones blue to cyan, positive ones red to yellow, black at 0.
+fn diverging(amount: f32) -> vec3f {
+    let t = min(abs(amount), 1.0);
+    let colour = clamp(vec3f(2.2 * t, 1.6 * t - 0.5, 3.0 * t - 2.2), vec3f(0.0), vec3f(1.0));
+    return select(colour, colour.zyx, amount < 0.0);
+}

@@ -2,9 +2,6 @@
 
 const MODE_VALUE = 0u;
 const MODE_WIPE = 1u;
-const MODE_DIFFERENCE = 2u;
-// The log difference that takes the colour map's last colour at exposure 0.
-const FULL_DIFFERENCE = 2.0f;
 
 struct Display {
     camera: Camera,
@@ -15,27 +12,24 @@ struct Display {
     wipe: f32,
     mode: u32,
     show_clipping: u32,
+    difference: u32,
+    // The difference that has the last colour.
+    range: f32,
 }
 
 @group(0) @binding(0) var<uniform> params: Display;
 @group(0) @binding(1) var shown: texture_2d<f32>;
 @group(0) @binding(2) var reference: texture_2d<f32>;
 
-// Of renderings the loss's summand, the difference of the logarithms; of maps the plain difference.
-fn difference(a: vec3f, b: vec3f) -> f32 {
-    let logarithmic = abs(log(a + params.epsilon) - log(b + params.epsilon));
-    let each = select(abs(a - b), logarithmic, params.encoding == ENCODING_RADIANCE);
-    return (each.x + each.y + each.z) / 3.0;
-}
-
 fn load(place: vec2i, from_reference: bool) -> vec3f {
-    if params.mode == MODE_DIFFERENCE {
-        return vec3f(difference(textureLoad(shown, place, 0).rgb, textureLoad(reference, place, 0).rgb));
-    }
     if from_reference {
         return textureLoad(reference, place, 0).rgb;
     }
-    return textureLoad(shown, place, 0).rgb;
+    let value = textureLoad(shown, place, 0).rgb;
+    if params.difference == DIFFERENCE_NONE {
+        return value;
+    }
+    return vec3f(difference(params.difference, textureLoad(reference, place, 0).rgb, value, params.epsilon));
 }
 
 // The mean of what the pixel covers. Scaled down before it is summed, so that no sum overflows.
@@ -53,13 +47,12 @@ fn average(columns: Span, rows: Span, from_reference: bool) -> vec3f {
     return sum / total;
 }
 
-fn colour(value: vec3f, pixel: vec2u) -> vec3f {
+fn colour(value: vec3f, from_reference: bool, pixel: vec2u) -> vec3f {
     if !is_finite(value) {
         return MARK_NOT_FINITE;
     }
-    if params.mode == MODE_DIFFERENCE {
-        let gain = select(1.0, params.exposure / FULL_DIFFERENCE, params.encoding == ENCODING_RADIANCE);
-        return heat(min(value.x * gain, 1.0));
+    if params.difference != DIFFERENCE_NONE && !from_reference {
+        return difference_colour(params.difference, value.x / params.range);
     }
     return encode(value, params.encoding, params.exposure, params.show_clipping != 0u, pixel);
 }
@@ -80,5 +73,5 @@ fn display(corner: Corner) -> @location(0) vec4f {
     let columns = span(place.x, covered.x, size.x);
     let rows = span(place.y, covered.y, size.y);
     let value = average(columns, rows, from_reference);
-    return vec4f(colour(value, vec2u(corner.position.xy)), 1.0);
+    return vec4f(colour(value, from_reference, vec2u(corner.position.xy)), 1.0);
 }

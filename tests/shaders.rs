@@ -36,7 +36,7 @@ fn layouts() -> Vec<Layout> {
         layout!(SceneUniforms is Rays { view, near, light }),
         layout!(ShadingUniforms is Shading { rays, model, quantity, largest }),
         layout!(CameraUniforms is Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
-        layout!(DisplayUniforms is Display { camera, background, encoding, exposure, epsilon, wipe, mode, show_clipping }),
+        layout!(DisplayUniforms is Display { camera, background, encoding, exposure, epsilon, wipe, mode, show_clipping, difference, range }),
         layout!(Band is Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
         layout!(LogSum is LogSum { larger, smaller, exponent }),
         layout!(ProbePoint is Point { normal, roughness, diffuse, specular, w_l, w_v }),

@@ -41,14 +41,14 @@ pub use loss::Losses;
 #[allow(unused_imports, reason = "the window uses them all")]
 pub(crate) use {
     display::{Display, Pane},
-    params::{DisplayMode, DisplayParams, Encoding, ShadeParams},
+    params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
     textures::MaterialTextures,
 };
 #[cfg(feature = "testing")]
 pub use {
     display::{Display, Pane},
-    params::{DisplayMode, DisplayParams, Encoding, ShadeParams},
+    params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
     textures::MaterialTextures,
 };

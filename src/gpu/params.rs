@@ -3,6 +3,7 @@
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 use crate::picture::camera::Camera;
+use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 
 /// What is shaded, and how.
@@ -20,6 +21,8 @@ pub struct DisplayParams {
     /// Radiance is multiplied by 2 to this power.
     pub exposure_ev: f32,
     pub mode: DisplayMode,
+    /// The difference of the first picture from the reference, shown in place of the first; both have the same size.
+    pub difference: Option<DisplayedDifference>,
     pub encoding: Encoding,
     /// Stripes pixels of [`Encoding::Radiance`] that are too bright in a channel (magenta) or black (blue).
     pub show_clipping: bool,
@@ -29,17 +32,22 @@ pub struct DisplayParams {
     pub background: [f32; 3],
 }
 
-/// What of a pane's two pictures is shown.
+/// Which of a pane's two pictures is shown where.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DisplayMode {
     /// The first.
     Value,
     /// The reference left of this x of the pane, which runs from -1 to 1, and the first right of it.
     Wipe(f32),
-    /// How far they differ, as a colour of [`heat`](crate::picture::colour_map::heat): of renderings (of [`Encoding::Radiance`])
-    /// `|ln(shown + epsilon) - ln(reference + epsilon)|`, where exposure 0 maps 2 to the last colour; of maps
-    /// `|shown - reference|`, where 1 is the last colour. The mean of RGB; both pictures have the same size.
-    Difference,
+}
+
+/// A difference shown as colours: [`heat`](crate::picture::colour_map::heat), or
+/// [`diverging`](crate::picture::colour_map::diverging) where it is signed. Exposure does not change it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplayedDifference {
+    pub kind: Difference,
+    /// The difference that has the last colour; positive.
+    pub range: f32,
 }
 
 /// How numbers become colours of the screen.

@@ -45,6 +45,7 @@ pub const DISPLAY: Shader = Shader {
         piece!("footprint.wgsl"),
         piece!("srgb.wgsl"),
         piece!("colour_map.wgsl"),
+        piece!("difference.wgsl"),
         piece!("encode.wgsl"),
         piece!("display.wgsl"),
     ],

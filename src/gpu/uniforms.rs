@@ -9,6 +9,7 @@ use super::params::{DisplayMode, DisplayParams, Encoding, ShadeParams};
 use crate::model::brdf::Model;
 use crate::model::scene::{Kind, Scene};
 use crate::picture::camera::Camera;
+use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 
 /// `Model` of brdf.wgsl.
@@ -175,7 +176,9 @@ pub struct DisplayUniforms {
     pub wipe: f32,
     pub mode: u32,
     pub show_clipping: u32,
-    pub pad: [u32; 3],
+    pub difference: u32,
+    pub range: f32,
+    pub pad: u32,
 }
 
 impl From<&DisplayParams> for DisplayUniforms {
@@ -183,7 +186,15 @@ impl From<&DisplayParams> for DisplayUniforms {
         let (mode, wipe) = match p.mode {
             DisplayMode::Value => (0, 0.0),
             DisplayMode::Wipe(x) => (1, x),
-            DisplayMode::Difference => (2, 0.0),
+        };
+        let difference = match p.difference.map(|difference| difference.kind) {
+            None => 0,
+            Some(Difference::Log) => 1,
+            Some(Difference::SignedLog) => 2,
+            Some(Difference::Absolute) => 3,
+            Some(Difference::Signed) => 4,
+            Some(Difference::Relative) => 5,
+            Some(Difference::Angle) => 6,
         };
         let encoding = match p.encoding {
             Encoding::Radiance => 0,
@@ -199,7 +210,9 @@ impl From<&DisplayParams> for DisplayUniforms {
             wipe,
             mode,
             show_clipping: p.show_clipping.into(),
-            pad: [0; 3],
+            difference,
+            range: p.difference.map_or(1.0, |difference| difference.range),
+            pad: 0,
         }
     }
 }

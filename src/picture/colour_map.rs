@@ -28,6 +28,15 @@ pub fn heat(amount: f32) -> [f32; 3] {
     [0, 1, 2].map(|c| polynomial(c).clamp(0.0, 1.0))
 }
 
+/// The colour, encoded for the screen, of a signed amount from -1 (light cyan) over 0 (black) to 1 (light yellow); what
+/// lies beyond is clamped.
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
+pub fn diverging(amount: f32) -> [f32; 3] {
+    let t = amount.abs().min(1.0);
+    let [first, second, third] = [2.2 * t, 1.6 * t - 0.5, 3.0 * t - 2.2].map(|c: f32| c.clamp(0.0, 1.0));
+    if amount < 0.0 { [third, second, first] } else { [first, second, third] }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -41,6 +50,18 @@ mod tests {
         let steps: Vec<f64> = (0..=64_u8).map(|i| luminance(f32::from(i) / 64.0)).collect();
         assert!(steps.is_sorted(), "{steps:?}");
         assert!(steps[0] < 0.001 && steps[64] > 0.7);
+    }
+
+    #[test]
+    fn signs_have_mirrored_colours_that_grow_brighter_with_the_amount() {
+        for i in 0..64_u8 {
+            let [near, far] = [i, i + 1].map(|i| diverging(f32::from(i) / 64.0));
+            assert!((0..3).all(|c| near[c] <= far[c]) && near != far, "{near:?}, {far:?}");
+            let [r, g, b] = diverging(-f32::from(i) / 64.0);
+            assert_eq!([b, g, r], near);
+        }
+        assert_eq!(diverging(0.0), [0.0; 3]);
+        assert_eq!(diverging(-7.0), diverging(-1.0));
     }
 
     #[test]

@@ -2,6 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::Error;
+use crate::image::Image;
+use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::progress::Progress;
+use crate::render;
+
 /// The rendering or a map of a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Quantity {
@@ -32,5 +40,28 @@ impl Quantity {
             Self::Specular => "specular",
             Self::Roughness => "roughness",
         }
+    }
+
+    /// The quantity of every texel of `material` as linear RGB; of normals (x, y, z), of roughness the same three times.
+    ///
+    /// # Errors
+    /// Those of [`render::render_f32`].
+    pub fn image(
+        self,
+        material: &Material<f32>,
+        scene: &Scene,
+        convention: &Convention,
+        progress: &Progress,
+    ) -> Result<Image<f32>, Error> {
+        let planes = material.planes();
+        let [x, y, z] = match self {
+            Self::Rendering => return render::render_f32(material, scene, convention, progress),
+            Self::Normal => planes.normal.each_ref(),
+            Self::Diffuse => planes.diffuse.each_ref(),
+            Self::Specular => planes.specular.each_ref(),
+            Self::Roughness => [&planes.roughness; 3],
+        };
+        let pixels = (0..x.len()).map(|i| [x[i], y[i], z[i]]).collect();
+        Ok(Image { width: material.width(), height: material.height(), pixels })
     }
 }

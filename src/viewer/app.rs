@@ -7,6 +7,7 @@ use eframe::egui;
 use eframe::egui::util::undoer::{self, Undoer};
 
 use super::command::{Command, LossCommand, MaterialsCommand, WindowCommand};
+use super::difference_run::DifferenceRun;
 use super::gpu_view::GpuView;
 use super::loaded::Rules;
 use super::loss_run::Asked;
@@ -36,6 +37,7 @@ pub struct App {
     pub(super) undoer: Undoer<ViewState>,
     pub(super) loss: LossRun,
     pub(super) study: StudyRun,
+    pub(super) difference: DifferenceRun,
     pub(super) study_window: bool,
     pub(super) gpu: Option<GpuView>,
     pub(super) viewport: Viewport,
@@ -77,6 +79,7 @@ impl App {
             undoer: Undoer::with_settings(undo),
             loss: LossRun::default(),
             study: StudyRun::default(),
+            difference: DifferenceRun::default(),
             study_window: false,
             gpu,
             viewport: Viewport::default(),
@@ -157,9 +160,13 @@ impl App {
             let stale = self.watch.poll(ctx, &self.slots);
             let gpu = self.gpu.as_ref().map(|g| &g.gpu);
             self.slots.reload(ctx, gpu, Some(&stale));
+        } else {
+            self.watch.stop();
         }
         self.loss.follow(ctx, &self.slots, &self.asked(), self.settings.auto_loss);
         self.loss.poll(ctx);
+        let error = self.difference.follow(ctx, &self.slots, &self.state);
+        self.report(error.map(Message::Failed));
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
@@ -170,7 +177,11 @@ impl App {
             _ if self.study_window => LossCommand::ShowStudy(false).into(),
             _ => LossCommand::Cancel.into(),
         };
-        let now = keys::Context { enter_is_free: ctx.memory(|m| m.focused()).is_none(), escape: &escape };
+        let now = keys::Context {
+            enter_is_free: ctx.memory(|m| m.focused()).is_none(),
+            escape: &escape,
+            difference: self.state.difference,
+        };
         keys::commands(ctx, now)
     }
 

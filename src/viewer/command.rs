@@ -9,6 +9,7 @@ use super::state::{Endpoint, Layout};
 use crate::files::read::ReadOptions;
 use crate::loss::Sampling;
 use crate::model::scene::Scene;
+use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 
 /// One act. Nothing else changes the model.
@@ -83,6 +84,12 @@ pub enum SceneCommand {
 pub enum DisplayCommand {
     SetQuantity(Quantity),
     CycleQuantity(isize),
+    /// Whether panes show the difference or the value.
+    ShowDifference(bool),
+    /// Chooses a difference of the quantity.
+    SetDifference(Difference),
+    /// Sets the difference that has the last colour; `None` makes it automatic.
+    SetRange(Option<f64>),
     SetLayout(Layout),
     CycleLayout,
     ToggleProjection,

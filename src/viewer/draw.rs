@@ -5,6 +5,7 @@ use eframe::egui;
 use super::app::App;
 use super::command::{Command, WindowCommand};
 use super::panels;
+use super::panels::legend::LegendStrip;
 use super::panels::loss::LossPanel;
 use super::panels::materials::MaterialsPanel;
 use super::panels::scene::ScenePanel;
@@ -34,6 +35,9 @@ impl App {
             .show_collapsible(ui, &mut side_panel, |ui| commands.extend(self.side(ui)));
         if side_panel != self.settings.side_panel {
             commands.push(WindowCommand::ToggleSidePanel.into());
+        }
+        if self.state.difference && !self.slots.predictions().is_empty() {
+            egui::Panel::bottom("legend").show(ui, |ui| commands.extend(self.legend(ui)));
         }
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
         commands.extend(self.windows(ui.ctx()));
@@ -86,6 +90,20 @@ impl App {
         commands
     }
 
+    fn legend(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let strip = LegendStrip {
+            quantity: self.state.quantity,
+            kind: self.state.difference_kind(),
+            set_range: self.state.differences.range(self.state.quantity),
+            range: self.difference.range(&self.slots, &self.state),
+            distributions: self.difference.distributions(&self.slots, &self.state),
+            current: self.difference.is_current(&self.slots, &self.state),
+            names: self.slots.predictions().iter().map(|slot| slot.name()).collect(),
+            chosen: self.state.prediction,
+        };
+        strip.ui(ui)
+    }
+
     fn panes(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
         let peek = ui.input(|i| i.key_down(egui::Key::G)) && !ui.ctx().text_edit_focused();
         let scenery = Scenery {
@@ -96,6 +114,7 @@ impl App {
             peek,
             swapped: self.swapped,
             reading: !self.slots.openings.is_empty(),
+            range: self.difference.range(&self.slots, &self.state),
         };
         self.viewport.ui(ui, &scenery, self.gpu.as_mut())
     }
@@ -112,7 +131,7 @@ impl App {
             commands.extend(window.ui(ctx, &self.settings.recent));
         }
         if let Some(window) = &mut self.save_window {
-            commands.extend(window.ui(ctx, save::shows(self.state.layout)));
+            commands.extend(window.ui(ctx, save::shows(&self.state)));
         }
         commands
     }

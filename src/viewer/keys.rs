@@ -19,7 +19,8 @@ pub const HELP: &[(&str, &str)] = &[
     ("G (hold)", "show the ground truth in every pane"),
     ("X", "swap prediction and ground truth"),
     ("1 .. 9", "choose the prediction"),
-    ("C", "layout: side by side, wipe, single, log difference"),
+    ("C", "layout: side by side, wipe, single"),
+    ("D", "value / difference from the ground truth"),
     ("P", "flat / perspective"),
     ("M / Shift + M", "next / previous of rendering and maps"),
     ("E / Shift + E", "exposure up / down by 0.5 EV"),
@@ -30,7 +31,7 @@ pub const HELP: &[(&str, &str)] = &[
     ("B", "side panel, on / off"),
     ("Ctrl + O / Ctrl + S", "open materials / save the view as a picture"),
     ("Ctrl + R", "read all files again"),
-    ("Ctrl + Z / Ctrl + Shift + Z", "undo / redo light, view and display"),
+    ("Ctrl + Z / Ctrl + Shift + Z", "undo / redo light, view and display (redo also: Ctrl + Y)"),
     ("Ctrl + C / Ctrl + V", "copy / paste the scene as JSON"),
     ("double-click a number", "reset it to its default"),
     ("?", "this help"),
@@ -43,6 +44,8 @@ pub struct Context<'a> {
     pub enter_is_free: bool,
     /// The command of Escape.
     pub escape: &'a Command,
+    /// Whether panes show the difference, which `D` toggles.
+    pub difference: bool,
 }
 
 /// The commands of the keys pressed in this frame; none while a text field has the focus.
@@ -78,6 +81,7 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
     let mut table: Vec<(Modifiers, Key, Command)> = vec![
         (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, DisplayCommand::Redo.into()),
         (Modifiers::COMMAND, Key::Z, DisplayCommand::Undo.into()),
+        (Modifiers::COMMAND, Key::Y, DisplayCommand::Redo.into()),
         (Modifiers::COMMAND, Key::O, WindowCommand::ShowOpen(true).into()),
         (Modifiers::COMMAND, Key::S, WindowCommand::ShowSave(true).into()),
         (Modifiers::COMMAND, Key::R, MaterialsCommand::Reload.into()),
@@ -87,6 +91,7 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (none, Key::E, DisplayCommand::StepExposure(0.5).into()),
         (none, Key::N, DisplayCommand::AutoExposure.into()),
         (none, Key::C, DisplayCommand::CycleLayout.into()),
+        (none, Key::D, DisplayCommand::ShowDifference(!now.difference).into()),
         (none, Key::P, DisplayCommand::ToggleProjection.into()),
         (none, Key::L, DisplayCommand::ToggleClipping.into()),
         (none, Key::H, SceneCommand::ToggleHighlightFollows.into()),

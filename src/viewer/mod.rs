@@ -19,10 +19,6 @@ mod handles;
 pub(crate) mod keys;
 #[cfg(feature = "testing")]
 pub mod keys;
-#[cfg(not(feature = "testing"))]
-pub(crate) mod legend;
-#[cfg(feature = "testing")]
-pub mod legend;
 mod loaded;
 mod loss_run;
 mod loss_settings;
@@ -36,6 +32,8 @@ mod options;
 mod panels;
 mod panes;
 
+mod difference_run;
+mod differences;
 mod draw;
 mod save;
 mod settings;

@@ -4,6 +4,7 @@ use super::app::App;
 use super::message::Message;
 use crate::loss::Loss;
 use crate::material::Material;
+use crate::picture::statistics::Statistics;
 use crate::study::Study;
 
 impl App {
@@ -17,6 +18,18 @@ impl App {
         let (study, current) =
             self.study.measured(&self.slots, self.state.prediction, &self.state.convention())?;
         current.then_some((study, self.study.task().is_none()))
+    }
+
+    /// The statistics of each prediction's difference in the panes, once they are those of the current scene.
+    pub fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {
+        let distributions = self.difference.distributions(&self.slots, &self.state)?;
+        let current = self.difference.is_current(&self.slots, &self.state);
+        current.then_some(distributions.statistics.as_slice())
+    }
+
+    /// The difference that has the last colour.
+    pub fn difference_range(&self) -> f64 {
+        self.difference.range(&self.slots, &self.state)
     }
 
     /// The names of the materials, the ground truth first.

@@ -19,6 +19,8 @@ pub struct Scenery<'a> {
     pub swapped: bool,
     /// Whether materials are being read.
     pub reading: bool,
+    /// The difference that has the last colour.
+    pub range: f64,
 }
 
 /// The content of a pane: the slot it shows, the slot that is compared with, and how.
@@ -27,6 +29,17 @@ pub struct Content {
     pub slot: usize,
     pub reference: usize,
     pub mode: DisplayMode,
+    /// Whether the slot's difference from the reference is shown, in place of its value.
+    pub difference: bool,
+}
+
+/// The point under the pointer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hovered {
+    /// The slot of the material there.
+    pub slot: usize,
+    /// The point (x, y) of the plane.
+    pub point: [f32; 2],
 }
 
 impl Scenery<'_> {
@@ -45,20 +58,21 @@ impl Scenery<'_> {
         }
     }
 
+    /// The content of every pane. The ground truth is never compared with itself: its pane shows its value.
     pub(super) fn contents(&self) -> Vec<Content> {
-        let alone = |slot, mode| Content { slot, reference: 0, mode };
-        let chosen = self.seen(self.chosen());
+        let content = |slot, reference, mode| {
+            let difference = self.state.difference && slot != 0;
+            Content { slot, reference: if difference { 0 } else { reference }, mode, difference }
+        };
+        let (ground_truth, chosen) = (self.seen(0), self.seen(self.chosen()));
         match self.state.layout {
             Layout::SideBySide => {
-                (0..self.slots.len()).map(|i| alone(self.seen(i), DisplayMode::Value)).collect()
+                (0..self.slots.len()).map(|i| content(self.seen(i), 0, DisplayMode::Value)).collect()
             }
-            Layout::Single => vec![alone(chosen, DisplayMode::Value)],
-            Layout::Difference => vec![alone(chosen, DisplayMode::Difference)],
-            Layout::Wipe => vec![Content {
-                slot: chosen,
-                reference: self.seen(0),
-                mode: DisplayMode::Wipe(self.state.wipe * 2.0 - 1.0),
-            }],
+            Layout::Single => vec![content(chosen, 0, DisplayMode::Value)],
+            Layout::Wipe => {
+                vec![content(chosen, ground_truth, DisplayMode::Wipe(self.state.wipe * 2.0 - 1.0))]
+            }
         }
     }
 

@@ -7,28 +7,27 @@ use eframe::egui;
 
 use super::loaded::Loaded;
 use super::slots::Slots;
-use super::state::{Layout, ViewState};
+use super::state::ViewState;
 use super::worker::Task;
 use crate::files::atomic::Destination;
 use crate::picture::export::{Provenance, Shows};
 use crate::render;
 
 /// The content of the saved picture.
-pub fn shows(layout: Layout) -> Shows {
-    match layout {
-        Layout::Difference => Shows::LogDifference,
-        Layout::SideBySide | Layout::Wipe | Layout::Single => Shows::Radiance,
-    }
+pub fn shows(state: &ViewState) -> Shows {
+    if state.difference { Shows::LogDifference } else { Shows::Radiance }
 }
 
 /// Starts to write the renderings of all materials, or the differences of the predictions, side by side to `path`.
 pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBuf) -> Task<PathBuf> {
     let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|s| s.loaded.clone()).collect();
+    let shows = if materials.len() > 1 { shows(state) } else { Shows::Radiance };
     let provenance = Provenance {
-        shows: if materials.len() > 1 { shows(state.layout) } else { Shows::Radiance },
+        shows,
         scene: state.scene,
         convention: state.convention(),
-        exposure_ev: state.exposure_ev,
+        // Exposure does not change a difference.
+        exposure_ev: if shows == Shows::LogDifference { 0.0 } else { state.exposure_ev },
         sources: slots.slots.iter().map(|slot| slot.name().to_owned()).collect(),
         renderer: "CPU, f32".to_owned(),
     };

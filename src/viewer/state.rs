@@ -3,8 +3,10 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use super::differences::Differences;
 use crate::model::convention::{self, Convention};
 use crate::model::scene::{Kind, Scene};
+use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 
 /// Least height of a light or a view in the window: from within the plane nothing is seen.
@@ -22,19 +24,16 @@ pub enum Layout {
     Wipe,
     /// The chosen prediction alone.
     Single,
-    /// |ln(prediction + epsilon) - ln(ground truth + epsilon)|, what the loss is the mean of.
-    Difference,
 }
 
 impl Layout {
-    pub const ALL: [Self; 4] = [Self::SideBySide, Self::Wipe, Self::Single, Self::Difference];
+    pub const ALL: [Self; 3] = [Self::SideBySide, Self::Wipe, Self::Single];
 
     pub fn name(self) -> &'static str {
         match self {
             Self::SideBySide => "side by side",
             Self::Wipe => "wipe",
             Self::Single => "single",
-            Self::Difference => "log difference",
         }
     }
 }
@@ -63,6 +62,10 @@ impl Projection {
 pub struct ViewState {
     pub scene: Scene,
     pub quantity: Quantity,
+    /// Whether panes of predictions show their difference from the ground truth, in place of the value.
+    pub difference: bool,
+    /// The chosen difference and the range of each quantity.
+    pub differences: Differences,
     pub layout: Layout,
     pub projection: Projection,
     /// Exposure in stops: radiance is multiplied by 2^exposure_ev.
@@ -85,6 +88,8 @@ impl Default for ViewState {
         Self {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
             quantity: Quantity::Rendering,
+            difference: false,
+            differences: Differences::default(),
             layout: Layout::SideBySide,
             projection: Projection::Flat,
             exposure_ev: 0.0,
@@ -104,12 +109,19 @@ impl ViewState {
         self.convention.parse().unwrap_or_default()
     }
 
+    /// The chosen difference of the quantity.
+    pub fn difference_kind(&self) -> Difference {
+        self.differences.kind(self.quantity)
+    }
+
     /// The default light, view and display, with the prediction, layout and convention of now.
     #[must_use]
     pub fn reset(&self) -> Self {
         Self {
             layout: self.layout,
             quantity: self.quantity,
+            difference: self.difference,
+            differences: self.differences.clone(),
             projection: self.projection,
             convention: self.convention.clone(),
             prediction: self.prediction,

@@ -33,8 +33,8 @@ pub fn surround(dark: bool) -> Color32 {
 
 /// Installs both themes; [`choose`] selects one.
 pub fn install(ctx: &egui::Context) {
-    ctx.set_visuals_of(Theme::Dark, visuals(Visuals::dark(), [0x23, 0x2e, 0x3c], 0xe6));
-    ctx.set_visuals_of(Theme::Light, visuals(Visuals::light(), [0xea, 0xdd, 0xcc], 0x16));
+    ctx.set_visuals_of(Theme::Dark, dark());
+    ctx.set_visuals_of(Theme::Light, light());
     ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(8.0, 5.0);
         style.spacing.button_padding = egui::vec2(7.0, 3.0);
@@ -49,12 +49,28 @@ pub fn choose(ctx: &egui::Context, dark: bool) {
     ctx.set_theme(if dark { Theme::Dark } else { Theme::Light });
 }
 
-/// Grays for panel, widget and hovered widget, and for text.
-fn visuals(mut visuals: Visuals, [panel, widget, hovered]: [u8; 3], text: u8) -> Visuals {
+fn dark() -> Visuals {
+    visuals(Visuals::dark(), [0x23, 0x2e, 0x3c], 0x7c, [0xe6, 0xa8])
+}
+
+fn light() -> Visuals {
+    visuals(Visuals::light(), [0xea, 0xdd, 0xcc], 0x78, [0x16, 0x50])
+}
+
+/// Grays for panel, widget and hovered widget, for the outline of widgets, and for text and weak text.
+fn visuals(
+    mut visuals: Visuals,
+    [panel, widget, hovered]: [u8; 3],
+    outline: u8,
+    [text, weak_text]: [u8; 2],
+) -> Visuals {
     let gray = Color32::from_gray;
     visuals.panel_fill = gray(panel);
     visuals.window_fill = gray(panel);
     visuals.override_text_color = Some(gray(text));
+    visuals.weak_text_color = Some(gray(weak_text));
+    // Unchecked boxes are seen by their outline.
+    visuals.widgets.inactive.bg_stroke = Stroke::new(1.0, gray(outline));
     visuals.widgets.inactive.weak_bg_fill = gray(widget);
     visuals.widgets.inactive.bg_fill = gray(widget);
     visuals.widgets.hovered.weak_bg_fill = gray(hovered);
@@ -64,4 +80,52 @@ fn visuals(mut visuals: Visuals, [panel, widget, hovered]: [u8; 3], text: u8) ->
     visuals.hyperlink_color = accent(&visuals);
     visuals.warn_fg_color = if visuals.dark_mode { UNSURE } else { DARK_UNSURE };
     visuals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The contrast of two opaque colours, after WCAG 2.
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let linear = |byte: u8| {
+            let v = f64::from(byte) / 255.0;
+            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+        };
+        let luminance =
+            |c: Color32| 0.2126 * linear(c.r()) + 0.7152 * linear(c.g()) + 0.0722 * linear(c.b()) + 0.05;
+        let [a, b] = [luminance(a), luminance(b)];
+        a.max(b) / a.min(b)
+    }
+
+    #[test]
+    fn contrast_is_that_of_the_standard() {
+        assert!((contrast(Color32::BLACK, Color32::WHITE) - 21.0).abs() < 1e-9);
+        assert!((contrast(Color32::from_gray(0x77), Color32::WHITE) - 4.48).abs() < 0.01);
+    }
+
+    #[test]
+    fn text_has_a_contrast_of_4_5_and_outlines_of_3() {
+        for visuals in [dark(), light()] {
+            let texts = [
+                ("text", visuals.text_color()),
+                ("weak text", visuals.weak_text_color()),
+                ("warnings", visuals.warn_fg_color),
+                ("problems", problem(&visuals)),
+                ("accent", accent(&visuals)),
+            ];
+            for (what, colour) in texts {
+                let found = contrast(colour, visuals.panel_fill);
+                assert!(found >= 4.5, "{what} in the {} theme: {found:.2}", theme(&visuals));
+            }
+            let button = contrast(visuals.text_color(), visuals.widgets.inactive.weak_bg_fill);
+            assert!(button >= 4.5, "text of buttons in the {} theme: {button:.2}", theme(&visuals));
+            let outline = contrast(visuals.widgets.inactive.bg_stroke.color, visuals.panel_fill);
+            assert!(outline >= 3.0, "outlines in the {} theme: {outline:.2}", theme(&visuals));
+        }
+    }
+
+    fn theme(visuals: &Visuals) -> &'static str {
+        if visuals.dark_mode { "dark" } else { "light" }
+    }
 }

@@ -18,13 +18,17 @@ pub fn title_bar(
 ) -> Option<Command> {
     let prediction = content.slot.checked_sub(1);
     let chosen = content.slot == scenery.chosen() && content.slot != 0;
+    let difference = scenery.state.difference_kind().name();
     let text = match content.mode {
+        DisplayMode::Value if content.difference => {
+            format!("{}: {difference}", scenery.title(content.slot))
+        }
+        DisplayMode::Wipe(_) if content.difference => {
+            format!("{}   |   {}: {difference}", scenery.title(0), scenery.title(content.slot))
+        }
         DisplayMode::Value => scenery.title(content.slot),
         DisplayMode::Wipe(_) => {
             format!("{}   |   {}", scenery.title(content.reference), scenery.title(content.slot))
-        }
-        DisplayMode::Difference => {
-            format!("|ln| difference of {} from the ground truth", scenery.title(content.slot))
         }
     };
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());

@@ -7,12 +7,11 @@ use super::command::Command;
 use super::gestures::{self, Gesture, Target};
 use super::gpu_view::GpuView;
 use super::handles;
-use super::legend;
-use super::panes::{Content, Scenery};
+use super::panes::{Content, Hovered, Scenery};
 use super::state::{self, Endpoint, Projection, ViewState};
 use super::theme;
 use super::title::title_bar;
-use crate::gpu::{DisplayMode, DisplayParams, ShadeParams};
+use crate::gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 use crate::material::Grid;
 use crate::picture::camera::Camera;
 use crate::picture::quantity::Quantity;
@@ -21,8 +20,8 @@ use crate::picture::quantity::Quantity;
 #[derive(Debug, Default)]
 pub struct Viewport {
     gesture: Option<Gesture>,
-    /// The point of the plane under the pointer.
-    pub hovered: Option<[f32; 2]>,
+    /// What is under the pointer.
+    pub hovered: Option<Hovered>,
     /// Size of a pane in physical pixels.
     pane_pixels: Vec2,
 }
@@ -96,7 +95,8 @@ impl Viewport {
         let pointer = response.hover_pos().or_else(|| response.interact_pointer_pos());
         if let Some(pos) = pointer {
             let [x, y] = handles::ndc_from_pos(rect, pos);
-            self.hovered = camera.plane_from_ndc(x, y);
+            self.hovered =
+                camera.plane_from_ndc(x, y).map(|point| Hovered { slot: slot_at(content, x), point });
         }
         commands
     }
@@ -117,6 +117,9 @@ impl Viewport {
             camera,
             exposure_ev: state.exposure_ev,
             mode: content.mode,
+            difference: content
+                .difference
+                .then(|| DisplayedDifference { kind: state.difference_kind(), range: scenery.range as f32 }),
             encoding: state.quantity.into(),
             show_clipping: state.show_clipping,
             epsilon: state.convention().epsilon as f32,
@@ -126,9 +129,6 @@ impl Viewport {
         gpu.paint(&painter, rect, ids, params);
         if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.wipe);
-        }
-        if content.mode == DisplayMode::Difference {
-            legend::paint(&painter, rect, state);
         }
         if state.quantity == Quantity::Rendering {
             paint_handles(&painter, rect, &camera, state);
@@ -142,6 +142,14 @@ impl Viewport {
         let fitted = Camera::flat(grid, aspect).origin_right.x;
         let pixels_per_texel = self.pane_pixels.x * half_width / fitted / grid.width as f32;
         if pixels_per_texel.is_finite() && pixels_per_texel > 0.0 { pixels_per_texel.recip() } else { 1.0 }
+    }
+}
+
+/// The slot whose value is shown at this x of a pane, from -1 to 1.
+fn slot_at(content: Content, x: f32) -> usize {
+    match content.mode {
+        DisplayMode::Wipe(line) if x < line => content.reference,
+        DisplayMode::Wipe(_) | DisplayMode::Value => content.slot,
     }
 }
 

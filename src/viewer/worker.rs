@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::progress::Progress;
 
 /// How often the progress of a running task is looked at.
-const LOOK_AGAIN: Duration = Duration::from_millis(80);
+const LOOK_AGAIN: Duration = Duration::from_millis(250);
 
 /// One piece of work on its own thread. Dropping it cancels the work: the latest request wins.
 #[derive(Debug)]

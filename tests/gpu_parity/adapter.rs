@@ -117,6 +117,7 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
         // Brings the largest 16-bit number, and nothing larger, just below 1.
         exposure_ev: -16.0,
         mode: DisplayMode::Value,
+        difference: None,
         encoding: Encoding::Radiance,
         show_clipping: true,
         epsilon: 0.01,

@@ -2,15 +2,18 @@
 
 use glam::Vec3;
 use svbrdf::gpu::{
-    DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading,
+    DisplayMode, DisplayParams, DisplayedDifference, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded,
+    Shading,
 };
 use svbrdf::material::Material;
 use svbrdf::model::brdf::Texel;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::picture::camera::Camera;
-use svbrdf::picture::colour_map::heat;
+use svbrdf::picture::colour_map::{diverging, heat};
+use svbrdf::picture::difference::Difference;
 use svbrdf::picture::quantity::Quantity;
+use svbrdf::progress::Progress;
 
 use crate::support::gpu::{Picture, bumpy, gpu, gpu_f32, picture};
 use crate::support::tolerance::SCREEN_LEVELS;
@@ -46,12 +49,13 @@ fn whole([width, height]: [usize; 2]) -> Camera {
     flat([0.0; 2], width as f32 / scale, height as f32 / scale)
 }
 
-fn params(camera: Camera, shown: Quantity) -> DisplayParams {
+fn params(camera: Camera, quantity: Quantity) -> DisplayParams {
     DisplayParams {
         camera,
         exposure_ev: 0.0,
         mode: DisplayMode::Value,
-        encoding: Encoding::from(shown),
+        difference: None,
+        encoding: Encoding::from(quantity),
         show_clipping: false,
         epsilon: 0.01,
         background: BACKGROUND,
@@ -256,39 +260,51 @@ fn a_wipe_shows_the_reference_on_the_left() {
     }
 }
 
-#[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
-fn the_difference_of_a_picture_to_itself_is_the_colour_map_s_zero() {
-    let gpu = gpu();
-    for quantity in Quantity::ALL {
-        let shaded = shaded(gpu, &bumpy(8, 8), quantity);
-        let params = DisplayParams { mode: DisplayMode::Difference, ..params(whole([8, 8]), quantity) };
-        let picture = picture(gpu, [16, 16], &shaded, &shaded, &params);
-        let zero = levels(heat(0.0).map(f64::from));
-        assert_eq!(faults(&picture, |_, _| Some(zero)), Vec::<String>::new());
-    }
+/// The differences of two materials of 8 x 8 texels under [`ABOVE`], from the core.
+fn differences_of(kind: Difference, quantity: Quantity, pair: &[Material<f32>; 2]) -> Vec<f32> {
+    let image =
+        |material| quantity.image(material, &ABOVE, &PRINTED, &Progress::default()).expect("rendered");
+    let [prediction, ground_truth] = pair.each_ref().map(image);
+    kind.of_images(&ground_truth, &prediction, PRINTED.epsilon)
+}
+
+/// Their colours.
+fn colours_of(values: &[f32], DisplayedDifference { kind, range }: DisplayedDifference) -> Vec<[u8; 3]> {
+    let map = if kind.is_signed() { diverging } else { heat };
+    values.iter().map(|value| levels(map(value / range).map(f64::from))).collect()
 }
 
 #[test]
 #[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
-fn a_difference_is_that_of_the_logarithms_for_renderings_and_plain_for_maps() {
+fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
     let gpu = gpu_f32();
-    let (light, dark) = (gray(0.9), gray(0.3));
-    let radiance = |m| f64::from(gpu.render(m, &ABOVE, &PRINTED).expect("rendered").pixels[0][0]);
-    let logarithmic = (radiance(&light) + 0.01).ln() - (radiance(&dark) + 0.01).ln();
-    for (shown, exposure_ev, amount) in [
-        (Quantity::Rendering, 0.0, logarithmic.abs() / 2.0),
-        (Quantity::Rendering, -1.0, logarithmic.abs() / 4.0),
-        (Quantity::Diffuse, 0.0, 0.6),
-        (Quantity::Roughness, 3.0, 0.6),
-    ] {
-        let pictures = [&light, &dark].map(|m| shaded(gpu, m, shown));
-        let mode = DisplayMode::Difference;
-        let params = DisplayParams { mode, exposure_ev, ..params(whole([4, 4]), shown) };
-        let expected = levels(heat(amount as f32).map(f64::from));
-        for [shown, reference] in [[0, 1], [1, 0]] {
-            let picture = picture(gpu, [4, 4], &pictures[shown], &pictures[reference], &params);
-            assert_eq!(faults(&picture, |_, _| Some(expected)), Vec::<String>::new());
+    let up = Texel {
+        normal: Vec3::new(0.0, 0.0, 1.0),
+        diffuse: [0.3, 0.5, 0.2],
+        specular: [0.3; 3],
+        roughness: 0.4,
+    };
+    let pair = [bumpy(8, 8), Material::uniform("flat", 8, 8, &up).expect("valid")];
+    for quantity in Quantity::ALL {
+        let [shown, reference] = pair.each_ref().map(|material| shaded(gpu, material, quantity));
+        for &kind in Difference::all(quantity) {
+            let values = differences_of(kind, quantity, &pair);
+            let largest = values.iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
+            let difference = DisplayedDifference { kind, range: 0.9 * largest };
+            let drawn = |reference: &Shaded| {
+                let params = params(whole([8, 8]), quantity);
+                let params = DisplayParams { difference: Some(difference), exposure_ev: 3.0, ..params };
+                picture(gpu, [8, 8], &shown, reference, &params)
+            };
+            let expected = colours_of(&values, difference);
+            let off = faults(&drawn(&reference), |column, row| Some(expected[row * 8 + column]));
+            assert_eq!(off, Vec::<String>::new(), "{kind:?} of {quantity:?}");
+            let zero = faults(&drawn(&shown), |_, _| Some([0; 3]));
+            assert_eq!(zero, Vec::<String>::new(), "a picture does not differ from itself");
+            // A planted fault: the same numbers in another range are other colours.
+            let narrower = DisplayedDifference { range: 0.8 * difference.range, ..difference };
+            let planted = colours_of(&values, narrower);
+            assert!(!faults(&drawn(&reference), |x, y| Some(planted[y * 8 + x])).is_empty(), "{kind:?}");
         }
     }
 }

@@ -16,8 +16,9 @@ fn every_letter_does_what_the_help_says() {
     };
     expect(&mut window, egui::Key::C, "wipe", &|a| a.state.layout == Layout::Wipe);
     expect(&mut window, egui::Key::C, "single", &|a| a.state.layout == Layout::Single);
-    expect(&mut window, egui::Key::C, "difference", &|a| a.state.layout == Layout::Difference);
     expect(&mut window, egui::Key::C, "side by side", &|a| a.state.layout == Layout::SideBySide);
+    expect(&mut window, egui::Key::D, "difference", &|a| a.state.difference);
+    expect(&mut window, egui::Key::D, "value", &|a| !a.state.difference);
     expect(&mut window, egui::Key::M, "normal", &|a| a.state.quantity == Quantity::Normal);
     expect(&mut window, egui::Key::P, "perspective", &|a| a.state.projection == Projection::Perspective);
     expect(&mut window, egui::Key::E, "brighter", &|a| a.state.exposure_ev == 0.5);

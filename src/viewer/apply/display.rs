@@ -21,6 +21,9 @@ impl App {
         match command {
             DisplayCommand::SetQuantity(quantity) => state.quantity = quantity,
             DisplayCommand::CycleQuantity(by) => state.quantity = cycled(&Quantity::ALL, state.quantity, by),
+            DisplayCommand::ShowDifference(on) => state.difference = on,
+            DisplayCommand::SetDifference(kind) => state.differences.choose(state.quantity, kind),
+            DisplayCommand::SetRange(range) => state.differences.set_range(state.quantity, range),
             DisplayCommand::SetLayout(layout) => state.layout = layout,
             DisplayCommand::CycleLayout => state.layout = cycled(&Layout::ALL, state.layout, 1),
             DisplayCommand::ToggleProjection => state.projection = state.projection.other(),

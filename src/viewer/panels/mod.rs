@@ -1,6 +1,7 @@
 //! The parts of the window around the panes. Each draws what it is given and returns commands.
 
 pub mod help;
+pub mod legend;
 pub mod loss;
 mod loss_results;
 pub mod materials;

@@ -8,6 +8,7 @@ use crate::model::brdf::Model;
 use crate::model::convention::Convention;
 use crate::picture::quantity::Quantity;
 use crate::render::render_texel;
+use crate::viewer::panes::Hovered;
 use crate::viewer::slots::Slot;
 use crate::viewer::state::ViewState;
 
@@ -16,7 +17,7 @@ use crate::viewer::state::ViewState;
 pub struct StatusBar<'a> {
     pub state: &'a ViewState,
     pub slots: &'a [Slot],
-    pub hovered: Option<[f32; 2]>,
+    pub hovered: Option<Hovered>,
     /// `None` where there is no adapter.
     pub adapter: Option<&'a AdapterReport>,
     pub frame_ms: f32,
@@ -39,29 +40,34 @@ impl StatusBar<'_> {
         });
     }
 
+    /// The values at the texel under the pointer: of the ground truth, and of the prediction in the pane there (in that
+    /// of the ground truth: the chosen one).
     fn readout(&self) -> String {
-        let texel = self.hovered.and_then(|p| {
+        let texel = self.hovered.and_then(|hovered| {
             let ground_truth = self.slots.first()?;
-            let [column, row] = ground_truth.loaded.material.grid().texel_at(p)?;
-            Some((ground_truth, column, row))
+            Some((hovered.slot, ground_truth, ground_truth.loaded.material.grid().texel_at(hovered.point)?))
         });
-        let Some((ground_truth, column, row)) = texel else {
+        let Some((hovered, ground_truth, [column, row])) = texel else {
             return "texel -".to_owned();
         };
         let convention = self.state.convention();
-        let value = |slot: &Slot| value(&slot.loaded.material, self.state, &convention, column, row);
+        let value = |slot: &Slot| value(&slot.loaded.material, self.state, &convention, [column, row]);
         let expected = value(ground_truth);
-        let mut text = format!("texel {column},{row}  gt {}", numbers(&expected));
-        if let Some(prediction) = self.slots.get((self.state.prediction + 1).min(self.slots.len() - 1))
-            && self.slots.len() > 1
-        {
+        let mut text = format!("texel {column:4},{row:4}  gt {}", self.numbers(expected));
+        let number = if hovered == 0 { self.state.prediction + 1 } else { hovered };
+        if let Some(prediction) = self.slots.get(number) {
             let got = value(prediction);
-            text += &format!("  pred {}", numbers(&got));
-            if self.state.quantity == Quantity::Rendering {
-                text += &format!("  |ln| {:.4}", log_difference(&expected, &got, convention.epsilon));
-            }
+            let kind = self.state.difference_kind();
+            let difference = kind.of_texel(expected, got, convention.epsilon);
+            text += &format!("  {number} {}  {} {difference:.4}", self.numbers(got), kind.unit());
         }
         text
+    }
+
+    /// The numbers of a value; of roughness only one.
+    fn numbers(&self, value: [f32; 3]) -> String {
+        let count = if self.state.quantity == Quantity::Roughness { 1 } else { 3 };
+        value[..count].iter().map(|v| format!("{v:7.4}")).collect::<Vec<_>>().join(" ")
     }
 }
 
@@ -70,27 +76,16 @@ fn value(
     material: &Material<f32>,
     state: &ViewState,
     convention: &Convention,
-    column: usize,
-    row: usize,
-) -> Vec<f32> {
+    [column, row]: [usize; 2],
+) -> [f32; 3] {
     let texel = material.texel(row * material.width() + column);
     match state.quantity {
         Quantity::Rendering => {
-            render_texel(material, &Model::from(convention), &state.scene.rays(), column, row).to_vec()
+            render_texel(material, &Model::from(convention), &state.scene.rays(), column, row)
         }
-        Quantity::Normal => texel.normal.to_array().to_vec(),
-        Quantity::Diffuse => texel.diffuse.to_vec(),
-        Quantity::Specular => texel.specular.to_vec(),
-        Quantity::Roughness => vec![texel.roughness],
+        Quantity::Normal => texel.normal.to_array(),
+        Quantity::Diffuse => texel.diffuse,
+        Quantity::Specular => texel.specular,
+        Quantity::Roughness => [texel.roughness; 3],
     }
-}
-
-fn numbers(values: &[f32]) -> String {
-    values.iter().map(|v| format!("{v:7.4}")).collect::<Vec<_>>().join(" ")
-}
-
-/// The mean over RGB of |ln(a + epsilon) - ln(b + epsilon)|.
-fn log_difference(a: &[f32], b: &[f32], epsilon: f64) -> f64 {
-    let log = |x: f32| (f64::from(x) + epsilon).ln();
-    a.iter().zip(b).map(|(a, b)| (log(*a) - log(*b)).abs()).sum::<f64>() / a.len() as f64
 }

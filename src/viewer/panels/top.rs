@@ -54,6 +54,13 @@ impl TopBar<'_> {
         if quantity != self.state.quantity {
             commands.push(DisplayCommand::SetQuantity(quantity).into());
         }
+        for (difference, name) in [(false, "Value"), (true, "Difference")] {
+            let label = ui.selectable_label(self.state.difference == difference, name);
+            let hover = "Show the value, or the difference of predictions from the ground truth (D)";
+            if label.on_hover_text(hover).clicked() && self.state.difference != difference {
+                commands.push(DisplayCommand::ShowDifference(difference).into());
+            }
+        }
         let perspective = self.state.projection == Projection::Perspective;
         let toggle = ui
             .selectable_label(perspective, "Perspective")

@@ -1,0 +1,165 @@
+//! Differences of a prediction from the ground truth, as quantities with a unit and a range.
+//!
+//! `shaders/difference.wgsl` is the twin of [`Difference::of_texel`].
+
+use glam::DVec3;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::quantity::Quantity;
+use crate::image::Image;
+
+/// How a prediction p differs from the ground truth g at a texel: the mean over RGB of the expression given, with the
+/// epsilon of the convention; for normals an angle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Difference {
+    /// |ln(p + epsilon) - ln(g + epsilon)|: its mean over the texels is the rendering loss of the scene.
+    Log,
+    /// ln(p + epsilon) - ln(g + epsilon).
+    SignedLog,
+    /// |p - g|.
+    Absolute,
+    /// p - g.
+    Signed,
+    /// |p - g| / (g + epsilon).
+    Relative,
+    /// The angle between two unit normals, in degrees.
+    Angle,
+}
+
+impl Difference {
+    /// The differences that make sense for a quantity, the default first.
+    pub fn all(quantity: Quantity) -> &'static [Self] {
+        match quantity {
+            Quantity::Rendering => {
+                &[Self::Log, Self::SignedLog, Self::Absolute, Self::Signed, Self::Relative]
+            }
+            Quantity::Normal => &[Self::Angle],
+            Quantity::Diffuse | Quantity::Specular | Quantity::Roughness => &[Self::Absolute, Self::Signed],
+        }
+    }
+
+    /// The name for users.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Log => "log difference",
+            Self::SignedLog => "signed log difference",
+            Self::Absolute => "absolute difference",
+            Self::Signed => "signed difference",
+            Self::Relative => "relative difference",
+            Self::Angle => "angle",
+        }
+    }
+
+    /// The formula or unit for users.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Log => "|ln p - ln g|",
+            Self::SignedLog => "ln p - ln g",
+            Self::Absolute => "|p - g|",
+            Self::Signed => "p - g",
+            Self::Relative => "|p - g| / g",
+            Self::Angle => "degrees",
+        }
+    }
+
+    /// Whether it can be negative.
+    pub fn is_signed(self) -> bool {
+        matches!(self, Self::SignedLog | Self::Signed)
+    }
+
+    /// The difference that has the last colour before the automatic range is known.
+    pub fn default_range(self) -> f64 {
+        match self {
+            Self::Log | Self::SignedLog => 2.0,
+            Self::Absolute | Self::Signed | Self::Relative => 1.0,
+            Self::Angle => 45.0,
+        }
+    }
+
+    /// The difference at one texel.
+    pub fn of_texel(self, ground_truth: [f32; 3], prediction: [f32; 3], epsilon: f64) -> f64 {
+        let [g, p] = [ground_truth, prediction].map(|rgb| rgb.map(f64::from));
+        let mean = |of: &dyn Fn(f64, f64) -> f64| (0..3).map(|c| of(g[c], p[c])).sum::<f64>() / 3.0;
+        let log = |g: f64, p: f64| (p + epsilon).ln() - (g + epsilon).ln();
+        match self {
+            Self::Log => mean(&|g, p| log(g, p).abs()),
+            Self::SignedLog => mean(&log),
+            Self::Absolute => mean(&|g, p| (p - g).abs()),
+            Self::Signed => mean(&|g, p| p - g),
+            Self::Relative => mean(&|g, p| (p - g).abs() / (g + epsilon)),
+            Self::Angle => {
+                let [g, p] = [DVec3::from(g), DVec3::from(p)];
+                g.cross(p).length().atan2(g.dot(p)).to_degrees()
+            }
+        }
+    }
+
+    /// The difference of every texel of two pictures of one size, as [`Quantity::image`] gives them.
+    pub fn of_images(self, ground_truth: &Image<f32>, prediction: &Image<f32>, epsilon: f64) -> Vec<f32> {
+        let texels = ground_truth.pixels.par_iter().zip(&prediction.pixels);
+        texels.map(|(g, p)| self.of_texel(*g, *p, epsilon) as f32).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EVERY: [Difference; 6] = [
+        Difference::Log,
+        Difference::SignedLog,
+        Difference::Absolute,
+        Difference::Signed,
+        Difference::Relative,
+        Difference::Angle,
+    ];
+
+    #[test]
+    fn known_differences() {
+        let (g, p) = ([0.1, 0.2, 0.4], [0.3, 0.2, 0.1]);
+        let ln = |x: f64| (x + 0.01).ln();
+        let logs = [ln(0.3) - ln(0.1), 0.0, ln(0.1) - ln(0.4)];
+        let expected = [
+            (Difference::Log, (logs[0] - logs[2]) / 3.0),
+            (Difference::SignedLog, (logs[0] + logs[2]) / 3.0),
+            (Difference::Absolute, 0.5 / 3.0),
+            (Difference::Signed, -0.1 / 3.0),
+            (Difference::Relative, (0.2 / 0.11 + 0.3 / 0.41) / 3.0),
+        ];
+        for (difference, expected) in expected {
+            let got = difference.of_texel(g, p, 0.01);
+            assert!((got - expected).abs() < 1e-6, "{difference:?}: {got}, expected {expected}");
+            let back = difference.of_texel(p, g, 0.01);
+            match difference {
+                Difference::Relative => assert!((back - expected).abs() > 1e-3),
+                _ if difference.is_signed() => assert!((back + expected).abs() < 1e-6),
+                _ => assert!((back - expected).abs() < 1e-6),
+            }
+        }
+    }
+
+    #[test]
+    fn an_angle_is_exact_when_small_and_when_large() {
+        for degrees in [0.0, 1e-3, 0.5, 45.0, 90.0, 179.0, 180.0_f64] {
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let got = Difference::Angle.of_texel([0.0, 0.0, 1.0], [sine as f32, 0.0, cosine as f32], 0.01);
+            assert!((got - degrees).abs() < 1e-5, "{got}, expected {degrees}");
+        }
+    }
+
+    #[test]
+    fn a_picture_does_not_differ_from_itself() {
+        let image = Image { width: 2, height: 1, pixels: vec![[0.0, 0.6, 0.8], [1.0, 0.0, 0.0]] };
+        for difference in EVERY {
+            assert_eq!(difference.of_images(&image, &image, 0.01), [0.0, 0.0], "{difference:?}");
+        }
+    }
+
+    #[test]
+    fn every_quantity_has_a_difference() {
+        for quantity in Quantity::ALL {
+            assert!(!Difference::all(quantity).is_empty(), "{quantity:?}");
+        }
+    }
+}

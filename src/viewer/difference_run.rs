@@ -1,0 +1,122 @@
+//! Statistics of the difference in the panes, computed on a worker.
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+use super::loaded::Loaded;
+use super::slots::Slots;
+use super::state::ViewState;
+use super::worker::Task;
+use crate::error::Error;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::picture::difference::Difference;
+use crate::picture::quantity::Quantity;
+use crate::picture::statistics::Distributions;
+use crate::progress::Progress;
+
+/// What the statistics depend on.
+#[derive(Clone, Debug, PartialEq)]
+struct Key {
+    /// Of the materials, the ground truth first.
+    ids: Vec<u64>,
+    quantity: Quantity,
+    kind: Difference,
+    /// Of a rendering.
+    scene: Option<Scene>,
+    convention: &'static str,
+}
+
+/// The statistics of the difference in the panes, and the computation of new ones.
+#[derive(Debug, Default)]
+pub struct DifferenceRun {
+    running: Option<(Key, Task<Distributions>)>,
+    latest: Option<(Key, Distributions)>,
+    /// What could not be computed, which is not tried again.
+    failed: Option<Key>,
+}
+
+impl DifferenceRun {
+    /// The distributions for the current materials and difference, perhaps of an earlier scene; one for each prediction.
+    pub fn distributions(&self, slots: &Slots, state: &ViewState) -> Option<&Distributions> {
+        let (latest, distributions) = self.latest.as_ref()?;
+        let now = key(slots, state);
+        let same = (&latest.ids, latest.quantity, latest.kind) == (&now.ids, now.quantity, now.kind);
+        same.then_some(distributions)
+    }
+
+    /// Whether the distributions are those of the current scene.
+    pub fn is_current(&self, slots: &Slots, state: &ViewState) -> bool {
+        self.latest.as_ref().is_some_and(|(latest, _)| *latest == key(slots, state))
+    }
+
+    /// The difference that has the last colour: the range set, or the automatic one.
+    pub fn range(&self, slots: &Slots, state: &ViewState) -> f64 {
+        let auto = || self.distributions(slots, state).map(|distributions| distributions.auto_range);
+        let set = state.differences.range(state.quantity);
+        set.or_else(auto).unwrap_or_else(|| state.difference_kind().default_range())
+    }
+
+    /// Takes over a result, and computes what is needed now. A computation for an earlier scene is completed, so that there
+    /// are results while the light moves.
+    pub fn follow(&mut self, ctx: &egui::Context, slots: &Slots, state: &ViewState) -> Option<Error> {
+        let mut error = None;
+        if let Some((key, task)) = &self.running
+            && let Some(result) = task.poll(ctx)
+        {
+            match result {
+                Ok(distributions) => self.latest = Some((key.clone(), distributions)),
+                Err(problem) => {
+                    self.failed = Some(key.clone());
+                    error = Some(problem);
+                }
+            }
+            self.running = None;
+        }
+        if !state.difference || slots.predictions().is_empty() {
+            self.running = None;
+            return error;
+        }
+        let now = key(slots, state);
+        if self.running.is_none() && self.failed.as_ref() != Some(&now) && !self.is_current(slots, state) {
+            let task = start(ctx, slots, state);
+            self.running = Some((now, task));
+        }
+        error
+    }
+}
+
+fn key(slots: &Slots, state: &ViewState) -> Key {
+    Key {
+        ids: slots.slots.iter().map(|slot| slot.id).collect(),
+        quantity: state.quantity,
+        kind: state.difference_kind(),
+        scene: (state.quantity == Quantity::Rendering).then_some(state.scene),
+        convention: state.convention().name,
+    }
+}
+
+fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState) -> Task<Distributions> {
+    let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|slot| slot.loaded.clone()).collect();
+    let (quantity, kind) = (state.quantity, state.difference_kind());
+    let (scene, convention) = (state.scene, state.convention());
+    Task::start(ctx, move |progress| distributions(&materials, quantity, kind, &scene, &convention, progress))
+}
+
+fn distributions(
+    materials: &[Arc<Loaded>],
+    quantity: Quantity,
+    kind: Difference,
+    scene: &Scene,
+    convention: &Convention,
+    progress: &Progress,
+) -> Result<Distributions, Error> {
+    let image = |loaded: &Arc<Loaded>| quantity.image(&loaded.material, scene, convention, progress);
+    let ground_truth = image(&materials[0])?;
+    let values = materials[1..]
+        .iter()
+        .map(|prediction| Ok(kind.of_images(&ground_truth, &image(prediction)?, convention.epsilon)))
+        .collect::<Result<Vec<_>, Error>>()?;
+    Ok(Distributions::of(&values, kind.is_signed()))
+}

@@ -1,0 +1,68 @@
+//! Which difference of each quantity is chosen, and the range of its colours.
+
+use serde::{Deserialize, Serialize};
+
+use crate::picture::difference::Difference;
+use crate::picture::quantity::Quantity;
+
+/// The choices that differ from the defaults: the first difference of a quantity, with an automatic range.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Differences {
+    chosen: Vec<(Quantity, Difference)>,
+    ranges: Vec<((Quantity, Difference), f64)>,
+}
+
+impl Differences {
+    /// The chosen difference of `quantity`.
+    pub fn kind(&self, quantity: Quantity) -> Difference {
+        let chosen = self.chosen.iter().find(|(of, _)| *of == quantity);
+        chosen.map_or(Difference::all(quantity)[0], |(_, kind)| *kind)
+    }
+
+    /// Chooses a difference of `quantity`, if it has that one.
+    pub fn choose(&mut self, quantity: Quantity, kind: Difference) {
+        if Difference::all(quantity).contains(&kind) {
+            self.chosen.retain(|(of, _)| *of != quantity);
+            self.chosen.push((quantity, kind));
+        }
+    }
+
+    /// The range set for the chosen difference of `quantity`; `None` where it is automatic.
+    pub fn range(&self, quantity: Quantity) -> Option<f64> {
+        let key = (quantity, self.kind(quantity));
+        self.ranges.iter().find(|(of, _)| *of == key).map(|(_, range)| *range)
+    }
+
+    /// Sets the range of the chosen difference of `quantity`; `None` makes it automatic.
+    pub fn set_range(&mut self, quantity: Quantity, range: Option<f64>) {
+        let key = (quantity, self.kind(quantity));
+        self.ranges.retain(|(of, _)| *of != key);
+        self.ranges.extend(range.filter(|r| r.is_finite() && *r > 0.0).map(|range| (key, range)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_difference_of_every_quantity_has_its_own_range() {
+        let mut all = Differences::default();
+        all.set_range(Quantity::Rendering, Some(0.5));
+        assert_eq!(all.range(Quantity::Rendering), Some(0.5));
+        assert_eq!(all.range(Quantity::Normal), None);
+        all.choose(Quantity::Rendering, Difference::Absolute);
+        assert_eq!(all.range(Quantity::Rendering), None);
+        all.choose(Quantity::Rendering, Difference::Log);
+        assert_eq!(all.range(Quantity::Rendering), Some(0.5));
+        all.set_range(Quantity::Rendering, None);
+        assert_eq!(all, Differences { chosen: vec![(Quantity::Rendering, Difference::Log)], ranges: vec![] });
+    }
+
+    #[test]
+    fn a_quantity_has_only_its_own_differences() {
+        let mut all = Differences::default();
+        all.choose(Quantity::Normal, Difference::Log);
+        assert_eq!(all.kind(Quantity::Normal), Difference::Angle);
+    }
+}
