@@ -29,5 +29,5 @@ fn main() {
 
     let path = env::var_os("PATH").unwrap_or_default();
     let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());
-    set("has_desktop", DESKTOP.iter().all(|program| installed(program)));
+    set("has_desktop", DESKTOP.iter().all(installed));
 }

@@ -158,12 +158,23 @@ impl Reason {
             Self::Weighed { log_odds, evidence } => {
                 *log_odds < 0.0 && evidence.iter().all(Evidence::is_custom)
             }
-            Self::StorageConvention(convention) => match convention {
-                C::Native | C::NativeText | C::Gltf | C::MaterialXNormals | C::ListedTextures => true,
-                C::LayerNames | C::GammadNames | C::RoughnessName | C::BuiltIn | C::Floats => true,
-                C::SeparateColours | C::MtlColours | C::SpecularGlossiness => true,
-                _ => false,
-            },
+            Self::StorageConvention(convention) => matches!(
+                convention,
+                C::Native
+                    | C::NativeText
+                    | C::Gltf
+                    | C::MaterialXNormals
+                    | C::MaterialXSurface
+                    | C::ListedTextures
+                    | C::LayerNames
+                    | C::GammadNames
+                    | C::RoughnessName
+                    | C::BuiltIn
+                    | C::Floats
+                    | C::SeparateColours
+                    | C::MtlColours
+                    | C::SpecularGlossiness
+            ),
             _ => false,
         }
     }
@@ -173,6 +184,31 @@ impl Reason {
         match self {
             Self::Specified(by) | Self::NoMetallicMap(by) => Some(by),
             _ => None,
+        }
+    }
+
+    /// Reasons in which maps there are, and how they are called.
+    fn of_maps(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::MetallicMap { matfusion: false } => {
+                f.write_str("there is a metallic map: d = b (1 - m), s = f (1 - m) + b m")
+            }
+            Self::MetallicMap { matfusion: true } => {
+                f.write_str("there is a metallic map: d = b (1 - m), s = f + b m as in MatFusion")
+            }
+            Self::SpecularMap => f.write_str("there is a specular map"),
+            Self::NeitherMap => f.write_str("there is neither a specular nor a metallic map"),
+            Self::NoNormalMap => f.write_str("there is no normal map; the surface is taken as flat"),
+            Self::NoSpecularMap => f.write_str("there is no specular map; most dielectrics have it"),
+            Self::SpecularLevel { file } => {
+                write!(f, "{} is named so, and the principled model takes 0.04 at 0.5", file.display())
+            }
+            Self::SmallerMaps(maps) => {
+                f.write_str("the largest map has it; resampled bilinearly: ")?;
+                let one = |(map, [w, h]): &(Role, [usize; 2])| format!("{} from {w} x {h}", map.name());
+                f.write_str(&maps.iter().map(one).collect::<Vec<_>>().join(", "))
+            }
+            _ => self.of_pixels(f),
         }
     }
 
@@ -297,25 +333,7 @@ impl fmt::Display for Reason {
             Self::OpaqueSmoothness { file } => {
                 write!(f, "{} has no alpha, which holds smoothness", file.display())
             }
-            Self::MetallicMap { matfusion: false } => {
-                f.write_str("there is a metallic map: d = b (1 - m), s = f (1 - m) + b m")
-            }
-            Self::MetallicMap { matfusion: true } => {
-                f.write_str("there is a metallic map: d = b (1 - m), s = f + b m as in MatFusion")
-            }
-            Self::SpecularMap => f.write_str("there is a specular map"),
-            Self::NeitherMap => f.write_str("there is neither a specular nor a metallic map"),
-            Self::NoNormalMap => f.write_str("there is no normal map; the surface is taken as flat"),
-            Self::NoSpecularMap => f.write_str("there is no specular map; most dielectrics have it"),
-            Self::SpecularLevel { file } => {
-                write!(f, "{} is named so, and the principled model takes 0.04 at 0.5", file.display())
-            }
-            Self::SmallerMaps(maps) => {
-                f.write_str("the largest map has it; resampled bilinearly: ")?;
-                let one = |(map, [w, h]): &(Role, [usize; 2])| format!("{} from {w} x {h}", map.name());
-                f.write_str(&maps.iter().map(one).collect::<Vec<_>>().join(", "))
-            }
-            _ => self.of_pixels(f),
+            _ => self.of_maps(f),
         }
     }
 }

@@ -147,6 +147,29 @@ impl Pictures {
         self.take(Role::Metallic).or_else(|| self.packed(1))
     }
 
+    /// Assumptions about pictures whose channels their names do not define for sure.
+    fn doubts_of_packing(&self) -> Vec<Assumption> {
+        let mut assumptions = Vec::new();
+        let doubtful = [Role::RoughnessMetallicOcclusion, Role::MetallicRoughnessOcclusion];
+        if let Some((role, source)) = self.all.iter().find(|(role, _)| doubtful.contains(role)) {
+            let chosen = if *role == doubtful[0] {
+                "red roughness, green metallic, blue occlusion"
+            } else {
+                "red metallic, green roughness, blue occlusion"
+            };
+            let why = Reason::PackingName { file: source.file.clone() };
+            assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
+        }
+        if let Some((_, source)) =
+            self.all.iter().find(|(r, s)| *r == Role::MetallicSmoothness && s.raster.alpha.is_none())
+            && !self.has(Role::Roughness)
+        {
+            let why = Reason::OpaqueSmoothness { file: source.file.clone() };
+            assumptions.push(Assumption::new(What::Layout, "smoothness 1", why, Certainty::Unsure));
+        }
+        assumptions
+    }
+
     /// Chooses the workflow and puts the maps in their places; `path` is what the user gave, `listed` what is there.
     ///
     /// # Errors
@@ -168,27 +191,10 @@ impl Pictures {
             found: listed.to_owned(),
             remedy: "add or rename the file, or open a packed one by itself".to_owned(),
         };
-        let mut assumptions = Vec::new();
+        let mut assumptions = self.doubts_of_packing();
         let mut files: Vec<_> = self.all.iter().map(|(_, source)| source.file.clone()).collect();
         files.sort();
         files.dedup();
-        let doubtful = [Role::RoughnessMetallicOcclusion, Role::MetallicRoughnessOcclusion];
-        if let Some((role, source)) = self.all.iter().find(|(role, _)| doubtful.contains(role)) {
-            let chosen = if *role == doubtful[0] {
-                "red roughness, green metallic, blue occlusion"
-            } else {
-                "red metallic, green roughness, blue occlusion"
-            };
-            let why = Reason::PackingName { file: source.file.clone() };
-            assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
-        }
-        if let Some((_, source)) =
-            self.all.iter().find(|(r, s)| *r == Role::MetallicSmoothness && s.raster.alpha.is_none())
-            && !self.has(Role::Roughness)
-        {
-            let why = Reason::OpaqueSmoothness { file: source.file.clone() };
-            assumptions.push(Assumption::new(What::Layout, "smoothness 1", why, Certainty::Unsure));
-        }
         let normal = self.take(Role::Normal);
         let is_packed = !self.has(Role::Metallic);
         let roughness = self.roughness();
@@ -213,27 +219,8 @@ impl Pictures {
         }
         let colour = colour.ok_or_else(|| missing(Role::Diffuse))?;
         let roughness = roughness.ok_or_else(|| missing(Role::Roughness))?;
-        let (chosen, why) = match (use_metallic, specular.is_some()) {
-            (true, _) => {
-                let matfusion = options.preset == Some(Preset::MatFusion);
-                (Workflow::Metallic, Reason::MetallicMap { matfusion })
-            }
-            (false, true) => (Workflow::Specular, Reason::SpecularMap),
-            (false, false) => (Workflow::Specular, Reason::NeitherMap),
-        };
-        assumptions.push(match options.workflow {
-            Some(given) if given == chosen => Assumption::given(What::Workflow, given),
-            Some(given) => Assumption::new(
-                What::Workflow,
-                given,
-                Reason::NoMetallicMap(SpecifiedBy::Caller),
-                Certainty::Given,
-            ),
-            None if is_ambiguous => {
-                Assumption::new(What::Workflow, chosen, Reason::BothWorkflows, Certainty::Unsure)
-            }
-            None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
-        });
+        let chosen = if use_metallic { Workflow::Metallic } else { Workflow::Specular };
+        assumptions.push(workflow(chosen, specular.is_some(), is_ambiguous, options));
         Ok(StoredMaterial {
             name,
             normal,
@@ -247,6 +234,28 @@ impl Pictures {
             notes: unused.into_iter().flatten().map(|source| source.unused(chosen)).collect(),
             files,
         })
+    }
+}
+
+/// The assumption about the workflow that was `chosen`.
+fn workflow(chosen: Workflow, has_specular: bool, is_ambiguous: bool, options: &ReadOptions) -> Assumption {
+    let why = match (chosen, has_specular) {
+        (Workflow::Metallic, _) => {
+            Reason::MetallicMap { matfusion: options.preset == Some(Preset::MatFusion) }
+        }
+        (Workflow::Specular, true) => Reason::SpecularMap,
+        (Workflow::Specular, false) => Reason::NeitherMap,
+    };
+    match options.workflow {
+        Some(given) if given == chosen => Assumption::given(What::Workflow, given),
+        Some(given) => {
+            let why = Reason::NoMetallicMap(SpecifiedBy::Caller);
+            Assumption::new(What::Workflow, given, why, Certainty::Given)
+        }
+        None if is_ambiguous => {
+            Assumption::new(What::Workflow, chosen, Reason::BothWorkflows, Certainty::Unsure)
+        }
+        None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
     }
 }
 

@@ -182,7 +182,7 @@ fn decoded<T: Real>(raster: &Raster, encoding: NormalEncoding, y: NormalY) -> ([
     let count = raster.width * raster.height;
     let two = raster.channels.len() == 2;
     let [mut xs, mut ys, mut zs] = [0; 3].map(|_| vec![T::zero(); count]);
-    let convert = |(number, ((xs, ys), zs)): (usize, ((&mut [T], &mut [T]), &mut [T]))| {
+    let convert = |number: usize, [xs, ys, zs]: [&mut [T]; 3]| {
         let stored: Vec<Vec<f64>> = components(raster, encoding)
             .map(|plane| {
                 let mut chunk = vec![0.0; xs.len()];
@@ -203,6 +203,6 @@ fn decoded<T: Real>(raster: &Raster, encoding: NormalEncoding, y: NormalY) -> ([
         missing
     };
     let chunks = xs.par_chunks_mut(CHUNK).zip(ys.par_chunks_mut(CHUNK)).zip(zs.par_chunks_mut(CHUNK));
-    let missing = chunks.enumerate().map(convert).sum();
+    let missing = chunks.enumerate().map(|(number, ((xs, ys), zs))| convert(number, [xs, ys, zs])).sum();
     ([xs, ys, zs], missing)
 }
