@@ -149,11 +149,17 @@ fn an_accuracy_that_is_not_reached_is_said() {
     assert!(stderr.contains("not to the +-0.001%") && stderr.contains("786432 scenes"), "{stderr}");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&json["target_error"], &json["target_reached"]), (&json!(1e-5), &json!(false)));
-    let strict = run_in(folder.path(), &format!("loss {missed} --strict --preset deschaintre --order ndrs --format csv"));
+    let strict = run_in(
+        folder.path(),
+        &format!("loss {missed} --strict --preset deschaintre --order ndrs --format csv"),
+    );
     assert_eq!(strict.status.code(), Some(1));
     assert!(text(&strict.stdout).contains(",0.00001,false,a.png,gt,gt.png\n"), "{}", text(&strict.stdout));
     assert!(text(&strict.stderr).contains("error: a is known to"));
-    let reached = losses_as_json(folder.path(), "gt.png a.png --target-error 10% --strict --preset deschaintre --order ndrs");
+    let reached = losses_as_json(
+        folder.path(),
+        "gt.png a.png --target-error 10% --strict --preset deschaintre --order ndrs",
+    );
     assert_eq!(reached["target_reached"], json!(true));
 }
 
