@@ -60,8 +60,8 @@ impl App {
             LossCommand::SetAuto(on) => self.settings.auto_loss = on,
             LossCommand::SetSettings(settings) => self.settings.loss = settings,
             LossCommand::Copy => {
-                if let Some((shown, _)) = self.loss.shown() {
-                    ctx.copy_text(shown.report.text());
+                if let Some(losses) = self.loss.losses() {
+                    ctx.copy_text(losses.report.text());
                 }
             }
             LossCommand::ShowStudy(true) => {

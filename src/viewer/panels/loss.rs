@@ -9,7 +9,7 @@ use crate::loss::{Request, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
 use crate::viewer::command::{Command, LossCommand};
-use crate::viewer::loss_run::{End, LossRun, Shown};
+use crate::viewer::loss_run::{LossRun, Losses};
 use crate::viewer::loss_settings::{Ask, LossSettings};
 use crate::viewer::slots::Slots;
 use crate::viewer::theme;
@@ -49,12 +49,12 @@ impl LossPanel<'_> {
             return commands;
         }
         self.state(ui);
-        if let Some((shown, _)) = self.run.shown() {
+        if let Some(losses) = self.run.losses() {
             ui.scope(|ui| {
                 if self.run.stale() {
                     ui.set_opacity(0.5);
                 }
-                commands.extend(loss_results::ui(ui, shown, self.chosen));
+                commands.extend(loss_results::ui(ui, losses, self.chosen));
             });
         }
         commands
@@ -83,7 +83,7 @@ impl LossPanel<'_> {
             if auto != self.auto {
                 commands.push(LossCommand::SetAuto(auto).into());
             }
-            let copy = ui.add_enabled(self.run.shown().is_some(), egui::Button::new("Copy"));
+            let copy = ui.add_enabled(self.run.losses().is_some(), egui::Button::new("Copy"));
             if copy.on_hover_text("As text, as `svbrdf loss` prints it").clicked() {
                 commands.push(LossCommand::Copy.into());
             }
@@ -103,29 +103,32 @@ impl LossPanel<'_> {
             ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
             return;
         }
-        let text = match self.run.shown() {
+        let text = match self.run.losses() {
             None => RichText::new("Not computed yet."),
-            Some((_, false)) if self.run.stale() => {
-                RichText::new("Stale: materials or settings have changed.")
-            }
-            Some((shown, _)) => outcome(shown, ui.visuals()),
+            Some(_) if self.run.stale() => RichText::new("Stale: materials or settings have changed."),
+            Some(losses) => self.outcome(losses, ui.visuals()),
         };
         ui.horizontal_wrapped(|ui| ui.label(text.small()));
     }
-}
 
-/// The accuracy reached, what it took, and whether that meets the request.
-fn outcome(shown: &Shown, visuals: &egui::Visuals) -> RichText {
-    let (near, distant) = (shown.report.count(Kind::Near), shown.report.count(Kind::Distant));
-    let (error, elapsed) = (shown.relative_error(), shown.elapsed);
-    let took =
-        format!("{} from {near} + {distant} scenes in {}", loss_results::accuracy(error), seconds(elapsed));
-    match (shown.end, missed(shown.request(), error, elapsed)) {
-        (End::Cancelled, _) => RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color),
-        (End::Finished, Some(missed)) => {
-            RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
+    /// The accuracy reached, what it took, and whether that meets the request.
+    fn outcome(&self, losses: &Losses, visuals: &egui::Visuals) -> RichText {
+        let (near, distant) = (losses.report.count(Kind::Near), losses.report.count(Kind::Distant));
+        let (error, elapsed) = (losses.relative_error(), losses.elapsed);
+        let took = format!(
+            "{} from {near} + {distant} scenes in {}",
+            loss_results::accuracy(error),
+            seconds(elapsed)
+        );
+        match missed(losses.request(), error, elapsed) {
+            _ if self.run.is_partial() => {
+                RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color)
+            }
+            Some(missed) if self.run.is_complete() => {
+                RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
+            }
+            _ => RichText::new(took),
         }
-        _ => RichText::new(took),
     }
 }
 

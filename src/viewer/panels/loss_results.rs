@@ -7,27 +7,27 @@ use eframe::egui::{self, RichText, Sides};
 use crate::loss::{Estimate, Loss};
 use crate::model::sampler::Sampler;
 use crate::viewer::command::{Command, DisplayCommand};
-use crate::viewer::loss_run::Shown;
+use crate::viewer::loss_run::Losses;
 use crate::viewer::theme;
 
 /// The losses, and their differences from that of the chosen prediction; a click chooses another one.
-pub(super) fn ui(ui: &mut egui::Ui, shown: &Shown, chosen: usize) -> Vec<Command> {
+pub(super) fn ui(ui: &mut egui::Ui, latest: &Losses, chosen: usize) -> Vec<Command> {
     let mut commands = Vec::new();
-    let losses = &shown.report.outcome.losses;
+    let losses = &latest.report.outcome.losses;
     for (index, loss) in losses.iter().enumerate() {
         if result(ui, index, loss, index == chosen).clicked() {
             commands.push(DisplayCommand::ChoosePrediction(index).into());
         }
     }
-    if let (Some(less), Some(differences)) = (losses.get(chosen), shown.differences.get(chosen)) {
+    if let (Some(other), Some(differences)) = (losses.get(chosen), latest.differences.get(chosen)) {
         let all = losses.iter().zip(differences).enumerate();
         for (index, (loss, estimate)) in all.filter(|(index, _)| *index != chosen) {
             let names =
-                [(index, loss), (chosen, less)].map(|(i, loss)| format!("{} {}", i + 1, loss.prediction));
+                [(index, loss), (chosen, other)].map(|(i, loss)| format!("{} {}", i + 1, loss.prediction));
             difference(ui, index, &names, estimate);
         }
     }
-    ui.label(RichText::new(summary(shown)).weak().small());
+    ui.label(RichText::new(summary(latest)).weak().small());
     commands
 }
 
@@ -115,8 +115,8 @@ impl Verdict {
     }
 }
 
-fn summary(shown: &Shown) -> String {
-    let report = &shown.report;
+fn summary(latest: &Losses) -> String {
+    let report = &latest.report;
     let sampler = match report.sampler() {
         Some(Sampler::Sobol) => "scrambled Sobol",
         _ => "random",
