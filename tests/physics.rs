@@ -1,5 +1,9 @@
 //! What must hold for any material, light and view.
 
+mod albedo;
+mod normalization;
+mod plot;
+
 use glam::DVec3;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
