@@ -188,7 +188,11 @@ fn an_accuracy_that_is_not_reached_is_said() {
         &format!("loss {missed} --strict --preset deschaintre --order ndrs --format csv"),
     );
     assert_eq!(strict.status.code(), Some(1));
-    assert!(text(&strict.stdout).contains(",0.00001,false,a.png,gt,gt.png\n"), "{}", text(&strict.stdout));
+    assert!(
+        text(&strict.stdout).contains(",0.00001,false,a.png,gt,gt.png,scenes,,,\n"),
+        "{}",
+        text(&strict.stdout)
+    );
     assert!(text(&strict.stderr).contains("error: a is known to"));
     let reached = losses_as_json(
         folder.path(),

@@ -111,5 +111,5 @@ fn materials_of_one_name_are_told_apart_by_their_paths() {
     );
     let csv = succeed(folder.path(), "loss gt.png runA/out runB/out --format csv");
     assert!(csv.lines().nth(2).unwrap().starts_with("runB/out,"), "{csv}");
-    assert!(csv.lines().nth(2).unwrap().ends_with(",runB/out,gt,gt.png"), "{csv}");
+    assert!(csv.lines().nth(2).unwrap().contains(",runB/out,gt,gt.png,pilot,"), "{csv}");
 }

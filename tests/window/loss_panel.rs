@@ -92,7 +92,10 @@ fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
             }
         }
     }
-    let output = std::process::Command::new(program()).arg("loss").output().unwrap();
+    let output = std::process::Command::new(program())
+        .args(["loss", "--near", "6", "--distant", "3"])
+        .output()
+        .unwrap();
     assert_eq!(copied, String::from_utf8(output.stdout).unwrap());
     assert!(copied.contains("wrong roughness - blurred normals"), "{copied}");
 }

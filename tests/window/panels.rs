@@ -46,7 +46,14 @@ fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
         window.get_by_role_and_label(number, name).type_text("0");
         press(&mut window, egui::Key::Enter);
     }
-    window.run_steps(30);
+    // The loss before it may be under way.
+    for _ in 0..600 {
+        if window.query_by_label_contains("at least one scene").is_some() {
+            break;
+        }
+        window.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
     window.get_by_label_contains("at least one scene");
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
     let number = egui::accesskit::Role::SpinButton;
