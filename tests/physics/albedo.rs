@@ -104,7 +104,7 @@ fn curves() -> Vec<plot::Panel> {
 }
 
 #[test]
-#[ignore = "writes docs/albedo.md and docs/albedo.svg"]
+#[ignore = "writes docs/albedo.svg"]
 fn write_albedo() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
     let panels = curves();

@@ -123,10 +123,8 @@ fn a_wrong_factor_of_the_distribution_and_a_floor_are_seen() {
     assert!(scaled(1.0) <= NORMALIZATION_F64);
     assert!(scaled(1.0 + 2e-5) > NORMALIZATION_F64, "a factor slightly off");
     assert!(scaled(std::f64::consts::PI) > NORMALIZATION_FUSED, "pi left out");
-    assert!(worst(0.0, |r, h| on_cpu::<f64>(&PRINTED, r.sqrt(), h)) > NORMALIZATION_FUSED, "alpha = r");
     assert!(worst(0.0, |r, h| on_cpu::<f64>(&GUIDED_2020, r, h)) > NORMALIZATION_FUSED, "a floor");
-    let floor = |r: f64, h| on_cpu::<f32>(&PRINTED, r.max(2e-4), h);
-    assert!(worst(0.0, floor) > NORMALIZATION_FUSED, "another floor of the roughness");
+    // A wrong width is none of these faults: D of any width is normalized.
     let grazing = |r: f64, h: DVec3| if h.z < 0.1 { 0.0 } else { on_cpu::<f64>(&PRINTED, r, h) };
     assert!(worst(0.0, grazing) > NORMALIZATION_F64, "nothing at grazing angles");
 }

@@ -1,6 +1,8 @@
 //! docs/albedo.svg: albedo over view angle, a panel for each convention and material, a curve for each roughness.
 
+use epaint_default_fonts::UBUNTU_LIGHT;
 use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
 
 use super::albedo::{ANGLES, ROUGHNESS};
 
@@ -23,6 +25,7 @@ const COLOURS: [RGBColor; 6] = [
 
 /// The figure.
 pub fn svg(panels: &[Panel]) -> String {
+    assert!(register_font("sans-serif", FontStyle::Normal, UBUNTU_LIGHT).is_ok(), "the font is usable");
     let mut text = String::new();
     {
         let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
