@@ -44,7 +44,7 @@ fn window<'a>(options: ViewerOptions) -> Window<'a> {
 
 /// Runs frames until `done`, or fails after a generous while.
 fn wait(window: &mut Window<'_>, what: &str, done: impl Fn(&App) -> bool) {
-    for _ in 0..600 {
+    for _ in 0..6000 {
         window.step();
         if done(window.state()) {
             window.run_steps(3);

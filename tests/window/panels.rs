@@ -47,7 +47,7 @@ fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
         press(&mut window, egui::Key::Enter);
     }
     // The loss before it may be under way.
-    for _ in 0..600 {
+    for _ in 0..6000 {
         if window.query_by_label_contains("at least one scene").is_some() {
             break;
         }
