@@ -1,7 +1,6 @@
 //! The directional albedo of a white material: which share of the light is reflected towards all directions.
 //!
-//! `cargo test --no-default-features write_albedo -- --ignored --nocapture` writes docs/albedo.svg and the table in
-//! docs/extremes.md.
+//! `cargo test --no-default-features write_albedo -- --ignored --nocapture` writes docs/albedo.svg and prints a table.
 
 use std::fmt::Write as _;
 use std::path::Path;
