@@ -1,11 +1,24 @@
-//! Progress of long work, seen from another thread, and the wish to stop it.
+//! The progress of long work, and its cancellation, from another thread.
+//!
+//! ```
+//! use svbrdf::error::Error;
+//! use svbrdf::progress::Progress;
+//!
+//! let progress = Progress::default();
+//! progress.begin(100);
+//! progress.step()?;
+//! assert_eq!(progress.counts(), (1, 100));
+//! progress.cancel();
+//! assert!(matches!(progress.step(), Err(Error::Cancelled)));
+//! # Ok::<(), Error>(())
+//! ```
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::error::Error;
 
-/// Shared between the thread that works and the one that watches.
+/// The number of steps done and to do, shared by the working thread and the thread that watches it.
 #[derive(Debug, Default)]
 pub struct Progress {
     done: AtomicU64,
@@ -14,21 +27,21 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// The work announces how many steps it has in all; the count starts again at 0.
+    /// Announces `total` steps and sets the count to 0.
     pub fn begin(&self, total: u64) {
         self.done.store(0, Ordering::Relaxed);
         self.total.store(total, Ordering::Relaxed);
     }
 
-    /// The work has done one more step.
+    /// Counts one step.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] once [`Progress::cancel`] was called: the work passes it on.
+    /// [`Error::Cancelled`] once [`Progress::cancel`] was called.
     pub fn step(&self) -> Result<(), Error> {
         self.advance(1)
     }
 
-    /// The work has done `steps` more steps.
+    /// Counts `steps` steps.
     ///
     /// # Errors
     /// As [`Progress::step`].
@@ -40,23 +53,23 @@ impl Progress {
         Ok(())
     }
 
-    /// The progress of a part of the work, which counts by itself: cancelling either cancels both.
+    /// The progress of a part of the work, with a count of its own. Cancelling either cancels both.
     #[must_use]
     pub fn part(&self) -> Self {
         Self { cancelled: self.cancelled.clone(), ..Self::default() }
     }
 
-    /// Asks the work to stop at its next step.
+    /// Cancels the work: its next step fails.
     pub fn cancel(&self) {
         self.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the work was asked to stop.
+    /// Whether the work was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
     }
 
-    /// (steps done, steps in all); (0, 0) before the work has begun.
+    /// (steps done, total steps); (0, 0) before the work has begun.
     pub fn counts(&self) -> (u64, u64) {
         (self.done.load(Ordering::Relaxed), self.total.load(Ordering::Relaxed))
     }

@@ -1,6 +1,6 @@
-//! What differs between the printed algorithms and the authors' three released codes, as data.
+//! The differences between the printed algorithms and the authors' three released codes, as data.
 //!
-//! A loss means nothing without the name of its convention, so every result carries it.
+//! A loss is meaningful only together with its convention, so every result carries its name.
 
 use std::str::FromStr;
 
@@ -12,7 +12,7 @@ use crate::error::Error;
 /// [`MULTI_IMAGE_2019`] and [`GUIDED_2020`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Convention {
-    /// The name that users give and read.
+    /// The name on the command line and in results.
     pub name: &'static str,
     /// Standard deviation of the logarithm of a near-field light's distance.
     pub light_distance_sigma: f64,

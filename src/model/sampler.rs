@@ -1,4 +1,4 @@
-//! Where the points of the unit cube come from that scenes are functions of.
+//! Points of the unit cube for scenes: random, or scrambled Sobol sequences.
 
 use std::fmt;
 use std::str::FromStr;
@@ -11,17 +11,17 @@ use super::convention::Convention;
 use super::scene::{self, Kind, Scene};
 use crate::error::Error;
 
-/// Independent scramblings that the Sobol scenes of one seed come from.
+/// Independent scramblings of the Sobol sequence per seed.
 ///
-/// Each gives an estimate of its own, and the error of the loss is seen in how these differ. With few, Student's t is
-/// wide; with many, each is short and gains less from the sequence. Where the variance falls as n^-1.6, 8 gives about
-/// the shortest intervals (reckoned, not measured).
+/// Each gives an estimate; the error of the loss follows from their spread. With few scramblings, Student's t is wide;
+/// with many, each is short and gains less from the sequence. Where the variance falls as n^-1.6, 8 gives about the
+/// shortest intervals (estimated, not measured).
 pub const REPLICATES: usize = 8;
 
-/// The longest Sobol sequence that the library makes. A longer replicate goes on with another scrambling.
+/// The longest Sobol sequence of the library. A longer replicate continues with another scrambling.
 const POINTS_PER_SCRAMBLING: usize = 1 << 16;
 
-/// How scenes are drawn.
+/// How scenes are sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Sampler {

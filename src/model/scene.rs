@@ -1,8 +1,8 @@
-//! What one rendering is lit and seen by: Algorithm 2, and the scenes that Algorithm 1 draws.
+//! Scenes, a light and a view each: Algorithm 2, and the scenes that Algorithm 1 samples.
 //!
-//! A scene is a function of a point of the unit cube: 6 numbers for a near-field scene, 4 for a distant one. Where
-//! the numbers come from is the caller's choice; [`sample`] takes them from a counter-based generator whose i-th
-//! point depends on the seed and on i alone.
+//! A scene is a function of a point of the unit cube: 6 numbers for a near-field scene, 4 for a distant one. The caller
+//! chooses the points; [`sample`] takes them from a counter-based generator whose i-th point depends on the seed and on i
+//! only.
 
 use std::path::Path;
 

@@ -1,6 +1,13 @@
-//! Sample materials that are built in: a ground truth and two predictions of it.
+//! The built-in materials: a ground truth and two predictions, 256 x 256 texels each.
 //!
-//! `examples/make_samples.rs` makes them; they are free to use like the rest of this project.
+//! `examples/make_samples.rs` generates them; they are free to use like the rest of this project.
+//!
+//! ```
+//! let built_in = svbrdf::samples::load::<f32>()?;
+//! assert_eq!(built_in.ground_truth.material.size(), [256, 256]);
+//! assert_eq!(built_in.predictions.len(), 2);
+//! # Ok::<(), svbrdf::error::Error>(())
+//! ```
 
 #[cfg(feature = "testing")]
 pub mod generate;
@@ -15,7 +22,7 @@ use crate::files::read::{
 };
 use crate::math::real::Real;
 
-/// How the samples are stored: nothing of it is left to be found out.
+/// How the samples are stored, so that nothing is inferred.
 const STORED: ReadOptions = ReadOptions {
     albedo: Some(Albedo::Linear),
     specular: Some(Albedo::Linear),
@@ -32,10 +39,10 @@ pub struct Samples<T> {
     pub predictions: Vec<Read<T>>,
 }
 
-/// The samples, by name: worn tiles; blurred normals, wrong roughness.
+/// The ground truth "worn tiles" with the predictions "blurred normals" and "wrong roughness".
 ///
 /// # Errors
-/// None, unless the samples that were built in are damaged.
+/// None, unless the build damaged the embedded files.
 pub fn load<T: Real>() -> Result<Samples<T>, Error> {
     let read = |name, bytes| -> Result<Read<T>, Error> {
         let mut read = read_bytes(name, bytes, &STORED)?;
