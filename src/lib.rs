@@ -36,6 +36,7 @@
 //! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
 //! | [`report`] | losses as text |
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
+//! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
 //! | [`rank`] | many predictions of one ground truth, best first |
 //! | [`dataset`] | many materials and methods: result files, means with intervals over materials |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
@@ -57,6 +58,7 @@ pub mod image;
 pub mod loss;
 pub mod material;
 pub mod math;
+pub mod metrics;
 pub mod model;
 pub mod picture;
 pub mod progress;

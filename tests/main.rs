@@ -18,6 +18,7 @@ mod golden_points;
 #[cfg(feature = "gpu")]
 mod gpu_parity;
 mod layering;
+mod metrics;
 mod mutations;
 mod physics;
 mod rank;

@@ -127,12 +127,7 @@ impl LossMap {
 }
 
 fn over_texels(args: &MapArgs, comparison: &Comparison<'_, f32>) -> Result<LossMap, Error> {
-    let request = args.scenes.request()?;
-    let scenes = match &request {
-        svbrdf::loss::Request::Listed(scenes) => scenes.clone(),
-        svbrdf::loss::Request::Scenes(sampling) => sampling.scenes(comparison.convention())?,
-        _ => return Err(Error::Internal("the scenes of a map are not listed".to_owned())),
-    };
+    let (_, scenes) = args.scenes.scenes(comparison.convention())?;
     let panes = watched("rendering", |progress| why::error_maps(comparison, &scenes, progress))?;
     let names: Vec<_> = comparison.predictions().iter().map(|prediction| prediction.name()).collect();
     let mut summary = vec![["prediction", "mean", "largest", "column", "row"].map(str::to_owned).to_vec()];

@@ -10,6 +10,7 @@ mod info;
 mod loss;
 mod map;
 mod materials;
+mod metrics;
 mod rank;
 mod reading;
 mod render;
@@ -71,6 +72,7 @@ enum Command {
     Scenes(scenes::ScenesArgs),
     Worst(worst::WorstArgs),
     Map(map::MapArgs),
+    Metrics(metrics::MetricsArgs),
     Study(study::StudyArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
@@ -91,6 +93,7 @@ impl Cli {
             Command::Scenes(args) => scenes::run(&args),
             Command::Worst(args) => worst::run(&args),
             Command::Map(args) => map::run(&args),
+            Command::Metrics(args) => metrics::run(&args),
             Command::Study(args) => study::run(&args),
             Command::Info(args) => info::run(&args),
             Command::Convert(args) => convert::run(&args),

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use svbrdf::error::Error;
 use svbrdf::loss::{Request, Sampling, Texels};
+use svbrdf::model::convention::Convention;
 use svbrdf::model::sampler::Sampler;
+use svbrdf::model::scene::Scene;
 use svbrdf::model::scene_file;
 
 #[derive(Debug, clap::Args)]
@@ -31,6 +33,18 @@ pub struct SceneArgs {
 }
 
 impl SceneArgs {
+    /// The scenes, and how they were sampled where they were.
+    ///
+    /// # Errors
+    /// As [`SceneArgs::request`].
+    pub fn scenes(&self, convention: &Convention) -> Result<(Option<Sampling>, Vec<Scene>), Error> {
+        match self.request()? {
+            Request::Listed(scenes) => Ok((None, scenes)),
+            Request::Scenes(sampling) => Ok((Some(sampling), sampling.scenes(convention)?)),
+            _ => Err(Error::Internal("scenes without a list".to_owned())),
+        }
+    }
+
     /// The request for these scenes on all texels.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use crate::model::scene::{Kind, Scene};
 use crate::progress::Progress;
 
 /// Independent subsets of texels, and the texels of each.
-const TEXELS: [usize; 2] = [8, 128];
+const TEXELS: [usize; 2] = [8, 512];
 /// Columns of the coarsest map.
 const COARSEST: usize = 8;
 
@@ -69,7 +69,7 @@ impl Hemisphere {
 /// The loss over the directions of what is `moved`, on a grid of `side` columns; `fixed` is the direction of the other.
 ///
 /// `update` sees coarser maps first, each with half as many columns as the next. Each map compares 8 independent random subsets
-/// of 128 texels, the same in all cells; all texels where there are no more.
+/// of 512 texels, the same in all cells; all texels where there are no more.
 ///
 /// # Errors
 /// [`Error::UnusableScene`] where `fixed` is not above the plane, [`Error::Cancelled`].
