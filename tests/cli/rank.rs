@@ -118,6 +118,7 @@ fn parts_of_a_data_set_join_to_the_whole() {
     }
     let stderr = fail(folder.path(), "rank --merge part1.jsonl part3.jsonl", 1);
     assert!(stderr.contains("2 of 7 materials are in none"), "{stderr}");
+    assert!(fail(folder.path(), &format!("{RANK} --resize-to gt"), 64).contains("not resized"));
     for wrong in ["0/3", "4/3", "1", "a/b"] {
         fail(folder.path(), &format!("{RANK} --shard {wrong} --journal x.jsonl"), 64);
     }

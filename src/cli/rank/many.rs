@@ -47,6 +47,10 @@ fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &st
 }
 
 fn evaluated(args: &RankArgs) -> Result<(Settings, Vec<MaterialResult>), Error> {
+    if args.materials.reading.resize_to.is_some() {
+        let problem = "materials of a data set are not resized; convert them first, or leave out --resize-to";
+        return Err(Error::Usage(problem.to_owned()));
+    }
     let tasks = tasks(args)?;
     let settings = Settings::new(args.convention.name, args.target_error, args.seed, &tasks);
     let tasks = args.shard.map_or(tasks.clone(), |shard| shard.part(tasks));
