@@ -55,10 +55,11 @@ fn has_zenity() -> bool {
     std::env::split_paths(&path).any(|folder| folder.join("zenity").is_file())
 }
 
-#[cfg(all(test, target_os = "linux"))]
+#[cfg(test)]
 mod tests {
     use super::*;
 
+    #[cfg(target_os = "linux")]
     #[test]
     fn a_dialog_that_ends_at_once_or_cannot_exist_was_not_there() {
         let (soon, later) = (Duration::from_millis(80), Duration::from_secs(2));

@@ -25,7 +25,11 @@ pub enum Message {
     /// A prediction was closed: the new ground truth has another size.
     Closed(Box<SizeMismatch>),
     /// A material could not be read, in this opening.
-    NotRead { source: Source, error: Error, opening: u64 },
+    NotRead {
+        source: Source,
+        error: Error,
+        opening: u64,
+    },
     /// Something is on the clipboard.
     Copied(&'static str),
     /// These predictions were not opened: their ground truth could not be read.

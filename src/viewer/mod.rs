@@ -16,6 +16,7 @@ pub mod command;
 mod gestures;
 mod gpu_view;
 mod handles;
+mod history;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod keys;
 #[cfg(feature = "testing")]
@@ -55,7 +56,6 @@ mod stop;
 mod study;
 mod theme;
 mod title;
-mod undo;
 mod viewport;
 mod watch;
 #[cfg(not(feature = "testing"))]

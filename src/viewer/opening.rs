@@ -21,9 +21,9 @@ fn read(source: Source, reader: &mut Reader, progress: &Progress) -> Result<Load
         Origin::BuiltIn(number) => {
             let samples = samples::load::<f32>()?;
             let mut all = std::iter::once(samples.ground_truth).chain(samples.predictions);
-            let read = all.nth(*number).ok_or_else(|| {
-                Error::Internal(format!("there is no built-in material {number}"))
-            })?;
+            let read = all
+                .nth(*number)
+                .ok_or_else(|| Error::Internal(format!("there is no built-in material {number}")))?;
             reader.size.get_or_insert(read.material.size());
             Ok(loaded(source, read, reader.gpu.as_ref()))
         }
@@ -50,7 +50,7 @@ pub enum Item {
 pub enum Arrival {
     Kept(Slot),
     Read(Box<Loaded>),
-    Failed(Source, Error),
+    Failed(Box<Source>, Error),
 }
 
 /// The reading of several materials.
@@ -88,7 +88,7 @@ impl Opening {
                     Item::Kept(kept) => Arrival::Kept(kept),
                     Item::Read(source) => match read(source.clone(), &mut reader, &each[index]) {
                         Ok(loaded) => Arrival::Read(Box::new(loaded)),
-                        Err(error) => Arrival::Failed(source, error),
+                        Err(error) => Arrival::Failed(Box::new(source), error),
                     },
                 };
                 // Where the window has dropped this reading, the material is not wanted.

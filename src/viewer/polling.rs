@@ -41,7 +41,8 @@ impl App {
             match change {
                 Change::Changed => self.slots.reload(ctx, gpu, Some(&[index])),
                 Change::Gone(path) => {
-                    let problem = format!("{} is gone; the material is as it was read before", path.display());
+                    let problem =
+                        format!("{} is gone; the material is as it was read before", path.display());
                     self.slots.slots[index].problem = Some(problem);
                 }
                 Change::Back => self.slots.slots[index].problem = None,

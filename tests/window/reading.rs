@@ -42,8 +42,7 @@ fn repaint_delay(window: &Window<'_>) -> Duration {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_second_is_read() {
     let folder = tempfile::tempdir().unwrap();
-    let paths: Vec<_> =
-        (0..4).map(|i| strip(&folder.path().join(format!("m{i}.png")), 4)).collect();
+    let paths: Vec<_> = (0..4).map(|i| strip(&folder.path().join(format!("m{i}.png")), 4)).collect();
     let mut window = built_in();
     // The loss of the built-in pair is computed while it is shown.
     wait(&mut window, "the loss", |app| app.losses().is_some());

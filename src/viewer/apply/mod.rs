@@ -3,6 +3,7 @@
 mod display;
 mod materials;
 mod scene;
+mod undo;
 
 use eframe::egui;
 

@@ -24,7 +24,13 @@ pub struct SaveWindow {
 
 impl Default for SaveWindow {
     fn default() -> Self {
-        Self { path: "svbrdf-view.png".to_owned(), replaces: None, focused: false, saving: false, problem: None }
+        Self {
+            path: "svbrdf-view.png".to_owned(),
+            replaces: None,
+            focused: false,
+            saving: false,
+            problem: None,
+        }
     }
 }
 

@@ -1,40 +1,13 @@
-//! What undo returns to: the view, and the set of materials.
+//! Undo and redo.
 
 use eframe::egui;
-use eframe::egui::util::undoer::{Settings, Undoer};
 
-use super::app::App;
-use super::source::Source;
-use super::state::ViewState;
-
-/// How long nothing changes, in seconds, before it becomes a point to return to.
-const STABLE: f32 = 0.4;
-
-/// A point to return to.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Moment {
-    view: ViewState,
-    materials: Vec<Source>,
-}
-
-/// The earlier and the later moments.
-#[derive(Debug)]
-pub(super) struct History {
-    undoer: Undoer<Moment>,
-    /// The set of materials in the window, or the one that is being opened.
-    materials: Vec<Source>,
-}
-
-impl Default for History {
-    fn default() -> Self {
-        let settings = Settings { stable_time: STABLE, ..Settings::default() };
-        Self { undoer: Undoer::with_settings(settings), materials: Vec::new() }
-    }
-}
+use crate::viewer::app::App;
+use crate::viewer::history::Moment;
 
 impl App {
     /// Takes note of the moment, once the first materials are there. A set counts once it has been read.
-    pub(super) fn remember_moment(&mut self, ctx: &egui::Context) {
+    pub(in crate::viewer) fn remember_moment(&mut self, ctx: &egui::Context) {
         if self.slots.openings.is_empty() {
             self.history.materials = self.slots.sources();
         }
