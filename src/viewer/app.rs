@@ -6,9 +6,11 @@ use std::time::Instant;
 use eframe::egui;
 use eframe::egui::util::undoer::{self, Undoer};
 
-use super::command::{Command, LossCommand, MaterialsCommand, WindowCommand};
+use super::animation::Animation;
+use super::command::{Command, InspectCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand};
 use super::difference_run::DifferenceRun;
 use super::gpu_view::GpuView;
+use super::inspect::{Inspect, RegionRun};
 use super::loaded::Rules;
 use super::loss_run::Asked;
 use super::loss_run::LossRun;
@@ -16,15 +18,19 @@ use super::message::Message;
 use super::options::ViewerOptions;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
-use super::settings::{self, Settings};
+use super::scene_loss::SceneLoss;
+use super::settings::{self, Settings, Tab};
 use super::slots::{Slots, Target};
 use super::state::ViewState;
 use super::study::StudyRun;
 use super::viewport::Viewport;
 use super::watch::Watch;
 use super::worker::Task;
-use super::{keys, theme};
+use super::{keys, sight, theme};
 use crate::files::read::ReadOptions;
+
+/// Width of a window, in points, below which the side panel is hidden until it is asked for.
+const NARROW: f32 = 900.0;
 
 /// The viewer. Only [`Command`]s change it.
 #[derive(Debug)]
@@ -36,9 +42,17 @@ pub struct App {
     pub(super) slots: Slots,
     pub(super) undoer: Undoer<ViewState>,
     pub(super) loss: LossRun,
+    /// The loss over the few scenes of the papers, beside a more accurate one.
+    pub(super) few: LossRun,
+    pub(super) scene_loss: SceneLoss,
+    pub(super) animation: Animation,
+    /// Whether something was dragged since Space was pressed: then Space pans and does not pause.
+    space_dragged: bool,
     pub(super) study: StudyRun,
     pub(super) difference: DifferenceRun,
     pub(super) study_window: bool,
+    pub(super) inspect: Inspect,
+    pub(super) region: RegionRun,
     pub(super) gpu: Option<GpuView>,
     pub(super) viewport: Viewport,
     pub(super) watch: Watch,
@@ -48,6 +62,8 @@ pub struct App {
     pub(super) save_window: Option<SaveWindow>,
     pub(super) help: bool,
     pub(super) swapped: bool,
+    /// Whether the side panel is shown where the window is narrow.
+    narrow_side_panel: bool,
     /// How the last materials were read: what the open dialog starts with.
     pub(super) read: ReadOptions,
     /// What went wrong or was done, the latest last, until it is dismissed.
@@ -61,6 +77,7 @@ impl App {
         theme::install(&cc.egui_ctx);
         let settings: Settings =
             cc.storage.and_then(|s| eframe::get_value(s, settings::KEY)).unwrap_or_default();
+        cc.egui_ctx.set_zoom_factor(settings.ui_scale);
         let mut messages = Vec::new();
         let gpu = match cc.wgpu_render_state.as_ref().map(GpuView::new) {
             Some(Ok(gpu)) => Some(gpu),
@@ -78,9 +95,15 @@ impl App {
             slots: Slots::default(),
             undoer: Undoer::with_settings(undo),
             loss: LossRun::default(),
+            few: LossRun::default(),
+            scene_loss: SceneLoss::default(),
+            animation: Animation::default(),
+            space_dragged: false,
             study: StudyRun::default(),
             difference: DifferenceRun::default(),
             study_window: false,
+            inspect: Inspect::default(),
+            region: RegionRun::default(),
             gpu,
             viewport: Viewport::default(),
             watch: Watch::default(),
@@ -90,6 +113,7 @@ impl App {
             save_window: None,
             help: false,
             swapped: false,
+            narrow_side_panel: false,
             read: ReadOptions::AUTO,
             messages,
             frame_ms: 0.0,
@@ -108,6 +132,15 @@ impl App {
         let sources: Vec<_> =
             std::iter::once((ground_truth, options.ground_truth_read)).chain(predictions).collect();
         self.slots.open(ctx, gpu, sources, Target::Everything);
+    }
+
+    /// Whether the side panel is shown. Narrow windows have a choice of their own, which starts with no panel.
+    pub(super) fn side_panel(&mut self, ctx: &egui::Context) -> &mut bool {
+        if ctx.content_rect().width() < NARROW {
+            &mut self.narrow_side_panel
+        } else {
+            &mut self.settings.side_panel
+        }
     }
 
     /// What is asked of the loss: by the settings, in the convention that is rendered.
@@ -165,8 +198,46 @@ impl App {
         }
         self.loss.follow(ctx, &self.slots, &self.asked(), self.settings.auto_loss);
         self.loss.poll(ctx);
+        self.follow_few_scenes(ctx);
+        let why = self.settings.tab == Tab::Why && *self.side_panel(ctx);
+        let error = self.scene_loss.follow(ctx, why, &self.slots, &self.state);
+        self.report(error.map(Message::Failed));
         let error = self.difference.follow(ctx, &self.slots, &self.state);
         self.report(error.map(Message::Failed));
+        if let Some(slot) = self.slots.ground_truth() {
+            self.inspect.keep_within(slot.loaded.material.size());
+        }
+        let error = self.region.follow(ctx, self.inspect.region, &self.slots, &self.state);
+        self.report(error.map(Message::Failed));
+    }
+
+    /// Computes the loss over the few scenes of the papers, where the loss is another one and is done.
+    fn follow_few_scenes(&mut self, ctx: &egui::Context) {
+        let Asked { request, convention } = self.asked();
+        let few = self.settings.loss.few_scenes();
+        if request == few {
+            self.few = LossRun::default();
+            return;
+        }
+        let asked = Asked { request: few, convention };
+        let done = !self.loss.is_running() && self.loss.losses().is_some();
+        self.few.follow(ctx, &self.slots, &asked, self.settings.auto_loss && done);
+        self.few.poll(ctx);
+    }
+
+    /// Space, pressed and released without a drag, pauses what moves by itself.
+    fn pause_key(&mut self, ctx: &egui::Context) -> Option<Command> {
+        let (pressed, released, down, dragging) = ctx.input(|i| {
+            let space = egui::Key::Space;
+            (i.key_pressed(space), i.key_released(space), i.key_down(space), i.pointer.any_down())
+        });
+        if pressed {
+            self.space_dragged = false;
+        }
+        self.space_dragged |= down && dragging;
+        let moves = self.animation.light || self.animation.turntable;
+        let free = ctx.memory(|m| m.focused()).is_none();
+        (released && !self.space_dragged && moves && free).then_some(SceneCommand::TogglePause.into())
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
@@ -175,6 +246,8 @@ impl App {
             (_, Some(_), _) => WindowCommand::ShowOpen(false).into(),
             (_, _, Some(_)) => WindowCommand::ShowSave(false).into(),
             _ if self.study_window => LossCommand::ShowStudy(false).into(),
+            _ if self.inspect.armed => InspectCommand::Arm(false).into(),
+            _ if self.inspect.region.is_some() => InspectCommand::SetRegion(None).into(),
             _ => LossCommand::Cancel.into(),
         };
         let now = keys::Context {
@@ -183,6 +256,14 @@ impl App {
             difference: self.state.difference,
         };
         keys::commands(ctx, now)
+    }
+
+    /// Pans back a material that would be lost from sight.
+    fn keep_in_sight(&mut self) {
+        if let Some(slot) = self.slots.ground_truth() {
+            let grid = slot.loaded.material.grid();
+            self.state.pan = sight::kept_pan(&self.state, grid, self.viewport.aspect());
+        }
     }
 
     /// Stores changed settings at once: a program that is killed stores nothing at its end.
@@ -212,12 +293,20 @@ impl eframe::App for App {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.settings.dark);
+        // Ctrl with plus, minus or 0 changes it, too.
+        self.settings.ui_scale = ctx.zoom_factor();
         self.poll(&ctx);
         let mut commands = self.keys(&ctx);
+        commands.extend(self.pause_key(&ctx));
+        self.animation.follow(&ctx, &mut self.state.scene);
         commands.extend(self.dropped(&ctx));
         commands.extend(self.draw(ui));
+        let changed = !commands.is_empty();
         for command in commands {
             self.apply(&ctx, command);
+        }
+        if changed {
+            self.keep_in_sight();
             ctx.request_repaint();
         }
         self.undoer.feed_state(ctx.input(|i| i.time), &self.state);

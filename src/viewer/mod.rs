@@ -2,6 +2,7 @@
 //!
 //! Panels and keys return `command::Command`s; `app::App` carries them out; slow work runs in `worker::Task`s.
 
+mod animation;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod app;
 #[cfg(feature = "testing")]
@@ -15,17 +16,21 @@ pub mod command;
 mod gestures;
 mod gpu_view;
 mod handles;
+mod inspect;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod keys;
 #[cfg(feature = "testing")]
 pub mod keys;
+mod latest;
 mod loaded;
 mod loss_run;
 mod loss_settings;
+mod marks;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod message;
 #[cfg(feature = "testing")]
 pub mod message;
+mod names;
 #[cfg(feature = "testing")]
 mod observe;
 mod options;
@@ -35,8 +40,11 @@ mod panes;
 mod difference_run;
 mod differences;
 mod draw;
+mod readout;
 mod save;
+mod scene_loss;
 mod settings;
+mod sight;
 mod slots;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod state;

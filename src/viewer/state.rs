@@ -4,8 +4,10 @@ use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use super::differences::Differences;
+use crate::material::Grid;
 use crate::model::convention::{self, Convention};
 use crate::model::scene::{Kind, Scene};
+use crate::picture::camera::Camera;
 use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 
@@ -13,6 +15,8 @@ use crate::picture::quantity::Quantity;
 pub const LOWEST: f64 = 0.01;
 /// Largest coordinate of a light or a view in the window.
 pub const FARTHEST: f64 = 1000.0;
+/// Least height of a position that a direction becomes, as a share of its distance: about 6 degrees above the plane.
+const LOWEST_SHARE: f64 = 0.1;
 
 /// How the panes are arranged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -114,6 +118,14 @@ impl ViewState {
         self.differences.kind(self.quantity)
     }
 
+    /// The camera that fits the material into a pane of `aspect` = width / height, before zoom and pan.
+    pub fn fitted_camera(&self, grid: Grid, aspect: f32) -> Camera {
+        match self.projection {
+            Projection::Flat => Camera::flat(grid, aspect),
+            Projection::Perspective => Camera::of_scene(&self.scene, grid, aspect),
+        }
+    }
+
     /// The default light, view and display, with the prediction, layout and convention of now.
     #[must_use]
     pub fn reset(&self) -> Self {
@@ -165,8 +177,26 @@ pub fn over_plane(scene: &Scene, which: Endpoint) -> [f64; 2] {
     [p.x, p.y]
 }
 
+/// Makes the scene near-field or distant, such that it looks the same from the middle of the material: light and view keep
+/// their directions and distances. A direction within the plane becomes a position well above it.
+pub fn set_kind(scene: &mut Scene, kind: Kind) {
+    if scene.kind == kind {
+        return;
+    }
+    scene.kind = kind;
+    if kind == Kind::Near {
+        for which in [Endpoint::Light, Endpoint::View] {
+            let p = DVec3::from(endpoint(scene, which));
+            let length = p.length();
+            let z = p.z.max(LOWEST_SHARE * length);
+            let shrink = ((length * length - z * z).max(0.0).sqrt() / p.x.hypot(p.y)).min(1.0);
+            set_endpoint(scene, which, [p.x * shrink, p.y * shrink, z]);
+        }
+    }
+}
+
 /// Moves an endpoint so that its projection onto the plane is (x, y): a position keeps its height, a direction stays
-/// on the hemisphere.
+/// on the hemisphere. The length of a direction stays: it is the distance of the position that it becomes.
 pub fn move_over_plane(scene: &mut Scene, which: Endpoint, [x, y]: [f64; 2]) {
     let p = match scene.kind {
         Kind::Near => [x, y, endpoint(scene, which)[2]],
@@ -174,7 +204,8 @@ pub fn move_over_plane(scene: &mut Scene, which: Endpoint, [x, y]: [f64; 2]) {
             let rim = (1.0 - LOWEST * LOWEST).sqrt();
             let shrink = (rim / x.hypot(y)).min(1.0);
             let [x, y] = [x * shrink, y * shrink];
-            [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()]
+            let distance = DVec3::from(endpoint(scene, which)).length();
+            [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()].map(|c| c * distance)
         }
     };
     set_endpoint(scene, which, p);
@@ -251,11 +282,29 @@ mod tests {
     #[test]
     fn a_direction_that_is_moved_over_the_plane_stays_on_the_hemisphere() {
         let mut scene = Scene { kind: Kind::Distant, ..ViewState::default().scene };
+        let distance = DVec3::from(scene.light).length();
         move_over_plane(&mut scene, Endpoint::Light, [3.0, 4.0]);
-        assert!((DVec3::from(scene.light).length() - 1.0).abs() < 1e-4);
+        assert!((DVec3::from(scene.light).length() - distance).abs() < 1e-4);
         move_over_plane(&mut scene, Endpoint::Light, [0.3, -0.2]);
         let [x, y] = over_plane(&scene, Endpoint::Light);
         assert!((x - 0.3).abs() < 1e-12 && (y + 0.2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn near_field_and_distant_keep_directions_and_distances_and_no_position_is_in_the_plane() {
+        let start = ViewState::default().scene;
+        let mut scene = start;
+        set_kind(&mut scene, Kind::Distant);
+        set_kind(&mut scene, Kind::Near);
+        let off = |a: [f64; 3], b: [f64; 3]| (DVec3::from(a) - DVec3::from(b)).length();
+        assert!(off(scene.light, start.light) < 1e-12 && off(scene.view, start.view) < 1e-12, "{scene:?}");
+        // A direction dragged past the rim of the hemisphere.
+        set_kind(&mut scene, Kind::Distant);
+        move_over_plane(&mut scene, Endpoint::Light, [5.0, 0.0]);
+        set_kind(&mut scene, Kind::Near);
+        let (light, distance) = (DVec3::from(scene.light), DVec3::from(start.light).length());
+        assert!((light.length() - distance).abs() < 1e-4, "{light:?} has another distance than {distance}");
+        assert!(light.z > 0.09 * distance && light.x > 0.99 * distance, "{light:?}");
     }
 
     #[test]

@@ -1,13 +1,16 @@
 //! The panes, drawn, and what the mouse does in them.
 
-use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2};
+use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2, vec2};
 
 use super::cells::{TITLE, cells, pixel_aligned};
 use super::command::Command;
 use super::gestures::{self, Gesture, Target};
 use super::gpu_view::GpuView;
 use super::handles;
+use super::marks::Placed;
 use super::panes::{Content, Hovered, Scenery};
+use super::readout;
+use super::sight;
 use super::state::{self, Endpoint, Projection, ViewState};
 use super::theme;
 use super::title::title_bar;
@@ -22,6 +25,8 @@ pub struct Viewport {
     gesture: Option<Gesture>,
     /// What is under the pointer.
     pub hovered: Option<Hovered>,
+    /// The texel that was under the pointer last.
+    pub last_texel: Option<[usize; 2]>,
     /// Size of a pane in physical pixels.
     pane_pixels: Vec2,
 }
@@ -57,8 +62,13 @@ impl Viewport {
         let contents = scenery.contents();
         let grid = scenery.slots[0].loaded.material.grid();
         let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
+        let panes: Vec<(Content, Rect)> = contents.into_iter().zip(cells).collect();
+        self.hovered = panes.iter().find_map(|(content, cell)| hovered(ui, scenery, *content, *cell));
+        if let Some(texel) = self.hovered.and_then(|hovered| grid.texel_at(hovered.point)) {
+            self.last_texel = Some(texel);
+        }
         let mut commands = Vec::new();
-        for (i, (content, cell)) in contents.into_iter().zip(cells).enumerate() {
+        for (i, (content, cell)) in panes.into_iter().enumerate() {
             commands.extend(self.pane(ui, scenery, gpu, i, content, cell));
         }
         commands
@@ -74,9 +84,9 @@ impl Viewport {
         cell: Rect,
     ) -> Vec<Command> {
         let mut commands = Vec::new();
-        let (title, rect) = cell.split_top_bottom_at_y(cell.top() + TITLE);
+        let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
         commands.extend(title_bar(ui, scenery, number, content, title));
-        let rect = pixel_aligned(ui, rect);
+        let rect = picture_rect(ui, cell);
         self.pane_pixels = rect.size() * ui.pixels_per_point();
 
         let response = ui.interact(rect, ui.scope_id().with(("pane", number)), Sense::drag());
@@ -90,14 +100,11 @@ impl Viewport {
             camera: &camera,
             state: scenery.state,
             highlight_follows: scenery.highlight_follows,
+            view_handle: scenery.view_handle,
+            grid: scenery.slots[0].loaded.material.grid(),
+            armed: scenery.inspect.armed,
         };
         commands.extend(gestures::commands(ui, &response, &target, &mut self.gesture));
-        let pointer = response.hover_pos().or_else(|| response.interact_pointer_pos());
-        if let Some(pos) = pointer {
-            let [x, y] = handles::ndc_from_pos(rect, pos);
-            self.hovered =
-                camera.plane_from_ndc(x, y).map(|point| Hovered { slot: slot_at(content, x), point });
-        }
         commands
     }
 
@@ -127,12 +134,56 @@ impl Viewport {
         };
         let ids = [content.slot, content.reference].map(|i| scenery.slots[i].id);
         gpu.paint(&painter, rect, ids, params);
+        self.paint_marks(&painter, scenery, content, rect, &camera);
+        if state.quantity == Quantity::Rendering {
+            paint_handles(&painter, rect, &camera, state, scenery.view_handle);
+        }
         if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.wipe);
         }
-        if state.quantity == Quantity::Rendering {
-            paint_handles(&painter, rect, &camera, state);
+        if let Some(text) = sight::hint(scenery, rect.width() / rect.height()) {
+            paint_hint(&painter, rect, text);
         }
+    }
+
+    /// What is drawn over a pane about texels.
+    fn paint_marks(
+        &self,
+        painter: &egui::Painter,
+        scenery: &Scenery<'_>,
+        content: Content,
+        rect: Rect,
+        camera: &Camera,
+    ) {
+        let grid = scenery.slots[0].loaded.material.grid();
+        let placed = Placed { rect, camera, grid };
+        let state = scenery.state;
+        if state.projection == Projection::Flat && content.mode == DisplayMode::Value {
+            let (slot, difference) = (content.slot, content.difference);
+            placed.paint_numbers(painter, |texel| {
+                readout::shown(scenery.slots, state, slot, difference, texel)
+            });
+        }
+        placed.paint_inspected(painter, scenery.inspect);
+        let texel = self.hovered.and_then(|hovered| grid.texel_at(hovered.point));
+        if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
+            placed.paint_crosshair(painter, texel);
+        }
+    }
+
+    /// Screen pixels per texel in the middle of a pane.
+    pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
+        let camera = state.fitted_camera(grid, self.aspect()).zoomed(state.zoom, state.pan);
+        let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
+        let middle = camera.plane_from_ndc(0.0, 0.0).and_then(|point| grid.texel_at(point));
+        let middle = middle.unwrap_or([grid.width / 2, grid.height / 2]);
+        Placed { rect, camera: &camera, grid }.texel_side(middle)
+    }
+
+    /// Width of a pane over its height; 1 before there is one.
+    pub fn aspect(&self) -> f32 {
+        let aspect = self.pane_pixels.x / self.pane_pixels.y;
+        if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 }
     }
 
     /// The magnification at which a texel of `grid` covers one physical pixel.
@@ -143,6 +194,25 @@ impl Viewport {
         let pixels_per_texel = self.pane_pixels.x * half_width / fitted / grid.width as f32;
         if pixels_per_texel.is_finite() && pixels_per_texel > 0.0 { pixels_per_texel.recip() } else { 1.0 }
     }
+}
+
+/// The rectangle of a pane's picture: its cell without the title.
+fn picture_rect(ui: &egui::Ui, cell: Rect) -> Rect {
+    pixel_aligned(ui, cell.split_top_bottom_at_y(cell.top() + TITLE).1)
+}
+
+/// The point under the pointer, if it is over this pane and nothing lies in between.
+fn hovered(ui: &egui::Ui, scenery: &Scenery<'_>, content: Content, cell: Rect) -> Option<Hovered> {
+    let rect = picture_rect(ui, cell);
+    let pos = ui.input(|i| i.pointer.latest_pos()).filter(|pos| rect.contains(*pos))?;
+    let covered = ui.ctx().layer_id_at(pos).is_some_and(|layer| layer != ui.layer_id());
+    if covered {
+        return None;
+    }
+    let [x, y] = handles::ndc_from_pos(rect, pos);
+    let grid = scenery.slots[0].loaded.material.grid();
+    let camera = scenery.camera(grid, rect.width() / rect.height());
+    camera.plane_from_ndc(x, y).map(|point| Hovered { slot: slot_at(content, x), point })
 }
 
 /// The slot whose value is shown at this x of a pane, from -1 to 1.
@@ -166,8 +236,9 @@ fn shade(gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
     Ok(())
 }
 
-fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState) {
-    if state.projection == Projection::Flat
+fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState, view_handle: bool) {
+    if view_handle
+        && state.projection == Projection::Flat
         && let Some((at, outside)) =
             handles::pos_from_plane(camera, rect, state::over_plane(&state.scene, Endpoint::View))
     {
@@ -178,6 +249,15 @@ fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &V
     {
         handles::paint_sun(painter, at, outside);
     }
+}
+
+/// A text at the bottom of a pane.
+fn paint_hint(painter: &egui::Painter, rect: Rect, text: &str) {
+    let (font, ink) = (FontId::proportional(13.0), egui::Color32::from_gray(235));
+    let galley = painter.layout(text.to_owned(), font, ink, (rect.width() - 24.0).max(40.0));
+    let place = Align2::CENTER_BOTTOM.anchor_size(rect.center_bottom() - vec2(0.0, 10.0), galley.size());
+    painter.rect_filled(place.expand2(vec2(8.0, 4.0)), 4.0, egui::Color32::from_black_alpha(170));
+    painter.galley(place.min, galley, ink);
 }
 
 /// A text in the middle of an empty area.

@@ -44,6 +44,10 @@ impl App {
                     state.prediction = index;
                 }
             }
+            DisplayCommand::StepPrediction(by) => {
+                let count = self.slots.predictions().len().max(1) as isize;
+                state.prediction = (state.prediction as isize + by).rem_euclid(count) as usize;
+            }
             DisplayCommand::Swap => self.swapped = !self.swapped,
             DisplayCommand::Zoom { factor, at } => zoom(state, factor, at),
             DisplayCommand::Pan([x, y]) => state.pan = [state.pan[0] + x, state.pan[1] + y],

@@ -13,6 +13,7 @@ impl App {
         let scene = &mut self.state.scene;
         match command {
             SceneCommand::Set(new) => *scene = new,
+            SceneCommand::SetKind(kind) => state::set_kind(scene, kind),
             SceneCommand::MoveOverPlane(endpoint, at) => state::move_over_plane(scene, endpoint, at),
             SceneCommand::PutHighlight(at) => state::put_highlight(scene, at),
             SceneCommand::ScaleHeight(endpoint, factor) => state::scale_height(scene, endpoint, factor),
@@ -23,6 +24,17 @@ impl App {
             SceneCommand::ToggleHighlightFollows => {
                 self.settings.highlight_follows = !self.settings.highlight_follows;
             }
+            SceneCommand::ToggleViewHandle => self.settings.view_handle = !self.settings.view_handle,
+            SceneCommand::Preset(preset) => preset.apply(scene),
+            SceneCommand::Animate(animation) => {
+                let starts =
+                    animation.light && (!self.animation.light || animation.path != self.animation.path);
+                self.animation = animation;
+                if starts {
+                    self.animation.start_light(&self.state.scene);
+                }
+            }
+            SceneCommand::TogglePause => self.animation.paused = !self.animation.paused,
             SceneCommand::SetConvention(name) => self.state.convention = name.to_owned(),
             SceneCommand::Copy => ctx.copy_text(scene_text(*scene)),
             SceneCommand::Paste(text) => match pasted_scene(&text) {

@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use crate::picture::quantity::Quantity;
-use crate::viewer::command::{Command, DisplayCommand, WindowCommand};
+use crate::viewer::command::{Command, DisplayCommand, LossCommand, WindowCommand};
 use crate::viewer::state::{Layout, Projection, ViewState};
 
 /// What the bar shows.
@@ -13,6 +13,9 @@ pub struct TopBar<'a> {
     pub dark: bool,
     pub side_panel: bool,
     pub swapped: bool,
+    /// Size of text and controls.
+    pub scale: f32,
+    pub has_predictions: bool,
 }
 
 impl TopBar<'_> {
@@ -114,15 +117,35 @@ impl TopBar<'_> {
     }
 
     fn window(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let light = ui.selectable_label(!self.dark, "Light theme").on_hover_text("Light or dark theme");
-        if light.clicked() {
-            commands.push(WindowCommand::SetDark(!self.dark).into());
-        }
+        let menu = ui.menu_button("Menu", |ui| self.menu(ui, commands));
+        menu.response.on_hover_text("Study, theme and size of the window's text");
         let panel = ui.selectable_label(self.side_panel, "Panel").on_hover_text("Side panel (B)");
         if panel.clicked() {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
         button(ui, "?", "Keys and mouse (?)", commands, WindowCommand::ShowHelp(true).into());
+    }
+
+    fn menu(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let study = ui.add_enabled(self.has_predictions, egui::Button::new("Study: time against error..."));
+        let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
+        if study.on_hover_text(hover).clicked() {
+            commands.push(LossCommand::ShowStudy(true).into());
+        }
+        ui.separator();
+        let theme = if self.dark { "Light theme" } else { "Dark theme" };
+        button(ui, theme, "Colours of the window", commands, WindowCommand::SetDark(!self.dark).into());
+        ui.menu_button("UI scale", |ui| {
+            for percent in [75, 100, 125, 150, 175, 200, 250, 300] {
+                let scale = percent as f32 / 100.0;
+                let is_current = (self.scale - scale).abs() < 1e-3;
+                if ui.selectable_label(is_current, format!("{percent}%")).clicked() {
+                    commands.push(WindowCommand::SetScale(scale).into());
+                }
+            }
+        })
+        .response
+        .on_hover_text("Size of text and controls (Ctrl with plus, minus; Ctrl+0 for 100%)");
     }
 }
 
