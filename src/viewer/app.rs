@@ -23,6 +23,7 @@ use super::settings::{self, Settings, Tab};
 use super::slots::{Slots, Target};
 use super::state::ViewState;
 use super::study::StudyRun;
+use super::values_run::ValuesRun;
 use super::viewport::Viewport;
 use super::watch::Watch;
 use super::worker::Task;
@@ -45,6 +46,7 @@ pub struct App {
     /// The loss over the few scenes of the papers, beside a more accurate one.
     pub(super) few: LossRun,
     pub(super) scene_loss: SceneLoss,
+    pub(super) values: ValuesRun,
     pub(super) animation: Animation,
     /// Whether something was dragged since Space was pressed: then Space pans and does not pause.
     space_dragged: bool,
@@ -97,6 +99,7 @@ impl App {
             loss: LossRun::default(),
             few: LossRun::default(),
             scene_loss: SceneLoss::default(),
+            values: ValuesRun::default(),
             animation: Animation::default(),
             space_dragged: false,
             study: StudyRun::default(),
@@ -202,7 +205,11 @@ impl App {
         let why = self.settings.tab == Tab::Why && *self.side_panel(ctx);
         let error = self.scene_loss.follow(ctx, why, &self.slots, &self.state);
         self.report(error.map(Message::Failed));
-        let error = self.difference.follow(ctx, &self.slots, &self.state);
+        let shown = self.settings.histograms && !self.state.difference;
+        let error = self.values.follow(ctx, shown, &self.slots, &self.state);
+        self.report(error.map(Message::Failed));
+        let shown = self.state.difference || self.viewport.shows_extra;
+        let error = self.difference.follow(ctx, shown, &self.slots, &self.state);
         self.report(error.map(Message::Failed));
         if let Some(slot) = self.slots.ground_truth() {
             self.inspect.keep_within(slot.loaded.material.size());
@@ -312,6 +319,10 @@ impl eframe::App for App {
         self.undoer.feed_state(ctx.input(|i| i.time), &self.state);
         self.store_settings(&ctx, frame.storage_mut());
         self.frame_ms = start.elapsed().as_secs_f32() * 1e3;
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {

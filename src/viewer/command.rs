@@ -112,6 +112,10 @@ pub enum DisplayCommand {
     /// Sets the exposure at which the brightest 1% of the ground truth just clips.
     AutoExposure,
     ToggleClipping,
+    /// Repeats the material 2 x 2 times, or not.
+    ToggleTiled,
+    /// Shows roughness in false colours, or not.
+    ToggleFalseColour,
     SetWipe(f32),
     ChoosePrediction(usize),
     /// Chooses the prediction this many places on, around the end.
@@ -165,6 +169,8 @@ pub enum WindowCommand {
     /// Sets the size of text and controls: 1 is that of the system.
     SetScale(f32),
     ToggleSidePanel,
+    /// Shows or hides the histograms of the values.
+    ToggleHistograms,
     ChooseTab(Tab),
     ShowHelp(bool),
     DismissMessages,

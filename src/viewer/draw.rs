@@ -13,6 +13,7 @@ use super::panels::scene::ScenePanel;
 use super::panels::status::StatusBar;
 use super::panels::study::StudyWindow;
 use super::panels::top::TopBar;
+use super::panels::values::ValueStrip;
 use super::panels::why::WhyPanel;
 use super::panes::Scenery;
 use super::save;
@@ -22,19 +23,24 @@ use crate::files::read::Certainty;
 /// Least width of the side panel, in points: its contents do not fit into less.
 const SIDE: f32 = 320.0;
 
+/// The panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.
+fn bare(panel: egui::Panel, ui: &egui::Ui) -> egui::Panel {
+    panel.frame(egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT))
+}
+
 impl App {
     /// Draws everything and returns the commands of the person.
     pub(super) fn draw(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
-        egui::Panel::top("top").show(ui, |ui| commands.extend(self.top(ui)));
-        egui::Panel::bottom("status").show(ui, |ui| commands.extend(self.status(ui)));
+        bare(egui::Panel::top("top"), ui).show(ui, |ui| commands.extend(self.top(ui)));
+        bare(egui::Panel::bottom("status"), ui).show(ui, |ui| commands.extend(self.status(ui)));
         if !self.message_list().is_empty() {
             egui::Panel::bottom("messages")
                 .show(ui, |ui| commands.extend(panels::messages::ui(ui, self.message_list())));
         }
         let shown = *self.side_panel(ui.ctx());
         let mut side_panel = shown;
-        egui::Panel::right("side")
+        bare(egui::Panel::right("side"), ui)
             .default_size(SIDE)
             .size_range(SIDE..=(0.4 * ui.available_width()).max(SIDE))
             .show_collapsible(ui, &mut side_panel, |ui| commands.extend(self.side(ui)));
@@ -42,10 +48,13 @@ impl App {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
         if !self.inspect.is_empty() && self.slots.ground_truth().is_some() {
-            egui::Panel::bottom("drawer").show(ui, |ui| commands.extend(self.drawer(ui)));
+            bare(egui::Panel::bottom("drawer"), ui).show(ui, |ui| commands.extend(self.drawer(ui)));
         }
         if self.state.difference && !self.slots.predictions().is_empty() {
-            egui::Panel::bottom("legend").show(ui, |ui| commands.extend(self.legend(ui)));
+            bare(egui::Panel::bottom("legend"), ui).show(ui, |ui| commands.extend(self.legend(ui)));
+        }
+        if self.settings.histograms && !self.state.difference && self.slots.ground_truth().is_some() {
+            bare(egui::Panel::bottom("values"), ui).show(ui, |ui| self.values(ui));
         }
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
         commands.extend(self.windows(ui.ctx()));
@@ -59,6 +68,7 @@ impl App {
             dark: self.settings.dark,
             side_panel,
             scale: self.settings.ui_scale,
+            histograms: self.settings.histograms,
             has_predictions: !self.slots.predictions().is_empty(),
             swapped: self.swapped,
         };
@@ -71,7 +81,7 @@ impl App {
         let bar = StatusBar {
             state: &self.state,
             slots: &self.slots.slots,
-            texel: hovered.and_then(|hovered| grid?.texel_at(hovered.point)),
+            texel: hovered.and_then(|hovered| self.state.texel_at(grid?, hovered.point)),
             hovered: hovered.map(|hovered| hovered.slot),
             magnification: grid.map_or(1.0, |grid| self.viewport.magnification(grid, &self.state)),
             armed: self.inspect.armed,
@@ -95,7 +105,7 @@ impl App {
     /// The tab, and below it light and view.
     fn side(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = self.tabs(ui);
-        egui::Panel::bottom("scene").resizable(false).show(ui, |ui| {
+        bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
             let header = egui::CollapsingHeader::new("Light and view").default_open(true);
             let scene =
                 ScenePanel { state: &self.state, settings: &self.settings, animation: &self.animation };
@@ -176,6 +186,16 @@ impl App {
             chosen: self.state.prediction,
         };
         strip.ui(ui)
+    }
+
+    fn values(&self, ui: &mut egui::Ui) {
+        let strip = ValueStrip {
+            quantity: self.state.quantity,
+            values: self.values.get(&self.slots, &self.state),
+            names: self.slots.slots.iter().map(|slot| slot.name()).collect(),
+            chosen: self.state.prediction + 1,
+        };
+        strip.ui(ui);
     }
 
     fn panes(&mut self, ui: &mut egui::Ui) -> Vec<Command> {

@@ -203,7 +203,8 @@ pub fn commands(
             let gesture = target.begin(ui, button, pos);
             *current = Some(gesture);
             if gesture == Gesture::Pin
-                && let Some(texel) = target.point(pos).and_then(|point| target.grid.texel_at(point))
+                && let Some(texel) =
+                    target.point(pos).and_then(|point| target.state.texel_at(target.grid, point))
             {
                 commands.push(InspectCommand::TogglePin(texel).into());
             }

@@ -34,6 +34,7 @@ mod names;
 #[cfg(feature = "testing")]
 mod observe;
 mod options;
+mod pace;
 mod panels;
 mod panes;
 
@@ -53,6 +54,7 @@ pub mod state;
 mod study;
 mod theme;
 mod title;
+mod values_run;
 mod viewport;
 mod watch;
 #[cfg(not(feature = "testing"))]
@@ -117,6 +119,8 @@ fn native_options() -> eframe::NativeOptions {
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,
+        // Colours are shown as they are.
+        dithering: false,
         ..Default::default()
     };
     options.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);

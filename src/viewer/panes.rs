@@ -81,6 +81,15 @@ impl Scenery<'_> {
         }
     }
 
+    /// What fills an empty place beside the panes: the difference of the chosen prediction, where panes show values.
+    pub(super) fn extra(&self) -> Option<Content> {
+        let shows_values = !self.state.difference && !self.peek && !self.swapped;
+        let grid = self.state.layout == Layout::SideBySide && self.slots.len() > 2;
+        let content =
+            Content { slot: self.chosen(), reference: 0, mode: DisplayMode::Value, difference: true };
+        (shows_values && grid).then_some(content)
+    }
+
     pub(super) fn camera(&self, grid: Grid, aspect: f32) -> Camera {
         self.state.fitted_camera(grid, aspect).zoomed(self.state.zoom, self.state.pan)
     }

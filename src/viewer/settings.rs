@@ -44,6 +44,8 @@ pub struct Settings {
     pub view_handle: bool,
     /// Size of the window's text and controls: 1 is that of the system.
     pub ui_scale: f32,
+    /// Whether histograms of the values are below the panes.
+    pub histograms: bool,
     /// The tab of the side panel.
     pub tab: Tab,
     /// Whether the prediction with the least loss comes first in the panel.
@@ -65,6 +67,7 @@ impl Default for Settings {
             highlight_follows: false,
             view_handle: true,
             ui_scale: 1.0,
+            histograms: false,
             tab: Tab::Loss,
             sort_losses: true,
             auto_loss: true,

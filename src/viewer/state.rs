@@ -75,6 +75,12 @@ pub struct ViewState {
     /// Exposure in stops: radiance is multiplied by 2^exposure_ev.
     pub exposure_ev: f32,
     pub show_clipping: bool,
+    /// Whether the material is repeated 2 x 2 times, shifted by half of itself: shows its seams.
+    #[serde(default)]
+    pub tiled: bool,
+    /// Whether roughness is shown in false colours.
+    #[serde(default)]
+    pub false_colour: bool,
     /// Position of the wipe line: 0 at the left edge of the pane, 1 at the right.
     pub wipe: f32,
     /// Magnification; at 1 the material fits its pane.
@@ -98,6 +104,8 @@ impl Default for ViewState {
             projection: Projection::Flat,
             exposure_ev: 0.0,
             show_clipping: false,
+            tiled: false,
+            false_colour: false,
             wipe: 0.5,
             zoom: 1.0,
             pan: [0.0, 0.0],
@@ -126,6 +134,11 @@ impl ViewState {
         }
     }
 
+    /// The texel that is seen at a point of the plane.
+    pub fn texel_at(&self, grid: Grid, point: [f32; 2]) -> Option<[usize; 2]> {
+        if self.tiled { grid.repeated_texel_at(point) } else { grid.texel_at(point) }
+    }
+
     /// The default light, view and display, with the prediction, layout and convention of now.
     #[must_use]
     pub fn reset(&self) -> Self {
@@ -136,6 +149,8 @@ impl ViewState {
             differences: self.differences.clone(),
             projection: self.projection,
             convention: self.convention.clone(),
+            tiled: self.tiled,
+            false_colour: self.false_colour,
             prediction: self.prediction,
             ..Self::default()
         }

@@ -2,12 +2,13 @@
 
 use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2, vec2};
 
-use super::cells::{TITLE, cells, pixel_aligned};
+use super::cells::{TITLE, cells, free_cell, pixel_aligned};
 use super::command::Command;
 use super::gestures::{self, Gesture, Target};
 use super::gpu_view::GpuView;
 use super::handles;
 use super::marks::Placed;
+use super::pace::{Pace, REST};
 use super::panes::{Content, Hovered, Scenery};
 use super::readout;
 use super::sight;
@@ -27,6 +28,9 @@ pub struct Viewport {
     pub hovered: Option<Hovered>,
     /// The texel that was under the pointer last.
     pub last_texel: Option<[usize; 2]>,
+    pace: Pace,
+    /// Whether the difference of the chosen prediction fills an empty place.
+    pub shows_extra: bool,
     /// Size of a pane in physical pixels.
     pane_pixels: Vec2,
 }
@@ -40,7 +44,6 @@ impl Viewport {
         gpu: Option<&mut GpuView>,
     ) -> Vec<Command> {
         let area = ui.available_rect_before_wrap();
-        ui.painter().rect_filled(area, 0.0, theme::surround(scenery.dark));
         self.hovered = None;
         let Some(gpu) = gpu else {
             note(ui, area, "No graphics adapter: materials cannot be drawn. The loss can be computed.");
@@ -55,16 +58,20 @@ impl Viewport {
             note(ui, area, text);
             return Vec::new();
         }
-        if let Err(problem) = shade(gpu, scenery) {
+        if let Err(problem) = self.shade(ui, gpu, scenery) {
             note(ui, area, &problem);
             return Vec::new();
         }
         let contents = scenery.contents();
         let grid = scenery.slots[0].loaded.material.grid();
         let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
-        let panes: Vec<(Content, Rect)> = contents.into_iter().zip(cells).collect();
+        let free = free_cell(area, &cells);
+        let mut panes: Vec<(Content, Rect)> = contents.into_iter().zip(cells).collect();
+        let extra = scenery.extra().zip(free);
+        self.shows_extra = extra.is_some();
+        panes.extend(extra);
         self.hovered = panes.iter().find_map(|(content, cell)| hovered(ui, scenery, *content, *cell));
-        if let Some(texel) = self.hovered.and_then(|hovered| grid.texel_at(hovered.point)) {
+        if let Some(texel) = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point)) {
             self.last_texel = Some(texel);
         }
         let mut commands = Vec::new();
@@ -78,7 +85,7 @@ impl Viewport {
         &mut self,
         ui: &mut egui::Ui,
         scenery: &Scenery<'_>,
-        gpu: &GpuView,
+        gpu: &mut GpuView,
         number: usize,
         content: Content,
         cell: Rect,
@@ -90,10 +97,13 @@ impl Viewport {
         self.pane_pixels = rect.size() * ui.pixels_per_point();
 
         let response = ui.interact(rect, ui.scope_id().with(("pane", number)), Sense::drag());
-        let label = format!("Pane {}", scenery.title(content.slot));
+        let label = match content.difference && !scenery.state.difference {
+            true => format!("Difference pane {}", scenery.title(content.slot)),
+            false => format!("Pane {}", scenery.title(content.slot)),
+        };
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
-        self.paint(ui, scenery, gpu, content, rect, camera);
+        self.paint(ui, scenery, gpu, number, content, rect, camera);
 
         let target = Target {
             rect,
@@ -112,7 +122,8 @@ impl Viewport {
         &self,
         ui: &egui::Ui,
         scenery: &Scenery<'_>,
-        gpu: &GpuView,
+        gpu: &mut GpuView,
+        number: usize,
         content: Content,
         rect: Rect,
         camera: Camera,
@@ -130,10 +141,12 @@ impl Viewport {
             encoding: state.quantity.into(),
             show_clipping: state.show_clipping,
             epsilon: state.convention().epsilon as f32,
+            tiled: state.tiled,
+            false_colour: state.false_colour,
             background: [background[0], background[1], background[2]],
         };
         let ids = [content.slot, content.reference].map(|i| scenery.slots[i].id);
-        gpu.paint(&painter, rect, ids, params);
+        gpu.paint(&painter, rect, number, ids, params);
         self.paint_marks(&painter, scenery, content, rect, &camera);
         if state.quantity == Quantity::Rendering {
             paint_handles(&painter, rect, &camera, state, scenery.view_handle);
@@ -144,6 +157,31 @@ impl Viewport {
         if let Some(text) = sight::hint(scenery, rect.width() / rect.height()) {
             paint_hint(&painter, rect, text);
         }
+    }
+
+    /// Shades every material in a pane; while something moves on a slow adapter, about one texel a pixel.
+    fn shade(&mut self, ui: &egui::Ui, gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
+        let state = scenery.state;
+        let convention = state.convention();
+        let params = ShadeParams { scene: state.scene, convention, quantity: state.quantity };
+        let (now, seconds) = ui.input(|i| (i.time, i.unstable_dt));
+        let in_part = self.pace.frame(params, now, seconds);
+        let stride = if in_part {
+            ui.ctx().request_repaint_after_secs(REST as f32 + 0.01);
+            let grid = scenery.slots[0].loaded.material.grid();
+            let pixels_per_texel = self.magnification(grid, state);
+            (pixels_per_texel.recip() as usize).clamp(1, 64)
+        } else {
+            1
+        };
+        let contents = scenery.contents();
+        gpu.keep_only(scenery.slots, contents.len() + 1);
+        for content in contents {
+            for index in [content.slot, content.reference] {
+                gpu.shade(&scenery.slots[index], params, stride)?;
+            }
+        }
+        Ok(())
     }
 
     /// What is drawn over a pane about texels.
@@ -158,6 +196,10 @@ impl Viewport {
         let grid = scenery.slots[0].loaded.material.grid();
         let placed = Placed { rect, camera, grid };
         let state = scenery.state;
+        if state.tiled {
+            // A texel is in four places.
+            return;
+        }
         if state.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (slot, difference) = (content.slot, content.difference);
             placed.paint_numbers(painter, |texel| {
@@ -165,7 +207,7 @@ impl Viewport {
             });
         }
         placed.paint_inspected(painter, scenery.inspect);
-        let texel = self.hovered.and_then(|hovered| grid.texel_at(hovered.point));
+        let texel = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point));
         if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
             placed.paint_crosshair(painter, texel);
         }
@@ -221,19 +263,6 @@ fn slot_at(content: Content, x: f32) -> usize {
         DisplayMode::Wipe(line) if x < line => content.reference,
         DisplayMode::Wipe(_) | DisplayMode::Value => content.slot,
     }
-}
-
-/// Shades every material in a pane.
-fn shade(gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
-    let state = scenery.state;
-    let params = ShadeParams { scene: state.scene, convention: state.convention(), quantity: state.quantity };
-    gpu.keep_only(scenery.slots);
-    for content in scenery.contents() {
-        for index in [content.slot, content.reference] {
-            gpu.shade(&scenery.slots[index], params)?;
-        }
-    }
-    Ok(())
 }
 
 fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState, view_handle: bool) {

@@ -38,6 +38,8 @@ impl App {
                 }
             }
             DisplayCommand::ToggleClipping => state.show_clipping = !state.show_clipping,
+            DisplayCommand::ToggleTiled => state.tiled = !state.tiled,
+            DisplayCommand::ToggleFalseColour => state.false_colour = !state.false_colour,
             DisplayCommand::SetWipe(at) => state.wipe = at.clamp(0.0, 1.0),
             DisplayCommand::ChoosePrediction(index) => {
                 if index < self.slots.predictions().len() {

@@ -94,6 +94,7 @@ impl App {
             WindowCommand::SetDark(on) => self.settings.dark = on,
             WindowCommand::SetScale(scale) => ctx.set_zoom_factor(scale),
             WindowCommand::ToggleSidePanel => *self.side_panel(ctx) ^= true,
+            WindowCommand::ToggleHistograms => self.settings.histograms = !self.settings.histograms,
             WindowCommand::ChooseTab(tab) => self.settings.tab = tab,
             WindowCommand::ShowHelp(on) => self.help = on,
             WindowCommand::DismissMessages => self.dismiss_messages(),

@@ -226,7 +226,7 @@ impl LegendStrip<'_> {
 }
 
 /// The logarithms of the counts as a line over `area`.
-fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
+pub(super) fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
     let log = |count: u64| (1.0 + count as f64).ln() as f32;
     let highest = histogram.counts.iter().map(|count| log(*count)).fold(f32::MIN_POSITIVE, f32::max);
     let step = area.width() / histogram.counts.len() as f32;
@@ -238,7 +238,7 @@ fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
 }
 
 /// A number in four significant digits, at least down to 0.0001.
-fn digits(value: f64) -> String {
+pub(super) fn digits(value: f64) -> String {
     match value.abs() {
         v if v >= 1e4 => format!("{value:.2e}"),
         v if v >= 100.0 => format!("{value:.1}"),

@@ -136,7 +136,8 @@ impl Results<'_> {
             let sign = if estimate.mean > 0.0 { "+" } else { "" };
             ui.label(RichText::new(format!("{sign}{mean}")).monospace().size(11.5))
                 .on_hover_text(format!("{interval}\n{}", self.in_full(estimate)));
-            ui.label(RichText::new(verdict.text()).color(colour)).on_hover_text(meaning);
+            ui.label(RichText::new(verdict.text()).monospace().size(11.5).color(colour))
+                .on_hover_text(meaning);
         });
     }
 

@@ -13,6 +13,7 @@ pub mod scene;
 pub mod status;
 pub mod study;
 pub mod top;
+pub mod values;
 pub mod why;
 
 use eframe::egui::{self, DragValue, Response, RichText};

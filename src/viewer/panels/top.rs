@@ -13,6 +13,8 @@ pub struct TopBar<'a> {
     pub dark: bool,
     pub side_panel: bool,
     pub swapped: bool,
+    /// Whether histograms of the values are shown.
+    pub histograms: bool,
     /// Size of text and controls.
     pub scale: f32,
     pub has_predictions: bool,
@@ -64,12 +66,34 @@ impl TopBar<'_> {
                 commands.push(DisplayCommand::ShowDifference(difference).into());
             }
         }
+        if !self.state.difference {
+            let histograms = ui
+                .selectable_label(self.histograms, "Histogram")
+                .on_hover_text("Histograms of the values, per channel, of every material (J)");
+            if histograms.clicked() {
+                commands.push(WindowCommand::ToggleHistograms.into());
+            }
+        }
         let perspective = self.state.projection == Projection::Perspective;
         let toggle = ui
             .selectable_label(perspective, "Perspective")
             .on_hover_text("The plane seen from the view position, or the flat texture (P)");
         if toggle.clicked() {
             commands.push(DisplayCommand::ToggleProjection.into());
+        }
+        let tiled = ui.selectable_label(self.state.tiled, "Tile").on_hover_text(
+            "Repeat the material 2 x 2 times, shifted by half of itself: shows its seams; for display only (T)",
+        );
+        if tiled.clicked() {
+            commands.push(DisplayCommand::ToggleTiled.into());
+        }
+        if self.state.quantity == Quantity::Roughness {
+            let colours = ui
+                .selectable_label(self.state.false_colour, "False colour")
+                .on_hover_text("Roughness from 0 (black) to 1 (light yellow) (V)");
+            if colours.clicked() {
+                commands.push(DisplayCommand::ToggleFalseColour.into());
+            }
         }
         let swap = ui.selectable_label(self.swapped, "Swap").on_hover_text(
             "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
