@@ -38,6 +38,11 @@ impl App {
             egui::Panel::bottom("messages")
                 .show(ui, |ui| commands.extend(panels::messages::ui(ui, self.message_list())));
         }
+        if !self.inspect.is_empty() && self.slots.ground_truth().is_some() {
+            bare(egui::Panel::bottom("drawer"), ui)
+                .resizable(false)
+                .show(ui, |ui| commands.extend(self.drawer(ui)));
+        }
         let shown = *self.side_panel(ui.ctx());
         let mut side_panel = shown;
         bare(egui::Panel::right("side"), ui)
@@ -46,9 +51,6 @@ impl App {
             .show_collapsible(ui, &mut side_panel, |ui| commands.extend(self.side(ui)));
         if side_panel != shown {
             commands.push(WindowCommand::ToggleSidePanel.into());
-        }
-        if !self.inspect.is_empty() && self.slots.ground_truth().is_some() {
-            bare(egui::Panel::bottom("drawer"), ui).show(ui, |ui| commands.extend(self.drawer(ui)));
         }
         if self.state.difference && !self.slots.predictions().is_empty() {
             bare(egui::Panel::bottom("legend"), ui).show(ui, |ui| commands.extend(self.legend(ui)));

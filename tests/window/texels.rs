@@ -47,7 +47,7 @@ fn wheel(window: &mut Window<'_>, at: Pos2, notches: f32) {
 
 /// Compares the readout with the colour on the screen at many pixels; returns how many lay on the material.
 fn check_readout(window: &mut Window<'_>, scale: f32, what: &str) -> usize {
-    let title = format!("Pane GROUND TRUTH  {}", window.state().names()[0]);
+    let title = format!("GROUND TRUTH  {}", window.state().names()[0]);
     let rect = pane(window, &title);
     hover(window, Pos2::ZERO);
     let picture = window.render().unwrap();
@@ -80,7 +80,7 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
             window.run_steps(2);
             for (notches, corner) in [(0.0, [0.5, 0.5]), (9.0, [0.1, 0.15]), (8.0, [0.93, 0.9])] {
                 press(&mut window, egui::Key::F);
-                let title = format!("Pane GROUND TRUTH  {}", window.state().names()[0]);
+                let title = format!("GROUND TRUTH  {}", window.state().names()[0]);
                 let rect = pane(&window, &title);
                 wheel(&mut window, rect.min + rect.size() * vec2(corner[0], corner[1]), notches);
                 let what = format!("scale {scale}, {projection:?}, {notches} notches");

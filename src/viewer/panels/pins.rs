@@ -27,15 +27,29 @@ pub struct Drawer<'a> {
 impl Drawer<'_> {
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
-        egui::ScrollArea::both().auto_shrink([false, true]).max_height(260.0).show(ui, |ui| {
-            if let Some(region) = self.inspect.region {
-                self.region(ui, region, &mut commands);
-            }
-            if !self.inspect.pins.is_empty() {
-                self.pins(ui, &mut commands);
-            }
-        });
+        let height = self.height();
+        egui::ScrollArea::both()
+            .auto_shrink([false, true])
+            .max_height(height)
+            .min_scrolled_height(height)
+            .show(ui, |ui| {
+                if let Some(region) = self.inspect.region {
+                    self.region(ui, region, &mut commands);
+                }
+                if !self.inspect.pins.is_empty() {
+                    self.pins(ui, &mut commands);
+                }
+            });
         commands
+    }
+
+    /// Of the contents, as far as the window has room for it.
+    fn height(&self) -> f32 {
+        const MOST: f32 = 260.0;
+        let pins = self.inspect.pins.len() * self.slots.len();
+        let pins = if pins > 0 { 50.0 + 21.0 * pins as f32 } else { 0.0 };
+        let region = if self.inspect.region.is_some() { 50.0 + 19.0 * self.slots.len() as f32 } else { 0.0 };
+        (pins + region + 14.0).min(MOST)
     }
 
     fn pins(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {

@@ -11,8 +11,10 @@ use crate::viewer::theme;
 
 /// Least width of the line, in points, in which the adapter is named.
 const WIDE: f32 = 1000.0;
+/// Width of the line, in points, below which its buttons have short names.
+const NARROW: f32 = 850.0;
 /// Characters of the texel's (column, row).
-const PLACE: usize = 11;
+const PLACE: usize = 9;
 
 /// What the line shows.
 #[derive(Debug)]
@@ -55,14 +57,16 @@ impl StatusBar<'_> {
     }
 
     fn buttons(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let rectangle = ui.selectable_label(self.armed, "Rectangle (Q)").on_hover_text(
-            "Statistics of a rectangle: the next left-drag draws it; on maps also Shift + left-drag",
+        let wide = ui.available_width() > NARROW;
+        let (rectangle, pin) = if wide { ("Rectangle (Q)", "Pin (I)") } else { ("Rect.", "Pin") };
+        let rectangle = ui.selectable_label(self.armed, rectangle).on_hover_text(
+            "Statistics of a rectangle: the next left-drag draws it (Q); on maps also Shift + left-drag",
         );
         if rectangle.clicked() {
             commands.push(InspectCommand::Arm(!self.armed).into());
         }
-        let pin = ui.button("Pin (I)").on_hover_text(
-            "Pin the texel that was last under the pointer: all its numbers in a table; also Alt + click",
+        let pin = ui.button(pin).on_hover_text(
+            "Pin the texel that was last under the pointer: all its numbers in a table (I); also Alt + click",
         );
         if pin.clicked() {
             commands.push(InspectCommand::TogglePinHere.into());

@@ -65,8 +65,10 @@ fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
     let mut window = by_scenes();
     start_a_long_one(&mut window);
     let error = |window: &Window<'_>| {
-        let first = window.query_all_by_label_contains("%").find_map(|node| node.value()).unwrap();
-        first.trim_start_matches("+-").trim_end_matches('%').parse::<f64>().unwrap()
+        let first = shown(window).swap_remove(0);
+        let ends: Vec<f64> =
+            first.trim_matches(['[', ']']).split(", ").map(|end| end.parse().unwrap()).collect();
+        100.0 * (ends[1] - ends[0]) / (ends[1] + ends[0])
     };
     let mut errors = Vec::new();
     for _ in 0..600 {

@@ -75,6 +75,8 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
         assert_eq!(window.state().state.prediction, expected);
     }
     assert!(window.query_by_label_contains("4  \u{2026}003").is_some(), "names end with what differs");
+    window.get_by_role(egui::accesskit::Role::TextInput).click();
+    window.run_steps(3);
     window.get_by_role(egui::accesskit::Role::TextInput).type_text("epoch_007");
     window.run_steps(4);
     assert!(window.query_by_label_contains("4  \u{2026}003").is_none());
