@@ -3,7 +3,7 @@
 use eframe::egui;
 use serde::{Deserialize, Serialize};
 
-use super::state::{self, Endpoint};
+use super::endpoint::{self, Endpoint};
 use crate::model::scene::{Kind, Scene};
 
 /// Radians per second at speed 1: a circle takes 6 seconds.
@@ -90,7 +90,7 @@ impl Animation {
         self.light = true;
         self.paused = false;
         self.reach = radius(scene, Endpoint::Light);
-        let [x, y] = state::over_plane(scene, Endpoint::Light);
+        let [x, y] = endpoint::over_plane(scene, Endpoint::Light);
         self.phase = if self.path == Path::Circle { y.atan2(x) } else { 0.0 };
     }
 
@@ -103,13 +103,13 @@ impl Animation {
         if self.light {
             self.phase = (self.phase + angle) % std::f64::consts::TAU;
             let at = self.path.at(self.phase, self.reach);
-            state::move_over_plane(scene, Endpoint::Light, at);
+            endpoint::move_over_plane(scene, Endpoint::Light, at);
         }
         if self.turntable {
-            let [x, y] = state::over_plane(scene, Endpoint::View);
+            let [x, y] = endpoint::over_plane(scene, Endpoint::View);
             let radius = radius(scene, Endpoint::View);
             let (sine, cosine) = (y.atan2(x) + angle).sin_cos();
-            state::move_over_plane(scene, Endpoint::View, [radius * cosine, radius * sine]);
+            endpoint::move_over_plane(scene, Endpoint::View, [radius * cosine, radius * sine]);
         }
     }
 
@@ -124,9 +124,9 @@ impl Animation {
 
 /// How far from the axis an endpoint is, and at least so far that its movement shows.
 fn radius(scene: &Scene, which: Endpoint) -> f64 {
-    let [x, y] = state::over_plane(scene, which);
+    let [x, y] = endpoint::over_plane(scene, which);
     let height = match scene.kind {
-        Kind::Near => state::endpoint(scene, which)[2],
+        Kind::Near => endpoint::endpoint(scene, which)[2],
         Kind::Distant => 1.0,
     };
     x.hypot(y).max(OFF_AXIS * height)
@@ -164,7 +164,7 @@ impl Preset {
             Self::Flash => scene.view,
             Self::Diagonal => [-0.5 * distance, 0.5 * distance, 0.5_f64.sqrt() * distance],
         };
-        state::set_endpoint(scene, Endpoint::Light, light);
+        endpoint::set_endpoint(scene, Endpoint::Light, light);
     }
 }
 

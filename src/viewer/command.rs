@@ -5,10 +5,11 @@
 use std::path::PathBuf;
 
 use super::animation::{Animation, Preset};
+use super::endpoint::Endpoint;
 use super::inspect::Region;
 use super::loss_settings::LossSettings;
 use super::settings::Tab;
-use super::state::{Endpoint, Layout};
+use super::state::Layout;
 use crate::files::read::ReadOptions;
 use crate::loss::Sampling;
 use crate::model::scene::{Kind, Scene};

@@ -3,9 +3,10 @@
 use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
 
 use super::command::{Command, DisplayCommand, InspectCommand, SceneCommand};
+use super::endpoint::{self, Endpoint};
 use super::handles::{self, REACH};
 use super::inspect::Region;
-use super::state::{self, Endpoint, Layout, Projection, ViewState};
+use super::state::{Layout, Projection, ViewState};
 use crate::material::Grid;
 use crate::model::scene::Kind;
 use crate::picture::camera::Camera;
@@ -99,7 +100,7 @@ impl Target<'_> {
     }
 
     fn over(&self, endpoint: Endpoint, pos: Pos2) -> bool {
-        let at = state::over_plane(&self.state.scene, endpoint);
+        let at = endpoint::over_plane(&self.state.scene, endpoint);
         handles::pos_from_plane(self.camera, self.rect, at).is_some_and(|(at, _)| at.distance(pos) <= REACH)
     }
 

@@ -41,6 +41,7 @@ mod panes;
 mod difference_run;
 mod differences;
 mod draw;
+mod endpoint;
 mod readout;
 mod save;
 mod scene_loss;

@@ -4,6 +4,7 @@ use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2, vec2};
 
 use super::cells::{TITLE, cells, free_cell, pixel_aligned};
 use super::command::Command;
+use super::endpoint::{self, Endpoint};
 use super::gestures::{self, Gesture, Target};
 use super::gpu_view::GpuView;
 use super::handles;
@@ -12,7 +13,7 @@ use super::pace::{Pace, REST};
 use super::panes::{Content, Hovered, Scenery};
 use super::readout;
 use super::sight;
-use super::state::{self, Endpoint, Projection, ViewState};
+use super::state::{Projection, ViewState};
 use super::theme;
 use super::title::title_bar;
 use crate::gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
@@ -269,12 +270,12 @@ fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &V
     if view_handle
         && state.projection == Projection::Flat
         && let Some((at, outside)) =
-            handles::pos_from_plane(camera, rect, state::over_plane(&state.scene, Endpoint::View))
+            handles::pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, Endpoint::View))
     {
         handles::paint_eye(painter, at, outside);
     }
     if let Some((at, outside)) =
-        handles::pos_from_plane(camera, rect, state::over_plane(&state.scene, Endpoint::Light))
+        handles::pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, Endpoint::Light))
     {
         handles::paint_sun(painter, at, outside);
     }

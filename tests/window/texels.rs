@@ -91,6 +91,36 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
 }
 
 #[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(numbered(folder.path()));
+    window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    press(&mut window, egui::Key::T);
+    assert!(window.state().state.tiled);
+    assert!(check_readout(&mut window, 1.0, "tiled") > 20);
+    let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
+    hover(&mut window, rect.center() + vec2(1.0, 1.0));
+    // Its corner is in the middle of a quarter: half of it lies left of and above each seam.
+    let [column, row] = texel_read(&window).unwrap();
+    assert_eq!([column, row], [24, 10], "the middle of the picture is the middle of a repeated one");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn roughness_in_false_colours_has_the_colour_of_its_value() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(numbered(folder.path()));
+    window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Roughness;
+    press(&mut window, egui::Key::V);
+    let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
+    let picture = pixels(&mut window, rect);
+    let found = picture.get_pixel(picture.width() / 3, picture.height() / 2).0;
+    let expected = svbrdf::picture::colour_map::heat(100.0 / 255.0).map(|c| (c * 255.0).round() as u8);
+    assert!((0..3).all(|c| found[c].abs_diff(expected[c]) <= 1), "{found:?}, expected {expected:?}");
+}
+
+#[test]
 fn the_colours_of_texels_are_told_apart() {
     assert_eq!(texel_of([4, 4, 9]), Some([0, 0]));
     assert_eq!(texel_of([4 + 5 * 47, 4 + 12 * 19, 9]), Some([47, 19]));

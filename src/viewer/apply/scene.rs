@@ -5,21 +5,23 @@ use eframe::egui;
 use crate::model::scene::{Scene, SceneFile};
 use crate::viewer::app::App;
 use crate::viewer::command::SceneCommand;
+use crate::viewer::endpoint;
 use crate::viewer::message::{Message, PasteProblem};
-use crate::viewer::state;
 
 impl App {
     pub(super) fn apply_to_scene(&mut self, ctx: &egui::Context, command: SceneCommand) {
         let scene = &mut self.state.scene;
         match command {
             SceneCommand::Set(new) => *scene = new,
-            SceneCommand::SetKind(kind) => state::set_kind(scene, kind),
-            SceneCommand::MoveOverPlane(endpoint, at) => state::move_over_plane(scene, endpoint, at),
-            SceneCommand::PutHighlight(at) => state::put_highlight(scene, at),
-            SceneCommand::ScaleHeight(endpoint, factor) => state::scale_height(scene, endpoint, factor),
-            SceneCommand::ScaleDistance(endpoint, factor) => state::scale_distance(scene, endpoint, factor),
+            SceneCommand::SetKind(kind) => endpoint::set_kind(scene, kind),
+            SceneCommand::MoveOverPlane(endpoint, at) => endpoint::move_over_plane(scene, endpoint, at),
+            SceneCommand::PutHighlight(at) => endpoint::put_highlight(scene, at),
+            SceneCommand::ScaleHeight(endpoint, factor) => endpoint::scale_height(scene, endpoint, factor),
+            SceneCommand::ScaleDistance(endpoint, factor) => {
+                endpoint::scale_distance(scene, endpoint, factor)
+            }
             SceneCommand::Orbit { endpoint, sideways, upwards } => {
-                state::orbit(scene, endpoint, sideways, upwards);
+                endpoint::orbit(scene, endpoint, sideways, upwards);
             }
             SceneCommand::ToggleHighlightFollows => {
                 self.settings.highlight_follows = !self.settings.highlight_follows;

@@ -6,8 +6,9 @@ use crate::model::convention;
 use crate::model::scene::{Kind, Scene};
 use crate::viewer::animation::{Animation, Path, Preset};
 use crate::viewer::command::{Command, SceneCommand};
+use crate::viewer::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
 use crate::viewer::settings::Settings;
-use crate::viewer::state::{Endpoint, FARTHEST, LOWEST, ViewState, endpoint, set_endpoint};
+use crate::viewer::state::ViewState;
 
 /// What the section shows.
 #[derive(Debug)]

@@ -57,7 +57,7 @@ impl StatusBar<'_> {
     }
 
     fn buttons(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let wide = ui.available_width() > NARROW;
+        let wide = ui.ctx().content_rect().width() > NARROW;
         let (rectangle, pin) = if wide { ("Rectangle (Q)", "Pin (I)") } else { ("Rect.", "Pin") };
         let rectangle = ui.selectable_label(self.armed, rectangle).on_hover_text(
             "Statistics of a rectangle: the next left-drag draws it (Q); on maps also Shift + left-drag",
@@ -75,11 +75,13 @@ impl StatusBar<'_> {
 
     /// The texel, then one column for each material whose numbers fit, the ground truth first.
     fn columns(&self, ui: &mut egui::Ui) {
+        let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 10.5 };
+        let font = egui::FontId::monospace(size);
         let place = match self.texel {
             Some([column, row]) => format!("{column},{row}"),
             None => "-".to_owned(),
         };
-        let mono = |text: String| RichText::new(text).monospace();
+        let mono = |text: String| RichText::new(text).font(font.clone());
         ui.label(mono(format!("texel {place:<PLACE$}")));
         ui.label(mono(magnification(self.magnification)).weak())
             .on_hover_text("Magnification: screen pixels per texel");
