@@ -9,6 +9,7 @@ use super::endpoint::Endpoint;
 use super::inspect::Region;
 use super::loss_settings::LossSettings;
 use super::settings::Tab;
+use super::source::Source;
 use super::state::Layout;
 use crate::files::read::ReadOptions;
 use crate::loss::Sampling;
@@ -37,6 +38,8 @@ pub enum MaterialsCommand {
         replace: bool,
         read: ReadOptions,
     },
+    /// Opens a prediction that was refused or closed.
+    OpenAgain(Box<Source>),
     OpenBuiltIn,
     /// Reads all files again.
     Reload,
@@ -174,6 +177,8 @@ pub enum WindowCommand {
     ToggleHistograms,
     ChooseTab(Tab),
     ShowHelp(bool),
+    /// Dismisses the message of this number.
+    DismissMessage(usize),
     DismissMessages,
 }
 

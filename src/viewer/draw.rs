@@ -34,10 +34,6 @@ impl App {
         let mut commands = Vec::new();
         bare(egui::Panel::top("top"), ui).show(ui, |ui| commands.extend(self.top(ui)));
         bare(egui::Panel::bottom("status"), ui).show(ui, |ui| commands.extend(self.status(ui)));
-        if !self.message_list().is_empty() {
-            egui::Panel::bottom("messages")
-                .show(ui, |ui| commands.extend(panels::messages::ui(ui, self.message_list())));
-        }
         if !self.inspect.is_empty() && self.slots.ground_truth().is_some() {
             bare(egui::Panel::bottom("drawer"), ui)
                 .resizable(false)
@@ -58,7 +54,9 @@ impl App {
         if self.settings.histograms && !self.state.difference && self.slots.ground_truth().is_some() {
             bare(egui::Panel::bottom("values"), ui).show(ui, |ui| self.values(ui));
         }
+        let area = ui.available_rect_before_wrap();
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
+        commands.extend(panels::messages::ui(ui.ctx(), area, &self.messages));
         commands.extend(self.windows(ui.ctx()));
         commands
     }

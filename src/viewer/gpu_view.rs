@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use eframe::{egui, egui_wgpu, wgpu};
 
-use super::slots::Slot;
+use super::slot::Slot;
 use crate::error::Error;
 use crate::gpu::{Blit, Display, DisplayParams, Gpu, ShadeParams, Shaded, Shading, Still};
 

@@ -1,7 +1,7 @@
 //! Which panes there are, and what each shows.
 
 use super::inspect::Inspect;
-use super::slots::Slot;
+use super::slot::Slot;
 use super::state::{Layout, ViewState};
 use crate::gpu::DisplayMode;
 use crate::material::Grid;
@@ -96,7 +96,9 @@ impl Scenery<'_> {
 
     /// The name of slot `index` as titles give it.
     pub fn title(&self, index: usize) -> String {
-        let name = self.slots[index].name();
+        let slot = &self.slots[index];
+        let mark = if slot.problem.is_some() { "  (stale)" } else { "" };
+        let name = format!("{}{mark}", slot.name());
         if index == 0 { format!("GROUND TRUTH  {name}") } else { format!("{index}  {name}") }
     }
 }

@@ -1,6 +1,6 @@
 //! Numbers of texels as text, in columns that do not move.
 
-use super::slots::Slot;
+use super::slot::Slot;
 use super::state::ViewState;
 use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;

@@ -9,6 +9,7 @@ mod gestures;
 mod key_presses;
 mod loss_panel;
 mod panels;
+mod reading;
 mod study;
 mod texels;
 mod view;
@@ -45,7 +46,7 @@ fn scaled_window<'a>(options: ViewerOptions, scale: f32) -> Window<'a> {
         .build_eframe(|cc| App::new(cc, options));
     window.set_render_cursor(false);
     wait(&mut window, "the materials to be read", |app| {
-        !app.names().is_empty() || !app.messages().is_empty()
+        !app.is_reading() && (!app.names().is_empty() || !app.messages().is_empty())
     });
     window
 }

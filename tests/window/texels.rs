@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use svbrdf::files::read::{Albedo, ReadOptions};
 use svbrdf::viewer::state::Projection;
 
 use super::*;
@@ -19,13 +20,23 @@ fn numbered(folder: &Path) -> ViewerOptions {
     save("diffuse.png", &|x, y| [5 * x as u8 + 4, 12 * y as u8 + 4, 9]);
     save("specular.png", &|_, _| [10, 10, 10]);
     save("roughness.png", &|_, _| [100, 100, 100]);
-    ViewerOptions { ground_truth: Some(folder.to_owned()), ..ViewerOptions::default() }
+    let read = ReadOptions { albedo: Some(Albedo::Linear), ..ReadOptions::AUTO };
+    ViewerOptions {
+        ground_truth: Some(folder.to_owned()),
+        ground_truth_read: read,
+        ..ViewerOptions::default()
+    }
 }
 
 /// The texel whose colour this is; `None` for the background.
 fn texel_of([red, green, blue]: [u8; 3]) -> Option<[usize; 2]> {
-    let (x, y) = (usize::from(red.wrapping_sub(4)), usize::from(green.wrapping_sub(4)));
-    (blue.abs_diff(9) <= 1 && x % 5 == 0 && y % 12 == 0).then_some([x / 5, y / 12])
+    // The map is linear, the screen sRGB.
+    let shown = |value: usize| (255.0 * crate::pictures::srgb(value as f64 / 255.0)).round() as u8;
+    let find = |count: u32, step: usize, seen: u8| {
+        (0..count as usize).find(|i| shown(step * i + 4).abs_diff(seen) <= 1)
+    };
+    let is_background = blue.abs_diff(shown(9)) > 1;
+    if is_background { None } else { Some([find(SIZE[0], 5, red)?, find(SIZE[1], 12, green)?]) }
 }
 
 fn hover(window: &mut Window<'_>, at: Pos2) {
@@ -122,10 +133,14 @@ fn roughness_in_false_colours_has_the_colour_of_its_value() {
 
 #[test]
 fn the_colours_of_texels_are_told_apart() {
-    assert_eq!(texel_of([4, 4, 9]), Some([0, 0]));
-    assert_eq!(texel_of([4 + 5 * 47, 4 + 12 * 19, 9]), Some([47, 19]));
+    let shown = |value: u8| (255.0 * crate::pictures::srgb(f64::from(value) / 255.0)).round() as u8;
+    for row in 0..20_u8 {
+        for column in 0..48_u8 {
+            let texel = texel_of([shown(5 * column + 4), shown(12 * row + 4), shown(9)]);
+            assert_eq!(texel, Some([usize::from(column), usize::from(row)]));
+        }
+    }
     assert_eq!(texel_of([0x4b; 3]), None);
-    assert_eq!(texel_of([5, 4, 9]), None);
 }
 
 #[test]
@@ -163,12 +178,14 @@ fn a_texel_is_pinned_by_key_and_by_click_and_its_numbers_are_in_the_drawer() {
     let rough = rough.texel(first[1] * rough.width() + first[0]).roughness;
     assert!(window.query_all_by_label(&format!("{rough:8.4}")).next().is_some());
     let before = window.state().state.scene;
+    // The drawer has moved the panes.
+    window.run_steps(8);
     let rect = pane(&window, GROUND_TRUTH);
+    hover(&mut window, rect.min + rect.size() * vec2(0.6, 0.6));
+    let [column, row] = texel_read(&window).unwrap();
     window.event(egui::Event::ModifiersChanged(egui::Modifiers::ALT));
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.6, 0.6), vec2(0.6, 0.6));
     window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
-    hover(&mut window, rect.min + rect.size() * vec2(0.6, 0.6));
-    let [column, row] = texel_read(&window).unwrap();
     window.get_by_label(&format!("2: {column},{row}"));
     assert_eq!(window.state().state.scene, before, "the click moves no light");
     window.get_by_label("Remove all pins").click();

@@ -7,7 +7,7 @@ use crate::picture::statistics::Statistics;
 use crate::viewer::command::{Command, InspectCommand};
 use crate::viewer::inspect::{self, HEADS, Inspect, Region, RegionNumbers};
 use crate::viewer::readout::fixed;
-use crate::viewer::slots::Slot;
+use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
 use crate::viewer::theme;
 

@@ -5,7 +5,7 @@ use eframe::egui::{self, RichText};
 use crate::gpu::AdapterReport;
 use crate::viewer::command::{Command, InspectCommand};
 use crate::viewer::readout;
-use crate::viewer::slots::Slot;
+use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
 use crate::viewer::theme;
 
@@ -88,9 +88,8 @@ impl StatusBar<'_> {
         for index in self.order() {
             let name = if index == 0 { "gt".to_owned() } else { index.to_string() };
             let text = format!("{name} {}", self.numbers(index));
-            let width = ui
-                .fonts_mut(|fonts| fonts.glyph_width(&egui::TextStyle::Monospace.resolve(ui.style()), 'm'))
-                * text.chars().count() as f32;
+            let glyph = ui.fonts_mut(|fonts| fonts.glyph_width(&font, 'm'));
+            let width = glyph * text.chars().count() as f32;
             if ui.available_width() < width + 12.0 {
                 break;
             }
