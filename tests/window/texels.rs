@@ -89,7 +89,8 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
             window.state_mut().state.projection = projection;
             window.state_mut().state.scene.view = [0.7, -0.9, 2.0];
             window.run_steps(2);
-            for (notches, corner) in [(0.0, [0.5, 0.5]), (9.0, [0.1, 0.15]), (8.0, [0.93, 0.9])] {
+            // Not so far that the numbers of texels are drawn on them.
+            for (notches, corner) in [(0.0, [0.5, 0.5]), (5.0, [0.1, 0.15]), (5.0, [0.93, 0.9])] {
                 press(&mut window, egui::Key::F);
                 let title = format!("GROUND TRUTH  {}", window.state().names()[0]);
                 let rect = pane(&window, &title);
