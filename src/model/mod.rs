@@ -17,4 +17,5 @@ pub mod brdf;
 pub mod convention;
 pub mod sampler;
 pub mod scene;
+pub mod scene_file;
 pub mod terms;
