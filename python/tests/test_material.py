@@ -66,6 +66,9 @@ def test_shapes_types_and_values_are_checked_by_the_name_of_the_map() -> None:
     )
     refused(svbrdf.Error, "specular map, column 0, row 1: .* found 1.5", specular=high)
     refused(svbrdf.Error, "normal map, column 4, row 3: .* some length", normal=dark)
+    large = maps(200, 200)
+    large["diffuse"][170, 3, 1] = large["diffuse"][180, 2, 1] = -1
+    refused(svbrdf.Error, "diffuse map, column 3, row 170: .* found -1", **large)
     refused(svbrdf.Error, "material is not a material: expected at least one texel", **maps(0, 0))
 
 

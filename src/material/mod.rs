@@ -208,6 +208,9 @@ fn check_sizes<T>(name: &str, width: usize, height: usize, planes: &Planes<T>) -
     Ok(())
 }
 
+/// Texels that are checked in one go.
+const CHUNK: usize = 1 << 13;
+
 fn check_range<T: Real>(
     name: &str,
     map: &'static str,
@@ -215,7 +218,12 @@ fn check_range<T: Real>(
     place: impl Fn(usize) -> (usize, usize),
 ) -> Result<(), Error> {
     let valid = |x: &T| *x >= T::zero() && *x <= T::one();
-    match plane.par_iter().position_first(|x| !valid(x)) {
+    // Without an early exit, a chunk is checked in vectors.
+    let are_valid = |chunk: &[T]| chunk.iter().fold(true, |so_far, x| so_far & valid(x));
+    let first = plane.par_chunks(CHUNK).enumerate().filter(|(_, chunk)| !are_valid(chunk)).find_map_first(
+        |(number, chunk)| chunk.iter().position(|x| !valid(x)).map(|offset| number * CHUNK + offset),
+    );
+    match first {
         None => Ok(()),
         Some(index) => {
             let (column, row) = place(index);
@@ -236,7 +244,6 @@ fn normalize_normals<T: Real>(
     normal: &mut [Vec<T>; 3],
     place: impl Fn(usize) -> (usize, usize),
 ) -> Result<(), Error> {
-    const CHUNK: usize = 1 << 13;
     let [xs, ys, zs] = normal;
     let chunks = xs.par_chunks_mut(CHUNK).zip(ys.par_chunks_mut(CHUNK)).zip(zs.par_chunks_mut(CHUNK));
     let none = chunks.enumerate().find_map_first(|(number, ((xs, ys), zs))| {
