@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use svbrdf::loss::{Sampling, Texels};
 use svbrdf::model::convention::{self, Convention};
-use svbrdf::model::scene::{self, Kind, Scene};
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::model::scene_file;
 
 use crate::errors::{Error, exception};
 
@@ -102,6 +103,6 @@ pub fn sample_scenes(
 /// The scenes of a scene file.
 #[pyfunction]
 pub fn read_scenes(path: PathBuf) -> PyResult<Vec<SceneTuple>> {
-    let scenes = scene::read(&path).map_err(exception)?;
+    let scenes = scene_file::read(&path).map_err(exception)?;
     Ok(scenes.iter().map(SceneTuple::from).collect())
 }
