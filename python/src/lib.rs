@@ -4,6 +4,7 @@
 //! `svbrdf` beside it is the interface for users. It checks shapes and types and gives results their classes.
 
 mod arrays;
+mod blame;
 mod errors;
 mod loss;
 mod material;
@@ -26,5 +27,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(model::sample_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(model::read_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(loss::loss, module)?)?;
+    module.add_function(wrap_pyfunction!(blame::blame, module)?)?;
     Ok(())
 }

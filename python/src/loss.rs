@@ -8,6 +8,7 @@ use svbrdf::loss::{Comparison, Compute, Estimate, Loss, Precision, Request, Samp
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::Kind;
+use svbrdf::rank::{self, Place};
 use svbrdf::report::Report;
 
 use crate::errors::exception;
@@ -35,7 +36,19 @@ pub struct Asked {
 }
 
 impl Asked {
-    fn request(&self) -> PyResult<Request> {
+    /// The convention of its name.
+    ///
+    /// # Errors
+    /// Where there is none.
+    pub fn convention(&self) -> PyResult<Convention> {
+        self.convention.parse().map_err(exception)
+    }
+
+    /// The request.
+    ///
+    /// # Errors
+    /// Where a word is none of the known ones.
+    pub fn request(&self) -> PyResult<Request> {
         let seed = self.seed;
         if let Some(scenes) = &self.scenes {
             return Ok(Request::Listed(scenes.iter().map(SceneTuple::scene).collect::<PyResult<_>>()?));
@@ -97,6 +110,8 @@ pub struct ReportItems {
     results: Vec<LossItems>,
     differences: Vec<DifferenceItems>,
     scenes: Vec<SceneTuple>,
+    /// Best first: the index of the result, the difference to the best, the group.
+    places: Vec<(usize, Option<DifferenceItems>, usize)>,
     text: String,
 }
 
@@ -109,7 +124,7 @@ pub fn loss(
     asked: Asked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<ReportItems> {
-    let convention = asked.convention.parse().map_err(exception)?;
+    let convention = asked.convention()?;
     let request = asked.request()?;
     let run = Run { request: &request, convention, names: &asked.names };
     let materials = std::iter::once(ground_truth).chain(predictions.iter().map(|p| &**p));
@@ -120,13 +135,14 @@ pub fn loss(
 }
 
 /// A material in the precision of the loss: a copy only where it is in the other one.
-enum Held<'a, T> {
+pub enum Held<'a, T> {
     Borrowed(&'a Material<T>),
     Cast(Material<T>),
 }
 
 impl<'a> Held<'a, f32> {
-    fn of(material: &'a CoreMaterial) -> Self {
+    /// `material`, in this precision.
+    pub fn of(material: &'a CoreMaterial) -> Self {
         match &material.0 {
             Stored::F32(single) => Self::Borrowed(single),
             Stored::F64(_) => Self::Cast(material.single()),
@@ -135,7 +151,8 @@ impl<'a> Held<'a, f32> {
 }
 
 impl<'a> Held<'a, f64> {
-    fn of(material: &'a CoreMaterial) -> Self {
+    /// `material`, in this precision.
+    pub fn of(material: &'a CoreMaterial) -> Self {
         match &material.0 {
             Stored::F64(double) => Self::Borrowed(double),
             Stored::F32(_) => Self::Cast(material.double()),
@@ -144,7 +161,8 @@ impl<'a> Held<'a, f64> {
 }
 
 impl<T> Held<'_, T> {
-    fn get(&self) -> &Material<T> {
+    /// The material.
+    pub fn get(&self) -> &Material<T> {
         match self {
             Self::Borrowed(material) => material,
             Self::Cast(material) => material,
@@ -175,6 +193,8 @@ impl Run<'_> {
 
 fn items(report: &Report) -> ReportItems {
     let outcome = &report.outcome;
+    let places = rank::places(outcome);
+    let best = places.first().map_or(0, |place| place.index);
     let interval = |e: &Estimate| e.interval95.map(|[low, high]| (low, high));
     let of_loss = |loss: &Loss| LossItems {
         prediction: loss.prediction.clone(),
@@ -183,12 +203,18 @@ fn items(report: &Report) -> ReportItems {
         interval95: interval(&loss.estimate),
         losses: loss.per_scene.clone(),
     };
-    let of_difference = |(loss, estimate): (&Loss, Estimate)| DifferenceItems {
+    let of_difference = |loss: &Loss, to: &Loss, estimate: Estimate| DifferenceItems {
         prediction: loss.prediction.clone(),
-        to: outcome.losses[0].prediction.clone(),
+        to: to.prediction.clone(),
         difference: estimate.mean,
         standard_error: estimate.standard_error,
         interval95: interval(&estimate),
+    };
+    let of_place = |place: Place| {
+        let to_best = place
+            .to_best
+            .map(|estimate| of_difference(&outcome.losses[place.index], &outcome.losses[best], estimate));
+        (place.index, to_best, place.group)
     };
     ReportItems {
         ground_truth: report.ground_truth.clone(),
@@ -205,8 +231,13 @@ fn items(report: &Report) -> ReportItems {
         interval95_from: outcome.interval_source().to_string(),
         relative_error95: outcome.relative_error95(),
         results: outcome.losses.iter().map(of_loss).collect(),
-        differences: report.differences().into_iter().map(of_difference).collect(),
+        differences: report
+            .differences()
+            .into_iter()
+            .map(|(loss, e)| of_difference(loss, &outcome.losses[0], e))
+            .collect(),
         scenes: outcome.scenes.iter().map(SceneTuple::from).collect(),
+        places: places.into_iter().map(of_place).collect(),
         text: report.text(),
     }
 }

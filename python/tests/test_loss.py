@@ -96,6 +96,28 @@ def test_a_report_has_losses_intervals_and_differences() -> None:
     assert report.scenes == tuple(svbrdf.sample_scenes(8, 4, seed=3))
 
 
+def test_the_blame_is_that_of_the_command_line_and_adds_up(program: str) -> None:
+    command = [program, "blame", "--target-error", "5%", "--format", "json"]
+    expected = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["attributions"]
+    ground_truth, *predictions = svbrdf.built_in()
+    for prediction, entry in zip(predictions, expected, strict=True):
+        got = svbrdf.blame(ground_truth, prediction, target_error=0.05)
+        assert got.loss.mean == entry["loss"]["mean"]
+        assert [share.shapley.mean for share in got.maps] == [share["shapley"]["mean"] for share in entry["maps"]]
+        assert sum(share.shapley.mean for share in got.maps) == pytest.approx(got.loss.mean, rel=1e-12)
+
+
+def test_a_ranking_is_by_loss_in_groups_that_the_data_separate() -> None:
+    ground_truth, blurred, rough = svbrdf.built_in()
+    ranked = svbrdf.rank(ground_truth, [blurred, rough, blurred], target_error=0.05)
+    assert [place.index for _, place in ranked] == [1, 0, 2]
+    assert [place.group for _, place in ranked] == [1, 2, 2]
+    assert ranked[0][1].to_best is None
+    difference = ranked[1][1].to_best
+    assert difference is not None
+    assert difference.difference == pytest.approx(ranked[1][0].loss - ranked[0][0].loss, rel=1e-9)
+
+
 def test_listed_scenes_give_the_losses_of_the_sampled_ones() -> None:
     ground_truth, prediction, _ = svbrdf.built_in()
     sampled = svbrdf.loss(ground_truth, prediction, seed=5)

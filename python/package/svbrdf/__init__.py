@@ -14,8 +14,9 @@ compares renderings of predictions with renderings of the ground truth in sample
 The numbers are those of the command line `svbrdf loss`, bit for bit. `svbrdf.torch` has the same loss for training.
 """
 
+from ._blame import Attribution, Estimate, MapShare, blame
 from ._core import Error, __version__
-from ._loss import Difference, Loss, LossReport, loss
+from ._loss import Difference, Loss, LossReport, Place, loss, rank
 from ._material import Assumption, AssumptionWarning, Material, built_in, read, write
 from ._scenes import CONVENTIONS, Convention, Scene, read_scenes, render, sample_scenes
 from ._show import show
@@ -24,16 +25,22 @@ __all__ = [
     "CONVENTIONS",
     "Assumption",
     "AssumptionWarning",
+    "Attribution",
     "Convention",
     "Difference",
     "Error",
+    "Estimate",
     "Loss",
     "LossReport",
+    "MapShare",
     "Material",
+    "Place",
     "Scene",
     "__version__",
+    "blame",
     "built_in",
     "loss",
+    "rank",
     "read",
     "read_scenes",
     "render",

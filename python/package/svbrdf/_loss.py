@@ -45,6 +45,18 @@ class Difference:
     interval95: tuple[float, float] | None
 
 
+@dataclass(frozen=True)
+class Place:
+    """A prediction in a ranking."""
+
+    index: int
+    """The index of its result."""
+    to_best: Difference | None
+    """Its loss minus that of the best prediction, in the same scenes; None for the best."""
+    group: int
+    """From 1. Predictions of one group are not separated from its first at 95% confidence."""
+
+
 @dataclass(frozen=True, repr=False)
 class LossReport:
     """Losses with the settings that they depend on. The `repr` is the table of the command line."""
@@ -76,6 +88,8 @@ class LossReport:
     """One per prediction but the first."""
     scenes: tuple[Scene, ...] | None
     """None where an accuracy or a time decided how many there are: `svbrdf.sample_scenes` gives them."""
+    places: tuple[Place, ...]
+    """The predictions, smallest loss first."""
     text: str
     """The table of the command line."""
 
@@ -87,7 +101,7 @@ class LossReport:
     def to_dict(self) -> dict[str, Any]:
         """The report as the command line's JSON has it: numbers, words, lists and dictionaries."""
         values = asdict(self)
-        del values["text"]
+        del values["text"], values["places"]
         if self.scenes is not None:
             values["scenes"] = [scene._asdict() for scene in self.scenes]
         return values
@@ -144,7 +158,7 @@ def loss(
         svbrdf.Error: A material or a scene cannot be used, the sizes differ, or an option has no such value.
         TypeError, ValueError: An argument has a wrong type, or a number that makes no sense.
     """
-    _check(target_error, time_budget, scenes)
+    check_goals(target_error, time_budget, scenes)
     if isinstance(predictions, Material | str | os.PathLike):
         predictions = [predictions]
     if not predictions:
@@ -171,7 +185,32 @@ def loss(
     return _report(items, gt, others, target_error, lists_scenes=target_error is None and time_budget is None)
 
 
-def _check(target_error: float | None, time_budget: float | None, scenes: object) -> None:
+def rank(
+    ground_truth: Material | Source,
+    predictions: Sequence[Material | Source],
+    *,
+    target_error: float = 0.01,
+    seed: int = 0,
+    convention: str = "printed",
+    progress: bool | Report = False,
+) -> list[tuple[Loss, Place]]:
+    """The predictions of one ground truth, smallest loss first, with what the data can separate.
+
+    >>> import svbrdf
+    >>> ground_truth, *predictions = svbrdf.built_in()
+    >>> [(loss.prediction, place.group) for loss, place in svbrdf.rank(ground_truth, predictions)]
+    [('wrong roughness', 1), ('blurred normals', 2)]
+
+    Args and errors are those of `svbrdf.loss`.
+    """
+    report = loss(
+        ground_truth, predictions, target_error=target_error, seed=seed, convention=convention, progress=progress
+    )
+    return [(report.results[place.index], place) for place in report.places]
+
+
+def check_goals(target_error: float | None, time_budget: float | None, scenes: object) -> None:
+    """Whether at most one goal decides the scenes, and makes sense."""
     given = {"target_error": target_error, "time_budget": time_budget, "scenes": scenes}
     named = [name for name, value in given.items() if value is not None]
     if len(named) > 1:
@@ -212,6 +251,10 @@ def _report(
     listed = items.pop("scenes")
     scenes = tuple(scenes_of(listed)) if lists_scenes else None
     texels = items.pop("texels")
+    places = [
+        Place(index, None if to_best is None else Difference(**to_best), group)
+        for index, to_best, group in items.pop("places")
+    ]
     report = LossReport(
         **{**items, "differences": tuple(Difference(**values) for values in items["differences"])},
         ground_truth_path=ground_truth.path,
@@ -219,6 +262,7 @@ def _report(
         target_error=target_error,
         target_reached=reached,
         results=tuple(results),
+        places=tuple(places),
         scenes=scenes,
     )
     if reached is False:
