@@ -251,7 +251,7 @@ impl Reason {
             Self::Curl(None) => f.write_str("the map has no slopes to tell from"),
             Self::Curl(Some(curl)) => write!(f, "the curl correlation is {curl:+.2}"),
             Self::CurlDown(curl) => {
-                write!(f, "the curl correlation is {curl:+.2}, which no surface with y up has")
+                write!(f, "the curl correlation is {curl:+.2}, as of maps with y down")
             }
             Self::MostMapsUp(curl) => {
                 write!(f, "most maps point up; the curl correlation is {curl:+.2}")

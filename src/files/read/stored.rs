@@ -77,6 +77,8 @@ pub type Inferred<T> = Option<(T, Reason, Certainty)>;
 #[derive(Debug)]
 pub struct StoredMaterial {
     pub name: String,
+    /// (width, height) of the largest picture, also of one whose map is a constant.
+    pub extent: [usize; 2],
     pub normal: Option<StoredMap>,
     /// Diffuse, or the base colour where there is `metallic`.
     pub colour: StoredMap,
@@ -97,11 +99,19 @@ pub struct StoredMaterial {
 #[derive(Debug, Default)]
 pub struct Pictures {
     all: Vec<(Role, StoredMap)>,
+    extent: [usize; 2],
 }
 
 impl Pictures {
     pub fn add(&mut self, role: Role, source: StoredMap) {
         self.all.push((role, source));
+    }
+
+    /// Records a picture of `size` whose map may be a constant: the material is not smaller.
+    pub fn record_size(&mut self, size: [usize; 2]) {
+        if size[0] * size[1] > self.extent[0] * self.extent[1] {
+            self.extent = size;
+        }
     }
 
     pub fn has(&self, role: Role) -> bool {
@@ -223,6 +233,7 @@ impl Pictures {
         assumptions.push(workflow(chosen, specular.is_some(), is_ambiguous, options));
         Ok(StoredMaterial {
             name,
+            extent: self.extent,
             normal,
             colour,
             specular,
@@ -301,7 +312,7 @@ impl StoredMaterial {
         let Some((largest_whose, _, largest)) = all.iter().max_by_key(|(.., size)| size[0] * size[1]) else {
             return Ok([0; 2]);
         };
-        let [width, height] = *largest;
+        let [width, height] = larger(*largest, self.extent);
         let mut smaller = Vec::new();
         for (whose, role, size) in &all {
             // A single value has every shape.
@@ -316,7 +327,7 @@ impl StoredMaterial {
                     second_size: *size,
                 });
             }
-            if size != largest {
+            if *size != [width, height] {
                 smaller.push((*role, *size));
             }
         }
@@ -327,4 +338,11 @@ impl StoredMaterial {
         }
         Ok([width, height])
     }
+}
+
+/// The larger of the `size` of maps and the `extent` of a picture that is none of them, where both have one shape. A
+/// single value has every shape.
+fn larger(size: [usize; 2], extent: [usize; 2]) -> [usize; 2] {
+    let is_shaped_so = size == [1, 1] || size[0] * extent[1] == size[1] * extent[0];
+    if is_shaped_so && extent[0] > size[0] { extent } else { size }
 }

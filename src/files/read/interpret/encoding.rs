@@ -111,11 +111,14 @@ fn mirror<T: Real>(planes: &mut Planes<T>, width: usize) {
 
 /// How diffuse is stored, and how specular is by the evidence of both, where nothing else tells.
 fn albedo(found: &mut StoredMaterial, options: &ReadOptions) -> (Albedo, Inferred<Albedo>) {
-    let weighed = found.specular.as_ref().map(|specular| colour::weigh(&found.colour, specular));
-    let [diffuse, specular] = weighed.map_or([None, None], |both| both.map(Some));
     let inferred = found.inferred.albedo.take();
+    let is_known = inferred.is_some() && found.inferred.specular.is_some();
+    let specular = found.specular.as_ref().filter(|_| options.albedo.is_none() && !is_known);
+    let roughness = options.roughness.or(found.inferred.roughness.as_ref().map(|known| known.0));
+    let weighed = specular.map(|specular| colour::weigh(&found.colour, specular, roughness));
+    let [diffuse, specular] = weighed.map_or([None, None], |both| both.map(Some));
     let albedo = decide(&mut found.assumptions, What::Albedo, options.albedo, inferred, || {
-        diffuse.unwrap_or((Albedo::Srgb, StorageConvention::SeparateColours.into(), Certainty::Likely))
+        diffuse.unwrap_or_else(|| colour::alone(&found.colour.raster))
     });
     (albedo, specular)
 }

@@ -76,6 +76,8 @@ impl<'a> Surface<'a> {
 
     /// Puts the maps into `pictures`; returns whether colours are linear.
     pub fn put(mut self, material: &Material<'_>, pictures: &mut Pictures) -> Result<bool, Error> {
+        let all = [&self.normal, &self.colour, &self.packed, &self.specular, &self.specular_colour];
+        all.into_iter().flatten().for_each(|source| pictures.record_size(source.raster.size()));
         if let Some(normal) = self.normal.take() {
             pictures.add(Role::Normal, normal);
         }
