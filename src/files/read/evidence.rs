@@ -61,11 +61,12 @@ impl fmt::Display for Evidence {
                 "the specular of metals has a median of {median:.3}, which suggests {} colours",
                 suggested(log_odds)
             ),
-            Self::Neighbours { count, log_odds } => write!(
-                f,
-                "{count} neighbouring materials of the same file names suggest {} colours",
-                suggested(log_odds)
-            ),
+            Self::Neighbours { count, log_odds } => {
+                let (materials, suggest) =
+                    if *count == 1 { ("material", "suggests") } else { ("materials", "suggest") };
+                let suggested = suggested(log_odds);
+                write!(f, "{count} neighbouring {materials} of the same file names {suggest} {suggested} colours")
+            }
         }
     }
 }

@@ -36,11 +36,11 @@ const ALBEDO: [f64; 2] = [-1.61, 1.1];
 /// The same of what metals reflect: 0.65.
 const METAL: [f64; 2] = [-0.43, 0.4];
 /// Evidence of darkness from which on a colour by itself is unsure: a base colour is hardly ever linear.
-const DARK: f64 = 3.0;
+const DARK: f64 = 3.5;
 /// Darker than this, stored or decoded, is black.
 const BLACK: f64 = 0.02;
-/// A metal has black diffuse, and specular above this one.
-const METAL_AT_LEAST: f64 = 0.1;
+/// A stored specular above this one is that of a metal; its diffuse is black or nearly so, which tells nothing.
+const METAL_AT_LEAST: f64 = 0.3;
 /// Share of the texels that have to be of metal.
 const MOSTLY: f64 = 0.5;
 /// What neighbours say counts half, and no more than this.
@@ -67,7 +67,7 @@ fn likelihood(value: f64, [mean, spread]: [f64; 2]) -> f64 {
     const GAMMA: f64 = 2.2;
     let density = |log: f64| -0.5 * ((log - mean) / spread).powi(2);
     let log = value.max(1e-3).ln();
-    density(log) - density(GAMMA * log) - GAMMA.ln()
+    density(log) - density(GAMMA * log)
 }
 
 /// The encoding that the evidence of all colours supports, for diffuse (or a base colour) and for specular.
@@ -96,7 +96,7 @@ pub fn weigh(
 
 /// The encoding of a colour without specular, by convention; unsure where it is so dark if encoded that it may be linear.
 pub fn alone(colour: &Raster) -> (Albedo, Reason, Certainty) {
-    match dark(colour).filter(|dark| dark.log_odds() >= DARK) {
+    match dark(colour, |_| false).filter(|dark| dark.log_odds() >= DARK) {
         Some(dark) => {
             let evidence = vec![Evidence::Prior, dark];
             (Albedo::Srgb, Reason::Weighed { log_odds: PRIOR, evidence }, Certainty::Unsure)
@@ -107,7 +107,13 @@ pub fn alone(colour: &Raster) -> (Albedo, Reason, Certainty) {
 
 /// What the pixels of both say together.
 fn measured(diffuse: &Raster, specular: &Raster) -> Vec<Evidence> {
-    dielectrics(specular).into_iter().chain(dark(diffuse)).chain(metals(diffuse, specular)).collect()
+    let dark = if diffuse.size() == specular.size() {
+        let is_metal = |i: usize| most(specular.rgb(i)) > METAL_AT_LEAST;
+        dark(diffuse, is_metal)
+    } else {
+        None
+    };
+    dielectrics(specular).into_iter().chain(dark).chain(metals(diffuse, specular)).collect()
 }
 
 fn verdict(evidence: Vec<Evidence>) -> (Albedo, Reason, Certainty) {
@@ -153,10 +159,13 @@ fn dielectrics(specular: &Raster) -> Option<Evidence> {
     (share(plain.max(encoded)) > CHANCE).then_some(evidence)
 }
 
-/// Whether the colour is so dark if it is encoded that it is rather linear.
-fn dark(colour: &Raster) -> Option<Evidence> {
+/// Whether the colour of what `is_metal` does not say of is so dark if it is encoded that it is rather linear.
+fn dark(colour: &Raster, is_metal: impl Fn(usize) -> bool) -> Option<Evidence> {
     let mean = |index| colour.rgb(index).iter().sum::<f64>() / 3.0;
-    let median = median(colour.sampled().map(mean).filter(|value| *value > BLACK).collect())?;
+    let values: Vec<f64> =
+        colour.sampled().filter(|i| !is_metal(*i)).map(mean).filter(|value| *value > BLACK).collect();
+    let share = values.len() as f64 / colour.sampled().count().max(1) as f64;
+    let median = median(values).filter(|_| share > MOSTLY)?;
     (likelihood(median, ALBEDO) >= 1.0).then_some(Evidence::Dark(median))
 }
 
@@ -165,13 +174,16 @@ fn metals(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
     if diffuse.size() != specular.size() {
         return None;
     }
-    let most = |rgb: [f64; 3]| rgb.into_iter().fold(0.0, f64::max);
     let is_metal = |i: &usize| most(diffuse.rgb(*i)) < BLACK && most(specular.rgb(*i)) > METAL_AT_LEAST;
     let values: Vec<f64> =
         specular.sampled().filter(is_metal).map(|i| specular.rgb(i).iter().sum::<f64>() / 3.0).collect();
     let share = values.len() as f64 / specular.sampled().count().max(1) as f64;
     let median = median(values).filter(|_| share > MOSTLY)?;
     Some(Evidence::Metals { median, log_odds: likelihood(median, METAL).clamp(-SURE, SURE) })
+}
+
+fn most(rgb: [f64; 3]) -> f64 {
+    rgb.into_iter().fold(0.0, f64::max)
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {

@@ -39,14 +39,16 @@ fn beside(first: &Path, second: &Path) -> Option<Vec<[PathBuf; 2]>> {
 /// In the folder of `first`, of other stems.
 fn within(first: &Path, second: &Path) -> Option<Vec<[PathBuf; 2]>> {
     let folder = first.parent().filter(|folder| second.parent() == Some(folder))?;
-    let label = |file: &Path| Some((Label::of(&file.file_stem()?.to_string_lossy())?, file.extension()?.to_owned()));
+    let label =
+        |file: &Path| Some((Label::of(&file.file_stem()?.to_string_lossy())?, file.extension()?.to_owned()));
     let [own, of_second] = [label(first)?, label(second)?];
     let all: Vec<_> = list(folder, folder, "").ok()?.iter().map(|name| folder.join(name)).collect();
     let all: Vec<_> = all.iter().filter_map(|file| Some((file, label(file)?))).collect();
     let is_alike = |a: &(Label, _), b: &(Label, _)| a.0.word == b.0.word && a.1 == b.1;
     let others = all.iter().filter(|(_, other)| is_alike(other, &own) && other.0.stem != own.0.stem);
     let partner = |stem: &[String]| {
-        let is_partner = |(_, other): &&(&PathBuf, (Label, _))| is_alike(other, &of_second) && other.0.stem == stem;
+        let is_partner =
+            |(_, other): &&(&PathBuf, (Label, _))| is_alike(other, &of_second) && other.0.stem == stem;
         all.iter().find(is_partner).map(|(file, _)| (*file).clone())
     };
     Some(others.filter_map(|(file, other)| Some([(*file).clone(), partner(&other.0.stem)?])).collect())

@@ -11,8 +11,9 @@ use crate::files::read::formats::scaled_normals::scaled;
 use crate::files::read::locate::names::Role;
 use crate::files::read::note::Subject;
 use crate::files::read::options::Albedo;
+use crate::files::read::pictures::Pictures;
 use crate::files::read::raster::Raster;
-use crate::files::read::stored::{Pictures, StoredMap};
+use crate::files::read::stored::StoredMap;
 use crate::progress::Progress;
 
 /// The refractive index of a material that says none.
