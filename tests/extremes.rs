@@ -1,7 +1,7 @@
 //! Numerical stability at the extremes: every rung of precision over a table of extreme cases and over random ones.
 //!
-//! `SVBRDF_EXTREMES=10000000 cargo test write_extremes -- --ignored --nocapture` takes 10^7 random points and writes
-//! what it measured to docs/extremes.md and docs/extremes.svg.
+//! `SVBRDF_EXTREMES=10000000 cargo test write_extremes -- --ignored --nocapture` measures 10^7 random points and writes
+//! docs/extremes.md and docs/extremes.svg.
 
 mod cases;
 mod exact;
@@ -23,7 +23,7 @@ use regions::Region;
 use rungs::Rung;
 use survey::Survey;
 
-/// Random points of a usual run.
+/// Random points of a test run.
 const POINTS: u64 = 100_000;
 
 /// The table of extremes.
@@ -31,9 +31,9 @@ fn survey_table() -> Survey {
     Survey::of(&cases::table().map(|(batch, _)| batch).collect::<Vec<_>>(), 4)
 }
 
-/// At least `points` random points, 256 bits in one of `exact_every` batches.
+/// At least `points` random points; every `exact_every`-th batch is also computed in 256 bits.
 fn survey_random(points: u64, exact_every: usize) -> Survey {
-    /// Batches that are held in memory at a time.
+    /// Batches in memory at a time.
     const SLAB: u64 = 4096;
     let batches = points.div_ceil(RANDOM_TEXELS as u64);
     let slab = |first: u64| (first..batches.min(first + SLAB)).map(cases::random).collect::<Vec<_>>();
@@ -58,7 +58,7 @@ fn every_rung_holds_at_random_points() {
     let survey = survey_random(POINTS, 16);
     assert!(survey.points >= POINTS);
     survey.verdict().unwrap_or_else(|e| panic!("{e}"));
-    // What the stable form of D buys.
+    // The printed form of D cancels.
     let worst = |rung| survey.errors(Region::Satin, rung).worst;
     assert!(worst(Rung::Cancelling) > 30.0 * worst(Rung::F32));
     assert!(survey.errors(Region::GlossyHighlight, Rung::Cancelling).worst.is_infinite());

@@ -105,11 +105,13 @@ impl Job {
     }
 }
 
+/// The loss without the interval from a pilot, which has a row of its own.
 #[expect(clippy::expect_used, reason = "a benchmark may panic")]
 pub fn loss(backend: &dyn Backend<f32>, materials: [&Material<f32>; 2], request: &Request) -> f64 {
     let [ground_truth, prediction] = materials;
     let comparison = Comparison::new(ground_truth, &[prediction], PRINTED).expect("of one size").on(backend);
-    let outcome = comparison.run(request, &Progress::default()).expect("the loss can be computed");
+    let outcome =
+        comparison.without_pilot().run(request, &Progress::default()).expect("the loss can be computed");
     outcome.losses[0].estimate.mean
 }
 

@@ -12,7 +12,7 @@ use svbrdf::render::simd::Level;
 
 use bound::bound;
 use job::{FUSED, Job, on};
-use rows::{loading_row, predictions_rows, rendering_rows, sampled_rows, sizes};
+use rows::{loading_row, pilot_rows, predictions_rows, rendering_rows, sampled_rows, sizes};
 
 fn main() {
     let threads = rayon::current_num_threads();
@@ -43,6 +43,7 @@ fn main() {
     on(threads, rendering_rows);
     loading_row();
     on(threads, sampled_rows);
+    on(threads, pilot_rows);
     sizes(threads);
     println!();
     divan::main();

@@ -26,7 +26,7 @@ pub fn predictions_rows(bound: f64) {
     let mut before: Option<(usize, f64)> = None;
     for count in COUNTS {
         let comparison = Comparison::new(&materials[0], &predictions[..count], PRINTED).expect("of one size");
-        let comparison = comparison.on(&FUSED);
+        let comparison = comparison.on(&FUSED).without_pilot();
         let run = || comparison.run(&Request::default(), &Progress::default()).expect("a loss").losses;
         assert_eq!(run().len(), count);
         let time = 1e9 * fastest(|| drop(run())) / (size * size * 9) as f64;
@@ -36,6 +36,35 @@ pub fn predictions_rows(bound: f64) {
         });
         println!("| {count} | {time:.2} | {:.0}% | {further}", 100.0 * bound(count) / time);
         before = Some((count, time));
+    }
+}
+
+/// What the interval of a few scenes takes beside them: a pilot.
+#[expect(clippy::expect_used, reason = "a benchmark may panic")]
+pub fn pilot_rows() {
+    for size in [256, 1024, 4096] {
+        let [gt, prediction] = [1, 2].map(|seed| material(seed, size));
+        let comparison = Comparison::new(&gt, &[&prediction], PRINTED).expect("of one size").on(&FUSED);
+        for (what, sampling) in [
+            ("6 + 3 random scenes", Sampling::default()),
+            (
+                "60 + 30 Sobol scenes",
+                Sampling { near: 60, distant: 30, sampler: Sampler::Sobol, ..Sampling::default() },
+            ),
+        ] {
+            let run = |comparison: &Comparison<'_, f32>| {
+                comparison.run(&Request::Scenes(sampling), &Progress::default()).expect("a loss").losses
+            };
+            let alone = comparison.clone().without_pilot();
+            assert_ne!(run(&comparison)[0].estimate.interval95, run(&alone)[0].estimate.interval95);
+            let [with, without] = [&comparison, &alone].map(|comparison| fastest(|| drop(run(comparison))));
+            println!(
+                "{what} of {size}^2, {} threads: {:.2} ms, and {:.2} ms for the pilot of their interval",
+                rayon::current_num_threads(),
+                1e3 * without,
+                1e3 * (with - without),
+            );
+        }
     }
 }
 

@@ -134,6 +134,7 @@ impl<T: Real> Material<T> {
     ///
     /// # Panics
     /// Where there is no such texel, as indexing a slice does.
+    #[inline]
     pub fn texel(&self, index: usize) -> Texel<T> {
         let at = |plane: &[Vec<T>; 3]| [plane[0][index], plane[1][index], plane[2][index]];
         Texel {

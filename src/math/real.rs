@@ -80,10 +80,12 @@ macro_rules! real {
 
             type Vec3 = $vector;
 
+            #[inline]
             fn of(x: f64) -> Self {
                 x as $real
             }
 
+            #[inline]
             fn f64(self) -> f64 {
                 self.into()
             }
@@ -92,26 +94,32 @@ macro_rules! real {
         impl Vector for $vector {
             type Scalar = $real;
 
+            #[inline]
             fn to_array(self) -> [$real; 3] {
                 <$vector>::to_array(&self)
             }
 
+            #[inline]
             fn z(self) -> $real {
                 self.z
             }
 
+            #[inline]
             fn dot(self, b: Self) -> $real {
                 self.dot(b)
             }
 
+            #[inline]
             fn cross(self, b: Self) -> Self {
                 self.cross(b)
             }
 
+            #[inline]
             fn length_squared(self) -> $real {
                 self.length_squared()
             }
 
+            #[inline]
             fn normalize(self) -> Self {
                 self.normalize()
             }

@@ -47,6 +47,7 @@ impl<T: Real> From<&Convention> for Model<T> {
 /// The half vector of unit `l` and `v`.
 ///
 /// Where `l = -v` it has no direction; the normal `n` stands in, so that the result stays finite.
+#[inline]
 pub fn half_vector<V: Vector>(n: V, l: V, v: V) -> V {
     let sum = l + v;
     if sum.is_direction() { sum.normalize() } else { n }
@@ -57,6 +58,7 @@ pub fn half_vector<V: Vector>(n: V, l: V, v: V) -> V {
 /// The printed denominator `NoH^2 (a^2 - 1) + 1` cancels catastrophically as NoH -> 1 and a -> 0. Lagrange's
 /// identity `1 - NoH^2 = |n x h|^2` turns it into a sum of two squares, which does not.
 /// At most 1 / (pi a^2), reached at h = n.
+#[inline]
 pub fn distribution<T: Real>(model: &Model<T>, n: Vec3<T>, h: Vec3<T>, a: T) -> T {
     let n_dot_h = n.dot(h);
     let behind = model.clamp_n_dot_h && n_dot_h < T::zero();
@@ -69,26 +71,31 @@ pub fn distribution<T: Real>(model: &Model<T>, n: Vec3<T>, h: Vec3<T>, a: T) -> 
 /// One of the two factors of the Schlick-GGX geometry term G, for NoL or NoV in [0, 1].
 ///
 /// `cosine (1 - k) + k` lies in [k, 1], so a factor lies in [1, 1 / k].
+#[inline]
 pub fn geometry_factor<T: Real>(model: &Model<T>, cosine: T, k: T) -> T {
     (cosine * (T::one() - k) + k).max(model.g_floor).recip()
 }
 
 /// Schlick's power of the Fresnel term in its base-2 form (Karis 2013), in [0, 1] for VoH in [0, 1].
+#[inline]
 pub fn fresnel_weight<T: Real>(v_dot_h: T) -> T {
     ((T::of(-5.55473) * v_dot_h - T::of(6.98316)) * v_dot_h).exp2()
 }
 
 /// The Fresnel term F of one channel, in [s, 1].
+#[inline]
 pub fn fresnel<T: Real>(specular: T, weight: T) -> T {
     specular + (T::one() - specular) * weight
 }
 
 /// The Lambertian term of one channel, `d (1 - s) / pi`.
+#[inline]
 pub fn lambert<T: Real>(diffuse: T, specular: T) -> T {
     diffuse * (T::one() - specular) * T::FRAC_1_PI()
 }
 
 /// The factor on the reflectance: `NoL / l.z` times the convention's intensity.
+#[inline]
 pub fn irradiance<T: Real>(model: &Model<T>, n_dot_l: T, l_z: T) -> T {
     n_dot_l / l_z.max(model.light_z_floor) * model.intensity
 }
@@ -96,6 +103,7 @@ pub fn irradiance<T: Real>(model: &Model<T>, n_dot_l: T, l_z: T) -> T {
 /// The reflectance (F G D / 4 + d (1 - s) / pi) per RGB channel, for unit `l` and `v` and NoL > 0.
 ///
 /// This is the reciprocal part: swapping `l` and `v` leaves it as it is where both are above the texel.
+#[inline]
 pub fn reflectance<T: Real>(model: &Model<T>, texel: &Texel<T>, l: Vec3<T>, v: Vec3<T>) -> [T; 3] {
     let n = texel.normal;
     let h = half_vector(n, l, v);
@@ -120,6 +128,7 @@ pub fn reflectance<T: Real>(model: &Model<T>, texel: &Texel<T>, l: Vec3<T>, v: V
 ///
 /// Never negative, never NaN; 0 where the light is in or below the plane or behind the texel. Where R would not
 /// fit the precision (a light within 1e-15 of the plane), it is the largest finite number.
+#[inline]
 pub fn render<T: Real>(model: &Model<T>, texel: &Texel<T>, w_l: Vec3<T>, w_v: Vec3<T>) -> [T; 3] {
     let l = w_l.normalize();
     let n_dot_l = texel.normal.dot(l);

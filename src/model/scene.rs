@@ -60,6 +60,7 @@ pub struct Rays<T: Real> {
 
 impl<T: Real> Rays<T> {
     /// The directions (w_L, w_V) from the texel at `c` to the light and to the viewer, not yet of unit length.
+    #[inline]
     pub fn from_texel(&self, c: Vec3<T>) -> (Vec3<T>, Vec3<T>) {
         match self.kind {
             Kind::Near => (self.light - c, self.view - c),

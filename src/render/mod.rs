@@ -86,6 +86,7 @@ pub fn log_differences(pictures: &[Image<f32>], epsilon: f32) -> Vec<Image<f32>>
 }
 
 /// Renders the texel in column `column` of row `row`.
+#[inline]
 pub fn render_texel<T: Real>(
     material: &Material<T>,
     model: &Model<T>,

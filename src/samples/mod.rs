@@ -25,6 +25,9 @@ const STORED: ReadOptions = ReadOptions {
     ..ReadOptions::AUTO
 };
 
+/// Number of samples.
+pub const COUNT: usize = 3;
+
 /// A ground truth and predictions of it, of the same size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Samples<T> {

@@ -4,21 +4,25 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use eframe::egui;
-use eframe::egui::util::undoer::{self, Undoer};
 
+use super::browse::Browsed;
 use super::command::{Command, LossCommand, MaterialsCommand, WindowCommand};
 use super::difference_run::DifferenceRun;
 use super::gpu_view::GpuView;
+use super::history::History;
 use super::loaded::Rules;
 use super::loss_run::Asked;
 use super::loss_run::LossRun;
 use super::message::Message;
+use super::message_list::MessageList;
 use super::options::ViewerOptions;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
 use super::settings::{self, Settings};
 use super::slots::{Slots, Target};
+use super::source::Source;
 use super::state::ViewState;
+use super::stop::Stop;
 use super::study::StudyRun;
 use super::viewport::Viewport;
 use super::watch::Watch;
@@ -34,7 +38,7 @@ pub struct App {
     /// The settings as last stored.
     stored: Settings,
     pub(super) slots: Slots,
-    pub(super) undoer: Undoer<ViewState>,
+    pub(super) history: History,
     pub(super) loss: LossRun,
     pub(super) study: StudyRun,
     pub(super) difference: DifferenceRun,
@@ -42,7 +46,7 @@ pub struct App {
     pub(super) gpu: Option<GpuView>,
     pub(super) viewport: Viewport,
     pub(super) watch: Watch,
-    pub(super) browsing: Option<Task<Vec<PathBuf>>>,
+    pub(super) browsing: Option<Task<Browsed>>,
     pub(super) saving: Option<Task<PathBuf>>,
     pub(super) open_window: Option<OpenWindow>,
     pub(super) save_window: Option<SaveWindow>,
@@ -50,8 +54,10 @@ pub struct App {
     pub(super) swapped: bool,
     /// How the last materials were read: what the open dialog starts with.
     pub(super) read: ReadOptions,
-    /// What went wrong or was done, the latest last, until it is dismissed.
-    messages: Vec<Message>,
+    pub(super) messages: MessageList,
+    pub(super) stop: Stop,
+    /// The time of the last frame, in seconds.
+    now: f64,
     pub(super) frame_ms: f32,
 }
 
@@ -61,22 +67,21 @@ impl App {
         theme::install(&cc.egui_ctx);
         let settings: Settings =
             cc.storage.and_then(|s| eframe::get_value(s, settings::KEY)).unwrap_or_default();
-        let mut messages = Vec::new();
+        let mut messages = MessageList::default();
         let gpu = match cc.wgpu_render_state.as_ref().map(GpuView::new) {
             Some(Ok(gpu)) => Some(gpu),
             Some(Err(error)) => {
-                messages.push(Message::Failed(error));
+                messages.add(Message::Failed(error), 0.0);
                 None
             }
             None => None,
         };
-        let undo = undoer::Settings { stable_time: 0.4, ..Default::default() };
         let mut app = Self {
             state: ViewState::default(),
             stored: settings.clone(),
             settings,
             slots: Slots::default(),
-            undoer: Undoer::with_settings(undo),
+            history: History::default(),
             loss: LossRun::default(),
             study: StudyRun::default(),
             difference: DifferenceRun::default(),
@@ -92,10 +97,18 @@ impl App {
             swapped: false,
             read: ReadOptions::AUTO,
             messages,
+            stop: Stop::default(),
+            now: 0.0,
             frame_ms: 0.0,
         };
         app.open_first(&cc.egui_ctx, options);
         app
+    }
+
+    /// Closes the window at a signal, and cancels what is being written.
+    pub(super) fn stop_at_signals(&mut self, ctx: &egui::Context, stop: &Stop) {
+        stop.listen(ctx);
+        self.stop = stop.clone();
     }
 
     fn open_first(&mut self, ctx: &egui::Context, options: ViewerOptions) {
@@ -104,9 +117,9 @@ impl App {
         let Some(ground_truth) = options.ground_truth else {
             return self.slots.open_built_in(ctx, gpu);
         };
-        let predictions = options.predictions.into_iter().map(|p| (p, options.prediction_read));
-        let sources: Vec<_> =
-            std::iter::once((ground_truth, options.ground_truth_read)).chain(predictions).collect();
+        let predictions = options.predictions.into_iter().map(|p| Source::file(p, options.prediction_read));
+        let ground_truth = Source::file(ground_truth, options.ground_truth_read);
+        let sources = std::iter::once(ground_truth).chain(predictions).collect();
         self.slots.open(ctx, gpu, sources, Target::Everything);
     }
 
@@ -115,55 +128,33 @@ impl App {
         Asked { request: self.settings.loss.request(), convention: self.state.convention() }
     }
 
-    /// The messages in the window, the latest last.
-    pub(super) fn message_list(&self) -> &[Message] {
-        &self.messages
-    }
-
-    /// Adds messages; a repeated one moves to the end.
+    /// Adds messages.
     pub(super) fn report(&mut self, messages: impl IntoIterator<Item = Message>) {
-        for message in messages {
-            let text = message.to_string();
-            self.messages.retain(|earlier| earlier.to_string() != text);
-            self.messages.push(message);
-        }
-    }
-
-    pub(super) fn dismiss_messages(&mut self) {
-        self.messages.clear();
+        let now = self.now;
+        messages.into_iter().for_each(|message| self.messages.add(message, now));
     }
 
     /// Takes over the results of the workers.
     fn poll(&mut self, ctx: &egui::Context) {
-        let problems = self.slots.poll(ctx);
-        self.report(problems);
-        let opened = std::mem::take(&mut self.slots.opened);
-        opened.iter().rev().for_each(|path| self.settings.remember(path));
+        self.now = ctx.input(|i| i.time);
+        if let Some(rest) = self.messages.expire(self.now) {
+            ctx.request_repaint_after_secs(rest as f32);
+        }
+        self.poll_readings(ctx);
         let error = self.study.poll(ctx);
         self.report(error.map(Message::Failed));
         let fault = self.gpu.as_ref().and_then(|g| g.gpu.take_fault());
         self.report(fault.map(Message::Failed));
-        if let Some(result) = self.saving.as_ref().and_then(|job| job.poll(ctx)) {
-            self.saving = None;
-            self.report([match result {
-                Ok(path) => Message::Saved(std::path::absolute(&path).unwrap_or(path)),
-                Err(error) => Message::Failed(error),
-            }]);
-        }
-        if let Some(result) = self.browsing.as_ref().and_then(|job| job.poll(ctx)) {
-            self.browsing = None;
-            let paths = result.unwrap_or_default();
-            let window = self.open_window.get_or_insert_default();
-            paths.iter().for_each(|path| window.add(&path.display().to_string()));
-        }
+        self.poll_saving(ctx);
+        self.poll_browsing(ctx);
         if self.settings.watch {
-            let stale = self.watch.poll(ctx, &self.slots);
-            let gpu = self.gpu.as_ref().map(|g| &g.gpu);
-            self.slots.reload(ctx, gpu, Some(&stale));
+            self.follow_files(ctx);
         } else {
             self.watch.stop();
         }
-        self.loss.follow(ctx, &self.slots, &self.asked(), self.settings.auto_loss);
+        // A loss of materials that are not all there yet would be computed in vain.
+        let auto = self.settings.auto_loss && !self.slots.expects_more();
+        self.loss.follow(ctx, &self.slots, &self.asked(), auto);
         self.loss.poll(ctx);
         let error = self.difference.follow(ctx, &self.slots, &self.state);
         self.report(error.map(Message::Failed));
@@ -220,12 +211,19 @@ impl eframe::App for App {
             self.apply(&ctx, command);
             ctx.request_repaint();
         }
-        self.undoer.feed_state(ctx.input(|i| i.time), &self.state);
+        self.remember_moment(&ctx);
         self.store_settings(&ctx, frame.storage_mut());
         self.frame_ms = start.elapsed().as_secs_f32() * 1e3;
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, settings::KEY, &self.settings);
+    }
+
+    fn on_exit(&mut self) {
+        // A file that is being written is completed, or cancelled by the signal that closed the window.
+        if let Some(saving) = self.saving.take() {
+            let _ = saving.wait();
+        }
     }
 }

@@ -5,6 +5,7 @@
 use std::path::PathBuf;
 
 use super::loss_settings::LossSettings;
+use super::source::Source;
 use super::state::{Endpoint, Layout};
 use crate::files::read::ReadOptions;
 use crate::loss::Sampling;
@@ -32,6 +33,8 @@ pub enum MaterialsCommand {
         replace: bool,
         read: ReadOptions,
     },
+    /// Opens a prediction that was refused or closed.
+    OpenAgain(Box<Source>),
     OpenBuiltIn,
     /// Reads all files again.
     Reload,
@@ -146,6 +149,8 @@ pub enum WindowCommand {
     SetDark(bool),
     ToggleSidePanel,
     ShowHelp(bool),
+    /// Dismisses the message of this number.
+    DismissMessage(usize),
     DismissMessages,
 }
 

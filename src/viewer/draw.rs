@@ -24,10 +24,6 @@ impl App {
         let mut commands = Vec::new();
         egui::Panel::top("top").show(ui, |ui| commands.extend(self.top(ui)));
         egui::Panel::bottom("status").show(ui, |ui| self.status(ui));
-        if !self.message_list().is_empty() {
-            egui::Panel::bottom("messages")
-                .show(ui, |ui| commands.extend(panels::messages::ui(ui, self.message_list())));
-        }
         let mut side_panel = self.settings.side_panel;
         egui::Panel::right("side")
             .default_size(SIDE)
@@ -39,7 +35,9 @@ impl App {
         if self.state.difference && !self.slots.predictions().is_empty() {
             egui::Panel::bottom("legend").show(ui, |ui| commands.extend(self.legend(ui)));
         }
+        let area = ui.available_rect_before_wrap();
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
+        commands.extend(panels::messages::ui(ui.ctx(), area, &self.messages));
         commands.extend(self.windows(ui.ctx()));
         commands
     }

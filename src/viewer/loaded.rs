@@ -3,17 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use super::source::{Origin, Source};
 use crate::error::Error;
 use crate::files::read::{Assumption, MapReport, Note, Read, ReadOptions};
 use crate::gpu::{Gpu, MaterialTextures};
 use crate::material::Material;
-
-/// Where a material came from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Origin {
-    BuiltIn,
-    Path(PathBuf),
-}
 
 /// A material that has been read and, where there is an adapter, uploaded.
 #[derive(Debug)]
@@ -25,6 +19,8 @@ pub struct Loaded {
     pub read: ReadOptions,
     /// The options saved in its sidecar file.
     pub kept: ReadOptions,
+    /// Whether it is resized to the ground truth.
+    pub(super) fit: bool,
     pub material: Material<f32>,
     /// Remarks on the reading.
     pub notes: Vec<Note>,
@@ -41,9 +37,16 @@ impl Loaded {
     /// The path it was read from; empty for a built-in one.
     pub fn path(&self) -> &Path {
         match &self.origin {
-            Origin::BuiltIn => Path::new(""),
+            Origin::BuiltIn(_) => Path::new(""),
             Origin::Path(path) => path,
         }
+    }
+
+    /// What it takes to open it again.
+    pub(super) fn source(&self) -> Source {
+        let chosen = matches!(self.origin, Origin::Path(_)) && self.read != self.asked.over(self.kept);
+        let exactly = chosen.then_some(self.read);
+        Source { origin: self.origin.clone(), asked: self.asked, exactly, fit: self.fit }
     }
 }
 
@@ -68,36 +71,33 @@ impl Reader {
     /// Takes in the material at `path`; the first one sets the size, where there is none yet.
     pub(super) fn take(
         &mut self,
-        path: PathBuf,
-        asked: ReadOptions,
+        path: &Path,
+        mut source: Source,
         mut read: Read<f32>,
     ) -> Result<Loaded, Error> {
         if self.rules.strict {
-            read.refuse_guesses(&path)?;
+            read.refuse_guesses(path)?;
         }
+        source.fit |= self.rules.fit;
         let from = read.material.size();
         let size = *self.size.get_or_insert(from);
-        if self.rules.fit && from != size {
+        if source.fit && from != size {
             read.material = read.material.resized(size)?;
             read.notes.push(Note::Resized { from, to: size });
         }
-        Ok(loaded(Origin::Path(path), asked, read, self.gpu.as_ref()))
+        Ok(loaded(source, read, self.gpu.as_ref()))
     }
 }
 
-pub(super) fn loaded(origin: Origin, asked: ReadOptions, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
+pub(super) fn loaded(source: Source, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
     let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
     let files = read.files.into_iter().map(|path| (changed(&path), path)).map(|(t, p)| (p, t)).collect();
     let Read { material, assumptions, notes, maps, options, saved: kept, .. } = read;
-    Loaded { origin, asked, read: options, kept, material, notes, assumptions, maps, files, textures }
+    let Source { origin, asked, fit, .. } = source;
+    Loaded { origin, asked, read: options, kept, fit, material, notes, assumptions, maps, files, textures }
 }
 
 /// When a file was last changed; `None` where the system does not tell.
 pub fn changed(path: &Path) -> Option<SystemTime> {
     std::fs::metadata(path).and_then(|m| m.modified()).ok()
-}
-
-/// The last part of a path, as text.
-pub fn file_name(path: &Path) -> String {
-    path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned())
 }

@@ -1,8 +1,10 @@
 //! What the window reports: values here, text where they are shown.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use super::command::{Command, MaterialsCommand};
+use super::source::{Origin, Source};
 use crate::error::Error;
 
 /// How much a message matters.
@@ -19,9 +21,17 @@ pub enum Message {
     /// The view was written to this file.
     Saved(PathBuf),
     /// A prediction was not opened: its size is not the ground truth's.
-    Refused(SizeMismatch),
+    Refused(Box<SizeMismatch>),
     /// A prediction was closed: the new ground truth has another size.
-    Closed(SizeMismatch),
+    Closed(Box<SizeMismatch>),
+    /// A material could not be read, in this opening.
+    NotRead {
+        source: Source,
+        error: Error,
+        opening: u64,
+    },
+    /// Something is on the clipboard.
+    Copied(&'static str),
     /// These predictions were not opened: their ground truth could not be read.
     NotOpened(Vec<String>),
     NotPasted(PasteProblem),
@@ -29,12 +39,14 @@ pub enum Message {
 }
 
 /// A prediction and a ground truth of different sizes.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SizeMismatch {
     pub prediction: String,
     pub prediction_size: [usize; 2],
     pub ground_truth: String,
     pub ground_truth_size: [usize; 2],
+    /// The prediction.
+    pub source: Source,
 }
 
 /// Why the clipboard's text did not become the scene.
@@ -48,9 +60,36 @@ pub enum PasteProblem {
 impl Message {
     pub fn severity(&self) -> Severity {
         match self {
-            Self::Saved(_) => Severity::Success,
+            Self::Saved(_) | Self::Copied(_) => Severity::Success,
             Self::Closed(_) => Severity::Warning,
-            Self::Refused(_) | Self::NotOpened(_) | Self::NotPasted(_) | Self::Failed(_) => Severity::Error,
+            Self::Refused(_)
+            | Self::NotRead { .. }
+            | Self::NotOpened(_)
+            | Self::NotPasted(_)
+            | Self::Failed(_) => Severity::Error,
+        }
+    }
+
+    /// What a person can do about it, and the label of its button.
+    pub fn remedy(&self) -> Option<(&'static str, Command)> {
+        match self {
+            Self::Refused(sizes) | Self::Closed(sizes) => {
+                let source = Source { fit: true, ..sizes.source.clone() };
+                Some(("Fit and open", MaterialsCommand::OpenAgain(Box::new(source)).into()))
+            }
+            _ => None,
+        }
+    }
+
+    /// The file that it is about: the message is settled once that has been read.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::NotRead { source: Source { origin: Origin::Path(path), .. }, .. } => Some(path),
+            Self::Refused(sizes) | Self::Closed(sizes) => match &sizes.source.origin {
+                Origin::Path(path) => Some(path),
+                Origin::BuiltIn(_) => None,
+            },
+            _ => None,
         }
     }
 }
@@ -60,7 +99,7 @@ impl fmt::Display for Message {
         match self {
             Self::Saved(path) => write!(f, "Saved {}", path.display()),
             Self::Refused(sizes) => {
-                write!(f, "Not opened: {sizes}. Tick \"Fit sizes\" under Materials and open it again.")
+                write!(f, "Not opened: {sizes}.")
             }
             Self::Closed(sizes) => write!(f, "Prediction closed: {sizes}."),
             Self::NotOpened(names) => {
@@ -72,7 +111,8 @@ impl fmt::Display for Message {
             Self::NotPasted(PasteProblem::Unusable(problem)) => {
                 write!(f, "Not pasted: the scene cannot be rendered, {problem}.")
             }
-            Self::Failed(error) => error.fmt(f),
+            Self::Copied(what) => write!(f, "Copied {what}"),
+            Self::NotRead { error, .. } | Self::Failed(error) => error.fmt(f),
         }
     }
 }
@@ -91,6 +131,7 @@ impl fmt::Display for SizeMismatch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::read::ReadOptions;
 
     #[test]
     fn only_what_went_wrong_is_an_error() {
@@ -99,7 +140,9 @@ mod tests {
             prediction_size: [128, 64],
             ground_truth: "large".to_owned(),
             ground_truth_size: [256, 256],
+            source: Source::file("small.png".into(), ReadOptions::AUTO),
         };
+        let sizes = Box::new(sizes);
         let text = "small is 128 x 64 and the ground truth large is 256 x 256";
         for (message, severity, start) in [
             (Message::Saved("a.png".into()), Severity::Success, "Saved a.png".to_owned()),

@@ -7,6 +7,7 @@ pub(crate) mod app;
 #[cfg(feature = "testing")]
 pub mod app;
 mod apply;
+mod browse;
 mod cells;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod command;
@@ -15,6 +16,7 @@ pub mod command;
 mod gestures;
 mod gpu_view;
 mod handles;
+mod history;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod keys;
 #[cfg(feature = "testing")]
@@ -26,22 +28,31 @@ mod loss_settings;
 pub(crate) mod message;
 #[cfg(feature = "testing")]
 pub mod message;
+mod message_list;
 #[cfg(feature = "testing")]
 mod observe;
+mod opening;
 mod options;
 mod panels;
 mod panes;
+mod polling;
 
 mod difference_run;
 mod differences;
 mod draw;
 mod save;
 mod settings;
+mod slot;
 mod slots;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod source;
+#[cfg(feature = "testing")]
+pub mod source;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod state;
 #[cfg(feature = "testing")]
 pub mod state;
+mod stop;
 mod study;
 mod theme;
 mod title;
@@ -67,7 +78,7 @@ pub use options::ViewerOptions;
 ///
 /// # Errors
 /// [`Error::NoWindow`] without a display or the libraries of the window system, [`Error::NoAdapter`] without a
-/// graphics adapter that can draw into it.
+/// graphics adapter that can draw into it, [`Error::Cancelled`] where a signal closed it.
 pub fn run(options: ViewerOptions) -> Result<(), Error> {
     // The window system's layer panics where a library of it is missing; its words are kept for the error.
     let panic_text = Arc::new(Mutex::new(String::new()));
@@ -76,16 +87,20 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
     std::panic::set_hook(Box::new(move |info| {
         *heard.lock().unwrap_or_else(PoisonError::into_inner) = info.to_string();
     }));
+    let stop = stop::Stop::default();
+    let signals = stop.clone();
     let start = || {
-        eframe::run_native(
-            "svbrdf",
-            native_options(),
-            Box::new(|cc| Ok(Box::new(app::App::new(cc, options)))),
-        )
+        let create = |cc: &eframe::CreationContext<'_>| {
+            let mut app = app::App::new(cc, options);
+            app.stop_at_signals(&cc.egui_ctx, &signals);
+            app
+        };
+        eframe::run_native("svbrdf", native_options(), Box::new(|cc| Ok(Box::new(create(cc)))))
     };
     let result = std::panic::catch_unwind(AssertUnwindSafe(start));
     std::panic::set_hook(earlier_hook);
     match result {
+        Ok(Ok(())) if stop.is_stopped() => Err(Error::Cancelled),
         Ok(result) => result.map_err(|e| no_window(&e)),
         Err(_) => Err(Error::NoWindow {
             problem: format!(

@@ -42,6 +42,11 @@ impl App {
         self.slots.slots.iter().map(|slot| &slot.loaded.material)
     }
 
+    /// Why a material is not what its files hold now, of each material.
+    pub fn problems(&self) -> Vec<Option<&str>> {
+        self.slots.slots.iter().map(|slot| slot.problem.as_deref()).collect()
+    }
+
     /// Whether a material is being read.
     pub fn is_reading(&self) -> bool {
         !self.slots.openings.is_empty()
@@ -49,6 +54,6 @@ impl App {
 
     /// The texts of the messages in the window: errors and results, the latest last.
     pub fn messages(&self) -> Vec<String> {
-        self.message_list().iter().map(Message::to_string).collect()
+        self.messages.iter().map(Message::to_string).collect()
     }
 }

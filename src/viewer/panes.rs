@@ -86,7 +86,9 @@ impl Scenery<'_> {
 
     /// The name of slot `index` as titles give it.
     pub fn title(&self, index: usize) -> String {
-        let name = self.slots[index].name();
+        let slot = &self.slots[index];
+        let mark = if slot.problem.is_some() { "  (stale)" } else { "" };
+        let name = format!("{}{mark}", slot.name());
         if index == 0 { format!("GROUND TRUTH  {name}") } else { format!("{index}  {name}") }
     }
 }

@@ -1,57 +1,19 @@
-//! The materials in the window. They are read on a worker, and replaced once the new ones have been read.
+//! The materials in the window. They are read on a worker; each is there as soon as it has been read.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use eframe::egui;
 
-use super::loaded::{Loaded, Origin, Reader, Rules, file_name, loaded};
-use super::message::{Message, SizeMismatch};
-use super::worker::Task;
+use super::loaded::{Loaded, Reader, Rules};
+use super::message::Message;
+use super::opening::{Arrival, Item, Opening};
+pub use super::slot::{Slot, Target};
+use super::slot::{mismatch, rename};
+use super::source::{Origin, Source};
 use crate::error::Error;
-use crate::files::read::{self, ReadOptions, Sidecar};
+use crate::files::read::{ReadOptions, Sidecar};
 use crate::gpu::Gpu;
-use crate::report::distinct_names;
 use crate::samples;
-
-/// A material in the window. Its id is never used again: it is the key of everything derived from the material.
-#[derive(Clone, Debug)]
-pub struct Slot {
-    pub id: u64,
-    pub loaded: Arc<Loaded>,
-    /// Its name, unique among the slots.
-    name: String,
-}
-
-impl Slot {
-    fn new(id: u64, loaded: Loaded) -> Self {
-        let name = loaded.material.name().to_owned();
-        Self { id, loaded: Arc::new(loaded), name }
-    }
-
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-}
-
-/// Where materials go once they have been read.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Target {
-    /// The first replaces the ground truth, the others the predictions.
-    Everything,
-    /// All are added as predictions.
-    Predictions,
-    /// The one replaces the slot of this id, which stays where it is.
-    Again(u64),
-}
-
-/// Materials that are being read.
-#[derive(Debug)]
-pub struct Opening {
-    pub what: String,
-    target: Target,
-    pub task: Task<Vec<Result<Loaded, Error>>>,
-}
 
 /// The ground truth first, then the predictions; and the materials that are still being read.
 #[derive(Debug, Default)]
@@ -61,6 +23,8 @@ pub struct Slots {
     pub rules: Rules,
     /// The paths that have been opened since they were last taken.
     pub opened: Vec<PathBuf>,
+    /// The paths that have been read, whether for the first time or again, since they were last taken.
+    pub read: Vec<PathBuf>,
     next_id: u64,
 }
 
@@ -75,27 +39,55 @@ impl Slots {
 
     /// Whether there is only the built-in pair, which the first opened material replaces.
     pub fn only_built_in(&self) -> bool {
-        self.slots.iter().all(|s| s.loaded.origin == Origin::BuiltIn)
+        self.slots.iter().all(|s| matches!(s.loaded.origin, Origin::BuiltIn(_)))
     }
 
-    /// Starts to read `sources`, each with its options.
+    /// What it takes to open these materials again.
+    pub fn sources(&self) -> Vec<Source> {
+        self.slots.iter().map(|slot| slot.loaded.source()).collect()
+    }
+
+    /// Whether materials are being read that are not in the window yet.
+    pub fn expects_more(&self) -> bool {
+        self.openings.iter().any(|opening| !matches!(opening.target, Target::Again(_)))
+    }
+
+    /// Starts to read `sources`; the number of this opening.
     pub fn open(
         &mut self,
         ctx: &egui::Context,
         gpu: Option<&Gpu>,
-        sources: Vec<(PathBuf, ReadOptions)>,
+        sources: Vec<Source>,
         target: Target,
-    ) {
-        let mut reader = self.reader(gpu, &target);
-        let what = sources.iter().map(|(p, _)| file_name(p)).collect::<Vec<_>>().join(", ");
-        let task = Task::start(ctx, move |progress| {
-            let one = |(path, options): (PathBuf, ReadOptions)| {
-                let read = read::read::<f32>(&path, &options, progress)?;
-                reader.take(path, options, read)
-            };
-            Ok(sources.into_iter().map(one).collect())
-        });
-        self.openings.push(Opening { what, target, task });
+    ) -> u64 {
+        self.start(ctx, gpu, sources.into_iter().map(Item::Read).collect(), target)
+    }
+
+    /// Starts to read the built-in pair.
+    pub fn open_built_in(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>) {
+        let sources = (0..samples::COUNT).map(Source::built_in).collect();
+        self.open(ctx, gpu, sources, Target::Everything);
+    }
+
+    /// Makes these the materials in the window. Those that are there already are not read again.
+    pub fn restore(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, sources: &[Source]) {
+        let mut there = self.slots.clone();
+        let item = |source: &Source| match there.iter().position(|slot| slot.loaded.source() == *source) {
+            Some(index) => Item::Kept(there.remove(index)),
+            None => Item::Read(source.clone()),
+        };
+        let items = sources.iter().map(item).collect();
+        self.start(ctx, gpu, items, Target::Everything);
+    }
+
+    fn start(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, items: Vec<Item>, target: Target) -> u64 {
+        if target == Target::Everything {
+            // Materials that are still being read belong to the earlier set.
+            self.openings.clear();
+        }
+        let (id, reader) = (self.new_id(), self.reader(gpu, &target));
+        self.openings.push(Opening::start(ctx, id, target, items, reader));
+        id
     }
 
     /// A reader of the materials for `target`.
@@ -109,71 +101,78 @@ impl Slots {
         Reader { gpu: gpu.cloned(), rules: self.rules, size }
     }
 
-    /// Starts to read the built-in pair.
-    pub fn open_built_in(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>) {
-        let gpu = gpu.cloned();
-        let task = Task::start(ctx, move |_| {
-            let samples = samples::load::<f32>()?;
-            let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
-            Ok(all
-                .map(|read| Ok(loaded(Origin::BuiltIn, ReadOptions::default(), read, gpu.as_ref())))
-                .collect())
-        });
-        self.openings.push(Opening { what: "built-in pair".to_owned(), target: Target::Everything, task });
-    }
-
     /// Takes over the materials that have been read since the last call; returns what went wrong.
     pub fn poll(&mut self, ctx: &egui::Context) -> Vec<Message> {
         let mut problems = Vec::new();
-        let mut finished = Vec::new();
-        self.openings.retain(|opening| match opening.task.poll(ctx) {
-            None => true,
-            Some(result) => {
-                finished.push((opening.target.clone(), result));
-                false
+        for mut opening in std::mem::take(&mut self.openings) {
+            let (arrivals, ended) = opening.poll(ctx);
+            let mut dropped = false;
+            for arrival in arrivals {
+                dropped |= !self.place(&opening, arrival, &mut problems);
+                opening.arrived += 1;
+                if dropped {
+                    break;
+                }
             }
-        });
-        for (target, result) in finished {
-            let all = result.unwrap_or_else(|e| vec![Err(e)]);
-            self.place(target, all, &mut problems);
+            match ended {
+                None if !dropped => self.openings.push(opening),
+                Some(Err(error)) if !matches!(error, Error::Cancelled) => {
+                    problems.push(Message::Failed(error));
+                }
+                _ => {}
+            }
         }
         problems
     }
 
-    fn place(&mut self, target: Target, all: Vec<Result<Loaded, Error>>, problems: &mut Vec<Message>) {
-        let mut loaded: Vec<Loaded> = Vec::new();
-        let failed_first = matches!(all.first(), Some(Err(_)));
-        for result in all {
-            match result {
-                Ok(one) => loaded.push(one),
-                Err(Error::Cancelled) => {}
-                Err(error) => problems.push(Message::Failed(error)),
+    /// Places a material; false where those after it are not wanted.
+    fn place(&mut self, opening: &Opening, arrival: Arrival, problems: &mut Vec<Message>) -> bool {
+        let is_first = opening.arrived == 0;
+        let everything = opening.target == Target::Everything;
+        match (arrival, &opening.target) {
+            (Arrival::Failed(_, Error::Cancelled), _) => return false,
+            (Arrival::Failed(source, error), target) => {
+                self.mark(target, &error);
+                problems.push(Message::NotRead { source: *source, error, opening: opening.id });
+                // Predictions need their ground truth: the materials in the window stay.
+                let others = opening.names_after(1);
+                if everything && is_first && !others.is_empty() {
+                    problems.push(Message::NotOpened(others));
+                }
+                return !(everything && is_first);
             }
-        }
-        match target {
-            // Predictions need their ground truth: the materials in the window stay.
-            Target::Everything if failed_first || loaded.is_empty() => {
-                let names: Vec<_> = loaded.iter().map(|one| one.material.name().to_owned()).collect();
-                if !names.is_empty() {
-                    problems.push(Message::NotOpened(names));
+            (arrival, Target::Everything | Target::Predictions) => {
+                if everything && is_first {
+                    self.slots.clear();
+                }
+                match arrival {
+                    Arrival::Kept(slot) => self.slots.push(slot),
+                    Arrival::Read(loaded) => self.add(*loaded, problems),
+                    Arrival::Failed(..) => {}
                 }
             }
-            Target::Everything => {
-                self.slots.clear();
-                loaded.into_iter().for_each(|one| self.add(one, problems));
-            }
-            Target::Predictions => loaded.into_iter().for_each(|one| self.add(one, problems)),
-            Target::Again(id) => loaded.into_iter().for_each(|one| self.replace(id, one, problems)),
+            (Arrival::Read(loaded), Target::Again(id)) => self.replace(*id, *loaded, problems),
+            (_, Target::Again(_)) => {}
         }
-        self.rename();
+        rename(&mut self.slots);
+        true
+    }
+
+    /// Marks the material that could not be read again.
+    fn mark(&mut self, target: &Target, error: &Error) {
+        let Target::Again(id) = target else { return };
+        if let Some(slot) = self.slots.iter_mut().find(|slot| slot.id == *id) {
+            slot.problem = Some(format!("Not read again: {error}"));
+        }
     }
 
     fn add(&mut self, loaded: Loaded, problems: &mut Vec<Message>) {
         if let Some(sizes) = self.ground_truth().and_then(|ground_truth| mismatch(ground_truth, &loaded)) {
-            return problems.push(Message::Refused(sizes));
+            return problems.push(Message::Refused(Box::new(sizes)));
         }
         if let Origin::Path(path) = &loaded.origin {
             self.opened.push(path.clone());
+            self.read.push(path.clone());
         }
         let id = self.new_id();
         self.slots.push(Slot::new(id, loaded));
@@ -182,22 +181,16 @@ impl Slots {
     /// Replaces the material of the slot `id`. A ground truth of another size closes the predictions.
     fn replace(&mut self, id: u64, loaded: Loaded, problems: &mut Vec<Message>) {
         let Some(index) = self.slots.iter().position(|s| s.id == id) else { return };
+        self.read.push(loaded.path().to_owned());
         let new = Slot::new(self.new_id(), loaded);
         if index == 0 {
             let mismatches = self.predictions().iter().filter_map(|s| mismatch(&new, &s.loaded));
-            problems.extend(mismatches.map(Message::Closed));
+            problems.extend(mismatches.map(|sizes| Message::Closed(Box::new(sizes))));
             self.slots.retain(|s| s.id == id || mismatch(&new, &s.loaded).is_none());
         } else if let Some(sizes) = self.ground_truth().and_then(|gt| mismatch(gt, &new.loaded)) {
-            return problems.push(Message::Refused(sizes));
+            return problems.push(Message::Refused(Box::new(sizes)));
         }
         self.slots[index] = new;
-    }
-
-    /// Gives every slot a unique name.
-    fn rename(&mut self) {
-        let named: Vec<_> = self.slots.iter().map(|s| (s.loaded.material.name(), s.loaded.path())).collect();
-        let names = distinct_names(&named);
-        self.slots.iter_mut().zip(names).for_each(|(slot, name)| slot.name = name);
     }
 
     fn new_id(&mut self) -> u64 {
@@ -209,41 +202,32 @@ impl Slots {
     pub fn reload(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, only: Option<&[usize]>) {
         for index in 0..self.slots.len() {
             if only.is_none_or(|only| only.contains(&index)) {
-                let Loaded { asked, read, kept, .. } = *self.slots[index].loaded;
-                if read == asked.over(kept) {
-                    self.open_again(ctx, gpu, index, asked);
-                } else {
-                    self.read_as(ctx, gpu, index, read);
-                }
+                self.again(ctx, gpu, index, |_| {});
             }
         }
     }
 
-    /// Opens the material at `index` again, as if for the first time.
-    fn open_again(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, options: ReadOptions) {
-        let Some((path, target)) = self.again(index) else { return };
-        self.open(ctx, gpu, vec![(path, options)], target);
-    }
-
     /// Reads the material at `index` again with these options alone.
     pub fn read_as(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, options: ReadOptions) {
-        let Some((path, target)) = self.again(index) else { return };
-        let (asked, what) = (self.slots[index].loaded.asked, file_name(&path));
-        let mut reader = self.reader(gpu, &target);
-        let task = Task::start(ctx, move |progress| {
-            let read = read::read_as::<f32>(&path, &options, progress);
-            Ok(vec![read.and_then(|read| reader.take(path, asked, read))])
-        });
-        self.openings.push(Opening { what, target, task });
+        self.again(ctx, gpu, index, |source| source.exactly = Some(options));
     }
 
-    /// Path and target of the material at `index`, to read it again; a reading of it that is under way is cancelled.
-    fn again(&mut self, index: usize) -> Option<(PathBuf, Target)> {
-        let slot = self.slots.get(index)?;
-        let Origin::Path(path) = &slot.loaded.origin else { return None };
-        let (path, target) = (path.clone(), Target::Again(slot.id));
+    /// Reads the material at `index` again, with changes of its source; a reading of it that is under way is cancelled.
+    fn again(
+        &mut self,
+        ctx: &egui::Context,
+        gpu: Option<&Gpu>,
+        index: usize,
+        change: impl FnOnce(&mut Source),
+    ) {
+        let Some(slot) = self.slots.get(index) else { return };
+        if matches!(slot.loaded.origin, Origin::BuiltIn(_)) {
+            return;
+        }
+        let (mut source, target) = (slot.loaded.source(), Target::Again(slot.id));
+        change(&mut source);
         self.openings.retain(|o| o.target != target);
-        Some((path, target))
+        self.open(ctx, gpu, vec![source], target);
     }
 
     /// Saves the assumptions specified for the material at `index` in a sidecar file, and opens it again.
@@ -259,7 +243,7 @@ impl Slots {
         let Some(slot) = self.slots.get(index) else { return Ok(()) };
         let Origin::Path(path) = &slot.loaded.origin else { return Ok(()) };
         Sidecar { options: slot.loaded.read, ..Sidecar::load(path)? }.save(path)?;
-        self.open_again(ctx, gpu, index, ReadOptions::AUTO);
+        self.again(ctx, gpu, index, |source| (source.asked, source.exactly) = (ReadOptions::AUTO, None));
         Ok(())
     }
 
@@ -267,7 +251,7 @@ impl Slots {
     pub fn close(&mut self, index: usize) {
         if index > 0 && index < self.slots.len() {
             self.slots.remove(index);
-            self.rename();
+            rename(&mut self.slots);
         }
     }
 
@@ -277,15 +261,4 @@ impl Slots {
             self.slots.swap(0, index);
         }
     }
-}
-
-/// The two sizes, where `prediction` has not that of the ground truth.
-fn mismatch(ground_truth: &Slot, prediction: &Loaded) -> Option<SizeMismatch> {
-    let [gt, prediction] = [&ground_truth.loaded.material, &prediction.material];
-    (gt.size() != prediction.size()).then(|| SizeMismatch {
-        prediction: prediction.name().to_owned(),
-        prediction_size: prediction.size(),
-        ground_truth: gt.name().to_owned(),
-        ground_truth_size: gt.size(),
-    })
 }

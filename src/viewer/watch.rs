@@ -1,6 +1,6 @@
 //! Files that change on disk, detected on a thread of their own: the window is drawn again only after a change.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, SystemTime};
@@ -16,6 +16,17 @@ const INTERVAL: Duration = Duration::from_secs(1);
 /// The files of each material, by its id, with the times of their last change when they were read.
 type Files = Vec<(u64, Vec<(PathBuf, Option<SystemTime>)>)>;
 
+/// What has happened to the files of a material.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// They have changed.
+    Changed,
+    /// This one is gone.
+    Gone(PathBuf),
+    /// One that was gone is back, unchanged.
+    Back,
+}
+
 /// Checks the files of all materials once a second.
 #[derive(Debug, Default)]
 pub struct Watch {
@@ -24,16 +35,17 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// The indices of the materials whose files have changed since the last call.
-    pub fn poll(&mut self, ctx: &egui::Context, slots: &Slots) -> Vec<usize> {
+    /// What has happened since the last call, each with the index of the material.
+    pub fn poll(&mut self, ctx: &egui::Context, slots: &Slots) -> Vec<(usize, Change)> {
         let ids: Vec<u64> = slots.slots.iter().map(|slot| slot.id).collect();
         if self.watcher.is_none() || self.ids != ids {
             let watcher = self.watcher.get_or_insert_with(|| Watcher::start(ctx, INTERVAL));
             watcher.watch(slots.slots.iter().map(|slot| (slot.id, slot.loaded.files.clone())).collect());
             self.ids = ids;
         }
-        let stale = self.watcher.iter().flat_map(Watcher::stale);
-        stale.filter_map(|id| slots.slots.iter().position(|slot| slot.id == id)).collect()
+        let changes = self.watcher.iter().flat_map(Watcher::changes);
+        let index = |id| slots.slots.iter().position(|slot| slot.id == id);
+        changes.filter_map(|(id, change)| Some((index(id)?, change))).collect()
     }
 
     /// Ends the checks.
@@ -46,13 +58,13 @@ impl Watch {
 #[derive(Debug)]
 struct Watcher {
     files: Sender<Files>,
-    stale: Receiver<u64>,
+    changes: Receiver<(u64, Change)>,
 }
 
 impl Watcher {
     fn start(ctx: &egui::Context, interval: Duration) -> Self {
         let (files, new_files) = mpsc::channel();
-        let (sender, stale) = mpsc::channel();
+        let (sender, changes) = mpsc::channel();
         let ctx = ctx.clone();
         std::thread::spawn(move || {
             let mut check = Check::default();
@@ -62,15 +74,15 @@ impl Watcher {
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => return,
                 }
-                for id in check.stale() {
-                    if sender.send(id).is_err() {
+                for change in check.changes() {
+                    if sender.send(change).is_err() {
                         return;
                     }
                     ctx.request_repaint();
                 }
             }
         });
-        Self { files, stale }
+        Self { files, changes }
     }
 
     /// Watches these files in place of the earlier ones.
@@ -79,9 +91,9 @@ impl Watcher {
         let _ = self.files.send(files);
     }
 
-    /// The ids of the materials whose files have changed since the last call.
-    fn stale(&self) -> Vec<u64> {
-        self.stale.try_iter().collect()
+    /// What has happened since the last call, each with the id of the material.
+    fn changes(&self) -> Vec<(u64, Change)> {
+        self.changes.try_iter().collect()
     }
 }
 
@@ -90,22 +102,36 @@ impl Watcher {
 struct Check {
     files: Files,
     reported: HashMap<PathBuf, SystemTime>,
+    gone: HashSet<PathBuf>,
 }
 
 impl Check {
-    /// The ids of the materials with a file that has changed since it was read and since it was last reported. A file
-    /// that has vanished is not reported before it is there again.
-    fn stale(&mut self) -> Vec<u64> {
-        let mut stale = Vec::new();
+    /// What has happened to each material since the last call: a file has changed since it was read and since it was last
+    /// reported, is gone, or is back.
+    fn changes(&mut self) -> Vec<(u64, Change)> {
+        let mut changes = Vec::new();
         for (id, files) in &self.files {
-            let mut is_stale = false;
+            let (mut is_changed, mut is_back, mut gone) = (false, false, None);
             for (path, read) in files {
-                let Some(now) = changed(path).filter(|now| Some(*now) != *read) else { continue };
-                is_stale |= self.reported.insert(path.clone(), now) != Some(now);
+                let Some(now) = changed(path) else {
+                    if self.gone.insert(path.clone()) {
+                        gone = Some(path.clone());
+                    }
+                    continue;
+                };
+                is_back |= self.gone.remove(path);
+                if Some(now) != *read {
+                    is_changed |= self.reported.insert(path.clone(), now) != Some(now);
+                }
             }
-            stale.extend(is_stale.then_some(*id));
+            let change = match gone {
+                Some(path) => Some(Change::Gone(path)),
+                None if is_changed => Some(Change::Changed),
+                None => is_back.then_some(Change::Back),
+            };
+            changes.extend(change.map(|change| (*id, change)));
         }
-        stale
+        changes
     }
 }
 
@@ -135,16 +161,29 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (path, files) = watched(&folder);
         let mut check = Check { files, ..Check::default() };
-        assert!(check.stale().is_empty());
+        assert!(check.changes().is_empty());
         set_time(&path, 2000);
-        assert_eq!(check.stale(), [7]);
-        assert!(check.stale().is_empty(), "it is reported already");
+        assert_eq!(check.changes(), [(7, Change::Changed)]);
+        assert!(check.changes().is_empty(), "it is reported already");
         set_time(&path, 3000);
-        assert_eq!(check.stale(), [7]);
+        assert_eq!(check.changes(), [(7, Change::Changed)]);
+    }
+
+    #[test]
+    fn a_file_that_is_gone_is_reported_once_and_again_when_it_is_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, files) = watched(&folder);
+        let mut check = Check { files, ..Check::default() };
         std::fs::remove_file(&path).unwrap();
-        assert!(check.stale().is_empty(), "there is nothing to read");
+        assert_eq!(check.changes(), [(7, Change::Gone(path.clone()))]);
+        assert!(check.changes().is_empty(), "it is reported already");
+        std::fs::write(&path, "a").unwrap();
+        set_time(&path, 1000);
+        assert_eq!(check.changes(), [(7, Change::Back)], "it is as it was read");
+        std::fs::remove_file(&path).unwrap();
+        assert_eq!(check.changes(), [(7, Change::Gone(path.clone()))]);
         std::fs::write(&path, "b").unwrap();
-        assert_eq!(check.stale(), [7], "it is there again");
+        assert_eq!(check.changes(), [(7, Change::Changed)], "it is there again, and another");
     }
 
     #[test]
@@ -159,16 +198,16 @@ mod tests {
         let watcher = Watcher::start(&ctx, Duration::from_millis(1));
         watcher.watch(files);
         std::thread::sleep(Duration::from_millis(50));
-        assert_eq!((repaints.load(Ordering::SeqCst), watcher.stale()), (0, vec![]));
+        assert_eq!((repaints.load(Ordering::SeqCst), watcher.changes()), (0, vec![]));
         set_time(&path, 2000);
         let mut stale = Vec::new();
         for _ in 0..2000 {
-            stale.extend(watcher.stale());
+            stale.extend(watcher.changes());
             if !stale.is_empty() && repaints.load(Ordering::SeqCst) > 0 {
                 break;
             }
             std::thread::sleep(Duration::from_millis(5));
         }
-        assert_eq!((repaints.load(Ordering::SeqCst), stale), (1, vec![7]));
+        assert_eq!((repaints.load(Ordering::SeqCst), stale), (1, vec![(7, Change::Changed)]));
     }
 }

@@ -26,7 +26,16 @@ impl<T: Send + 'static> Task<T> {
         ctx: &egui::Context,
         work: impl FnOnce(&Progress) -> Result<T, Error> + Send + 'static,
     ) -> Self {
-        let progress = Arc::new(Progress::default());
+        Self::start_with(ctx, Progress::default(), work)
+    }
+
+    /// As [`Task::start`], with a progress that is known before the work.
+    pub fn start_with(
+        ctx: &egui::Context,
+        progress: Progress,
+        work: impl FnOnce(&Progress) -> Result<T, Error> + Send + 'static,
+    ) -> Self {
+        let progress = Arc::new(progress);
         let (sender, result) = mpsc::channel();
         let (ctx, seen) = (ctx.clone(), progress.clone());
         ctx.request_repaint_after(LOOK_AGAIN);
@@ -50,6 +59,21 @@ impl<T: Send + 'static> Task<T> {
                 Some(Err(Error::Internal("the work ended without a result".to_owned())))
             }
         }
+    }
+
+    /// The progress of the work, to cancel it from elsewhere.
+    pub fn progress(&self) -> Arc<Progress> {
+        self.progress.clone()
+    }
+
+    /// Waits for the end of the work.
+    ///
+    /// # Errors
+    /// Those of the work.
+    pub fn wait(&self) -> Result<T, Error> {
+        self.result
+            .recv()
+            .unwrap_or_else(|_| Err(Error::Internal("the work ended without a result".to_owned())))
     }
 
     /// Share of the work that is done, in [0, 1].

@@ -1,4 +1,4 @@
-//! The cases: a table of values for each axis, and random ones.
+//! The cases: every pair of values of a table's axes, and random points.
 
 use exr::prelude::f16;
 use glam::{DVec3, Vec3};
@@ -9,11 +9,11 @@ use svbrdf::model::convention::{self, Convention};
 use crate::support::points::Generator;
 
 pub const ROUGHNESS: [f64; 9] = [0.0, 1e-5, 1e-4, 1e-3, 1.0 / 255.0, 0.01, 0.1, 0.5, 1.0];
-/// NoH as far as the format of the normal can hold it.
+/// NoH, before the normal is rounded to its format.
 pub const N_DOT_H: [f64; 4] = [1.0, 1.0 - 1.0 / (1 << 24) as f64, 1.0 - 1.0 / (1 << 12) as f64, 0.0];
 /// Heights of the unit vector to the light above the plane; the last is below it.
 pub const LIGHT_Z: [f64; 6] = [1.0, 0.5, 0.1, 1e-3, 1e-6, -0.5];
-/// Where the view is: at a height, or as the light is.
+/// Views: at a height above the plane, or relative to the light.
 pub const VIEWS: [View; 9] = [
     View::Height(1.0),
     View::Height(0.5),
@@ -29,17 +29,17 @@ pub const VIEWS: [View; 9] = [
 pub const ALBEDO: [f64; 4] = [0.0, 1.0 / (1 << 24) as f64, 0.5, 1.0];
 /// Distances of light and view from the texel.
 pub const DISTANCE: [f64; 5] = [1e-4, 1e-2, 1.0, 1e3, 1e6];
-/// What the maps are stored as.
+/// Storage formats of the maps.
 pub const FORMATS: [Format; 3] = [Format::Bits8, Format::Half, Format::Float];
 
 #[derive(Clone, Copy, Debug)]
 pub enum View {
     Height(f64),
-    /// The light's mirror image at the plane's normal.
+    /// The mirror direction of the light about the normal of the plane.
     Mirror,
     /// v = l.
     Light,
-    /// A thousandth of a radian off it.
+    /// 0.001 radians from the mirror direction.
     AlmostMirror,
     /// v = -l.
     Opposite,
@@ -74,8 +74,8 @@ impl Format {
 /// Texels that share a convention, a light and a view.
 pub struct Batch {
     pub convention: Convention,
-    /// Whether the fused kernel sees light and view at their distances, over materials of one texel each. Else it sees
-    /// them infinitely far, over all texels at once.
+    /// Near-field: the fused kernel gets light and view at their distances, over materials of one texel each. Otherwise
+    /// distant, over all texels at once.
     pub near: bool,
     /// A row of texels.
     pub material: Material<f32>,
@@ -94,7 +94,7 @@ impl Batch {
     }
 }
 
-/// A material of one row, whose normals are normalized again.
+/// A material of one row. Its normals are normalized once more.
 pub fn row(texels: &[Texel<f32>]) -> Material<f32> {
     let plane = |value: &dyn Fn(&Texel<f32>) -> f32| texels.iter().map(value).collect::<Vec<_>>();
     let planes = Planes {
@@ -106,7 +106,7 @@ pub fn row(texels: &[Texel<f32>]) -> Material<f32> {
     Material::new("cases", texels.len(), 1, planes).unwrap()
 }
 
-/// `axis` turned by `angle` towards the side that `azimuth` names. Both in radians.
+/// `axis` rotated by `angle` towards the direction at `azimuth` around it. Both in radians.
 pub fn turned(axis: DVec3, angle: f64, azimuth: f64) -> DVec3 {
     let other = if axis.x.abs() < 0.5 { DVec3::X } else { DVec3::Y };
     let x = axis.cross(other).normalize();
@@ -137,8 +137,8 @@ pub const SIZES: Indices = [
     convention::ALL.len(),
 ];
 
-/// What each batch of the table holds: every roughness, NoH and pair of albedos for a light and a view. Distances,
-/// formats and sides to which normals are turned alternate.
+/// The table: for each light and view a batch with every roughness, NoH and pair of albedos. Distances, formats and
+/// the azimuths of the normals alternate.
 pub fn table() -> impl Iterator<Item = (Batch, Vec<[Indices; 3]>)> {
     let rounds = LIGHT_Z.len() * VIEWS.len() * DISTANCE.len();
     (0..rounds * convention::ALL.len()).map(move |i| batch_of_table(i / rounds, i % rounds))

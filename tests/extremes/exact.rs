@@ -1,4 +1,4 @@
-//! Algorithm 3 with 256 bits, as it is printed: independent of how `brdf` rearranges it.
+//! Algorithm 3 as printed, in 256 bits: independent of the rearrangements in `brdf`.
 
 use std::array::from_fn;
 use std::sync::LazyLock;
@@ -33,7 +33,7 @@ fn vector(a: Vec3) -> BigVec {
     a.to_array().map(|x| big(x.into()))
 }
 
-/// The radiance R of a texel, rounded to f64 at the end. The inputs count as exact; the normal is brought to length 1.
+/// The radiance R of a texel, rounded to f64 at the end. The inputs are taken as exact; the normal is normalized.
 pub fn radiance(c: &Convention, texel: &Texel<f32>, w_l: Vec3, w_v: Vec3) -> [f64; 3] {
     let [zero, one, two] = [0.0, 1.0, 2.0].map(big);
     let [n, l, v] = [texel.normal, w_l, w_v].map(|w| unit(&vector(w)));

@@ -1,4 +1,4 @@
-//! Errors over roughness and the angle between n and h, as an SVG.
+//! docs/extremes.svg: maps of the error over roughness and the angle between n and h.
 
 use std::fmt::{Display, Write as _};
 
@@ -15,21 +15,21 @@ use crate::support::points::Generator;
 
 const COLUMNS: usize = 70;
 const ROWS: usize = 48;
-/// Pairs of light and view of which the largest error is shown.
+/// Pairs of light and view. A cell shows the largest error over all of them.
 const PAIRS: u64 = 24;
-/// Decimal logarithms of what the axes span.
+/// The ranges of the axes, as decimal logarithms.
 const ANGLES: [f64; 2] = [-7.0, 0.0];
 const ROUGHNESSES: [f64; 2] = [-4.0, 0.0];
 
-/// Pixels to a cell.
+/// Pixels per cell.
 const CELL: usize = 4;
 const WIDTH: usize = COLUMNS * CELL;
 const HEIGHT: usize = ROWS * CELL;
-/// From one panel to the next.
+/// Pixels from one panel to the next.
 const PITCH: [usize; 2] = [WIDTH + 34, HEIGHT + 66];
 const ORIGIN: [usize; 2] = [74, 74];
 
-/// Colour by colour, the largest error it stands for; the last is for what is larger, not finite or negative.
+/// The largest error that each colour stands for. The last one also stands for infinite, NaN and negative results.
 const SCALE: [(f64, &str, &str); 9] = [
     (1e-7, "#1f5fa8", "1e-7"),
     (1e-6, "#4a97c9", "1e-6"),
@@ -42,20 +42,19 @@ const SCALE: [(f64, &str, &str); 9] = [
     (f64::INFINITY, "#111111", "more"),
 ];
 
-/// What is shown: a title, and the largest relative error in each cell, row by row from r = 1e-4; empty where there is
-/// none.
+/// A title and the largest relative error in each cell, row by row from r = 1e-4; empty without an adapter.
 struct Panel {
     title: &'static str,
     errors: Vec<f64>,
 }
 
-/// Logarithmic: the middle of cell `i` of `count`.
+/// The middle of cell `i` of `count` on a logarithmic axis.
 fn at([low, high]: [f64; 2], i: usize, count: usize) -> f64 {
     10f64.powf(low + (high - low) * (i as f64 + 0.5) / count as f64)
 }
 
-/// White mirrors of all roughnesses, turned from the half vector by all angles to random sides, for one pair of light
-/// and view within 20 degrees of the zenith.
+/// White metals of every roughness, rotated from the half vector by every angle at random azimuths, under one pair of
+/// light and view within 20 degrees of the zenith.
 fn batch(pair: u64) -> Batch {
     let mut g = Generator::new(5, pair);
     let mut near_zenith = || {
@@ -99,7 +98,7 @@ fn panels() -> Vec<Panel> {
     }
     vec![
         panel(
-            "what one ulp of the input changes",
+            "change by one ulp of the input",
             truth.iter().map(|b| b.iter().map(moved).collect()).collect(),
         ),
         panel("f32", batches.iter().map(rungs::in_f32).collect()),

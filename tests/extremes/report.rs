@@ -1,4 +1,4 @@
-//! docs/extremes.md: the tables of a survey, and how to read them.
+//! docs/extremes.md: the tables of a survey with their explanation.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use super::regions::Region;
 use super::rungs::{self, Rung};
 use super::survey::{Case, Errors, Survey};
 
-/// The document. `random` of the survey's points are random.
+/// The document. `random` is the number of random points among the points of the survey.
 pub fn markdown(survey: &Survey, random: u64, adapter: Option<&str>) -> String {
     let levels: Vec<_> = rungs::levels().into_iter().map(|(name, _)| name).collect();
     let mut text = format!(
@@ -57,12 +57,12 @@ fn number(x: f64) -> String {
     }
 }
 
-/// Rounded down: 100% are all.
+/// Rounded down, so that 100% means all.
 fn percent(share: f64) -> String {
     format!("{}%", (1000.0 * share).floor() / 10.0)
 }
 
-/// Where each rung of each region is worst.
+/// The worst case of each rung in each region.
 fn worst_cases(survey: &Survey) -> String {
     let mut text =
         "| region | rung | convention | r | sin(n, h) | NoL | NoV | l.z | v.z | \\|l + v\\| | one ulp | \

@@ -1,4 +1,4 @@
-//! How far each rung is off in each region: the comparator, and what it has seen.
+//! The comparator: the errors of every rung in every region, checked against their bounds.
 
 use rayon::prelude::*;
 
@@ -7,20 +7,20 @@ use super::regions::{Place, Region, Truth};
 use super::rungs::{self, Rgb, Rung};
 use crate::support::tolerance::EXTREMES;
 
-/// Relative errors of which it is counted how many are smaller.
+/// Limits of the relative error: errors within each of them are counted.
 pub const WITHIN: [f64; 2] = [1e-6, 1e-3];
 
-/// Errors of many cases, relative to what was expected.
+/// The relative errors of many cases.
 #[derive(Clone, Default)]
 pub struct Errors {
     pub count: u64,
     pub worst: f64,
     pub worst_case: Option<Case>,
-    /// How many are within each of [`WITHIN`].
+    /// The number of errors within each of [`WITHIN`].
     within: [u64; 2],
 }
 
-/// One channel of a texel that a rung was seen at.
+/// One channel of one texel, as a rung computed it.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     pub convention: &'static str,
@@ -51,22 +51,22 @@ impl Errors {
         }
     }
 
-    /// How many of all errors are within each of [`WITHIN`], from 0 to 1.
+    /// The share of the errors within each of [`WITHIN`], from 0 to 1.
     pub fn shares_within(&self) -> [f64; 2] {
         self.within.map(|within| within as f64 / self.count as f64)
     }
 }
 
-/// What a survey has seen.
+/// The errors of all rungs over a set of cases.
 #[derive(Clone)]
 pub struct Survey {
-    /// In the order of `Region::ALL`, of each region in that of `Rung::ALL`.
+    /// Indexed by region, then by rung.
     errors: Vec<Vec<Errors>>,
-    /// Of each region: what one ulp of the input changes.
+    /// Per region, the relative change of R by one ulp of the input.
     one_ulp: Vec<Errors>,
-    /// The largest share of its bound that each rung has used.
+    /// Per rung, the largest error as a share of its bound.
     pub shares: Vec<f64>,
-    /// A few cases that broke a bound.
+    /// A few cases outside their bounds.
     faults: Vec<(Rung, String)>,
     pub points: u64,
 }
@@ -142,7 +142,7 @@ impl Survey {
     }
 
     /// # Errors
-    /// A few cases of each rung that broke a bound.
+    /// A few cases of each rung outside their bounds.
     pub fn verdict(&self) -> Result<(), String> {
         let faults: Vec<_> = self.faults.iter().map(|(_, fault)| fault.as_str()).collect();
         if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
@@ -157,7 +157,7 @@ impl Survey {
         }
     }
 
-    /// Notes errors of what is held to nothing.
+    /// Records errors that have no bound.
     fn note(&mut self, rung: Rung, truth: &[Truth], got: &[Rgb]) {
         for (truth, got) in truth.iter().zip(got) {
             for (c, &got) in got.iter().enumerate() {
@@ -167,10 +167,12 @@ impl Survey {
         }
     }
 
-    /// Holds a rung to its bounds: the one of the point, and the one of its region. Of `Rung::F64`, `other` are the
-    /// exact numbers; else what the rung gave, at the instruction set `level`.
+    /// Checks a rung against the bound of each point and the bound of its region.
+    ///
+    /// For `Rung::F64`, `other` holds the results in 256 bits; otherwise the results of the rung at the instruction set
+    /// `level`.
     pub fn hold(&mut self, rung: Rung, level: &'static str, batch: &Batch, truth: &[Truth], other: &[Rgb]) {
-        assert_eq!(truth.len(), other.len(), "no case may get lost");
+        assert_eq!(truth.len(), other.len(), "one result per case");
         for (i, (truth, other)) in truth.iter().zip(other).enumerate() {
             for (c, &other) in other.iter().enumerate() {
                 let expected = truth.expected[c];
@@ -218,7 +220,7 @@ fn is_radiance(x: f64) -> bool {
     x.is_finite() && x >= 0.0
 }
 
-/// [`relative`], and infinite for what is no radiance.
+/// The relative error; infinite where `got` is not a radiance.
 pub fn error_of_any(got: f64, want: f64) -> f64 {
     if is_radiance(got) { relative(got, want) } else { f64::INFINITY }
 }

@@ -9,6 +9,7 @@ mod gestures;
 mod key_presses;
 mod loss_panel;
 mod panels;
+mod reading;
 mod study;
 
 #[path = "../support/gpu.rs"]
@@ -37,7 +38,7 @@ fn window<'a>(options: ViewerOptions) -> Window<'a> {
         .build_eframe(|cc| App::new(cc, options));
     window.set_render_cursor(false);
     wait(&mut window, "the materials to be read", |app| {
-        !app.names().is_empty() || !app.messages().is_empty()
+        !app.is_reading() && (!app.names().is_empty() || !app.messages().is_empty())
     });
     window
 }

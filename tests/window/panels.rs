@@ -82,8 +82,8 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
     window.get_by_label_contains("epoch_0001").click();
     window.run_steps(3);
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Enter);
-    wait(&mut window, "the error", |app| !app.messages().is_empty());
-    assert!(window.state().messages()[0].contains(&path(1)), "{:?}", window.state().messages());
+    wait(&mut window, "the end of reading", |app| !app.is_reading());
+    window.get_by_label_contains(&format!("cannot read {}", path(1)));
     assert_eq!(window.state().settings.recent.len(), 12, "what could not be opened is not remembered");
 }
 
@@ -91,6 +91,8 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_side_panel_stands_beside_the_panes_in_the_smallest_window() {
     let mut window = built_in();
+    // While it is computed, there is another button.
+    wait(&mut window, "the loss", |app| app.losses().is_some());
     for size in [vec2(640.0, 420.0), vec2(760.0, 500.0), vec2(1600.0, 900.0)] {
         window.set_size(size);
         window.run_steps(8);

@@ -1,5 +1,7 @@
 //! Commands about what the panes show, and how.
 
+use eframe::egui;
+
 use crate::material::Material;
 use crate::model::brdf::Model;
 use crate::picture::quantity::Quantity;
@@ -16,7 +18,7 @@ const STOPS: f32 = 20.0;
 const AUTO_EXPOSURE_TEXELS: usize = 20_000;
 
 impl App {
-    pub(super) fn apply_to_display(&mut self, command: DisplayCommand) {
+    pub(super) fn apply_to_display(&mut self, ctx: &egui::Context, command: DisplayCommand) {
         let state = &mut self.state;
         match command {
             DisplayCommand::SetQuantity(quantity) => state.quantity = quantity,
@@ -50,16 +52,8 @@ impl App {
             DisplayCommand::Fit => (state.zoom, state.pan) = (1.0, [0.0; 2]),
             DisplayCommand::OneToOne => self.one_to_one(),
             DisplayCommand::Reset => *state = state.reset(),
-            DisplayCommand::Undo => {
-                if let Some(earlier) = self.undoer.undo(&self.state) {
-                    self.state = earlier.clone();
-                }
-            }
-            DisplayCommand::Redo => {
-                if let Some(later) = self.undoer.redo(&self.state) {
-                    self.state = later.clone();
-                }
-            }
+            DisplayCommand::Undo => self.undo(ctx),
+            DisplayCommand::Redo => self.redo(ctx),
         }
     }
 

@@ -4,8 +4,8 @@ use eframe::egui::{self, RichText};
 
 use crate::files::read::{Certainty, Sidecar};
 use crate::viewer::command::{Command, MaterialsCommand};
-use crate::viewer::loaded::Origin;
 use crate::viewer::slots::{Slot, Slots};
+use crate::viewer::source::Origin;
 use crate::viewer::theme;
 
 /// What the section shows.
@@ -38,10 +38,9 @@ impl MaterialsPanel<'_> {
             }
         });
         for opening in &self.slots.openings {
-            let text = format!("Reading {}", opening.what);
-            ui.add(egui::ProgressBar::new(opening.task.fraction()).text(text));
+            ui.add(egui::ProgressBar::new(opening.fraction()).text(opening.text()));
             if ui.small_button("Cancel reading").clicked() {
-                opening.task.cancel();
+                opening.cancel();
             }
         }
         for (index, slot) in self.slots.slots.iter().enumerate() {
@@ -89,12 +88,15 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
     let [width, height] = loaded.material.size();
     ui.add(egui::Label::new(RichText::new(slot.name()).strong()).truncate());
     let origin = match &loaded.origin {
-        Origin::BuiltIn => "built in".to_owned(),
+        Origin::BuiltIn(_) => "built in".to_owned(),
         Origin::Path(path) => path.display().to_string(),
     };
     ui.add(
         egui::Label::new(RichText::new(format!("{width} x {height}, {origin}")).small().weak()).truncate(),
     );
+    if let Some(problem) = &slot.problem {
+        ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
+    }
     if matches!(loaded.origin, Origin::Path(_)) {
         let mut read = loaded.read;
         super::read_options(ui, slot.name(), &mut read, &loaded.assumptions);

@@ -6,6 +6,7 @@ use eframe::egui::{self, RichText};
 
 use crate::files::read::ReadOptions;
 use crate::viewer::command::{Command, MaterialsCommand, WindowCommand};
+use crate::viewer::theme;
 
 /// The paths and choices so far.
 #[derive(Debug, Default)]
@@ -14,6 +15,12 @@ pub struct OpenWindow {
     pub text: String,
     pub as_predictions: bool,
     pub read: ReadOptions,
+    /// Whether its materials have been asked for.
+    pub submitted: bool,
+    /// The number of the opening that reads its materials.
+    pub opening: Option<u64>,
+    /// What went wrong.
+    problem: Option<String>,
     /// Whether the path field has been given the focus.
     focused: bool,
 }
@@ -67,6 +74,12 @@ impl OpenWindow {
         commands
     }
 
+    /// Shows what went wrong, and puts the cursor into the path field.
+    pub fn fail(&mut self, problem: String) {
+        self.problem = Some(problem);
+        (self.submitted, self.opening, self.focused) = (false, None, false);
+    }
+
     fn paths(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let label = ui.label("Files, folders or name prefixes, one a line:");
         let field = egui::TextEdit::multiline(&mut self.text)
@@ -76,6 +89,9 @@ impl OpenWindow {
         let field = ui.add(field).labelled_by(label.id);
         if !std::mem::replace(&mut self.focused, true) {
             field.request_focus();
+        }
+        if let Some(problem) = &self.problem {
+            ui.label(RichText::new(problem).color(theme::problem(ui.visuals())));
         }
         ui.horizontal(|ui| {
             if ui.button("Browse files...").clicked() {
@@ -119,13 +135,15 @@ impl OpenWindow {
         super::read_options(ui, "the materials to open", &mut self.read, &[]);
         let paths: Vec<PathBuf> =
             self.text.lines().map(str::trim).filter(|l| !l.is_empty()).map(PathBuf::from).collect();
-        let button = ui.add_enabled(!paths.is_empty(), egui::Button::new("Open these"));
+        let ready = !paths.is_empty() && !self.submitted;
+        let text = if self.submitted { "Reading..." } else { "Open these" };
+        let button = ui.add_enabled(ready, egui::Button::new(text));
         let entered = ui.input_mut(|i| i.consume_key(egui::Modifiers::COMMAND, egui::Key::Enter));
-        if button.on_hover_text("Ctrl+Enter").clicked() || (entered && !paths.is_empty()) {
+        if button.on_hover_text("Ctrl+Enter").clicked() || (entered && ready) {
+            (self.submitted, self.problem) = (true, None);
             commands.push(
                 MaterialsCommand::Open { paths, replace: !self.as_predictions, read: self.read }.into(),
             );
-            commands.push(WindowCommand::ShowOpen(false).into());
         }
     }
 }

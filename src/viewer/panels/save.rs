@@ -16,11 +16,21 @@ pub struct SaveWindow {
     replaces: Option<String>,
     /// Whether the path field has been given the focus.
     focused: bool,
+    /// Whether the file is being written.
+    saving: bool,
+    /// What went wrong.
+    problem: Option<String>,
 }
 
 impl Default for SaveWindow {
     fn default() -> Self {
-        Self { path: "svbrdf-view.png".to_owned(), replaces: None, focused: false }
+        Self {
+            path: "svbrdf-view.png".to_owned(),
+            replaces: None,
+            focused: false,
+            saving: false,
+            problem: None,
+        }
     }
 }
 
@@ -55,7 +65,16 @@ impl SaveWindow {
                 if told {
                     ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
                 }
-                if ui.button(if told { "Replace it" } else { "Save picture" }).clicked() || entered {
+                if let Some(problem) = &self.problem {
+                    ui.colored_label(theme::problem(ui.visuals()), problem);
+                }
+                let text = match (self.saving, told) {
+                    (true, _) => "Saving...",
+                    (_, true) => "Replace it",
+                    _ => "Save picture",
+                };
+                let clicked = ui.add_enabled(!self.saving, egui::Button::new(text)).clicked();
+                if clicked || (entered && !self.saving) {
                     self.save(&mut commands);
                 }
             });
@@ -65,6 +84,12 @@ impl SaveWindow {
         commands
     }
 
+    /// Shows what went wrong, and puts the cursor into the path field.
+    pub fn fail(&mut self, problem: String) {
+        self.problem = Some(problem);
+        (self.saving, self.focused) = (false, false);
+    }
+
     /// Saves, unless that replaces a file and the dialog has not said so yet.
     fn save(&mut self, commands: &mut Vec<Command>) {
         let path = PathBuf::from(self.path.trim());
@@ -72,7 +97,7 @@ impl SaveWindow {
             self.replaces = Some(self.path.trim().to_owned());
             return;
         }
+        (self.saving, self.problem) = (true, None);
         commands.push(WindowCommand::SaveView(path).into());
-        commands.push(WindowCommand::ShowSave(false).into());
     }
 }

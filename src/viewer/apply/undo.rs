@@ -1,0 +1,45 @@
+//! Undo and redo.
+
+use eframe::egui;
+
+use crate::viewer::app::App;
+use crate::viewer::history::Moment;
+
+impl App {
+    /// Takes note of the moment, once the first materials are there. A set counts once it has been read.
+    pub(in crate::viewer) fn remember_moment(&mut self, ctx: &egui::Context) {
+        if self.slots.openings.is_empty() {
+            self.history.materials = self.slots.sources();
+        }
+        if !self.history.materials.is_empty() {
+            let now = self.moment();
+            self.history.undoer.feed_state(ctx.input(|i| i.time), &now);
+        }
+    }
+
+    pub(super) fn undo(&mut self, ctx: &egui::Context) {
+        let now = self.moment();
+        let earlier = self.history.undoer.undo(&now).cloned();
+        self.return_to(ctx, earlier);
+    }
+
+    pub(super) fn redo(&mut self, ctx: &egui::Context) {
+        let now = self.moment();
+        let later = self.history.undoer.redo(&now).cloned();
+        self.return_to(ctx, later);
+    }
+
+    fn moment(&self) -> Moment {
+        Moment { view: self.state.clone(), materials: self.history.materials.clone() }
+    }
+
+    fn return_to(&mut self, ctx: &egui::Context, moment: Option<Moment>) {
+        let Some(Moment { view, materials }) = moment else { return };
+        self.state = view;
+        if materials != self.history.materials {
+            let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+            self.slots.restore(ctx, gpu, &materials);
+            self.history.materials = materials;
+        }
+    }
+}

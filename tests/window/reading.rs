@@ -1,0 +1,136 @@
+//! Reading on the worker, files that change, undo of the set of materials, and messages.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use svbrdf::files::read::ReadOptions;
+use svbrdf::samples::generate;
+use svbrdf::viewer::command::{Command, DisplayCommand, MaterialsCommand};
+
+use super::*;
+
+/// Writes the built-in ground truth as a strip, enlarged.
+fn strip(path: &Path, times: u32) -> PathBuf {
+    let side = generate::SIDE as u32;
+    let pixels = generate::pack(&generate::ground_truth());
+    let picture = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
+    let picture = image::imageops::resize(
+        &picture,
+        4 * side * times,
+        side * times,
+        image::imageops::FilterType::Nearest,
+    );
+    picture.save(path).unwrap();
+    path.to_owned()
+}
+
+fn open(paths: Vec<PathBuf>) -> Command {
+    MaterialsCommand::Open { paths, replace: true, read: ReadOptions::AUTO }.into()
+}
+
+fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
+    let (ctx, command) = (window.ctx.clone(), command.into());
+    window.state_mut().apply(&ctx, command);
+}
+
+/// The time until the window wants to be drawn again.
+fn repaint_delay(window: &Window<'_>) -> Duration {
+    window.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_second_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths: Vec<_> = (0..4).map(|i| strip(&folder.path().join(format!("m{i}.png")), 4)).collect();
+    let mut window = built_in();
+    // The loss of the built-in pair is computed while it is shown.
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    apply(&mut window, open(paths));
+    window.run_steps(4);
+    let (mut first_alone, mut longest) = (false, Duration::ZERO);
+    while window.state().is_reading() {
+        window.step();
+        first_alone |= window.state().names() == ["m0"];
+        longest = longest.max(repaint_delay(&window));
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    assert!(first_alone, "all materials came at once");
+    // Another frame is wanted when a material has been read, and otherwise for the progress bar.
+    assert!(longest >= Duration::from_millis(100), "frames are wanted every {longest:?}");
+    assert_eq!(window.state().names(), ["m0", "m1", "m2", "m3"]);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_material_whose_file_is_gone_or_broken_is_marked_until_it_is_whole_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = ["gt.png", "p.png"].map(|name| strip(&folder.path().join(name), 1));
+    let options = ViewerOptions {
+        ground_truth: Some(paths[0].clone()),
+        predictions: vec![paths[1].clone()],
+        ..ViewerOptions::default()
+    };
+    let mut window = window(options);
+    apply(&mut window, MaterialsCommand::SetWatch(true));
+    window.run_steps(3);
+    let whole = std::fs::read(&paths[1]).unwrap();
+    std::fs::remove_file(&paths[1]).unwrap();
+    wait(&mut window, "the mark", |app| app.problems()[1].is_some_and(|text| text.contains("is gone")));
+    assert_eq!(window.state().problems()[0], None);
+    std::fs::write(&paths[1], &whole[..whole.len() / 2]).unwrap();
+    wait(&mut window, "the error", |app| !app.messages().is_empty());
+    assert!(window.state().problems()[1].is_some_and(|text| text.contains("Not read again")));
+    std::fs::write(&paths[1], &whole).unwrap();
+    wait(&mut window, "the whole file", |app| app.problems()[1].is_none());
+    assert!(window.state().messages().is_empty(), "it is settled: {:?}", window.state().messages());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = ["gt.png", "p.png"].map(|name| strip(&folder.path().join(name), 1));
+    let options = ViewerOptions {
+        ground_truth: Some(paths[0].clone()),
+        predictions: vec![paths[1].clone()],
+        ..ViewerOptions::default()
+    };
+    let mut window = window(options);
+    // Longer than it takes for a state to become one to return to.
+    window.run_steps(30);
+    apply(&mut window, MaterialsCommand::OpenBuiltIn);
+    wait(&mut window, "the built-in pair", |app| app.names().len() == 3);
+    window.run_steps(30);
+    apply(&mut window, DisplayCommand::Undo);
+    wait(&mut window, "the earlier materials", |app| app.names() == ["gt", "p"]);
+    window.run_steps(30);
+    apply(&mut window, DisplayCommand::Redo);
+    wait(&mut window, "the built-in pair", |app| app.names().len() == 3);
+    wait(&mut window, "the end of reading", |app| !app.is_reading());
+    window.run_steps(30);
+    apply(&mut window, MaterialsCommand::Close(2));
+    window.run_steps(30);
+    assert_eq!(window.state().names().len(), 2);
+    apply(&mut window, DisplayCommand::Undo);
+    wait(&mut window, "the closed prediction", |app| app.names().len() == 3);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn messages_take_no_room_from_the_panes() {
+    let mut window = built_in();
+    let before = pane(&window, GROUND_TRUTH);
+    for name in ["no/such/a.png", "no/such/b.png", "no/such/c.png"] {
+        apply(&mut window, open(vec![name.into()]));
+        wait(&mut window, "the error", |app| app.messages().iter().any(|text| text.contains(name)));
+    }
+    assert_eq!(pane(&window, GROUND_TRUTH), before);
+    let message = window.state().messages()[0].clone();
+    window.get_by_label(&format!("Dismiss: {message}")).click();
+    window.run_steps(3);
+    assert_eq!(window.state().messages().len(), 2);
+    window.get_by_label("Dismiss all").click();
+    window.run_steps(3);
+    assert!(window.state().messages().is_empty());
+}
