@@ -3,17 +3,26 @@
 mod advice;
 mod backend;
 mod bar;
+mod blame;
 mod convert;
 mod exit;
 mod info;
 mod loss;
+mod map;
 mod materials;
+mod metrics;
+mod rank;
 mod reading;
 mod render;
 mod report;
+mod scene_args;
+mod scenes;
 mod stop;
 mod study;
+mod table;
 mod view;
+mod wildcards;
+mod worst;
 
 use clap::{Parser, Subcommand};
 use svbrdf::error::Error;
@@ -26,6 +35,7 @@ Examples:
   svbrdf gt.png prediction.png            opens your own materials
   svbrdf loss gt.png a.png b.png          prints the losses of two predictions
   svbrdf loss gt.png a.png --format json  the same as JSON
+  svbrdf blame gt.png prediction.png      prints how much of the loss comes from each map
   svbrdf render gt.png -o gt.exr          renders to linear floats
   svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
   svbrdf info gt.png                      prints what the files hold and what was assumed
@@ -57,6 +67,12 @@ enum Command {
     View(view::ViewArgs),
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
+    Rank(rank::RankArgs),
+    Blame(blame::BlameArgs),
+    Scenes(scenes::ScenesArgs),
+    Worst(worst::WorstArgs),
+    Map(map::MapArgs),
+    Metrics(metrics::MetricsArgs),
     Study(study::StudyArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
@@ -72,6 +88,12 @@ impl Cli {
             Command::View(args) => view::run(args),
             Command::Loss(args) => loss::run(&args),
             Command::Render(args) => render::run(&args),
+            Command::Rank(args) => rank::run(args),
+            Command::Blame(args) => blame::run(&args),
+            Command::Scenes(args) => scenes::run(&args),
+            Command::Worst(args) => worst::run(&args),
+            Command::Map(args) => map::run(&args),
+            Command::Metrics(args) => metrics::run(&args),
             Command::Study(args) => study::run(&args),
             Command::Info(args) => info::run(&args),
             Command::Convert(args) => convert::run(&args),

@@ -155,7 +155,7 @@ fn panes_of_gpu(_: &RenderArgs, _: &[Material<f32>], _: &Scene) -> Result<(Vec<I
 }
 
 /// Three numbers with commas between them.
-fn triple(text: &str) -> Result<[f64; 3], String> {
+pub fn triple(text: &str) -> Result<[f64; 3], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     let expected = || format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`");
     numbers.ok().and_then(|numbers| numbers.try_into().ok()).ok_or_else(expected)

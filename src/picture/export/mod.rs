@@ -6,11 +6,11 @@ mod provenance;
 
 use std::path::Path;
 
-pub use crate::files::atomic::{Destination, check_place};
+pub use crate::files::atomic::{Destination, check_place, write_text};
 pub(crate) use crate::files::atomic::{Watched, check, folder_of, replace};
-pub use provenance::{Provenance, Shows};
+pub use provenance::{Entries, Provenance, Shows};
 
-use super::colour_map::difference_to_display;
+use super::colour_map::{difference_to_display, heat};
 use super::tone::to_display;
 use crate::error::Error;
 use crate::image::Image;
@@ -56,15 +56,44 @@ impl Destination<Format> {
         provenance: &Provenance,
         progress: &Progress,
     ) -> Result<(), Error> {
+        self.write_as(panes, |rgb| colour(rgb, provenance), &provenance.entries(), progress)
+    }
+
+    /// Writes maps of numbers, which are equally high, side by side: an EXR has the numbers, a PNG the colours of the means of
+    /// the channels from 0 to `full`, and gray where there is no number.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write_maps(
+        &self,
+        panes: &[Image<f32>],
+        full: f32,
+        entries: &Entries,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        let colour = |rgb: [f32; 3]| match rgb.iter().sum::<f32>() / 3.0 / full {
+            share if share.is_nan() => MID_GRAY,
+            share => heat(share).map(|c| (c * 255.0 + 0.5).floor() as u8),
+        };
+        self.write_as(panes, colour, entries, progress)
+    }
+
+    fn write_as(
+        &self,
+        panes: &[Image<f32>],
+        colour: impl Fn([f32; 3]) -> [u8; 3],
+        entries: &Entries,
+        progress: &Progress,
+    ) -> Result<(), Error> {
         match self.format {
             Format::Exr => {
                 let picture = side_by_side(panes, [0.0; 3]);
-                self.replace(progress, |file| exr::write(file, picture, provenance))
+                self.replace(progress, |file| exr::write(file, picture, entries))
             }
             Format::Png => {
-                let shown: Vec<_> = panes.iter().map(|p| displayed(p, provenance)).collect();
+                let shown: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
                 let picture = side_by_side(&shown, MID_GRAY);
-                self.replace(progress, |file| png::write(file, &picture, provenance))
+                self.replace(progress, |file| png::write(file, &picture, entries))
             }
         }
     }
@@ -85,12 +114,15 @@ fn side_by_side<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
     Image { width, height, pixels }
 }
 
-fn displayed(image: &Image<f32>, provenance: &Provenance) -> Image<u8> {
-    let colour = match provenance.shows {
-        Shows::Radiance => to_display,
-        Shows::LogDifference => difference_to_display,
-    };
-    let pixels = image.pixels.iter().map(|&rgb| colour(rgb, provenance.exposure_ev)).collect();
+fn colour(rgb: [f32; 3], provenance: &Provenance) -> [u8; 3] {
+    match provenance.shows {
+        Shows::Radiance => to_display(rgb, provenance.exposure_ev),
+        Shows::LogDifference => difference_to_display(rgb, provenance.exposure_ev),
+    }
+}
+
+fn displayed(image: &Image<f32>, colour: impl Fn([f32; 3]) -> [u8; 3]) -> Image<u8> {
+    let pixels = image.pixels.iter().map(|&rgb| colour(rgb)).collect();
     Image { width: image.width, height: image.height, pixels }
 }
 

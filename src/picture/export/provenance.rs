@@ -14,6 +14,9 @@ pub enum Shows {
     LogDifference,
 }
 
+/// What a file says about its picture: (keyword, text).
+pub type Entries = [(&'static str, String)];
+
 /// What a picture shows, and how.
 #[derive(Clone, Debug)]
 pub struct Provenance {
