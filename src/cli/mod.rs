@@ -12,6 +12,7 @@ mod reading;
 mod render;
 mod report;
 mod stop;
+mod strip;
 mod study;
 mod view;
 
@@ -27,6 +28,7 @@ Examples:
   svbrdf loss gt.png a.png b.png          prints the losses of two predictions
   svbrdf loss gt.png a.png --format json  the same as JSON
   svbrdf render gt.png -o gt.exr          renders to linear floats
+  svbrdf strip gt.png a.png -o fig.png    writes a labelled figure of maps and renderings
   svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
   svbrdf info gt.png                      prints what the files hold and what was assumed
   svbrdf convert gt.png gt.exr            writes the material as one layered EXR
@@ -57,6 +59,7 @@ enum Command {
     View(view::ViewArgs),
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
+    Strip(strip::StripArgs),
     Study(study::StudyArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
@@ -72,6 +75,7 @@ impl Cli {
             Command::View(args) => view::run(args),
             Command::Loss(args) => loss::run(&args),
             Command::Render(args) => render::run(&args),
+            Command::Strip(args) => strip::run(&args),
             Command::Study(args) => study::run(&args),
             Command::Info(args) => info::run(&args),
             Command::Convert(args) => convert::run(&args),

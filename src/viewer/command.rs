@@ -5,6 +5,7 @@
 use std::path::PathBuf;
 
 use super::loss_settings::LossSettings;
+use super::save_kind::SaveKind;
 use super::source::Source;
 use super::state::{Endpoint, Layout};
 use crate::files::read::ReadOptions;
@@ -36,6 +37,8 @@ pub enum MaterialsCommand {
     /// Opens a prediction that was refused or closed.
     OpenAgain(Box<Source>),
     OpenBuiltIn,
+    /// Opens the session of the last materials from files.
+    ReopenLast,
     /// Reads all files again.
     Reload,
     /// Reads the material in slot `slot` again under other assumptions.
@@ -144,8 +147,14 @@ pub enum WindowCommand {
         folder: bool,
     },
     ShowSave(bool),
-    /// Writes the view to this file, as `svbrdf render` does.
-    SaveView(PathBuf),
+    /// Writes to this file; `size` in pixels is that of a picture of the view.
+    Save {
+        what: SaveKind,
+        path: PathBuf,
+        size: [u32; 2],
+    },
+    /// Puts the view on the clipboard as a picture.
+    CopyPicture,
     SetDark(bool),
     ToggleSidePanel,
     ShowHelp(bool),

@@ -13,7 +13,6 @@ use super::panels::status::StatusBar;
 use super::panels::study::{self, StudyWindow};
 use super::panels::top::TopBar;
 use super::panes::Scenery;
-use super::save;
 
 /// Least width of the side panel, in points: its contents do not fit into less.
 const SIDE: f32 = 320.0;
@@ -32,13 +31,21 @@ impl App {
         if side_panel != self.settings.side_panel {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
+        let area = ui.available_rect_before_wrap();
+        self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
+        commands.extend(self.content(ui));
+        commands.extend(panels::messages::ui(ui.ctx(), area, &self.messages));
+        commands.extend(self.windows(ui.ctx()));
+        commands
+    }
+
+    /// The panes and the legend: what a picture of the view has.
+    pub(super) fn content(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
         if self.state.difference && !self.slots.predictions().is_empty() {
             egui::Panel::bottom("legend").show(ui, |ui| commands.extend(self.legend(ui)));
         }
-        let area = ui.available_rect_before_wrap();
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
-        commands.extend(panels::messages::ui(ui.ctx(), area, &self.messages));
-        commands.extend(self.windows(ui.ctx()));
         commands
     }
 
@@ -126,10 +133,10 @@ impl App {
             commands.extend(self.study_window(ctx));
         }
         if let Some(window) = &mut self.open_window {
-            commands.extend(window.ui(ctx, &self.settings.recent));
+            commands.extend(window.ui(ctx, &self.settings.recent, self.settings.last.as_ref()));
         }
         if let Some(window) = &mut self.save_window {
-            commands.extend(window.ui(ctx, save::shows(&self.state)));
+            commands.extend(window.ui(ctx, self.picture_size));
         }
         commands
     }

@@ -18,6 +18,8 @@ struct Entry {
 /// The passes and the shaded materials. The materials' textures are part of the materials.
 pub struct GpuView {
     pub gpu: Gpu,
+    /// The device of the window, for pictures of it.
+    pub state: egui_wgpu::RenderState,
     shading: Shading,
     display: Arc<Display>,
     shaded: HashMap<u64, Entry>,
@@ -30,7 +32,7 @@ impl GpuView {
         let gpu = Gpu::from_eframe_parts(&state.adapter, &state.device, &state.queue)?;
         let shading = Shading::new(&gpu)?;
         let display = Arc::new(Display::new(&gpu, state.target_format)?);
-        Ok(Self { gpu, shading, display, shaded: HashMap::new() })
+        Ok(Self { gpu, state: state.clone(), shading, display, shaded: HashMap::new() })
     }
 
     /// Shades the material of `slot`, unless it has been shaded with these parameters.

@@ -41,9 +41,15 @@ mod difference_run;
 mod differences;
 mod draw;
 mod save;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod save_kind;
+#[cfg(feature = "testing")]
+pub mod save_kind;
+mod session;
 mod settings;
 mod slot;
 mod slots;
+mod snapshot;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod source;
 #[cfg(feature = "testing")]

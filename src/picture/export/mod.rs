@@ -8,10 +8,8 @@ use std::path::Path;
 
 pub use crate::files::atomic::{Destination, check_place};
 pub(crate) use crate::files::atomic::{Watched, check, folder_of, replace};
-pub use provenance::{Provenance, Shows};
+pub use provenance::Provenance;
 
-use super::colour_map::difference_to_display;
-use super::tone::to_display;
 use crate::error::Error;
 use crate::image::Image;
 use crate::progress::Progress;
@@ -64,9 +62,39 @@ impl Destination<Format> {
             Format::Png => {
                 let shown: Vec<_> = panes.iter().map(|p| displayed(p, provenance)).collect();
                 let picture = side_by_side(&shown, MID_GRAY);
-                self.replace(progress, |file| png::write(file, &picture, provenance))
+                self.replace(progress, |file| png::write(file, &picture, &provenance.entries()))
             }
         }
+    }
+}
+
+/// A PNG of a whole picture.
+#[derive(Clone, Debug)]
+pub struct PngDestination(Destination<()>);
+
+impl PngDestination {
+    /// Checks what can be checked of `path` before there is anything to write.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] for an extension other than png, [`Error::Unwritable`] where its folder is missing or it is
+    /// itself a folder.
+    pub fn new(path: &Path) -> Result<Self, Error> {
+        let format = |extension: &str| (extension == "png").then_some(());
+        Destination::among(path, format, "extension of a figure", ".png").map(Self)
+    }
+
+    /// Writes a picture with these (keyword, text) entries of metadata. The file appears when it is complete, or not at
+    /// all.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write(
+        &self,
+        picture: &Image<u8>,
+        entries: &[(&'static str, String)],
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        self.0.replace(progress, |file| png::write(file, picture, entries))
     }
 }
 
@@ -86,11 +114,8 @@ fn side_by_side<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
 }
 
 fn displayed(image: &Image<f32>, provenance: &Provenance) -> Image<u8> {
-    let colour = match provenance.shows {
-        Shows::Radiance => to_display,
-        Shows::LogDifference => difference_to_display,
-    };
-    let pixels = image.pixels.iter().map(|&rgb| colour(rgb, provenance.exposure_ev)).collect();
+    let pixels =
+        image.pixels.iter().map(|&rgb| provenance.shown.colour(rgb, provenance.exposure_ev)).collect();
     Image { width: image.width, height: image.height, pixels }
 }
 

@@ -5,17 +5,21 @@ use std::io::{self, Write};
 use super::Provenance;
 use crate::image::Image;
 
-pub(super) fn write(file: impl Write, image: &Image<u8>, provenance: &Provenance) -> io::Result<()> {
+pub(super) fn write(
+    file: impl Write,
+    image: &Image<u8>,
+    entries: &[(&'static str, String)],
+) -> io::Result<()> {
     let mut encoder = png::Encoder::new(file, side(image.width)?, side(image.height)?);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_source_srgb(png::SrgbRenderingIntent::RelativeColorimetric);
     encoder.add_text_chunk("Software".to_owned(), Provenance::SOFTWARE.to_owned())?;
-    for (keyword, text) in provenance.entries() {
+    for (keyword, text) in entries {
         if text.is_ascii() {
-            encoder.add_text_chunk(keyword.to_owned(), text)?;
+            encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
         } else {
-            encoder.add_itxt_chunk(keyword.to_owned(), text)?;
+            encoder.add_itxt_chunk((*keyword).to_owned(), text.clone())?;
         }
     }
     let mut writer = encoder.write_header()?;
