@@ -95,7 +95,7 @@ impl OpenWindow {
     }
 
     fn paths(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let label = ui.label("Files, folders, name prefixes or a session, one a line:");
+        let label = ui.label("Files, folders or name prefixes, one a line:");
         let field = egui::TextEdit::multiline(&mut self.text)
             .desired_rows(3)
             .desired_width(f32::INFINITY)
