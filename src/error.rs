@@ -100,6 +100,14 @@ pub enum Error {
         finite, light and view above the plane", path.display())]
     BadScene { path: PathBuf, problem: String },
 
+    /// A loss is above the limit that was given for it.
+    #[error("{name} has a loss of {loss}, above the limit of {limit}")]
+    AboveLimit { name: String, loss: f64, limit: f64 },
+
+    /// A file of results of a data set cannot be continued or joined with others.
+    #[error("{} cannot be used: {problem}; name another file, or give what it was made with", path.display())]
+    BadJournal { path: PathBuf, problem: String },
+
     /// A scene given by hand cannot be rendered.
     #[error("the scene cannot be rendered: {problem}; move it above the plane, within 1e9 of the origin")]
     UnusableScene { problem: String },

@@ -28,12 +28,17 @@
 //! | [`model::convention`] | the differences between the printed algorithms and the released codes, as data |
 //! | [`model::brdf`] | Algorithm 3 at one point, one function per term |
 //! | [`model::scene`], [`model::sampler`] | Algorithm 2: scenes as functions of a point of the unit cube; random points, or scrambled Sobol sequences |
+//! | [`model::scene_file`] | files of scenes |
 //! | [`material`] | the four maps, validated once |
 //! | [`render`] | Algorithm 3 over a whole material |
 //! | [`picture`] | renderings as PNG and EXR files |
 //! | [`files`] | reading and writing materials |
 //! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
 //! | [`report`] | losses as text |
+//! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
+//! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
+//! | [`rank`] | many predictions of one ground truth, best first |
+//! | [`dataset`] | many materials and methods: result files, means with intervals over materials |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`samples`] | built-in materials |
 //! | [`progress`], [`error`] | progress and cancellation of long operations; one error variant per cause |
@@ -44,6 +49,7 @@
 //! both, and the command line is part of the binary. Without default features the crate is the core with the command line.
 //! The feature `testing` makes internals public for the tests of this repository; it has no stable interface.
 
+pub mod dataset;
 pub mod error;
 pub mod files;
 #[cfg(feature = "gpu")]
@@ -52,9 +58,11 @@ pub mod image;
 pub mod loss;
 pub mod material;
 pub mod math;
+pub mod metrics;
 pub mod model;
 pub mod picture;
 pub mod progress;
+pub mod rank;
 pub mod render;
 pub mod report;
 pub mod samples;
@@ -62,3 +70,4 @@ pub mod study;
 pub(crate) mod text;
 #[cfg(feature = "viewer")]
 pub mod viewer;
+pub mod why;

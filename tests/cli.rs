@@ -6,10 +6,12 @@ mod loss;
 mod materials;
 mod notes;
 mod pictures;
+mod rank;
 mod scenes;
 mod sidecar;
 mod stopped;
 mod study;
+mod why;
 mod written;
 
 use std::path::Path;

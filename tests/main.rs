@@ -18,8 +18,10 @@ mod golden_points;
 #[cfg(feature = "gpu")]
 mod gpu_parity;
 mod layering;
+mod metrics;
 mod mutations;
 mod physics;
+mod rank;
 mod reading;
 mod real_files;
 mod sampling;
@@ -28,3 +30,4 @@ mod scene_files;
 mod shaders;
 mod shared_materials;
 mod study;
+mod why;

@@ -7,13 +7,13 @@ use svbrdf::error::Error;
 use svbrdf::loss::{Comparison, Compute, Loss, Precision, Request, Sampling, Texels};
 use svbrdf::model::convention::Convention;
 use svbrdf::model::sampler::Sampler;
-use svbrdf::model::scene;
+use svbrdf::model::scene_file;
 use svbrdf::report::Report;
 
 use super::backend::{self, Choice};
 use super::bar::watched;
 use super::report::{Format, Printed};
-use super::{exit, materials};
+use super::{exit, materials, table};
 
 /// Prints the rendering loss of predictions against a ground truth
 ///
@@ -58,7 +58,7 @@ pub struct LossArgs {
     #[arg(long, value_name = "NAME", default_value = "printed")]
     convention: Convention,
 
-    /// Uses the scenes of a JSON file instead of sampled ones
+    /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
     #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
     scenes: Option<PathBuf>,
 
@@ -84,7 +84,7 @@ pub struct LossArgs {
 /// Where a material or the scenes cannot be read or used; with `--strict` where a target error is not reached, after the
 /// losses are printed.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
-    check_predictions(&args.materials)?;
+    table::check_predictions(&args.materials)?;
     let request = request(args)?;
     check_backend(args, &request)?;
     let report = match args.precision {
@@ -162,16 +162,6 @@ fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
     Err(Error::Usage(problem.to_owned()))
 }
 
-fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
-    match &materials.ground_truth {
-        Some(path) if materials.predictions.is_empty() => Err(Error::Usage(format!(
-            "there is no prediction to compare with {}; give one or more after it",
-            path.display()
-        ))),
-        _ => Ok(()),
-    }
-}
-
 /// The request that the options make.
 fn request(args: &LossArgs) -> Result<Request, Error> {
     let LossArgs { near, distant, seed, sampler, texels, .. } = *args;
@@ -186,7 +176,7 @@ fn request(args: &LossArgs) -> Result<Request, Error> {
     Ok(match (args.target_error, args.time_budget, &args.scenes) {
         (Some(target), ..) => Request::Accuracy { target, seed },
         (None, Some(budget), _) => Request::Time { budget, seed },
-        (None, None, Some(path)) => Request::Listed(scene::read(path)?),
+        (None, None, Some(path)) => Request::Listed(scene_file::read(path)?),
         (None, None, None) => {
             sampling.check()?;
             Request::Scenes(sampling)
@@ -195,7 +185,7 @@ fn request(args: &LossArgs) -> Result<Request, Error> {
 }
 
 /// A share such as `1%` or `0.01`.
-fn percent(text: &str) -> Result<f64, String> {
+pub fn percent(text: &str) -> Result<f64, String> {
     let (number, scale) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
     let share = number.trim().parse::<f64>().map(|number| number * scale);
     share

@@ -3,18 +3,27 @@
 mod advice;
 mod backend;
 mod bar;
+mod blame;
 mod convert;
 mod exit;
 mod info;
 mod loss;
+mod map;
 mod materials;
+mod metrics;
+mod rank;
 mod reading;
 mod render;
 mod report;
+mod scene_args;
+mod scenes;
 mod stop;
 mod strip;
 mod study;
+mod table;
 mod view;
+mod wildcards;
+mod worst;
 
 use clap::{Parser, Subcommand};
 use svbrdf::error::Error;
@@ -27,6 +36,7 @@ Examples:
   svbrdf gt.png prediction.png            opens your own materials
   svbrdf loss gt.png a.png b.png          prints the losses of two predictions
   svbrdf loss gt.png a.png --format json  the same as JSON
+  svbrdf blame gt.png prediction.png      prints how much of the loss comes from each map
   svbrdf render gt.png -o gt.exr          renders to linear floats
   svbrdf strip gt.png a.png -o fig.png    writes a labelled figure of maps and renderings
   svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
@@ -60,6 +70,12 @@ enum Command {
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
     Strip(strip::StripArgs),
+    Rank(rank::RankArgs),
+    Blame(blame::BlameArgs),
+    Scenes(scenes::ScenesArgs),
+    Worst(worst::WorstArgs),
+    Map(map::MapArgs),
+    Metrics(metrics::MetricsArgs),
     Study(study::StudyArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
@@ -76,6 +92,12 @@ impl Cli {
             Command::Loss(args) => loss::run(&args),
             Command::Render(args) => render::run(&args),
             Command::Strip(args) => strip::run(&args),
+            Command::Rank(args) => rank::run(args),
+            Command::Blame(args) => blame::run(&args),
+            Command::Scenes(args) => scenes::run(&args),
+            Command::Worst(args) => worst::run(&args),
+            Command::Map(args) => map::run(&args),
+            Command::Metrics(args) => metrics::run(&args),
             Command::Study(args) => study::run(&args),
             Command::Info(args) => info::run(&args),
             Command::Convert(args) => convert::run(&args),

@@ -6,7 +6,8 @@ use svbrdf::error::Error;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::{self, Kind, Scene};
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::model::scene_file;
 use svbrdf::picture::export::PngDestination;
 use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::shown::Shown;
@@ -91,7 +92,7 @@ pub fn run(args: &StripArgs) -> Result<(), Error> {
 
 fn columns(args: &StripArgs) -> Result<Vec<Column>, Error> {
     let scenes = match &args.scenes {
-        Some(path) => scene::read(path)?,
+        Some(path) => scene_file::read(path)?,
         None => {
             let kind = if args.distant { Kind::Distant } else { Kind::Near };
             vec![Scene { kind, view: args.view, light: args.light }]

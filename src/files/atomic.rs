@@ -97,6 +97,14 @@ pub fn check_place(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
+/// Writes a text file, which appears when it is complete, or not at all.
+///
+/// # Errors
+/// [`Error::Unwritable`], [`Error::Cancelled`].
+pub fn write_text(path: &Path, text: &str, progress: &Progress) -> Result<(), Error> {
+    replace(path, progress, |file| file.write_all(text.as_bytes()))
+}
+
 /// Writes a temporary file beside `path` and renames it: at any moment the old file or the new one is there, whole.
 ///
 /// A symbolic link stays, and what it points to is replaced. A device or a pipe stays, too: it is written to.

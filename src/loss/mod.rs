@@ -15,6 +15,7 @@ mod pilot_texels;
 mod plain;
 mod request;
 mod run;
+mod shared_texels;
 mod statistics;
 mod texels;
 
@@ -24,4 +25,5 @@ pub use fused::Fused;
 pub use outcome::{IntervalSource, Loss, Outcome};
 pub use plain::Plain;
 pub use request::{Precision, Request, Sampling, Texels};
+pub(crate) use shared_texels::SharedTexels;
 pub use statistics::Estimate;

@@ -16,9 +16,11 @@
 //! ```
 
 mod grid;
+mod mix;
 pub(crate) mod resize;
 
 pub use grid::Grid;
+pub use mix::Map;
 
 use glam::DVec3;
 use rayon::prelude::*;

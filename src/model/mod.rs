@@ -17,3 +17,4 @@ pub mod brdf;
 pub mod convention;
 pub mod sampler;
 pub mod scene;
+pub mod scene_file;

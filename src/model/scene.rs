@@ -4,8 +4,6 @@
 //! the numbers come from is the caller's choice; [`sample`] takes them from a counter-based generator whose i-th
 //! point depends on the seed and on i alone.
 
-use std::path::Path;
-
 use glam::DVec3;
 use rand::distr::Open01;
 use rand::rngs::ChaCha8Rng;
@@ -14,7 +12,6 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::convention::Convention;
-use crate::error::Error;
 use crate::math::real::{Real, Vec3, Vector as _};
 
 /// Mean of the logarithm of a near-field distance (Algorithm 1).
@@ -171,21 +168,4 @@ pub fn sample(seed: u64, near: usize, distant: usize, convention: &Convention) -
 #[derive(Debug, Serialize, Deserialize)]
 pub struct SceneFile {
     pub scenes: Vec<Scene>,
-}
-
-/// Reads a scene file: JSON, `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`.
-///
-/// # Errors
-/// Where the file cannot be read, is not of that form, has no scene, or has one that [`Scene::check`] refuses.
-pub fn read(path: &Path) -> Result<Vec<Scene>, Error> {
-    let text = std::fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
-    let bad = |problem: String| Error::BadScene { path: path.to_owned(), problem };
-    let file: SceneFile = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
-    if file.scenes.is_empty() {
-        return Err(bad("it lists no scene".to_owned()));
-    }
-    for (i, scene) in file.scenes.iter().enumerate() {
-        scene.check().map_err(|problem| bad(format!("scene {i}: {problem}")))?;
-    }
-    Ok(file.scenes)
 }

@@ -7,24 +7,24 @@ use exr::prelude::{
     Encoding, Image as ExrImage, Layer, LayerAttributes, SpecificChannels, Text, WritableImage,
 };
 
-use super::Provenance;
+use super::provenance::{Entries, Provenance};
 use crate::image::Image;
 
 /// Writes one layer of channels R, G and B.
 ///
 /// Where it comes from stands in the attribute `comments`, a line for each entry: attributes of one's own have no
 /// fixed order in the library, and the same picture shall be the same file.
-pub(super) fn write(file: impl Write + Seek, image: Image<f32>, provenance: &Provenance) -> io::Result<()> {
+pub(super) fn write(file: impl Write + Seek, image: Image<f32>, entries: &Entries) -> io::Result<()> {
     let size = (image.width, image.height);
     let pixels: Vec<_> = image.pixels.into_iter().map(|[r, g, b]| (r, g, b)).collect();
     let channels = SpecificChannels::rgb(PixelVec::new(size, pixels));
-    let layer = Layer::new(size, attributes(provenance), Encoding::FAST_LOSSLESS, channels);
+    let layer = Layer::new(size, attributes(entries), Encoding::FAST_LOSSLESS, channels);
     ExrImage::from_layer(layer).write().to_buffered(file).map_err(io::Error::other)
 }
 
-fn attributes(provenance: &Provenance) -> LayerAttributes {
-    let line = |(keyword, text): (&str, String)| format!("{keyword}: {}\n", ascii(&text));
-    let comments: String = provenance.entries().into_iter().map(line).collect();
+fn attributes(entries: &Entries) -> LayerAttributes {
+    let line = |(keyword, text): &(&str, String)| format!("{keyword}: {}\n", ascii(text));
+    let comments: String = entries.iter().map(line).collect();
     LayerAttributes {
         software_name: Text::new_or_none(Provenance::SOFTWARE),
         comments: Text::new_or_none(comments),

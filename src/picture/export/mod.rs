@@ -6,10 +6,11 @@ mod provenance;
 
 use std::path::Path;
 
-pub use crate::files::atomic::{Destination, check_place};
+pub use crate::files::atomic::{Destination, check_place, write_text};
 pub(crate) use crate::files::atomic::{Watched, check, folder_of, replace};
-pub use provenance::Provenance;
+pub use provenance::{Entries, Provenance};
 
+use super::colour_map::heat;
 use crate::error::Error;
 use crate::image::Image;
 use crate::progress::Progress;
@@ -54,15 +55,45 @@ impl Destination<Format> {
         provenance: &Provenance,
         progress: &Progress,
     ) -> Result<(), Error> {
+        let colour = |rgb| provenance.shown.colour(rgb, provenance.exposure_ev);
+        self.write_as(panes, colour, &provenance.entries(), progress)
+    }
+
+    /// Writes maps of numbers, which are equally high, side by side: an EXR has the numbers, a PNG the colours of the means of
+    /// the channels from 0 to `full`, and gray where there is no number.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write_maps(
+        &self,
+        panes: &[Image<f32>],
+        full: f32,
+        entries: &Entries,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        let colour = |rgb: [f32; 3]| match rgb.iter().sum::<f32>() / 3.0 / full {
+            share if share.is_nan() => MID_GRAY,
+            share => heat(share).map(|c| (c * 255.0 + 0.5).floor() as u8),
+        };
+        self.write_as(panes, colour, entries, progress)
+    }
+
+    fn write_as(
+        &self,
+        panes: &[Image<f32>],
+        colour: impl Fn([f32; 3]) -> [u8; 3],
+        entries: &Entries,
+        progress: &Progress,
+    ) -> Result<(), Error> {
         match self.format {
             Format::Exr => {
                 let picture = side_by_side(panes, [0.0; 3]);
-                self.replace(progress, |file| exr::write(file, picture, provenance))
+                self.replace(progress, |file| exr::write(file, picture, entries))
             }
             Format::Png => {
-                let shown: Vec<_> = panes.iter().map(|p| displayed(p, provenance)).collect();
+                let shown: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
                 let picture = side_by_side(&shown, MID_GRAY);
-                self.replace(progress, |file| png::write(file, &picture, &provenance.entries()))
+                self.replace(progress, |file| png::write(file, &picture, entries))
             }
         }
     }
@@ -88,12 +119,7 @@ impl PngDestination {
     ///
     /// # Errors
     /// [`Error::Unwritable`], [`Error::Cancelled`].
-    pub fn write(
-        &self,
-        picture: &Image<u8>,
-        entries: &[(&'static str, String)],
-        progress: &Progress,
-    ) -> Result<(), Error> {
+    pub fn write(&self, picture: &Image<u8>, entries: &Entries, progress: &Progress) -> Result<(), Error> {
         self.0.replace(progress, |file| png::write(file, picture, entries))
     }
 }
@@ -113,9 +139,8 @@ fn side_by_side<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
     Image { width, height, pixels }
 }
 
-fn displayed(image: &Image<f32>, provenance: &Provenance) -> Image<u8> {
-    let pixels =
-        image.pixels.iter().map(|&rgb| provenance.shown.colour(rgb, provenance.exposure_ev)).collect();
+fn displayed(image: &Image<f32>, colour: impl Fn([f32; 3]) -> [u8; 3]) -> Image<u8> {
+    let pixels = image.pixels.iter().map(|&rgb| colour(rgb)).collect();
     Image { width: image.width, height: image.height, pixels }
 }
 

@@ -2,14 +2,10 @@
 
 use std::io::{self, Write};
 
-use super::Provenance;
+use super::provenance::{Entries, Provenance};
 use crate::image::Image;
 
-pub(super) fn write(
-    file: impl Write,
-    image: &Image<u8>,
-    entries: &[(&'static str, String)],
-) -> io::Result<()> {
+pub(super) fn write(file: impl Write, image: &Image<u8>, entries: &Entries) -> io::Result<()> {
     let mut encoder = png::Encoder::new(file, side(image.width)?, side(image.height)?);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);

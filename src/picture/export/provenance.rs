@@ -4,6 +4,9 @@ use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
 use crate::picture::shown::Shown;
 
+/// What a file says about its picture: (keyword, text).
+pub type Entries = [(&'static str, String)];
+
 /// What a picture shows, and how.
 #[derive(Clone, Debug)]
 pub struct Provenance {

@@ -1,0 +1,190 @@
+//! `svbrdf blame`: how much of a loss comes from each map.
+
+use std::path::PathBuf;
+
+use serde::Serialize;
+use svbrdf::error::Error;
+use svbrdf::loss::{Estimate, Request};
+use svbrdf::material::{Map, Material};
+use svbrdf::model::convention::Convention;
+use svbrdf::model::scene_file;
+use svbrdf::why::{Attribution, MapShare, attribute};
+
+use super::bar::watched;
+use super::report::Format;
+use super::{exit, loss, materials, table};
+
+/// Prints how much of the rendering loss comes from each map
+///
+/// Renders all 16 mixtures of the maps of the ground truth and of the prediction in the same scenes on the same texels. The Shapley
+/// value of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; the four
+/// values add up to the loss. Beside them stands the loss where only this map is wrong, and where only this map is right.
+/// Without GT and PRED: the built-in materials.
+#[derive(Debug, clap::Args)]
+pub struct BlameArgs {
+    /// Samples as many scenes as this relative error of the loss needs at 95% confidence
+    #[arg(long, value_name = "PERCENT", value_parser = loss::percent, allow_hyphen_values = true, default_value = "1%")]
+    target_error: f64,
+
+    /// Seed of the sampled scenes
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    seed: u64,
+
+    /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["target_error", "seed"])]
+    scenes: Option<PathBuf>,
+
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
+    #[arg(long, value_name = "NAME", default_value = "printed")]
+    convention: Convention,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+
+    #[command(flatten)]
+    materials: materials::MaterialArgs,
+}
+
+/// Prints the attributions to stdout.
+///
+/// # Errors
+/// Where a material or the scenes cannot be read or used.
+pub fn run(args: &BlameArgs) -> Result<(), Error> {
+    table::check_predictions(&args.materials)?;
+    let request = match &args.scenes {
+        Some(path) => Request::Listed(scene_file::read(path)?),
+        None => Request::Accuracy { target: args.target_error, seed: args.seed },
+    };
+    let opened = materials::open::<f32>(&args.materials)?;
+    let one = |prediction: &Material<f32>| {
+        watched("rendering", |progress| {
+            attribute(&opened.ground_truth, prediction, &args.convention, &request, progress)
+        })
+    };
+    let attributions = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    exit::put(&match args.format {
+        Format::Text => {
+            let one = |a| text(a, &opened.ground_truth, &args.convention);
+            attributions.iter().map(one).collect::<Vec<_>>().join("\n")
+        }
+        Format::Json => json(&attributions, &opened.ground_truth, &args.convention)?,
+        Format::Csv => csv(&attributions)?,
+    })
+}
+
+fn text(attribution: &Attribution, ground_truth: &Material<f32>, convention: &Convention) -> String {
+    let Attribution { prediction, sampling, scenes, loss, maps } = attribution;
+    let heading = table::heading(&format!("blame of {prediction}"), ground_truth, convention);
+    let mut rows = vec![
+        ["map", "share", "of the loss", "+- std. error", "95% interval", "only it wrong", "only it right"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    rows.extend(maps.iter().map(|share| {
+        let [mean, error, interval] = share.shapley.texts();
+        let share_of_loss = percent(share.shapley.mean, loss.mean);
+        let [wrong, right] = [share.only_wrong, share.only_right].map(|e| format!("{:.6}", e.mean));
+        vec![share.map.name().to_owned(), share_of_loss, mean, error, interval, wrong, right]
+    }));
+    let [mean, error, interval] = loss.texts();
+    rows.push(vec!["all".to_owned(), percent(loss.mean, loss.mean), mean, error, interval]);
+    format!("{heading}{}\n{}", table::scenes_line(sampling.as_ref(), scenes), table::aligned(&rows))
+}
+
+fn percent(part: f64, whole: f64) -> String {
+    if whole > 0.0 { format!("{:.1}%", 100.0 * part / whole) } else { "-".to_owned() }
+}
+
+fn csv(attributions: &[Attribution]) -> Result<String, Error> {
+    let heading = [
+        "prediction",
+        "map",
+        "shapley",
+        "standard_error",
+        "interval95_low",
+        "interval95_high",
+        "only_wrong",
+        "only_right",
+        "loss",
+    ];
+    let row = |a: &Attribution, share: &MapShare| {
+        let [error, low, high] = table::errors(&share.shapley);
+        let numbers = [share.only_wrong.mean, share.only_right.mean, a.loss.mean].map(|x| x.to_string());
+        let start = [
+            a.prediction.clone(),
+            share.map.name().to_owned(),
+            share.shapley.mean.to_string(),
+            error,
+            low,
+            high,
+        ];
+        start.into_iter().chain(numbers).collect()
+    };
+    let rows = attributions.iter().flat_map(|a| a.maps.iter().map(move |share| row(a, share)));
+    table::csv([heading.map(str::to_owned).to_vec()].into_iter().chain(rows))
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    ground_truth: &'a str,
+    convention: &'a str,
+    epsilon: f64,
+    attributions: Vec<Entry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    prediction: &'a str,
+    scenes: usize,
+    seed: Option<u64>,
+    loss: Number,
+    maps: Vec<Share>,
+}
+
+#[derive(Serialize)]
+struct Share {
+    map: Map,
+    shapley: Number,
+    only_wrong: Number,
+    only_right: Number,
+}
+
+#[derive(Serialize)]
+struct Number {
+    mean: f64,
+    standard_error: Option<f64>,
+    interval95: Option<[f64; 2]>,
+}
+
+impl From<&Estimate> for Number {
+    fn from(e: &Estimate) -> Self {
+        Self { mean: e.mean, standard_error: e.standard_error, interval95: e.interval95 }
+    }
+}
+
+fn json(
+    attributions: &[Attribution],
+    ground_truth: &Material<f32>,
+    convention: &Convention,
+) -> Result<String, Error> {
+    let share = |s: &MapShare| Share {
+        map: s.map,
+        shapley: (&s.shapley).into(),
+        only_wrong: (&s.only_wrong).into(),
+        only_right: (&s.only_right).into(),
+    };
+    let entries = attributions.iter().map(|a| Entry {
+        prediction: &a.prediction,
+        scenes: a.scenes.len(),
+        seed: a.sampling.map(|sampling| sampling.seed),
+        loss: (&a.loss).into(),
+        maps: a.maps.iter().map(share).collect(),
+    });
+    table::json(&Object {
+        ground_truth: ground_truth.name(),
+        convention: convention.name,
+        epsilon: convention.epsilon,
+        attributions: entries.collect(),
+    })
+}

@@ -1,0 +1,82 @@
+//! The options of `svbrdf rank`.
+
+use std::path::PathBuf;
+
+use svbrdf::dataset::{Pick, Shard};
+use svbrdf::error::Error;
+use svbrdf::model::convention::Convention;
+
+use crate::cli::{loss, materials};
+
+/// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
+///
+/// Predictions see the same scenes; a paired difference tells which are worse than the best, and groups which the scenes cannot
+/// separate. Patterns such as 'out/*.png' are expanded. With --dataset, GT and every PRED are folders: their materials are
+/// matched by name, and every PRED is a method. With --pairs, GT is a CSV table with the columns ground_truth, prediction
+/// and, where needed, method and material.
+#[derive(Debug, clap::Args)]
+pub struct RankArgs {
+    /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method
+    #[arg(long, conflicts_with_all = ["pairs", "merge"], requires = "ground_truth")]
+    pub dataset: bool,
+
+    /// GT is a CSV table of pairs
+    #[arg(long, conflicts_with = "merge", requires = "ground_truth")]
+    pub pairs: bool,
+
+    /// GT and PRED are journals of parts of a data set, which are joined
+    #[arg(long, requires = "ground_truth")]
+    pub merge: bool,
+
+    /// Keeps results in this file while they come; an interrupted run continues where it was
+    #[arg(long, value_name = "FILE")]
+    pub journal: Option<PathBuf>,
+
+    /// Evaluates the i-th of n parts of a data set; --merge joins their journals
+    #[arg(long, value_name = "I/N", requires = "journal")]
+    pub shard: Option<Shard>,
+
+    /// Which of several predictions of a material counts: the first (fixed), the mean of all, or the best
+    #[arg(long, value_name = "fixed|mean|best", default_value = "fixed")]
+    pub pick: Pick,
+
+    /// Fails with exit code 1, after the result is printed, if a mean loss is larger than this
+    #[arg(long, value_name = "LOSS", allow_hyphen_values = true)]
+    pub fail_above: Option<f64>,
+
+    /// Samples as many scenes as this relative error of every loss needs at 95% confidence
+    #[arg(long, value_name = "PERCENT", value_parser = loss::percent, allow_hyphen_values = true, default_value = "1%")]
+    pub target_error: f64,
+
+    /// Seed of the sampled scenes
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    pub seed: u64,
+
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
+    #[arg(long, value_name = "NAME", default_value = "printed")]
+    pub convention: Convention,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t)]
+    pub format: RankFormat,
+
+    #[command(flatten)]
+    pub materials: materials::MaterialArgs,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum RankFormat {
+    #[default]
+    Text,
+    Json,
+    Csv,
+    /// A table for a paper: the best and what ties with it in bold
+    Latex,
+}
+
+/// The error of losses that are above a limit, if any is.
+pub fn check_limit(limit: Option<f64>, losses: impl IntoIterator<Item = (String, f64)>) -> Result<(), Error> {
+    let Some(limit) = limit else { return Ok(()) };
+    let above = losses.into_iter().find(|(_, loss)| loss.is_nan() || *loss > limit);
+    above.map_or(Ok(()), |(name, loss)| Err(Error::AboveLimit { name, loss, limit }))
+}

@@ -1,0 +1,147 @@
+//! Many predictions of one ground truth.
+
+use serde::Serialize;
+use svbrdf::error::Error;
+use svbrdf::loss::{Comparison, Estimate, Outcome, Request};
+use svbrdf::material::Material;
+use svbrdf::model::convention::Convention;
+use svbrdf::rank::{Place, places};
+
+use super::args::{RankArgs, RankFormat, check_limit};
+use crate::cli::bar::watched;
+use crate::cli::{exit, materials, table, wildcards};
+
+pub fn run(mut args: RankArgs) -> Result<(), Error> {
+    if args.journal.is_some() {
+        return Err(Error::Usage(
+            "--journal keeps the results of a data set; add --dataset or --pairs".to_owned(),
+        ));
+    }
+    args.materials.predictions = wildcards::expanded(&args.materials.predictions)?;
+    table::check_predictions(&args.materials)?;
+    let opened = materials::open::<f32>(&args.materials)?;
+    let predictions: Vec<_> = opened.predictions.iter().collect();
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.convention)?;
+    let request = Request::Accuracy { target: args.target_error, seed: args.seed };
+    let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
+    let places = places(&outcome);
+    exit::put(&match args.format {
+        RankFormat::Text => text(&outcome, &places, &opened.ground_truth, &args.convention),
+        RankFormat::Json => json(&outcome, &places, &opened.ground_truth, &args.convention)?,
+        RankFormat::Csv => csv(&outcome, &places)?,
+        RankFormat::Latex => latex(&outcome, &places),
+    })?;
+    check_limit(args.fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
+}
+
+fn text(
+    outcome: &Outcome,
+    places: &[Place],
+    ground_truth: &Material<f32>,
+    convention: &Convention,
+) -> String {
+    let titles = ["prediction", "loss", "95% interval", "- best", "95% interval", "group"];
+    let mut rows = vec![titles.map(str::to_owned).to_vec()];
+    rows.extend(places.iter().map(|place| {
+        let loss = &outcome.losses[place.index];
+        let [mean, _, interval] = loss.estimate.texts();
+        let [difference, _, of_difference] =
+            place.to_best.map_or_else(|| [const { String::new() }; 3], |estimate| estimate.texts());
+        vec![loss.prediction.clone(), mean, interval, difference, of_difference, place.group.to_string()]
+    }));
+    let heading = table::heading("rendering loss", ground_truth, convention);
+    let scenes = table::scenes_line(outcome.sampling.as_ref(), &outcome.scenes);
+    format!("{heading}{scenes}\n{}", table::aligned(&rows))
+}
+
+fn csv(outcome: &Outcome, places: &[Place]) -> Result<String, Error> {
+    let heading = [
+        "place",
+        "prediction",
+        "loss",
+        "standard_error",
+        "interval95_low",
+        "interval95_high",
+        "to_best",
+        "to_best_low",
+        "to_best_high",
+        "group",
+    ];
+    let row = |(number, place): (usize, &Place)| {
+        let loss = &outcome.losses[place.index];
+        let [error, low, high] = table::errors(&loss.estimate);
+        let difference = place.to_best.map_or(String::new(), |estimate| estimate.mean.to_string());
+        let [_, to_low, to_high] =
+            place.to_best.as_ref().map_or_else(|| [const { String::new() }; 3], table::errors);
+        let start = [(number + 1).to_string(), loss.prediction.clone(), loss.estimate.mean.to_string()];
+        let rest = [error, low, high, difference, to_low, to_high, place.group.to_string()];
+        start.into_iter().chain(rest).collect()
+    };
+    table::csv([heading.map(str::to_owned).to_vec()].into_iter().chain(places.iter().enumerate().map(row)))
+}
+
+fn latex(outcome: &Outcome, places: &[Place]) -> String {
+    let row = |place: &Place| {
+        let loss = &outcome.losses[place.index];
+        let [low, high] = loss.estimate.interval95.unwrap_or([f64::NAN; 2]);
+        let mean = table::bold(&format!("{:.4}", loss.estimate.mean), place.group == 1);
+        format!("{} & {mean} & [{low:.4}, {high:.4}] \\\\\n", table::escaped(&loss.prediction))
+    };
+    let rows: String = places.iter().map(row).collect();
+    table::latex("lrl", "Prediction & Loss & 95\\% interval", &rows)
+}
+
+#[derive(Serialize)]
+struct Object<'a> {
+    ground_truth: &'a str,
+    convention: &'a str,
+    epsilon: f64,
+    scenes: usize,
+    seed: Option<u64>,
+    /// Best first.
+    ranking: Vec<Entry<'a>>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    prediction: &'a str,
+    loss: Number,
+    /// The loss - that of the best, in the same scenes.
+    to_best: Option<Number>,
+    group: usize,
+}
+
+#[derive(Serialize)]
+struct Number {
+    mean: f64,
+    standard_error: Option<f64>,
+    interval95: Option<[f64; 2]>,
+}
+
+impl From<Estimate> for Number {
+    fn from(e: Estimate) -> Self {
+        Self { mean: e.mean, standard_error: e.standard_error, interval95: e.interval95 }
+    }
+}
+
+fn json(
+    outcome: &Outcome,
+    places: &[Place],
+    ground_truth: &Material<f32>,
+    convention: &Convention,
+) -> Result<String, Error> {
+    let entry = |place: &Place| Entry {
+        prediction: &outcome.losses[place.index].prediction,
+        loss: outcome.losses[place.index].estimate.into(),
+        to_best: place.to_best.map(Number::from),
+        group: place.group,
+    };
+    table::json(&Object {
+        ground_truth: ground_truth.name(),
+        convention: convention.name,
+        epsilon: convention.epsilon,
+        scenes: outcome.scenes.len(),
+        seed: outcome.sampling.map(|sampling| sampling.seed),
+        ranking: places.iter().map(entry).collect(),
+    })
+}

@@ -1,0 +1,61 @@
+//! The scenes that a subcommand compares.
+
+use std::path::PathBuf;
+
+use svbrdf::error::Error;
+use svbrdf::loss::{Request, Sampling, Texels};
+use svbrdf::model::convention::Convention;
+use svbrdf::model::sampler::Sampler;
+use svbrdf::model::scene::Scene;
+use svbrdf::model::scene_file;
+
+#[derive(Debug, clap::Args)]
+pub struct SceneArgs {
+    /// Number of near-field scenes
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 128)]
+    near: usize,
+
+    /// Number of distant scenes
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 64)]
+    distant: usize,
+
+    /// Seed of the sampled scenes
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    seed: u64,
+
+    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes
+    #[arg(long, value_name = "random|sobol", default_value = "sobol")]
+    sampler: Sampler,
+
+    /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
+    scenes: Option<PathBuf>,
+}
+
+impl SceneArgs {
+    /// The scenes, and how they were sampled where they were.
+    ///
+    /// # Errors
+    /// As [`SceneArgs::request`].
+    pub fn scenes(&self, convention: &Convention) -> Result<(Option<Sampling>, Vec<Scene>), Error> {
+        match self.request()? {
+            Request::Listed(scenes) => Ok((None, scenes)),
+            Request::Scenes(sampling) => Ok((Some(sampling), sampling.scenes(convention)?)),
+            _ => Err(Error::Internal("scenes without a list".to_owned())),
+        }
+    }
+
+    /// The request for these scenes on all texels.
+    ///
+    /// # Errors
+    /// Where a scene file cannot be read, or there are no scenes.
+    pub fn request(&self) -> Result<Request, Error> {
+        if let Some(path) = &self.scenes {
+            return Ok(Request::Listed(scene_file::read(path)?));
+        }
+        let Self { near, distant, seed, sampler, .. } = *self;
+        let sampling = Sampling { near, distant, seed, sampler, texels: Texels::All };
+        sampling.check()?;
+        Ok(Request::Scenes(sampling))
+    }
+}

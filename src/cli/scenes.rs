@@ -1,0 +1,160 @@
+//! `svbrdf scenes`: which scenes a loss comes from.
+
+use serde::Serialize;
+use svbrdf::error::Error;
+use svbrdf::loss::{Comparison, Outcome};
+use svbrdf::material::Material;
+use svbrdf::model::convention::Convention;
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::why::{Distribution, RankedScene, worst_first};
+
+use super::bar::watched;
+use super::report::Format;
+use super::scene_args::SceneArgs;
+use super::{exit, materials, table};
+
+/// Prints the scenes with the largest losses, worst first
+///
+/// Scenes are sorted by the mean of the losses of all predictions in them, over all texels. The JSON is a scene file that
+/// `--scenes` takes. Without GT and PRED: the built-in materials.
+#[derive(Debug, clap::Args)]
+pub struct ScenesArgs {
+    /// Number of scenes that are printed
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    top: usize,
+
+    #[command(flatten)]
+    scenes: SceneArgs,
+
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
+    #[arg(long, value_name = "NAME", default_value = "printed")]
+    convention: Convention,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+
+    #[command(flatten)]
+    materials: materials::MaterialArgs,
+}
+
+/// Prints the scenes to stdout.
+///
+/// # Errors
+/// Where a material or the scenes cannot be read or used.
+pub fn run(args: &ScenesArgs) -> Result<(), Error> {
+    table::check_predictions(&args.materials)?;
+    let request = args.scenes.request()?;
+    let opened = materials::open::<f32>(&args.materials)?;
+    let predictions: Vec<_> = opened.predictions.iter().collect();
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.convention)?.without_pilot();
+    let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
+    let mut ranked = worst_first(&outcome);
+    ranked.truncate(args.top);
+    exit::put(&match args.format {
+        Format::Text => text(&outcome, &ranked, &opened.ground_truth, &args.convention),
+        Format::Json => json(&outcome, &ranked, &opened.ground_truth, &args.convention)?,
+        Format::Csv => csv(&outcome, &ranked)?,
+    })
+}
+
+fn text(
+    outcome: &Outcome,
+    ranked: &[RankedScene],
+    ground_truth: &Material<f32>,
+    convention: &Convention,
+) -> String {
+    let heading = table::heading("losses of scenes", ground_truth, convention);
+    let scenes = table::scenes_line(outcome.sampling.as_ref(), &outcome.scenes);
+    let distributions: String = outcome
+        .losses
+        .iter()
+        .filter_map(|loss| Some(line(&loss.prediction, &Distribution::of(&loss.per_scene)?)))
+        .collect();
+    let names = outcome.losses.iter().map(|loss| loss.prediction.clone());
+    let titles = ["scene", "kind", "view", "light"].map(str::to_owned);
+    let mut rows = vec![titles.into_iter().chain(names).collect::<Vec<_>>()];
+    rows.extend(ranked.iter().map(|ranked| {
+        let Scene { kind, view, light } = ranked.scene;
+        let start = [ranked.index.to_string(), kind_name(kind).to_owned(), triple(view), triple(light)];
+        start.into_iter().chain(ranked.losses.iter().map(|loss| format!("{loss:.6}"))).collect()
+    }));
+    format!("{heading}{scenes}\n{distributions}\n{}", table::aligned(&rows))
+}
+
+fn line(prediction: &str, d: &Distribution) -> String {
+    let Distribution { least, median, percentile95, largest, worst_tenth } = d;
+    format!(
+        "{prediction}: from {least:.3} to {largest:.3}, median {median:.3}, 95th percentile {percentile95:.3}; \
+         the worst tenth of the scenes adds {:.0}% of the loss\n",
+        100.0 * worst_tenth
+    )
+}
+
+pub fn kind_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Near => "near",
+        Kind::Distant => "distant",
+    }
+}
+
+/// A position or direction as people read it.
+pub fn triple([x, y, z]: [f64; 3]) -> String {
+    format!("({x:.3}, {y:.3}, {z:.3})")
+}
+
+fn csv(outcome: &Outcome, ranked: &[RankedScene]) -> Result<String, Error> {
+    let fixed = ["scene", "kind", "view_x", "view_y", "view_z", "light_x", "light_y", "light_z"];
+    let names = outcome.losses.iter().map(|loss| loss.prediction.clone());
+    let heading: Vec<String> = fixed.map(str::to_owned).into_iter().chain(names).collect();
+    let row = |ranked: &RankedScene| {
+        let Scene { kind, view, light } = ranked.scene;
+        let numbers = view.iter().chain(&light).chain(&ranked.losses).map(ToString::to_string);
+        [ranked.index.to_string(), kind_name(kind).to_owned()].into_iter().chain(numbers).collect()
+    };
+    table::csv([heading].into_iter().chain(ranked.iter().map(row)))
+}
+
+/// A scene file, too.
+#[derive(Serialize)]
+struct Object<'a> {
+    ground_truth: &'a str,
+    convention: &'a str,
+    epsilon: f64,
+    seed: Option<u64>,
+    /// The number of scenes that these are the worst of.
+    of: usize,
+    results: Vec<Entry<'a>>,
+    scenes: Vec<Scene>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    prediction: &'a str,
+    /// Over all scenes.
+    loss: f64,
+    /// That of each listed scene.
+    losses: Vec<f64>,
+}
+
+fn json(
+    outcome: &Outcome,
+    ranked: &[RankedScene],
+    ground_truth: &Material<f32>,
+    convention: &Convention,
+) -> Result<String, Error> {
+    let entry = |(index, loss): (usize, &svbrdf::loss::Loss)| Entry {
+        prediction: &outcome.losses[index].prediction,
+        loss: loss.estimate.mean,
+        losses: ranked.iter().map(|ranked| ranked.losses[index]).collect(),
+    };
+    table::json(&Object {
+        ground_truth: ground_truth.name(),
+        convention: convention.name,
+        epsilon: convention.epsilon,
+        seed: outcome.sampling.map(|sampling| sampling.seed),
+        of: outcome.scenes.len(),
+        results: outcome.losses.iter().enumerate().map(entry).collect(),
+        scenes: ranked.iter().map(|ranked| ranked.scene).collect(),
+    })
+}

@@ -1,0 +1,23 @@
+//! Wildcards in paths, where the shell has left them: quoted, or on Windows.
+
+use std::path::PathBuf;
+
+use svbrdf::error::Error;
+
+/// `paths` with those that have `*`, `?` or `[...]`, and do not exist as they are, replaced by what they match, by name.
+///
+/// # Errors
+/// [`Error::Usage`] where a pattern is malformed or matches nothing.
+pub fn expanded(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
+    let one = |path: &PathBuf| -> Result<Vec<PathBuf>, Error> {
+        let text = path.to_string_lossy();
+        if !text.contains(['*', '?', '[']) || path.exists() {
+            return Ok(vec![path.clone()]);
+        }
+        let wrong = |problem: String| Error::Usage(format!("the pattern {text} {problem}"));
+        let matches = glob::glob(&text).map_err(|problem| wrong(format!("is malformed: {problem}")))?;
+        let found: Vec<PathBuf> = matches.flatten().collect();
+        if found.is_empty() { Err(wrong("matches no file".to_owned())) } else { Ok(found) }
+    };
+    Ok(paths.iter().map(one).collect::<Result<Vec<_>, _>>()?.concat())
+}

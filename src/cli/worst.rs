@@ -1,0 +1,143 @@
+//! `svbrdf worst`: the scene with the largest loss.
+
+use serde::Serialize;
+use svbrdf::error::Error;
+use svbrdf::material::Material;
+use svbrdf::model::convention::Convention;
+use svbrdf::model::scene::Scene;
+use svbrdf::why::{Worst, worst};
+
+use super::bar::watched;
+use super::report::Format;
+use super::scenes::{kind_name, triple};
+use super::{exit, materials, table};
+
+/// Searches the scene with the largest loss, for each prediction
+///
+/// Samples 6,144 of the scenes that the loss is over, then refines the 16 worst. The search compares up to 1,024 texels; the
+/// printed loss is over all. The JSON is a scene file that `--scenes` takes. Without GT and PRED: the built-in materials.
+#[derive(Debug, clap::Args)]
+pub struct WorstArgs {
+    /// Seed of the scenes that the search starts from
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    seed: u64,
+
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
+    #[arg(long, value_name = "NAME", default_value = "printed")]
+    convention: Convention,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+
+    #[command(flatten)]
+    materials: materials::MaterialArgs,
+}
+
+/// Prints the worst scenes to stdout.
+///
+/// # Errors
+/// Where a material cannot be read or used.
+pub fn run(args: &WorstArgs) -> Result<(), Error> {
+    table::check_predictions(&args.materials)?;
+    let opened = materials::open::<f32>(&args.materials)?;
+    let one = |prediction: &Material<f32>| {
+        watched("searching", |progress| {
+            worst(&opened.ground_truth, prediction, &args.convention, args.seed, progress)
+        })
+    };
+    let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    exit::put(&match args.format {
+        Format::Text => text(&found, &opened.ground_truth, &args.convention),
+        Format::Json => json(&found, &opened.ground_truth, &args.convention)?,
+        Format::Csv => csv(&found)?,
+    })
+}
+
+fn text(found: &[Worst], ground_truth: &Material<f32>, convention: &Convention) -> String {
+    let titles = ["prediction", "worst", "mean", "times the mean", "kind", "view", "light", "evaluations"];
+    let mut rows = vec![titles.map(str::to_owned).to_vec()];
+    rows.extend(found.iter().map(|worst| {
+        let Scene { kind, view, light } = worst.scene;
+        vec![
+            worst.prediction.clone(),
+            format!("{:.6}", worst.loss),
+            format!("{:.6}", worst.mean.mean),
+            if worst.mean.mean > 0.0 {
+                format!("{:.2}", worst.loss / worst.mean.mean)
+            } else {
+                "-".to_owned()
+            },
+            kind_name(kind).to_owned(),
+            triple(view),
+            triple(light),
+            worst.evaluations.to_string(),
+        ]
+    }));
+    format!("{}\n{}", table::heading("worst scenes", ground_truth, convention), table::aligned(&rows))
+}
+
+fn csv(found: &[Worst]) -> Result<String, Error> {
+    let heading = [
+        "prediction",
+        "worst",
+        "mean",
+        "kind",
+        "view_x",
+        "view_y",
+        "view_z",
+        "light_x",
+        "light_y",
+        "light_z",
+        "evaluations",
+    ];
+    let row = |worst: &Worst| {
+        let Scene { kind, view, light } = worst.scene;
+        let start = [
+            worst.prediction.clone(),
+            worst.loss.to_string(),
+            worst.mean.mean.to_string(),
+            kind_name(kind).to_owned(),
+        ];
+        let place = view.into_iter().chain(light).map(|c| c.to_string());
+        start.into_iter().chain(place).chain([worst.evaluations.to_string()]).collect()
+    };
+    table::csv([heading.map(str::to_owned).to_vec()].into_iter().chain(found.iter().map(row)))
+}
+
+/// A scene file, too: scene k is the worst of prediction k.
+#[derive(Serialize)]
+struct Object<'a> {
+    ground_truth: &'a str,
+    convention: &'a str,
+    epsilon: f64,
+    results: Vec<Entry<'a>>,
+    scenes: Vec<Scene>,
+}
+
+#[derive(Serialize)]
+struct Entry<'a> {
+    prediction: &'a str,
+    worst: f64,
+    /// The loss over all scenes.
+    mean: f64,
+    interval95: Option<[f64; 2]>,
+    evaluations: usize,
+}
+
+fn json(found: &[Worst], ground_truth: &Material<f32>, convention: &Convention) -> Result<String, Error> {
+    let results = found.iter().map(|worst| Entry {
+        prediction: &worst.prediction,
+        worst: worst.loss,
+        mean: worst.mean.mean,
+        interval95: worst.mean.interval95,
+        evaluations: worst.evaluations,
+    });
+    table::json(&Object {
+        ground_truth: ground_truth.name(),
+        convention: convention.name,
+        epsilon: convention.epsilon,
+        results: results.collect(),
+        scenes: found.iter().map(|worst| worst.scene).collect(),
+    })
+}

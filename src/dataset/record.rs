@@ -1,0 +1,83 @@
+//! What is compared, and what comes of it.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+/// A material: its ground truth, and the predictions of all methods.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Task {
+    /// Its place in the whole data set, from 0.
+    pub index: usize,
+    pub material: String,
+    pub ground_truth: PathBuf,
+    pub candidates: Vec<Candidate>,
+}
+
+/// A prediction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Candidate {
+    pub method: String,
+    /// Which of the predictions of this method, from 0.
+    pub sample: usize,
+    pub path: PathBuf,
+}
+
+/// What the results of all materials have in common: results of other settings cannot be joined with them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    pub convention: String,
+    /// Half of the 95% interval of each loss over scenes, as a share of the loss.
+    pub target_error: f64,
+    /// Names the scenes, together with the index of the material.
+    pub seed: u64,
+    /// The materials of the whole data set, in order.
+    pub materials: Vec<String>,
+    /// In order.
+    pub methods: Vec<String>,
+}
+
+impl Settings {
+    /// The settings for `tasks`, which are those of the whole data set.
+    pub fn new(convention: &str, target_error: f64, seed: u64, tasks: &[Task]) -> Self {
+        let mut methods: Vec<String> = Vec::new();
+        for candidate in tasks.iter().flat_map(|task| &task.candidates) {
+            if !methods.contains(&candidate.method) {
+                methods.push(candidate.method.clone());
+            }
+        }
+        let materials = tasks.iter().map(|task| task.material.clone()).collect();
+        Self { convention: convention.to_owned(), target_error, seed, materials, methods }
+    }
+}
+
+/// The results of one material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MaterialResult {
+    pub index: usize,
+    pub material: String,
+    /// The seed of its scenes: errors due to scenes are independent between materials.
+    pub seed: u64,
+    /// The number of scenes.
+    pub scenes: usize,
+    pub predictions: Vec<PredictionResult>,
+}
+
+/// The result of one prediction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PredictionResult {
+    pub method: String,
+    pub sample: usize,
+    pub path: String,
+    /// The loss; what is wrong where there is none.
+    pub result: Result<Known, String>,
+}
+
+/// A loss that is known.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Known {
+    pub loss: f64,
+    /// Due to the sampling of scenes and texels.
+    pub standard_error: f64,
+    pub interval95: [f64; 2],
+}

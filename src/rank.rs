@@ -1,0 +1,37 @@
+//! Many predictions of one ground truth, best first, with what the data can separate.
+
+use crate::loss::{Estimate, Outcome};
+
+/// A prediction in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// The index of its loss in the outcome.
+    pub index: usize,
+    /// Its loss - that of the best prediction, over the same scenes; `None` for the best one.
+    pub to_best: Option<Estimate>,
+    /// Groups are counted from 1. A group begins with the first prediction whose difference to the first of the group before has a
+    /// 95% interval without 0. Within a group, no prediction is separated from its first.
+    pub group: usize,
+}
+
+/// The predictions of an outcome, smallest loss first. Equal losses keep their order.
+pub fn places(outcome: &Outcome) -> Vec<Place> {
+    let loss = |index: usize| &outcome.losses[index];
+    let mut order: Vec<usize> = (0..outcome.losses.len()).collect();
+    order.sort_by(|&a, &b| loss(a).estimate.mean.total_cmp(&loss(b).estimate.mean));
+    let Some(&best) = order.first() else { return Vec::new() };
+    let (mut first, mut group) = (best, 1);
+    let place = |&index: &usize| {
+        if index != first && separated(&outcome.difference(loss(index), loss(first))) {
+            (first, group) = (index, group + 1);
+        }
+        let to_best = (index != best).then(|| outcome.difference(loss(index), loss(best)));
+        Place { index, to_best, group }
+    };
+    order.iter().map(place).collect()
+}
+
+/// Whether a difference is larger than 0 at 95% confidence.
+fn separated(difference: &Estimate) -> bool {
+    difference.interval95.is_some_and(|[low, _]| low > 0.0)
+}

@@ -1,0 +1,162 @@
+//! Rankings of predictions, and of methods over data sets.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::{fail, folder, run_in, succeed, text, write_material};
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn predictions_of_a_pattern_are_ranked() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("out")).unwrap();
+    for (name, roughness) in [("bad", 230), ("good", 104), ("mean", 150)] {
+        write_material(&folder.path().join(format!("out/{name}.png")), 8, roughness);
+    }
+    fs::write(folder.path().join("out/note.txt"), "no material").unwrap();
+    let ranking = json(&succeed(folder.path(), "rank gt.png out/*.png --format json"));
+    let names: Vec<_> =
+        ranking["ranking"].as_array().unwrap().iter().map(|entry| &entry["prediction"]).collect();
+    assert_eq!(names, ["good", "mean", "bad"]);
+    assert_eq!(ranking["ranking"][2]["group"], 3);
+    let table = succeed(folder.path(), "rank gt.png out/*.png");
+    assert!(table.contains("- best") && table.contains("group"), "{table}");
+    assert_eq!(succeed(folder.path(), "rank gt.png out/*.png --format csv").lines().count(), 4);
+    let latex = succeed(folder.path(), "rank gt.png out/*.png --format latex");
+    assert!(latex.contains("good & \\textbf{") && latex.matches("textbf").count() == 1, "{latex}");
+
+    let above = run_in(folder.path(), "rank gt.png out/*.png --fail-above 0.0001");
+    assert_eq!(above.status.code(), Some(1));
+    assert!(text(&above.stdout).contains("good") && text(&above.stderr).contains("above the limit"));
+    succeed(folder.path(), "rank gt.png out/*.png --fail-above 10");
+    let stderr = fail(folder.path(), "rank gt.png nothing*.png", 64);
+    assert!(stderr.contains("matches no file"), "{stderr}");
+}
+
+/// Ground truths and two methods; of the second, a file is missing and one is broken.
+fn data_set() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        for i in 0..7_u8 {
+            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
+        }
+    }
+    fs::remove_file(folder.path().join("theirs/m3.png")).unwrap();
+    fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();
+    folder
+}
+
+const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
+
+#[test]
+fn a_bad_file_of_a_data_set_is_reported_and_not_fatal() {
+    let folder = data_set();
+    let output = run_in(folder.path(), &format!("{RANK} --format json"));
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let stderr = text(&output.stderr);
+    assert!(stderr.contains("m3, theirs: ") && stderr.contains("m5, theirs: "), "{stderr}");
+    let ranking = json(text(&output.stdout));
+    let [ours, theirs] = [0, 1].map(|i| &ranking["methods"][i]);
+    assert_eq!(
+        (&ours["method"], &ours["materials"], &ours["failures"]),
+        (&"ours".into(), &7.into(), &0.into())
+    );
+    assert_eq!((&theirs["materials"], &theirs["failures"]), (&5.into(), &2.into()));
+    assert_eq!((&ours["ties_with_best"], &theirs["ties_with_best"]), (&true.into(), &false.into()));
+    assert!(theirs["to_best_interval95_materials"][0].as_f64().unwrap() > 0.0);
+    let table = succeed(folder.path(), RANK);
+    assert!(table.contains("7 of 7 materials") && table.contains("95% over materials"), "{table}");
+    let rows = succeed(folder.path(), &format!("{RANK} --format csv"));
+    assert_eq!(rows.lines().count(), 15, "{rows}");
+    let latex = succeed(folder.path(), &format!("{RANK} --format latex"));
+    assert!(latex.contains("ours & \\textbf{") && !latex.contains("theirs & \\textbf{"), "{latex}");
+}
+
+#[test]
+fn an_interrupted_run_continues_with_an_identical_result() {
+    let folder = data_set();
+    let of = |name: &str| folder.path().join(name);
+    let whole = succeed(folder.path(), &format!("{RANK} --format json"));
+    let with_journal = format!("{RANK} --format json --journal run.jsonl");
+    assert_eq!(succeed(folder.path(), &with_journal), whole);
+    let journal = fs::read_to_string(of("run.jsonl")).unwrap();
+    assert_eq!(journal.lines().count(), 8);
+
+    // Two materials are done, in another order, and the third was being written.
+    let lines: Vec<&str> = journal.lines().collect();
+    let cut = [lines[0], lines[4], lines[2], &lines[1][..40]].join("\n");
+    fs::write(of("run.jsonl"), &cut).unwrap();
+    // What is done is not read again.
+    fs::write(of("gt/m3.png"), "gone").unwrap();
+    assert_eq!(succeed(folder.path(), &with_journal), whole);
+    assert_eq!(fs::read_to_string(of("run.jsonl")).unwrap(), journal);
+
+    let stderr = fail(folder.path(), &format!("{RANK} --seed 1 --journal run.jsonl"), 1);
+    assert!(stderr.contains("other settings"), "{stderr}");
+    fs::write(of("other.jsonl"), "{}\n").unwrap();
+    let stderr = fail(folder.path(), &format!("{RANK} --journal other.jsonl"), 1);
+    assert!(stderr.contains("no journal"), "{stderr}");
+}
+
+#[test]
+fn parts_of_a_data_set_join_to_the_whole() {
+    let folder = data_set();
+    for part in 1..=3 {
+        succeed(folder.path(), &format!("{RANK} --shard {part}/3 --journal part{part}.jsonl"));
+    }
+    for format in ["text", "json", "csv", "latex"] {
+        let whole = succeed(folder.path(), &format!("{RANK} --format {format}"));
+        let merged = succeed(folder.path(), &format!("rank --merge part*.jsonl --format {format}"));
+        assert_eq!(merged, whole);
+    }
+    let stderr = fail(folder.path(), "rank --merge part1.jsonl part3.jsonl", 1);
+    assert!(stderr.contains("2 of 7 materials are in none"), "{stderr}");
+    assert!(fail(folder.path(), &format!("{RANK} --resize-to gt"), 64).contains("not resized"));
+    for wrong in ["0/3", "4/3", "1", "a/b"] {
+        fail(folder.path(), &format!("{RANK} --shard {wrong} --journal x.jsonl"), 64);
+    }
+}
+
+#[test]
+fn a_table_of_pairs_names_methods_and_samples() {
+    let folder = data_set();
+    let table = "ground_truth, prediction, method\n gt/m0.png, ours/m0.png, a\n gt/m0.png, ours/m1.png, a\n\
+        gt/m1.png, ours/m1.png, a\n";
+    fs::write(folder.path().join("pairs.csv"), table).unwrap();
+    let loss = |pick: &str| {
+        let args = format!("rank --pairs pairs.csv --target-error 5% --format json --pick {pick}");
+        json(&succeed(folder.path(), &args))["methods"][0]["mean"].as_f64().unwrap()
+    };
+    assert!(loss("best") <= loss("mean") && loss("best") <= loss("fixed"));
+    assert_ne!(loss("mean"), loss("fixed"));
+    fs::write(folder.path().join("no.csv"), "a,b\n1,2\n").unwrap();
+    assert!(
+        fail(folder.path(), "rank --pairs no.csv", 1).contains("the columns ground_truth and prediction")
+    );
+}
+
+#[test]
+fn folders_are_matched_by_name_in_subfolders_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |path: &Path, roughness| {
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        write_material(path, 8, roughness);
+    };
+    for name in ["wood/oak", "metal/iron"] {
+        write(&folder.path().join(format!("gt/{name}/maps.png")), 100);
+        for sample in 0..2 {
+            write(&folder.path().join(format!("ours/{name}_{sample}/maps.png")), 120);
+        }
+    }
+    let ranking = json(&succeed(folder.path(), "rank --dataset gt ours --target-error 5% --format json"));
+    assert_eq!(ranking["settings"]["materials"], serde_json::json!(["metal/iron", "wood/oak"]));
+    assert_eq!(ranking["results"][0]["predictions"].as_array().unwrap().len(), 2);
+    assert_eq!(ranking["methods"][0]["failures"], 0);
+}

@@ -1,0 +1,107 @@
+//! The subcommands that tell what a loss comes from.
+
+use serde_json::Value;
+
+use super::{fail, folder, succeed};
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn blame_adds_up_in_every_format() {
+    let folder = folder();
+    let text = succeed(folder.path(), "blame gt.png a.png b.png");
+    assert_eq!(text.matches("blame of ").count(), 2, "{text}");
+    assert!(text.contains("roughness  100.0%") && text.contains("normal       0.0%"), "{text}");
+    let printed = json(&succeed(folder.path(), "blame gt.png a.png b.png --format json"));
+    for attribution in printed["attributions"].as_array().unwrap() {
+        let maps = attribution["maps"].as_array().unwrap();
+        let sum: f64 = maps.iter().map(|map| map["shapley"]["mean"].as_f64().unwrap()).sum();
+        let loss = attribution["loss"]["mean"].as_f64().unwrap();
+        assert!((sum / loss - 1.0).abs() < 1e-9 && loss > 0.0);
+    }
+    let csv = succeed(folder.path(), "blame gt.png a.png b.png --format csv");
+    assert_eq!(csv.lines().count(), 9);
+    assert!(csv.starts_with("prediction,map,shapley,standard_error,"), "{csv}");
+    let listed = succeed(folder.path(), "blame gt.png a.png --scenes one.json");
+    assert!(listed.contains("1 near-field and 0 distant scenes from a file"), "{listed}");
+}
+
+#[test]
+fn the_worst_scenes_are_a_scene_file() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    let scenes = succeed(folder.path(), "scenes gt.png a.png --near 6 --distant 3 --top 4 --format json");
+    std::fs::write(of("worst.json"), &scenes).unwrap();
+    let scenes = json(&scenes);
+    let again = json(&succeed(folder.path(), "loss gt.png a.png --scenes worst.json --format json"));
+    assert_eq!(again["results"][0]["losses"], scenes["results"][0]["losses"]);
+    assert_eq!((scenes["scenes"].as_array().unwrap().len(), &scenes["of"]), (4, &9.into()));
+
+    let found = succeed(folder.path(), "worst gt.png b.png --format json");
+    std::fs::write(of("found.json"), &found).unwrap();
+    let loss = json(&succeed(folder.path(), "loss gt.png b.png --scenes found.json --format json"));
+    assert_eq!(loss["results"][0]["loss"], json(&found)["results"][0]["worst"]);
+
+    let text = succeed(folder.path(), "scenes gt.png a.png");
+    assert!(text.contains("the worst tenth of the scenes adds "), "{text}");
+    assert_eq!(succeed(folder.path(), "scenes gt.png a.png --format csv").lines().count(), 11);
+    assert!(succeed(folder.path(), "worst gt.png b.png").contains("times the mean"));
+    assert_eq!(succeed(folder.path(), "worst gt.png a.png b.png --format csv").lines().count(), 3);
+}
+
+#[test]
+fn a_capture_of_materialgan_is_read_as_scenes() {
+    let folder = folder();
+    let capture = r#"{"im_size": 4, "idx": [0], "camera_pos": [[0, 0, 4]], "light_pos": [[1, 1, 2]], "light_pow": [1, 1, 1]}"#;
+    std::fs::write(folder.path().join("render.json"), capture).unwrap();
+    let loss = json(&succeed(folder.path(), "loss gt.png a.png --scenes render.json --format json"));
+    // The same scene in half widths.
+    let one = json(&succeed(folder.path(), "loss gt.png a.png --scenes one.json --format json"));
+    assert_eq!(loss["scenes"], one["scenes"]);
+    assert_eq!(loss["results"][0]["losses"], one["results"][0]["losses"]);
+}
+
+#[test]
+fn maps_are_written_in_every_format() {
+    let folder = folder();
+    for over in ["texels", "lights", "views"] {
+        for (extension, least) in [("csv", 100), ("exr", 300), ("png", 150)] {
+            let name = format!("{over}.{extension}");
+            let printed =
+                succeed(folder.path(), &format!("map gt.png a.png b.png --over {over} --side 12 -o {name}"));
+            assert!(printed.contains("largest") && printed.contains("convention printed"), "{printed}");
+            let bytes = std::fs::metadata(folder.path().join(&name)).unwrap().len();
+            assert!(bytes > least, "{name}: {bytes}");
+        }
+    }
+    let table = std::fs::read_to_string(folder.path().join("texels.csv")).unwrap();
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 2 * 64);
+    let of = |row: &csv::StringRecord| (3..6).map(|c| row[c].parse::<f64>().unwrap()).sum::<f64>();
+    let mean: f64 = rows.iter().filter(|row| &row[0] == "a").map(of).sum::<f64>() / (3.0 * 64.0);
+    let loss = json(&succeed(
+        folder.path(),
+        "loss gt.png a.png --near 128 --distant 64 --sampler sobol --format json",
+    ));
+    let loss = loss["results"][0]["loss"].as_f64().unwrap();
+    assert!((mean / loss - 1.0).abs() < 1e-5, "{mean}, {loss}");
+}
+
+#[test]
+fn what_cannot_be_done_is_refused() {
+    let folder = folder();
+    for (args, code, problem) in [
+        ("blame gt.png", 64, "no prediction"),
+        ("worst gt.png big.png", 1, "sizes differ"),
+        ("scenes gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
+        ("map gt.png a.png -o map.txt", 64, "extension"),
+        ("map gt.png a.png -o nowhere/map.csv", 1, "its folder does not exist"),
+        ("map gt.png a.png --over lights --fixed 0,0,-1 -o map.csv", 1, "not above the plane"),
+    ] {
+        let stderr = fail(folder.path(), args, code);
+        assert!(stderr.contains(problem), "{args}: {stderr}");
+    }
+}
