@@ -51,7 +51,12 @@ fn paths_that_lead_to_no_material_are_refused() {
                 save(f, "photo.png", &flat(4, 4, [1; 3]));
                 f.to_owned()
             },
-            &["not a material", "one picture for the normal map", "nor", "found photo.png, readme.txt"],
+            &[
+                "not a material",
+                "a packed picture",
+                "rgh",
+                "found photo.png, whose name names no map, and readme.txt",
+            ],
         ),
         (
             "a folder of many files without maps",

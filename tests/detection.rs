@@ -9,7 +9,7 @@ use svbrdf::files::read::{Assumption, Certainty, Read, ReadOptions, What, read};
 use svbrdf::progress::Progress;
 use tempfile::tempdir;
 
-use crate::support::pictures::srgb;
+use crate::support::pictures::{rgb_exr, srgb};
 
 /// Below `../shared`: the picture of diffuse or base colour, that of specular if there is one, and whether they are
 /// display-encoded.
@@ -151,9 +151,9 @@ fn colours() -> [Table; 2] {
     [now, before]
 }
 
-/// The table of y of normals.
-fn normals() -> Table {
-    let mut table = Table::default();
+/// The tables of y of normals: now, and by the bounds of the curl test as they were before.
+fn normals() -> [Table; 2] {
+    let [mut now, mut before] = [Table::default(), Table::default()];
     for (normal, is_up) in NORMALS {
         let whole = load(normal);
         let gray = RgbImage::from_pixel(whole.width(), whole.height(), Rgb([128; 3]));
@@ -171,10 +171,78 @@ fn normals() -> Table {
                 "{normal}, flipped {flip}: {known}; {}",
                 if known.chosen == truth { "right" } else { "WRONG" }
             );
-            table.count(known.chosen == truth, known.certainty == Certainty::Unsure);
+            now.count(known.chosen == truth, known.certainty == Certainty::Unsure);
+            let curl = read.maps.iter().find_map(|map| map.curl).unwrap_or(1.0);
+            before.count((curl > -0.3) == (truth == "up"), curl < 0.1);
         }
     }
-    table
+    [now, before]
+}
+
+/// Below `../shared`: a picture of roughness, and whether it is gray; others are occlusion, roughness and metallic.
+const ROUGHNESS: [(&str, bool); 14] = [
+    ("data/ambientcg_Metal049A_1K-JPG/Metal049A_1K-JPG_Roughness.jpg", true),
+    ("data/surfacenet_style_folder_derived/metal049a/roughness.png", true),
+    ("data/materialgan_style_folder_derived/rgh.png", true),
+    ("data/diffmat_style_png16_dxnormal_derived/roughness.png", true),
+    ("real/matfuse_castle_brick/roughness.png", true),
+    ("real/matfuse_clean_pebbles/roughness.png", true),
+    ("real/matfuse_old_wood_floor/roughness.png", true),
+    ("real/substance_default/DefaultMaterial_Roughness.png", true),
+    ("real/polyhaven_sofa/sofa_03_rough_1k.jpg", true),
+    ("real/materialx/Images/wood_roughness.jpg", true),
+    ("data/polyhaven_arm_wooden_table_02/textures/wooden_table_02_arm_1k.jpg", false),
+    ("real/polyhaven_cabinet/painted_wooden_cabinet_02_arm_1k.jpg", false),
+    ("real/gltf_orm_two_uvmaps/ORM.png", false),
+    (
+        "data/gltf_orm_FlightHelmet_LeatherParts/FlightHelmet_Materials_LeatherPartsMat_OcclusionRoughMetal.png",
+        false,
+    ),
+];
+
+/// The tables of packed channels under the name of roughness: now, and where all are taken as gray.
+fn channels() -> [Table; 2] {
+    let [mut now, mut before] = [Table::default(), Table::default()];
+    for (roughness, is_gray) in ROUGHNESS {
+        let picture = load(roughness);
+        let flat = RgbImage::from_pixel(picture.width(), picture.height(), Rgb([128; 3]));
+        let read = inferred(&[("roughness.png", &picture), ("basecolor.png", &flat)]);
+        let taken_apart = read.assumptions.iter().find(|a| a.what == What::Layout);
+        println!("{roughness}: {}", taken_apart.map_or_else(|| "gray".to_owned(), ToString::to_string));
+        now.count(taken_apart.is_none() == is_gray, taken_apart.is_some());
+        before.count(is_gray, false);
+    }
+    [now, before]
+}
+
+/// The tables of signed and unsigned normals in floats, a component of each -0.02 by a filter: now, and by the least
+/// component, as it was before.
+fn encodings() -> [Table; 2] {
+    let [mut now, mut before] = [Table::default(), Table::default()];
+    for (normal, _) in NORMALS {
+        let whole = image::imageops::thumbnail(&load(normal), 256, 256);
+        for is_signed in [false, true] {
+            let value = |code: u8| {
+                let value = f32::from(code) / 255.0;
+                if is_signed { 2.0 * value - 1.0 } else { value }
+            };
+            let mut floats =
+                image::Rgb32FImage::from_fn(256, 256, |x, y| Rgb(whole.get_pixel(x, y).0.map(value)));
+            floats.get_pixel_mut(7, 7).0[0] = -0.02;
+            let folder = tempdir().unwrap();
+            rgb_exr(&folder.path().join("normal.exr"), &floats);
+            for name in ["basecolor.png", "roughness.png"] {
+                RgbImage::from_pixel(256, 256, Rgb([128; 3])).save(folder.path().join(name)).unwrap();
+            }
+            let read: Read<f32> = read(folder.path(), &ReadOptions::AUTO, &Progress::default()).unwrap();
+            let known = assumption(&read, What::NormalEncoding);
+            let is_right = (known.chosen == "signed") == is_signed;
+            println!("{normal}, signed {is_signed}: {known}; {}", if is_right { "right" } else { "WRONG" });
+            now.count(is_right, known.certainty == Certainty::Unsure);
+            before.count(is_signed, false);
+        }
+    }
+    [now, before]
 }
 
 #[test]
@@ -184,7 +252,14 @@ fn the_tables_of_what_is_inferred() {
     println!("| detector | right | right, unsure | wrong, unsure | wrong |\n|---|---|---|---|---|");
     println!("{}", before.row("encoding of colours, by the median of specular"));
     println!("{}", now.row("encoding of colours, by all evidence"));
-    println!("{}", normals().row("y of normals"));
+    for (name, tables) in [
+        ("y of normals, as before", normals()),
+        ("packed channels, all taken as gray", channels()),
+        ("signed normals in floats, by the least component", encodings()),
+    ] {
+        let [now, before] = tables;
+        println!("{}\n{}", before.row(name), now.row("the same, now"));
+    }
 }
 
 #[test]

@@ -8,12 +8,6 @@ use svbrdf::files::read::{ReadOptions, read};
 use svbrdf::material::Material;
 use svbrdf::progress::Progress;
 
-/// Cases that are read wrong so far, each with the reason. A case that is read right has to leave this list.
-const KNOWN_TO_FAIL: [(&str, &str); 1] = [(
-    "gltf_specular_4",
-    "its means are right; it opens as one texel, where a texture of 1024 x 1024 is bound",
-)];
-
 fn real() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/real")
 }
@@ -69,26 +63,22 @@ fn real_files_are_read_as_their_formats_specify() {
     let cases: Value = serde_json::from_slice(&fs::read(real().join("expected.json")).unwrap()).unwrap();
     let cases = cases.as_object().unwrap();
     assert!(cases.len() >= 18, "{} cases", cases.len());
-    let (mut wrong, mut mended) = (Vec::new(), Vec::new());
+    let mut wrong = Vec::new();
     for (name, case) in cases {
         let path = real().join(case["path"].as_str().unwrap());
         let problems = match read::<f32>(&path, &options(case), &Progress::default()) {
             Ok(read) => differences(case, &read.material),
             Err(error) => vec![error.to_string()],
         };
-        let known = KNOWN_TO_FAIL.iter().find(|(known, _)| known == name);
         println!(
             "{name}: {}",
             if problems.is_empty() { "as expected".to_owned() } else { problems.join("; ") }
         );
-        match (problems.is_empty(), known) {
-            (false, None) => wrong.push(format!("{name}: {}", problems.join("; "))),
-            (true, Some(_)) => mended.push(name),
-            _ => {}
+        if !problems.is_empty() {
+            wrong.push(format!("{name}: {}", problems.join("; ")));
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
-    assert!(mended.is_empty(), "take them off the list of known failures: {mended:?}");
 }
 
 #[test]

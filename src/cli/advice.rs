@@ -26,7 +26,7 @@ pub fn of_error(error: &Error) -> Option<&'static str> {
 /// A note with the option that would change what it reports.
 pub fn with_option(note: &Note) -> String {
     match note {
-        Note::Several { .. } => format!("{note} Another: --exemplar."),
+        Note::Rows { .. } | Note::Materials { .. } => format!("{note} Another: --exemplar."),
         Note::LinearGamma(Subject::Map(_) | Subject::Material | Subject::Picture) => {
             format!("{note} --albedo linear uses it.")
         }

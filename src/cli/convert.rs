@@ -13,8 +13,8 @@ use super::stop::stoppable;
 
 /// Writes a material as one layered EXR, as a packed PNG or into a folder
 ///
-/// The extension of OUT decides: .exr is one layered EXR of linear floats, .png a packed strip normal | diffuse |
-/// roughness | specular, all linear; anything else a folder of four PNG files, colours in sRGB.
+/// The extension of OUT selects the format: .exr is one layered EXR, linear; .png is a packed strip normal | diffuse |
+/// roughness | specular, linear; any other name is a folder of four PNG files, colours in sRGB.
 #[derive(Debug, clap::Args)]
 pub struct ConvertArgs {
     /// A packed or layered image, a folder, a name prefix, or one of the files
@@ -25,23 +25,23 @@ pub struct ConvertArgs {
     #[arg(value_name = "OUT", required = true)]
     output: PathBuf,
 
-    /// How samples are stored [default: half in EXR, 8 bits in PNG]
+    /// Type of the samples [default: half in EXR, 8 bits in PNG]
     #[arg(long, value_name = "8|16|half|float")]
     depth: Option<Depth>,
 
-    /// The source of materials whose order, names and encoding the files follow
+    /// Source of materials whose order of maps, file names and encoding are used
     ///
-    /// A packed PNG can follow deschaintre (the default), gao, materialgan, lookahead or matfusion; a folder materialgan,
-    /// or gltf: base colour, normals and occlusion | roughness | metallic, which loses specular that these cannot
-    /// express.
+    /// For a packed PNG: deschaintre (the default), gao, materialgan, lookahead or matfusion. For a folder: materialgan, or
+    /// gltf, which writes base colour, normals and occlusion | roughness | metallic; specular that base colour and metallic
+    /// cannot express is lost.
     #[arg(long, value_name = "PRESET")]
     like: Option<Preset>,
 
-    /// Adds a rendering to an EXR, as R, G and B for programs that do not read layers
+    /// Adds a rendering to an EXR as its R, G and B, for programs that do not read layers
     #[arg(long)]
     preview: bool,
 
-    /// A map by its file, or by a channel or layer of it; may be given several times
+    /// Takes a map from another file, or from a channel or layer of it; may be given several times
     ///
     /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer. The map
     /// replaces that of IN.

@@ -19,20 +19,20 @@ pub struct InfoArgs {
     #[arg(id = "ground_truth", value_name = "MATERIAL", required = true)]
     material: PathBuf,
 
-    /// What is printed: text for people, json for programs
+    /// Output format: text for people, json for programs
     #[arg(long, value_enum, default_value_t)]
     format: Format,
 
-    /// A map by its file, or by a channel or layer of it; may be given several times
+    /// Takes a map from another file, or from a channel or layer of it; may be given several times
     ///
     /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer. The map
     /// replaces that of MATERIAL.
     #[arg(long = "map", value_name = "MAP=FILE[:PART]")]
     bindings: Vec<Binding>,
 
-    /// Saves the options beside the material, for whenever it is opened
+    /// Saves the options beside the material: they apply whenever it is opened
     ///
-    /// They are written to svbrdf.json in a folder, or to NAME.svbrdf.json beside a file NAME.png or the files of a prefix
+    /// The options are written to svbrdf.json in a folder, or to NAME.svbrdf.json beside a file NAME.png or the files of a prefix
     /// NAME_. Options of the command line take precedence over them.
     #[arg(long, alias = "keep")]
     save: bool,

@@ -28,7 +28,7 @@ pub struct Reading {
     #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     pred_albedo: Option<Albedo>,
 
-    /// Resizes materials of differing sizes: to that of the ground truth, of the first prediction, or N wide
+    /// Resizes all materials: to the size of the ground truth, of the first prediction, or to a width of N texels
     #[arg(long, value_name = "gt|pred|N", allow_negative_numbers = true, requires = "ground_truth")]
     pub resize_to: Option<ResizeTo>,
 }
@@ -49,7 +49,7 @@ pub struct ReadingArgs {
     #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     specular_albedo: Option<Albedo>,
 
-    /// Where the green of normal maps points [default: inferred]
+    /// Direction of y in normal maps: up (OpenGL) or down (DirectX) [default: inferred]
     #[arg(long, value_name = "up|down", requires = "ground_truth")]
     normal_y: Option<NormalY>,
 
@@ -81,7 +81,7 @@ pub struct ReadingArgs {
     #[arg(long, value_name = "COLUMNSxROWS", requires = "ground_truth")]
     grid: Option<Grid>,
 
-    /// Row 0 of every picture is the lowest one
+    /// Row 0 of every image is the bottom row: mirrors the maps and the normals in them
     #[arg(long, value_name = "true|false", requires = "ground_truth")]
     #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "true")]
     flip_v: Option<bool>,
@@ -90,15 +90,15 @@ pub struct ReadingArgs {
     #[arg(long, value_name = "K", allow_negative_numbers = true, requires = "ground_truth")]
     exemplar: Option<usize>,
 
-    /// How NaN and infinity are treated [default: refuse]
+    /// NaN and infinity: refuse the material, or replace them [default: refuse]
     #[arg(long, value_name = "refuse|replace", requires = "ground_truth")]
     non_finite: Option<NonFinite>,
 
-    /// Fails where something can only be guessed, or an accuracy is not reached
+    /// Fails where something in the files can only be guessed, or where an accuracy is not reached
     #[arg(long, requires = "ground_truth")]
     pub strict: bool,
 
-    /// Reports everything that was noticed and assumed in reading, not only what is unsure or was changed
+    /// Reports everything noticed and assumed in reading, not only what is unsure or was changed
     #[arg(short, long)]
     verbose: bool,
 }

@@ -216,8 +216,14 @@ fn check_range<T: Real>(
     plane: &[T],
     place: impl Fn(usize) -> (usize, usize),
 ) -> Result<(), Error> {
+    const CHUNK: usize = 1 << 16;
     let valid = |x: &T| *x >= T::zero() && *x <= T::one();
-    match plane.par_iter().position_first(|x| !valid(x)) {
+    // Without a way out within a chunk, the check is one of many values at once.
+    let are_valid = |chunk: &[T]| chunk.iter().fold(true, |are, x| are & valid(x));
+    let wrong = plane.par_chunks(CHUNK).position_first(|chunk| !are_valid(chunk));
+    let wrong =
+        wrong.and_then(|chunk| Some(chunk * CHUNK + plane[chunk * CHUNK..].iter().position(|x| !valid(x))?));
+    match wrong {
         None => Ok(()),
         Some(index) => {
             let (column, row) = place(index);
@@ -238,22 +244,18 @@ fn normalize_normals<T: Real>(
     normal: &mut [Vec<T>; 3],
     place: impl Fn(usize) -> (usize, usize),
 ) -> Result<(), Error> {
-    const CHUNK: usize = 1 << 13;
+    const CHUNK: usize = 1 << 14;
+    /// Texels that stay in the nearest cache.
+    const FEW: usize = 1 << 9;
     let [xs, ys, zs] = normal;
     let chunks = xs.par_chunks_mut(CHUNK).zip(ys.par_chunks_mut(CHUNK)).zip(zs.par_chunks_mut(CHUNK));
     let none = chunks.enumerate().find_map_first(|(number, ((xs, ys), zs))| {
-        for (offset, ((x, y), z)) in xs.iter_mut().zip(ys).zip(zs).enumerate() {
-            // In f64, so that f32 normals are the correctly rounded ones.
-            let n = DVec3::new(x.f64(), y.f64(), z.f64());
-            if !n.is_direction() {
-                return Some((number * CHUNK + offset, n));
-            }
-            // A unit vector as exact as its type can hold it stays what it is: what was written is read back.
-            if (n.length_squared() - 1.0).abs() > 4.0 * T::epsilon().f64() {
-                [*x, *y, *z] = n.normalize().to_array().map(T::of);
-            }
-        }
-        None
+        let parts = xs.chunks_mut(FEW).zip(ys.chunks_mut(FEW)).zip(zs.chunks_mut(FEW)).enumerate();
+        let mut none = parts.filter_map(|(part, ((xs, ys), zs))| {
+            let (offset, n) = normalize_few([xs, ys, zs])?;
+            Some((number * CHUNK + part * FEW + offset, n))
+        });
+        none.next()
     });
     let Some((index, n)) = none else { return Ok(()) };
     let (column, row) = place(index);
@@ -265,4 +267,29 @@ fn normalize_normals<T: Real>(
         expected: "a finite vector of some length",
         found: format!("({}, {}, {})", n.x, n.y, n.z),
     })
+}
+
+/// Normalizes vectors, or returns the first that has no direction. Loops without branches, so that several vectors are
+/// computed at once.
+fn normalize_few<T: Real>([xs, ys, zs]: [&mut [T]; 3]) -> Option<(usize, DVec3)> {
+    // In f64, so that f32 normals are the correctly rounded ones.
+    let vector = |(x, y, z): (&T, &T, &T)| DVec3::new(x.f64(), y.f64(), z.f64());
+    let all = || xs.iter().zip(&*ys).zip(&*zs).map(|((x, y), z)| vector((x, y, z)));
+    let have_directions = all().fold(true, |all, n| {
+        let squared = n.length_squared();
+        all & squared.is_finite() & (squared >= f64::MIN_POSITIVE)
+    });
+    if !have_directions {
+        return all().enumerate().find(|(_, n)| !n.is_direction());
+    }
+    for ((x, y), z) in xs.iter_mut().zip(ys).zip(zs) {
+        let n = vector((x, y, z));
+        let squared = n.length_squared();
+        let unit = n * (1.0 / squared.sqrt());
+        // A unit vector as exact as its type can hold it stays what it is: what was written is read back.
+        let is_unit = (squared - 1.0).abs() <= 4.0 * T::epsilon().f64();
+        let chosen = |old: &T, new: f64| if is_unit { *old } else { T::of(new) };
+        [*x, *y, *z] = [chosen(x, unit.x), chosen(y, unit.y), chosen(z, unit.z)];
+    }
+    None
 }

@@ -1,5 +1,7 @@
 //! Planes of another size: the mean over areas on the way down, bilinear on the way up.
 
+use rayon::prelude::*;
+
 use crate::math::real::Real;
 
 /// In which measure values are averaged.
@@ -20,16 +22,19 @@ pub fn plane<T: Real>(plane: Vec<T>, from: [usize; 2], to: [usize; 2], filter: F
     let back = |x: f64| if filter == Filter::Roughness { x.max(0.0).powf(0.25) } else { x };
     let columns: Vec<_> = (0..to[0]).map(|i| weights(i, from[0], to[0])).collect();
     let rows: Vec<_> = (0..to[1]).map(|i| weights(i, from[1], to[1])).collect();
-    let mut narrow = Vec::with_capacity(to[0] * from[1]);
-    for row in plane.chunks_exact(from[0]) {
+    // A row of the original, of the new width.
+    let narrow = |row: usize, out: &mut [f64]| {
+        let row = &plane[row * from[0]..(row + 1) * from[0]];
         let value = |taps: &Vec<(usize, f64)>| taps.iter().map(|&(i, w)| w * into(row[i].f64())).sum::<f64>();
-        narrow.extend(columns.iter().map(value));
-    }
-    let mut resized = Vec::with_capacity(to[0] * to[1]);
-    for taps in &rows {
-        let value = |column: usize| taps.iter().map(|&(i, w)| w * narrow[i * to[0] + column]).sum::<f64>();
-        resized.extend((0..to[0]).map(|column| T::of(back(value(column)))));
-    }
+        out.iter_mut().zip(&columns).for_each(|(out, taps)| *out = value(taps));
+    };
+    let mut narrowed = vec![0.0; to[0] * from[1]];
+    narrowed.par_chunks_exact_mut(to[0]).enumerate().for_each(|(row, out)| narrow(row, out));
+    let mut resized = vec![T::zero(); to[0] * to[1]];
+    resized.par_chunks_exact_mut(to[0]).zip(&rows).for_each(|(out, taps)| {
+        let value = |column: usize| taps.iter().map(|&(i, w)| w * narrowed[i * to[0] + column]).sum::<f64>();
+        out.iter_mut().enumerate().for_each(|(column, out)| *out = T::of(back(value(column))));
+    });
     resized
 }
 

@@ -81,7 +81,7 @@ fn absurd_sizes_of_other_formats_are_refused_at_once() {
         (
             "an archive of too many arrays",
             |f| written(f, &archive(65)),
-            &["x.png", "expected 1 to 64 arrays in the npz, found 65"],
+            &["x.png", "expected at most 64 arrays in the npz, found 65"],
         ),
     ]);
 }

@@ -100,6 +100,45 @@ fn ktx2_of_uastc_opens_with_the_values_that_it_codes() {
     assert_ne!(png.material, damaged.material);
 }
 
+/// A KTX2 of ETC1S of 64 x 16 texels: [`etc1s_colour`], written by version 2.50 of the encoder of Basis Universal.
+pub const ETC1S: &[u8] = include_bytes!("etc1s.ktx2");
+
+fn etc1s_colour(x: u8, y: u8) -> [u8; 3] {
+    match x / 16 {
+        0 => [128, 128, 255],
+        1 => [40 + 12 * (x % 16), 96, 220 - 10 * y],
+        2 => [30 + 10 * y; 3],
+        _ => [56; 3],
+    }
+}
+
+#[test]
+fn ktx2_of_etc1s_opens_with_the_values_that_were_encoded() {
+    let folder = tempdir().unwrap();
+    let options = ReadOptions {
+        order: Some(Order::NDRS),
+        preset: Some(Preset::Deschaintre),
+        albedo: Some(Albedo::Linear),
+        ..ReadOptions::AUTO
+    };
+    let read = open_as(&put(folder.path(), "m.ktx2", ETC1S), &options);
+    assert_eq!(read.material.size(), [16; 2]);
+    let worst = |shift: u8| {
+        let of = |index: usize| {
+            let texel = read.material.texel(index);
+            let (x, y) = (index as u8 % 16, index as u8 / 16);
+            let expected = [16, 32, 48].map(|tile| etc1s_colour(tile + (x + shift) % 16, y));
+            let got = [texel.diffuse, [texel.roughness; 3], texel.specular];
+            let differences = got.into_iter().flatten().zip(expected.into_iter().flatten());
+            differences.map(|(got, code)| (255.0 * got - f64::from(code)).abs()).fold(0.0, f64::max)
+        };
+        (0..256).map(of).sum::<f64>() / 256.0
+    };
+    // Blocks of 4 x 4 texels have four colours on a line.
+    assert!(worst(0) < 20.0, "{}", worst(0));
+    assert!(worst(8) > 60.0, "the comparison cannot fail: {}", worst(8));
+}
+
 #[test]
 fn ktx2_that_is_not_of_basis_universal_is_refused_by_its_format() {
     let folder = tempdir().unwrap();
@@ -107,6 +146,28 @@ fn ktx2_that_is_not_of_basis_universal_is_refused_by_its_format() {
     ktx2[12..16].copy_from_slice(&146_u32.to_le_bytes());
     let refused = refusal(&put(folder.path(), "m.ktx2", &ktx2));
     assert!(refused.contains("Vulkan format 146"), "{refused}");
+}
+
+#[test]
+fn an_archive_of_pictures_is_called_a_zip() {
+    let folder = tempdir().unwrap();
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    zip.start_file("rock_albedo.png", zip::write::SimpleFileOptions::default()).unwrap();
+    let refused = refusal(&put(folder.path(), "rock.zip", &zip.finish().unwrap().into_inner()));
+    for part in ["rock.zip", "a zip archive", "rock_albedo.png", "unpack it"] {
+        assert!(refused.contains(part), "{part}: {refused}");
+    }
+}
+
+#[test]
+fn the_map_that_cannot_be_decoded_is_named_with_its_format() {
+    let folder = tempdir().unwrap();
+    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], folder.path(), |_, v| v);
+    std::fs::remove_file(folder.path().join("normal.png")).unwrap();
+    put(folder.path(), "normal.webp", b"RIFF\x20\0\0\0WEBPVP8L\x10\0\0\0\x2f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0");
+    let refused = refusal(folder.path());
+    assert!(refused.contains("normal.webp") && refused.contains("normal map"), "{refused}");
+    assert!(refused.contains("WebP"), "{refused}");
 }
 
 #[test]

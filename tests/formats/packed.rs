@@ -111,3 +111,34 @@ fn a_folder_of_one_packed_picture_is_its_material_and_of_several_it_lists_them()
     let message = refusal(folder.path());
     assert!(message.contains("name no map: brick.png, wood.png; open one of them"), "{message}");
 }
+
+#[test]
+fn one_picture_of_normals_with_flat_and_steep_parts_is_no_stack_of_strips() {
+    let folder = tempdir().unwrap();
+    // Of 4 x 4 parts those on the diagonal are unit vectors: in row 0 the first looks like the normals of a strip.
+    let image = picture(4 * SIDE, 4 * SIDE, |x, y| {
+        let unit = stored(0, x % SIDE, y % SIDE, |v| v);
+        if x / SIDE == y / SIDE { unit } else { unit.map(|v| 0.5 + 0.7 * (v - 0.5)) }
+    });
+    let message = refusal(&save(folder.path(), "photo.png", &image, ImageFormat::Png));
+    assert!(message.contains("found 64 x 64 pixels"), "{message}");
+    // With the normals of every row in one column it is one.
+    let image = packed("NDRSNDRSNDRSNDRS", 4, linear);
+    let read = open(&save(folder.path(), "stack.png", &image, ImageFormat::Png));
+    assert!(chosen(&read, What::Layout).starts_with("ndrs in 4 x 4"), "{:?}", read.assumptions);
+}
+
+#[test]
+fn a_picture_alone_whose_name_names_no_map_is_refused_with_what_is_missing() {
+    let folder = tempdir().unwrap();
+    save(folder.path(), "rock.jpg", &picture(24, 16, |_, _| [0.5, 0.4, 0.3]), ImageFormat::Jpeg);
+    std::fs::write(folder.path().join("rock.jpg.import"), "[remap]\n").unwrap();
+    std::fs::write(folder.path().join("rock.tres"), "[gd_resource type=\"StandardMaterial3D\"]\n").unwrap();
+    let message = refusal(folder.path());
+    for part in ["rock.jpg, whose name names no map", "roughness", "basecolor", "rock.tres"] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    assert!(!message.contains(".import"), "{message}");
+    let message = refusal(&folder.path().join("rock.tres"));
+    assert!(message.contains("a resource of Godot"), "{message}");
+}

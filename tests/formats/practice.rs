@@ -204,3 +204,93 @@ fn a_missing_map_lists_its_names_and_no_junk() {
         "{message}"
     );
 }
+
+#[test]
+fn a_picture_named_metal_that_looks_like_normals_is_asked_about() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "a_basecolor.png", 0.5);
+    gray(folder.path(), "a_roughness.png", 0.5);
+    bumpy(folder.path(), "a_normal_gl.png");
+    gray(folder.path(), "a_metal.png", 1.0);
+    assert!(!is_doubted(&open(folder.path()), What::Layout));
+    bumpy(folder.path(), "a_metal.png");
+    let read = open(folder.path());
+    assert!(
+        read.unsure().any(|a| a.why.to_string().contains("looks like normals although it is named after"))
+    );
+}
+
+#[test]
+fn specular_beside_diffuse_without_other_evidence_is_srgb_and_asked_about() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "a_diffuse.png", 0.4);
+    gray(folder.path(), "a_specular.png", 0.12);
+    gray(folder.path(), "a_roughness.png", 0.5);
+    let read = open(folder.path());
+    assert_eq!((chosen(&read, What::Albedo), is_doubted(&read, What::Albedo)), ("srgb", true));
+    // Glossiness is how artists name it, who do not store colours linear.
+    std::fs::rename(folder.path().join("a_roughness.png"), folder.path().join("a_gloss.png")).unwrap();
+    let read = open(folder.path());
+    assert_eq!((chosen(&read, What::Albedo), is_doubted(&read, What::Albedo)), ("srgb", false));
+}
+
+#[test]
+fn metals_darker_than_metals_are_linear_and_asked_about() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "a_diffuse.png", 0.0);
+    gray(folder.path(), "a_roughness.png", 0.5);
+    for (specular, expected) in [(0.5, "linear"), (0.85, "srgb")] {
+        gray(folder.path(), "a_specular.png", specular);
+        let read = open(folder.path());
+        assert_eq!((chosen(&read, What::Albedo), is_doubted(&read, What::Albedo)), (expected, true));
+    }
+}
+
+#[test]
+fn a_colour_that_is_too_dark_if_encoded_is_asked_about() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "a_roughness.png", 0.5);
+    gray(folder.path(), "a_metallic.png", 0.0);
+    for (colour, doubted) in [(0.4, false), (0.07, true)] {
+        gray(folder.path(), "a_basecolor.png", colour);
+        let read = open(folder.path());
+        assert_eq!((chosen(&read, What::Albedo), is_doubted(&read, What::Albedo)), ("srgb", doubted));
+    }
+}
+
+/// A material of which the pixels do not tell whether it is linear.
+fn undecided(folder: &Path, stem: &str) {
+    gray(folder, &format!("{stem}diffuse.png"), 0.4);
+    gray(folder, &format!("{stem}specular.png"), 0.12);
+    gray(folder, &format!("{stem}roughness.png"), 0.5);
+}
+
+#[test]
+fn materials_beside_tell_what_the_pixels_of_one_do_not() {
+    for (specular, expected) in [(0.04, "linear"), (0.22, "srgb")] {
+        // In folders beside one another.
+        let folder = tempdir().unwrap();
+        let [one, other] = ["one", "other"].map(|name| folder.path().join(name));
+        for folder in [&one, &other] {
+            std::fs::create_dir(folder).unwrap();
+            undecided(folder, "");
+        }
+        assert!(is_doubted(&open(&one), What::Albedo));
+        gray(&other, "specular.png", specular);
+        let read = open(&one);
+        assert_eq!(chosen(&read, What::Albedo), expected);
+        assert!(
+            read.messages().any(|line| line.contains("1 neighbouring material")),
+            "{:#?}",
+            read.assumptions
+        );
+        // What a neighbour holds is not a file of the material.
+        assert!(read.files.iter().all(|file| file.starts_with(&one)));
+        // In one folder, of other stems.
+        let folder = tempdir().unwrap();
+        undecided(folder.path(), "one_");
+        undecided(folder.path(), "other_");
+        gray(folder.path(), "other_specular.png", specular);
+        assert_eq!(chosen(&open(&folder.path().join("one_")), What::Albedo), expected);
+    }
+}

@@ -102,6 +102,21 @@ fn constants_without_textures_open_as_one_texel() {
 }
 
 #[test]
+fn a_texture_whose_map_is_constant_decides_the_size() {
+    let folder = textures();
+    // Alpha, which is the strength of the reflection, is 1 everywhere.
+    save(folder.path(), "s.png", &picture(32, 16, |_, _| [0.5; 3]), ImageFormat::Png);
+    let material = r#"{"extensions": {"KHR_materials_specular": {"specularFactor": 0.5, "specularTexture": {"index": 0}}}}"#;
+    let read = open(&put(&folder, &document(&["s.png"], r#"{"source": 0}"#, material, "")));
+    assert_eq!(read.material.size(), [32, 16]);
+    // A picture of another shape is not the size of the maps.
+    let both = r#"{"extensions": {"KHR_materials_specular": {"specularTexture": {"index": 0}}},
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 1}}}"#;
+    let text = document(&["s.png", "base%20colour.png"], r#"{"source": 0}, {"source": 1}"#, both, "");
+    assert_eq!(open(&put(&folder, &text)).material.size(), [SIDE; 2]);
+}
+
+#[test]
 fn specular_and_the_index_of_refraction_decide_what_a_dielectric_reflects() {
     let reflected = |ior: f64| ((ior - 1.0) / (ior + 1.0)).powi(2);
     let ior = constant(r#""KHR_materials_ior": {"ior": 2.0}"#);
@@ -138,7 +153,7 @@ fn one_transform_of_all_textures_opens_and_different_ones_are_refused_by_name() 
             .replace(r#""index": 2}"#, &format!(r#""index": 2{}"#, transform(of_others)));
         document(&["base%20colour.png", "n.png", "orm.png"], THREE, &material, "")
     };
-    assert_is_of_textures(&open(&put(&folder, &text("3", "3"))), 1.0);
+    assert_is_of_textures(&open(&put(&folder, &text("3.1", "3.1"))), 1.0);
     let refused = refusal(&put(&folder, &text("3", "2")));
     assert!(refused.contains("KHR_texture_transform") && refused.contains("baseColorTexture"), "{refused}");
 }

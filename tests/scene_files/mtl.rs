@@ -62,7 +62,9 @@ fn other_ways_to_say_it_in_mtl_are_the_same_material() {
         let read = read::<f64>(&path, &options, &Progress::default()).unwrap();
         println!("{what}: {:#?} {:#?}", read.assumptions, read.notes);
         assert_is_of_textures(&read, 1.0);
-        assert!(says(&read, "holds 2 materials; this is number 1 from 0"), "{what}");
+        assert!(says(&read, "holds 2 materials: 0 other, 1 wall. This is number 1 from 0"), "{what}");
+        let names = read.materials().map(|(names, index)| (names.join(" "), index));
+        assert_eq!(names, Some(("other wall".to_owned(), 1)), "{what}");
         let third = ReadOptions { exemplar: Some(2), ..ReadOptions::AUTO };
         let refused =
             svbrdf::files::read::read::<f64>(&path, &third, &Progress::default()).unwrap_err().to_string();

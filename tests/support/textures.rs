@@ -22,6 +22,13 @@ pub fn dds_blocks(width: u32, height: u32, name: &[u8; 4], blocks: &[u8]) -> Vec
     dds(width, height, [32, 4, u32::from_le_bytes(*name), 0, 0, 0, 0, 0], blocks)
 }
 
+/// A DDS of 4 x 4 blocks of the DXGI format of this number.
+pub fn dds_dx10(width: u32, height: u32, format: u32, blocks: &[u8]) -> Vec<u8> {
+    // Format, a picture of two dimensions, no cube, one picture, alpha not said.
+    let head: Vec<u8> = [format, 3, 0, 1, 0].into_iter().flat_map(u32::to_le_bytes).collect();
+    dds_blocks(width, height, b"DX10", &[head.as_slice(), blocks].concat())
+}
+
 /// A block of BC1 of one colour, in 5, 6 and 5 bits.
 pub fn bc1_block([r, g, b]: [u16; 3]) -> [u8; 8] {
     let [low, high] = (r << 11 | g << 5 | b).to_le_bytes();

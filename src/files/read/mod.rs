@@ -7,6 +7,7 @@
 //! and pixels, and recorded as an [`Assumption`].
 
 mod assumption;
+mod buffer;
 mod choices;
 mod decode;
 mod evidence;
@@ -19,12 +20,16 @@ mod locate;
 mod note;
 mod options;
 mod order;
+mod outside;
+mod pictures;
 mod preset;
 mod raster;
 mod reason;
+mod reason_text;
 mod role;
 mod samples;
 mod sidecar;
+mod spread;
 mod storage_convention;
 mod stored;
 
@@ -37,7 +42,7 @@ pub use extensions::EXTENSIONS;
 pub use grid::Grid;
 pub use interpret::report::MapReport;
 pub use locate::binding::Binding;
-pub use note::{Container, Gray, Note, SpecifiedBy, Subject, Unused};
+pub use note::{Gray, Note, SpecifiedBy, Subject, Unused};
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
 };
@@ -80,6 +85,15 @@ impl<T> Read<T> {
     /// Notes and assumptions, a line each.
     pub fn messages(&self) -> impl Iterator<Item = String> {
         self.notes.iter().map(ToString::to_string).chain(self.assumptions.iter().map(ToString::to_string))
+    }
+
+    /// The names of the materials of a file of several, and which of them this is, from 0: without
+    /// [`ReadOptions::exemplar`] the default.
+    pub fn materials(&self) -> Option<(&[String], usize)> {
+        self.notes.iter().find_map(|note| match note {
+            Note::Materials { names, index } => Some((names.as_slice(), *index)),
+            _ => None,
+        })
     }
 
     /// The assumptions whose alternatives are as plausible.

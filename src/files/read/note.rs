@@ -45,16 +45,6 @@ pub enum Unused {
     Blender,
 }
 
-/// What holds several materials.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Container {
-    /// A packed image with a material in each row.
-    Image,
-    Gltf,
-    Mtl,
-    MaterialX,
-}
-
 /// What becomes of channels that should be equal and are not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gray {
@@ -100,8 +90,8 @@ pub enum Note {
     InFolder { folder: String },
     /// The first tiles of a packed image are photos.
     Photos { count: usize, tiles: usize },
-    /// The file holds several materials; `index` counts from 0.
-    Several { container: Container, count: usize, index: usize },
+    /// The packed image holds a material in each row; `index` counts from 0.
+    Rows { count: usize, index: usize },
     /// The file holds several materials of these names; `index` counts from 0.
     Materials { names: Vec<String>, index: usize },
     /// The file has features that change the look, which are not modelled and ignored.
@@ -256,15 +246,10 @@ impl fmt::Display for Note {
             Self::Photos { count, tiles } => {
                 write!(f, "The first {count} of {tiles} tiles are taken as photos and ignored.")
             }
-            Self::Several { container, count, index } => {
-                let (container, content) = match container {
-                    Container::Image => ("image", "materials, one in each row"),
-                    Container::Gltf => ("glTF", "materials"),
-                    Container::Mtl => (".mtl", "materials"),
-                    Container::MaterialX => ("file", "surfaces"),
-                };
-                write!(f, "The {container} holds {count} {content}; this is number {index} from 0.")
-            }
+            Self::Rows { count, index } => write!(
+                f,
+                "The image holds {count} materials, one in each row; this is number {index} from 0."
+            ),
             Self::Materials { names, index } => write!(f, "{}", materials(names, *index)),
             Self::NotModelled { features } => {
                 write!(f, "These change the look and are not modelled: {}.", features.join(", "))

@@ -2,130 +2,14 @@
 //!
 //! The channels of a picture and its crops share the decoder's buffer, so that taking a picture apart copies nothing.
 
-use std::sync::Arc;
-
 use rayon::prelude::*;
 
+use super::buffer::{Buffer, View};
+use super::outside::Outside;
 use crate::math::real::Real;
 
 /// Samples that one task converts.
 const CHUNK: usize = 1 << 16;
-
-/// What a decoder returned.
-#[derive(Clone, Debug)]
-pub enum Buffer {
-    /// Integers, of which 255 stands for 1.
-    Bytes(Arc<Vec<u8>>),
-    /// Integers, of which 65535 stands for 1.
-    Words(Arc<Vec<u16>>),
-    /// Numbers that stand for themselves.
-    Floats(Arc<Vec<f32>>),
-}
-
-impl From<Vec<u8>> for Buffer {
-    fn from(samples: Vec<u8>) -> Self {
-        Self::Bytes(Arc::new(samples))
-    }
-}
-
-impl From<Vec<u16>> for Buffer {
-    fn from(samples: Vec<u16>) -> Self {
-        Self::Words(Arc::new(samples))
-    }
-}
-
-impl From<Vec<f32>> for Buffer {
-    fn from(samples: Vec<f32>) -> Self {
-        Self::Floats(Arc::new(samples))
-    }
-}
-
-impl Buffer {
-    pub fn len(&self) -> usize {
-        match self {
-            Self::Bytes(all) => all.len(),
-            Self::Words(all) => all.len(),
-            Self::Floats(all) => all.len(),
-        }
-    }
-}
-
-/// Where the samples of a channel lie in a buffer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct View {
-    /// The place of sample 0.
-    first: usize,
-    /// From one sample of a row to the next.
-    step: usize,
-    /// From one row to the next.
-    stride: usize,
-    /// Samples of a row.
-    width: usize,
-    count: usize,
-}
-
-impl View {
-    fn place(&self, index: usize) -> usize {
-        if self.stride == self.width * self.step {
-            self.first + index * self.step
-        } else {
-            self.first + index / self.width * self.stride + index % self.width * self.step
-        }
-    }
-
-    /// Puts `of` the samples from number `start` on into `out`.
-    fn zip<S: Copy, U>(&self, all: &[S], start: usize, out: &mut [U], of: impl Fn(S) -> U) {
-        let (mut start, mut rest) = (start, out);
-        while !rest.is_empty() {
-            let is_whole = self.stride == self.width * self.step;
-            let left = if is_whole { self.count - start } else { self.width - start % self.width };
-            let (now, later) = rest.split_at_mut(left.min(rest.len()));
-            let from = self.place(start);
-            let samples = &all[from..from + (now.len() - 1) * self.step + 1];
-            if self.step == 1 {
-                now.iter_mut().zip(samples).for_each(|(out, &sample)| *out = of(sample));
-            } else {
-                let samples = samples.iter().step_by(self.step);
-                now.iter_mut().zip(samples).for_each(|(out, &sample)| *out = of(sample));
-            }
-            (start, rest) = (start + now.len(), later);
-        }
-    }
-}
-
-/// Finite numbers outside [0, 1].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outside {
-    pub count: usize,
-    /// The least of them, or 0.
-    pub low: f64,
-    /// The largest of them, or 1.
-    pub high: f64,
-}
-
-impl Default for Outside {
-    fn default() -> Self {
-        Self { count: 0, low: 0.0, high: 1.0 }
-    }
-}
-
-impl Outside {
-    /// Counts `value` if it is one of them.
-    #[must_use]
-    pub fn and(self, value: f64) -> Self {
-        let count = self.count + usize::from(!(0.0..=1.0).contains(&value));
-        Self { count, low: self.low.min(value), high: self.high.max(value) }
-    }
-
-    #[must_use]
-    pub fn merged(self, other: Self) -> Self {
-        Self {
-            count: self.count + other.count,
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-        }
-    }
-}
 
 /// One channel of a picture, row 0 on top.
 #[derive(Clone, Debug)]
@@ -222,21 +106,36 @@ impl Samples {
     fn is_all_stored(&self, value: f64) -> bool {
         // Nearly always the first samples tell.
         let few = self.len().min(1 << 12);
-        let is = |index: usize| self.stored(index) == value;
-        (0..few).all(is) && (few..self.len()).into_par_iter().all(is)
+        if !(0..few).all(|index| self.stored(index) == value) {
+            return false;
+        }
+        match &self.buffer {
+            Buffer::Bytes(all) => self.are_all(all, |sample| f64::from(sample) == value),
+            Buffer::Words(all) => self.are_all(all, |sample| f64::from(sample) == value),
+            Buffer::Floats(all) => self.are_all(all, |sample| f64::from(sample) == value),
+        }
+    }
+
+    fn are_all<S: Copy + Sync>(&self, all: &[S], is: impl Fn(S) -> bool + Sync) -> bool {
+        (0..self.len().div_ceil(CHUNK)).into_par_iter().all(|number| {
+            let (start, mut are) = (number * CHUNK, true);
+            self.view.runs(start, CHUNK.min(self.len() - start), |from, _, run| {
+                let samples = &all[from..from + (run - 1) * self.view.step + 1];
+                are = are && samples.iter().step_by(self.view.step).all(|&sample| is(sample));
+            });
+            are
+        })
     }
 
     /// `of` every number, on all cores; each possible integer is computed once.
     pub fn decoded<T: Real>(&self, of: impl Fn(f64) -> f64 + Sync) -> Vec<T> {
-        let table =
-            |top: usize| -> Vec<T> { (0..=top).map(|code| T::of(of(code as f64 / top as f64))).collect() };
         match &self.buffer {
             Buffer::Bytes(all) => {
-                let table: [T; 256] = std::array::from_fn(|code| T::of(of(code as f64 / 255.0)));
+                let table = of_bytes(of);
                 self.mapped(all, |code| table[usize::from(code)])
             }
             Buffer::Words(all) => {
-                let table = table(usize::from(u16::MAX));
+                let table = of_words(of);
                 self.mapped(all, |code| table[usize::from(code)])
             }
             Buffer::Floats(all) => self.mapped(all, |value| T::of(of(f64::from(value)))),
@@ -250,10 +149,48 @@ impl Samples {
         out
     }
 
+    /// As [`decoded`](Self::decoded) of three channels; in one pass where they are those of one picture.
+    pub fn decoded_three<T: Real>(channels: [&Self; 3], of: impl Fn(f64) -> f64 + Sync) -> [Vec<T>; 3] {
+        if !Self::are_one_picture(channels) {
+            return channels.map(|channel| channel.decoded(&of));
+        }
+        let first = channels[0];
+        match &first.buffer {
+            Buffer::Bytes(all) => {
+                let table = of_bytes(of);
+                first.mapped_three(all, |code| table[usize::from(code)])
+            }
+            Buffer::Words(all) => {
+                let table = of_words(of);
+                first.mapped_three(all, |code| table[usize::from(code)])
+            }
+            Buffer::Floats(all) => first.mapped_three(all, |value| T::of(of(f64::from(value)))),
+        }
+    }
+
+    /// Whether the samples of the channels lie beside one another.
+    fn are_one_picture(channels: [&Self; 3]) -> bool {
+        let [first, others @ ..] = channels;
+        let follows = |(number, other): (usize, &&Self)| {
+            let place = View { first: first.view.first + number + 1, ..first.view };
+            first.buffer.is(&other.buffer) && other.view == place
+        };
+        first.view.step >= 3 && others.iter().enumerate().all(follows)
+    }
+
+    fn mapped_three<S: Copy + Sync, T: Real>(&self, all: &[S], of: impl Fn(S) -> T + Sync) -> [Vec<T>; 3] {
+        let mut out = [0; 3].map(|_| vec![T::zero(); self.len()]);
+        let [red, green, blue] = out.each_mut().map(|plane| plane.par_chunks_mut(CHUNK));
+        red.zip(green).zip(blue).enumerate().for_each(|(number, ((red, green), blue))| {
+            self.view.zip_three(all, number * CHUNK, [red, green, blue], &of);
+        });
+        out
+    }
+
     /// Puts the numbers from sample `start` on into `out`.
     pub fn read(&self, start: usize, out: &mut [f64]) {
         match &self.buffer {
-            Buffer::Bytes(all) => self.view.zip(all, start, out, |code| f64::from(code) / 255.0),
+            Buffer::Bytes(all) => self.view.zip(all, start, out, |code| BYTES[usize::from(code)]),
             Buffer::Words(all) => self.view.zip(all, start, out, |code| f64::from(code) / 65_535.0),
             Buffer::Floats(all) => self.view.zip(all, start, out, f64::from),
         }
@@ -298,7 +235,7 @@ impl Samples {
     }
 
     /// Puts the samples from number `start` on into `out` as they are stored.
-    fn read_stored(&self, start: usize, out: &mut [f32]) {
+    pub fn read_stored(&self, start: usize, out: &mut [f32]) {
         match &self.buffer {
             Buffer::Bytes(all) => self.view.zip(all, start, out, f32::from),
             Buffer::Words(all) => self.view.zip(all, start, out, f32::from),
@@ -323,35 +260,30 @@ impl Samples {
     /// The part of `size` whose top left corner is at `corner`, of a channel of rows of `width` samples.
     pub fn crop(&self, width: usize, [left, top]: [usize; 2], [w, h]: [usize; 2]) -> Self {
         let Self { buffer, view } = self;
-        let is_whole = view.stride == view.width * view.step;
-        let stride = if is_whole { width * view.step } else { view.stride };
+        let stride = if view.is_whole() { width * view.step } else { view.stride };
         let first = view.place(top * width + left);
         Self { buffer: buffer.clone(), view: View { first, step: view.step, stride, width: w, count: w * h } }
     }
 }
 
-/// The largest difference between the channels of a texel.
-pub fn spread(channels: &[Samples]) -> f64 {
-    const CHUNK: usize = 1 << 13;
-    let Some((first, others)) = channels.split_first().filter(|(_, others)| !others.is_empty()) else {
-        return 0.0;
-    };
-    let largest = |number: usize| {
-        let start = number * CHUNK;
-        let stored = |channel: &Samples| {
-            let mut chunk = vec![0.0; CHUNK.min(first.len() - start)];
-            channel.read_stored(start, &mut chunk);
-            chunk
-        };
-        let mut low = stored(first);
-        let mut high = low.clone();
-        for other in others {
-            for ((low, high), value) in low.iter_mut().zip(&mut high).zip(stored(other)) {
-                (*low, *high) = (low.min(value), high.max(value));
-            }
-        }
-        low.iter().zip(&high).map(|(low, high)| high - low).fold(0.0, f32::max)
-    };
-    let chunks = (0..first.len().div_ceil(CHUNK)).into_par_iter();
-    f64::from(chunks.map(largest).reduce(|| 0.0, f32::max)) / first.top()
+/// What `of` makes of each byte.
+fn of_bytes<T: Real>(of: impl Fn(f64) -> f64) -> [T; 256] {
+    BYTES.map(|value| T::of(of(value)))
 }
+
+/// What `of` makes of each word.
+fn of_words<T: Real>(of: impl Fn(f64) -> f64 + Sync) -> Vec<T> {
+    let top = usize::from(u16::MAX);
+    (0..=top).into_par_iter().map(|code| T::of(of(code as f64 / top as f64))).collect()
+}
+
+/// The numbers that bytes stand for.
+const BYTES: [f64; 256] = {
+    let mut all = [0.0; 256];
+    let mut code = 0;
+    while code < all.len() {
+        all[code] = code as f64 / 255.0;
+        code += 1;
+    }
+    all
+};

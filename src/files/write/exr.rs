@@ -5,6 +5,7 @@ use std::io::{self, Seek, Write};
 use exr::image::{AnyChannel, AnyChannels, FlatSamples};
 use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage, f16};
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::material::{Material, Planes};
 use crate::model::convention::PRINTED;
@@ -28,24 +29,27 @@ pub(crate) fn write(
     preview: bool,
 ) -> io::Result<()> {
     let Planes { normal, diffuse, specular, roughness } = material.planes();
-    let normal = if half { half_normals(normal) } else { normal.clone() };
-    let samples = |plane: &[f32]| match half {
-        true => FlatSamples::F16(plane.iter().map(|&x| f16::from_f32(x)).collect()),
-        false => FlatSamples::F32(plane.to_vec()),
+    let samples = |plane: &Vec<f32>| match half {
+        true => FlatSamples::F16(plane.par_iter().map(|&x| f16::from_f32(x)).collect()),
+        false => FlatSamples::F32(plane.clone()),
     };
-    let rendering = if preview { rendering(material)? } else { Default::default() };
+    let normals = match half {
+        true => half_normals(normal).map(FlatSamples::F16),
+        false => normal.each_ref().map(samples),
+    };
+    let colours = |planes: &[Vec<f32>; 3]| planes.each_ref().map(samples);
+    let rendering = if preview { Some(rendering(material)?) } else { None };
     let layers = [
-        ("diffuse.", ["R", "G", "B"], diffuse),
-        ("specular.", ["R", "G", "B"], specular),
-        ("normal.", ["X", "Y", "Z"], &normal),
-        ("", ["R", "G", "B"], &rendering),
+        Some(("diffuse.", ["R", "G", "B"], colours(diffuse))),
+        Some(("specular.", ["R", "G", "B"], colours(specular))),
+        Some(("normal.", ["X", "Y", "Z"], normals)),
+        rendering.map(|planes| ("", ["R", "G", "B"], colours(&planes))),
     ];
-    let layers = layers.into_iter().take(if preview { 4 } else { 3 });
-    let colours = layers.flat_map(|(layer, names, planes)| {
-        names.into_iter().zip(planes).map(move |(name, plane)| (format!("{layer}{name}"), plane.as_slice()))
+    let named = layers.into_iter().flatten().flat_map(|(layer, names, planes)| {
+        names.into_iter().zip(planes).map(move |(name, plane)| (format!("{layer}{name}"), plane))
     });
-    let all = colours.chain([("roughness.Y".to_owned(), roughness.as_slice())]);
-    let channels = all.map(|(name, plane)| AnyChannel::new(text(&name), samples(plane))).collect();
+    let all = named.chain([("roughness.Y".to_owned(), samples(roughness))]);
+    let channels = all.map(|(name, plane)| AnyChannel::new(text(&name), plane)).collect();
     let attributes = LayerAttributes {
         software_name: Text::new_or_none(Provenance::SOFTWARE),
         comments: Text::new_or_none(format!("{NATIVE}{MEANING}")),
@@ -73,21 +77,30 @@ fn text(name: &str) -> Text {
 }
 
 /// Normals that are halves and, once they have been normalized and rounded to halves again, the same halves.
-pub(crate) fn half_normals([xs, ys, zs]: &[Vec<f32>; 3]) -> [Vec<f32>; 3] {
-    const MOST_ROUNDS: usize = 16;
-    let round = |n: [f32; 3]| n.map(|x| f16::from_f32(x).to_f32());
-    let again = |n: [f32; 3]| round(DVec3::from(n.map(f64::from)).normalize().to_array().map(|x| x as f32));
-    let mut planes = [0; 3].map(|_| Vec::with_capacity(xs.len()));
-    for ((&x, &y), &z) in xs.iter().zip(ys).zip(zs) {
-        let mut n = round([x, y, z]);
-        for _ in 0..MOST_ROUNDS {
-            let next = again(n);
-            if next == n {
-                break;
-            }
-            n = next;
+pub(crate) fn half_normals(normal: &[Vec<f32>; 3]) -> [Vec<f16>; 3] {
+    const CHUNK: usize = 1 << 14;
+    let mut planes = normal.each_ref().map(|plane| vec![f16::ZERO; plane.len()]);
+    let [xs, ys, zs] = planes.each_mut().map(|plane| plane.par_chunks_mut(CHUNK));
+    xs.zip(ys).zip(zs).enumerate().for_each(|(number, ((xs, ys), zs))| {
+        let texels = xs.iter_mut().zip(ys).zip(zs).enumerate();
+        for (index, ((x, y), z)) in texels {
+            [*x, *y, *z] = half_normal(normal.each_ref().map(|plane| plane[number * CHUNK + index]));
         }
-        planes.iter_mut().zip(n).for_each(|(plane, x)| plane.push(x));
-    }
+    });
     planes
+}
+
+fn half_normal(normal: [f32; 3]) -> [f16; 3] {
+    const MOST_ROUNDS: usize = 16;
+    let again =
+        |n: [f16; 3]| DVec3::from(n.map(f64::from)).normalize().to_array().map(|x| f16::from_f32(x as f32));
+    let mut n = normal.map(f16::from_f32);
+    for _ in 0..MOST_ROUNDS {
+        let next = again(n);
+        if next == n {
+            break;
+        }
+        n = next;
+    }
+    n
 }

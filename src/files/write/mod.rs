@@ -1,5 +1,6 @@
 //! Materials as files: one layered EXR, a packed PNG, a folder of PNG files.
 
+mod curve;
 mod exr;
 mod metallic;
 mod png;

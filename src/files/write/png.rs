@@ -7,8 +7,9 @@ use std::path::Path;
 use png::{BitDepth, ColorType, Encoder};
 use rayon::prelude::*;
 
+use super::curve::Curve;
 use super::metallic::base_and_metallic;
-use crate::files::read::interpret::transfer::{encoded, encoded_roughness};
+use crate::files::read::interpret::transfer::{encoded, encoded_roughness, linear, roughness};
 use crate::files::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
 use crate::material::{Material, Planes};
 use crate::picture::export::{self, Provenance};
@@ -72,29 +73,58 @@ impl MapEncoding {
         )
     }
 
-    /// (red, green, blue) in [0, 1] of the texel at `index`.
-    fn of(&self, material: &Material<f32>, map: WrittenMap, index: usize) -> [f64; 3] {
+    /// The curves of diffuse, of specular, of roughness and of what is stored as it is.
+    fn curves(&self, sixteen: bool) -> Curves {
+        let top = if sixteen { u16::MAX } else { 255 };
+        let colour = |albedo| match albedo {
+            Albedo::Linear => Curve::plain(top, |value| value),
+            _ => Curve::rising(top, move |value| encoded(value, albedo), |value| linear(value, albedo)),
+        };
+        let code = self.roughness;
+        let roughness = match code {
+            Roughness::Gamma22 => {
+                Curve::rising(top, move |r| encoded_roughness(r, code), |value| roughness(value, code))
+            }
+            _ => Curve::plain(top, move |r| encoded_roughness(r, code)),
+        };
+        let plain = Curve::plain(top, |value| value);
+        Curves { diffuse: colour(self.diffuse), specular: colour(self.specular), roughness, plain }
+    }
+
+    /// (red, green, blue) of the texel at `index`, as integers.
+    fn of(&self, material: &Material<f32>, map: WrittenMap, index: usize, curves: &Curves) -> [u16; 3] {
         let Planes { normal, diffuse, specular, roughness } = material.planes();
         let at = |planes: &[Vec<f32>; 3]| planes.each_ref().map(|plane| f64::from(plane[index]));
-        let rough = || encoded_roughness(f64::from(roughness[index]), self.roughness);
-        let colour = |rgb: [f64; 3], albedo| rgb.map(|value| encoded(value, albedo));
+        let rough = || curves.roughness.code(f64::from(roughness[index]));
+        let colour = |rgb: [f64; 3], curve: &Curve| rgb.map(|value| curve.code(value));
         match map {
             WrittenMap::Normal => {
                 let [x, y, z] = at(normal);
                 let y = if self.normal_y == NormalY::Up { y } else { -y };
-                [x, y, z].map(|n| (0.5 * n + 0.5).clamp(0.0, 1.0))
+                [x, y, z].map(|n| curves.plain.code((0.5 * n + 0.5).clamp(0.0, 1.0)))
             }
             WrittenMap::Diffuse if self.energy == Energy::Unscaled => {
                 let [d, s] = [at(diffuse), at(specular)];
-                colour([0, 1, 2].map(|c| d[c] * (1.0 - s[c])), self.diffuse)
+                colour([0, 1, 2].map(|c| d[c] * (1.0 - s[c])), &curves.diffuse)
             }
-            WrittenMap::Diffuse => colour(at(diffuse), self.diffuse),
-            WrittenMap::Specular => colour(at(specular), self.specular),
+            WrittenMap::Diffuse => colour(at(diffuse), &curves.diffuse),
+            WrittenMap::Specular => colour(at(specular), &curves.specular),
             WrittenMap::Roughness => [rough(); 3],
-            WrittenMap::Base => colour(base_and_metallic(at(diffuse), at(specular)).0, self.diffuse),
-            WrittenMap::Orm => [1.0, rough(), base_and_metallic(at(diffuse), at(specular)).1],
+            WrittenMap::Base => colour(base_and_metallic(at(diffuse), at(specular)).0, &curves.diffuse),
+            WrittenMap::Orm => {
+                let metallic = base_and_metallic(at(diffuse), at(specular)).1;
+                [curves.plain.code(1.0), rough(), curves.plain.code(metallic)]
+            }
         }
     }
+}
+
+/// How the values of a material become integers.
+struct Curves {
+    diffuse: Curve,
+    specular: Curve,
+    roughness: Curve,
+    plain: Curve,
 }
 
 /// A file of a folder.
@@ -186,11 +216,12 @@ fn pixels(
     let pixel = if sixteen { 6 } else { 3 };
     let row_bytes = tiles.len() * width * pixel;
     let mut bytes = vec![0; row_bytes * height];
+    let curves = encoding.curves(sixteen);
     bytes.par_chunks_mut(row_bytes).enumerate().try_for_each(|(row, bytes)| {
         export::check(progress)?;
         for (map, tile) in tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
             for (index, out) in (row * width..).zip(tile.chunks_exact_mut(pixel)) {
-                put(encoding.of(material, *map, index), out);
+                put(encoding.of(material, *map, index, &curves), out);
             }
         }
         io::Result::Ok(())
@@ -199,13 +230,13 @@ fn pixels(
 }
 
 /// The samples of a pixel into 3 bytes, or into 6.
-fn put(rgb: [f64; 3], out: &mut [u8]) {
+fn put(rgb: [u16; 3], out: &mut [u8]) {
     if out.len() == 6 {
-        for (value, out) in rgb.into_iter().zip(out.chunks_exact_mut(2)) {
-            out.copy_from_slice(&((value * 65_535.0).round() as u16).to_be_bytes());
-        }
+        rgb.into_iter()
+            .zip(out.chunks_exact_mut(2))
+            .for_each(|(code, out)| out.copy_from_slice(&code.to_be_bytes()));
     } else {
-        rgb.into_iter().zip(out).for_each(|(value, out)| *out = (value * 255.0).round() as u8);
+        rgb.into_iter().zip(out).for_each(|(code, out)| *out = code as u8);
     }
 }
 

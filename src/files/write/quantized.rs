@@ -24,7 +24,9 @@ pub fn after_round_trip(material: &Material<f32>, depth: Depth) -> Result<Materi
     };
     let (normal, value): (_, &dyn Fn(f32) -> f32) = match depth {
         Depth::Float => return Ok(material.clone()),
-        Depth::Half => (half_normals(normal), &|x| f16::from_f32(x).to_f32()),
+        Depth::Half => (half_normals(normal).map(|plane| plane.into_iter().map(f32::from).collect()), &|x| {
+            f16::from_f32(x).to_f32()
+        }),
         Depth::Eight => (vector(255.0), &|x| rounded(x.into(), 255.0) as f32),
         Depth::Sixteen => (vector(65_535.0), &|x| rounded(x.into(), 65_535.0) as f32),
     };

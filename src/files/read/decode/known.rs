@@ -1,7 +1,7 @@
 //! Formats of pictures that are known by name and not read.
 
 /// How files begin, from which byte on, and what they are called.
-const BEGINNINGS: [(usize, &[u8], &str); 15] = [
+const BEGINNINGS: [(usize, &[u8], &str); 18] = [
     (0, b"8BPS", "a Photoshop document (PSD)"),
     (0, b"\xff\x0a", "JPEG XL"),
     (4, b"JXL ", "JPEG XL"),
@@ -17,6 +17,9 @@ const BEGINNINGS: [(usize, &[u8], &str); 15] = [
     (0, b"\x13\xab\xa1\x5c", "ASTC"),
     (0, b"gimp xcf", "a GIMP image (XCF)"),
     (0, b"%PDF", "PDF"),
+    (0, b"[gd_resource", "a resource of Godot"),
+    (0, b"[remap]", "an import file of Godot"),
+    (0, b"#usda", "USD"),
 ];
 
 /// What a file is called that begins with `head` and is not read.

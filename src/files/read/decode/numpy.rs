@@ -7,8 +7,9 @@ use npyz::{NpyFile, Order};
 
 use super::place::{Decoded, Layer, MAX_BYTES, Place};
 use crate::error::Error;
+use crate::files::read::buffer::Buffer;
 use crate::files::read::raster::Raster;
-use crate::files::read::samples::{Buffer, Samples};
+use crate::files::read::samples::Samples;
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
@@ -21,8 +22,14 @@ pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> R
         let all: Vec<_> = archive.file_names().collect::<Result<_, _>>().map_err(invalid)?;
         all.into_iter().filter(|n| n.ends_with(".npy")).map(|n| n.into_owned()).collect()
     };
-    if names.is_empty() || names.len() > MOST_ARRAYS {
-        let problem = format!("expected 1 to {MOST_ARRAYS} arrays in the npz, found {}", names.len());
+    if names.is_empty() {
+        let found = archive.file_names().flatten().take(3).collect::<Vec<_>>().join(", ");
+        let problem =
+            format!("expected a picture or an npz of arrays, found a zip archive of other files: {found}");
+        return Err(place.bad(problem, "unpack it, and open the folder"));
+    }
+    if names.len() > MOST_ARRAYS {
+        let problem = format!("expected at most {MOST_ARRAYS} arrays in the npz, found {}", names.len());
         return Err(place.bad(problem, "save the maps as named arrays"));
     }
     // An archive bomb says so in its directory, or meets the limit of a single array or of all of them.

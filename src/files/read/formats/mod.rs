@@ -1,5 +1,6 @@
 //! Files that describe materials and name their textures.
 
+pub mod ahead;
 pub mod gltf;
 pub mod mtl;
 pub mod mtlx;

@@ -1,5 +1,7 @@
 //! What the pixels say about their own meaning.
 
+use rayon::prelude::*;
+
 use crate::files::read::raster::Raster;
 
 /// How far the length of a normal may be from 1 for a pixel to count as one.
@@ -33,13 +35,17 @@ fn score_of(raster: &Raster, normal: impl Fn([f64; 3]) -> [f64; 3]) -> f64 {
 /// where it points down. `None` for a flat map, and one of fewer than 3 rows or columns.
 ///
 /// `normal` is the vector at an index, y as stored.
-pub fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 3]) -> Option<f64> {
+pub fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 3] + Sync) -> Option<f64> {
     const MOST: usize = 256;
     let steps = [width, height].map(|side| (side / MOST).max(1));
     let slopes = |index: usize| {
         let [x, y, z] = normal(index);
         (z > 0.1).then(|| [-x / z, y / z])
     };
+    // Where every texel is looked at, it is so from four sides.
+    let all: Vec<_> =
+        if steps == [1, 1] { (0..width * height).into_par_iter().map(&slopes).collect() } else { Vec::new() };
+    let slopes = |index: usize| all.get(index).copied().unwrap_or_else(|| slopes(index));
     let mut sums = [0.0; 6];
     for row in (1..height.saturating_sub(1)).step_by(steps[1]) {
         for column in (1..width.saturating_sub(1)).step_by(steps[0]) {

@@ -13,9 +13,11 @@ use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::note::{Gray, Note, SpecifiedBy};
 use crate::files::read::options::{Albedo, ReadOptions, Roughness};
+use crate::files::read::outside::Outside;
 use crate::files::read::reason::Reason;
 use crate::files::read::role::Role;
-use crate::files::read::samples::{Outside, Samples, spread};
+use crate::files::read::samples::Samples;
+use crate::files::read::spread::spread;
 use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::material::Planes;
@@ -47,12 +49,10 @@ pub fn planes<T: Real>(
     let mut colour = |source: StoredMap, space: Albedo, map| -> [Vec<T>; 3] {
         let StoredMap { raster, .. } = source;
         let (from, last) = (raster.size(), raster.channels.len() - 1);
-        let mut decode = |plane: &Samples| {
-            clamped.add(plane.outside_unit(), map);
-            let plane = plane.decoded(|v| linear(unit(v, 0.0), space));
-            resize::plane(plane, from, size, Filter::Value)
-        };
-        [0, 1, 2].map(|c| decode(&raster.channels[last.min(c)]))
+        let channels = [0, 1, 2].map(|c| &raster.channels[last.min(c)]);
+        channels.into_iter().for_each(|plane| clamped.add(plane.outside_unit(), map));
+        let planes = Samples::decoded_three(channels, |v| linear(unit(v, 0.0), space));
+        planes.map(|plane| resize::plane(plane, from, size, Filter::Value))
     };
     let diffuse = colour(found.colour.take(), albedo, Role::Diffuse);
     let specular = found.specular.take().map(|source| colour(source, specular_space, Role::Specular));
@@ -111,11 +111,14 @@ fn mirror<T: Real>(planes: &mut Planes<T>, width: usize) {
 
 /// How diffuse is stored, and how specular is by the evidence of both, where nothing else tells.
 fn albedo(found: &mut StoredMaterial, options: &ReadOptions) -> (Albedo, Inferred<Albedo>) {
-    let weighed = found.specular.as_ref().map(|specular| colour::weigh(&found.colour, specular));
-    let [diffuse, specular] = weighed.map_or([None, None], |both| both.map(Some));
     let inferred = found.inferred.albedo.take();
+    let is_known = inferred.is_some() && found.inferred.specular.is_some();
+    let specular = found.specular.as_ref().filter(|_| options.albedo.is_none() && !is_known);
+    let roughness = options.roughness.or(found.inferred.roughness.as_ref().map(|known| known.0));
+    let weighed = specular.map(|specular| colour::weigh(&found.colour, specular, roughness));
+    let [diffuse, specular] = weighed.map_or([None, None], |both| both.map(Some));
     let albedo = decide(&mut found.assumptions, What::Albedo, options.albedo, inferred, || {
-        diffuse.unwrap_or((Albedo::Srgb, StorageConvention::SeparateColours.into(), Certainty::Likely))
+        diffuse.unwrap_or_else(|| colour::alone(&found.colour.raster))
     });
     (albedo, specular)
 }
@@ -209,17 +212,26 @@ fn combined<T: Real>(
     value: impl Fn(f64) -> f64 + Sync,
 ) -> (Vec<T>, Outside) {
     const CHUNK: usize = 1 << 14;
+    /// Texels that stay in the nearest cache.
+    const FEW: usize = 1 << 9;
     let mut plane = vec![T::zero(); channels[0].len()];
     let convert = |(number, out): (usize, &mut [T])| {
         let mut outside = Outside::default();
+        let mut stored = vec![[0.0_f32; FEW]; channels.len()];
         let mut texel = vec![0.0; channels.len()];
-        for (index, out) in (number * CHUNK..).zip(out) {
-            texel.iter_mut().zip(channels).for_each(|(stored, channel)| *stored = channel.stored(index));
-            let number = of(&texel);
-            if number.is_finite() {
-                outside = outside.and(number);
+        for (part, out) in out.chunks_mut(FEW).enumerate() {
+            let start = number * CHUNK + part * FEW;
+            for (channel, stored) in channels.iter().zip(&mut stored) {
+                channel.read_stored(start, &mut stored[..out.len()]);
             }
-            *out = T::of(value(number));
+            for (index, out) in out.iter_mut().enumerate() {
+                texel.iter_mut().zip(&stored).for_each(|(texel, stored)| *texel = f64::from(stored[index]));
+                let number = of(&texel);
+                if number.is_finite() {
+                    outside = outside.and(number);
+                }
+                *out = T::of(value(number));
+            }
         }
         outside
     };

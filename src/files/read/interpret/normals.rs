@@ -16,8 +16,11 @@ use crate::math::real::Real;
 
 /// Shorter vectors have no direction.
 const SHORTEST: f64 = 1e-3;
-/// Below this correlation of the curl test an unlabelled map is taken to be y down.
-const DOWN: f64 = -0.3;
+/// Below this correlation of the curl test an unlabelled map is taken to be y down: of 20 maps of known direction
+/// none with y up lies below it.
+const DOWN: f64 = -0.05;
+/// Beyond this correlation the curl test contradicts a name or a convention.
+const CONTRADICTS: f64 = 0.3;
 /// Above this correlation it is taken to be y up.
 const UP: f64 = 0.1;
 
@@ -161,7 +164,7 @@ fn normal_y(
     let of_preset = options.preset.and_then(|preset| preset.options().normal_y).filter(|_| !named);
     let given = options.normal_y.or(of_preset);
     if let (None, Some((y, why, _)), Some(curl)) = (given, &hint, curl)
-        && ((*y == NormalY::Up && curl < DOWN) || (*y == NormalY::Down && curl > -DOWN))
+        && ((*y == NormalY::Up && curl < -CONTRADICTS) || (*y == NormalY::Down && curl > CONTRADICTS))
     {
         let why = Reason::ContradictedBy(Box::new(why.clone()), Box::new(Reason::Curl(Some(curl))));
         found.assumptions.push(Assumption::new(What::NormalY, *y, why, Certainty::Unsure));
@@ -177,32 +180,54 @@ fn normal_y(
 
 /// x, y up, z; and how many had no direction.
 fn decoded<T: Real>(raster: &Raster, encoding: NormalEncoding, y: NormalY) -> ([Vec<T>; 3], usize) {
-    const CHUNK: usize = 1 << 12;
     let sign = if y == NormalY::Up { 1.0 } else { -1.0 };
-    let count = raster.width * raster.height;
     let two = raster.channels.len() == 2;
-    let [mut xs, mut ys, mut zs] = [0; 3].map(|_| vec![T::zero(); count]);
-    let convert = |number: usize, [xs, ys, zs]: [&mut [T]; 3]| {
-        let stored: Vec<Vec<f64>> = components(raster, encoding)
-            .map(|plane| {
-                let mut chunk = vec![0.0; xs.len()];
-                plane.read(number * CHUNK, &mut chunk);
-                chunk
-            })
-            .collect();
+    match encoding {
+        // By far the most common, and of a loop of its own without branches.
+        NormalEncoding::Unsigned => filled(raster, encoding, |stored| {
+            let [x, y, z] = stored.map(|value| 2.0 * value - 1.0);
+            [x, sign * y, z]
+        }),
+        _ => filled(raster, encoding, |stored| {
+            let [x, y, z] = vector_of(stored, encoding, two);
+            [x, sign * y, z]
+        }),
+    }
+}
+
+/// What `of` makes of the stored components of each texel, or (0, 0, 1); and how many have no direction.
+fn filled<T: Real>(
+    raster: &Raster,
+    encoding: NormalEncoding,
+    of: impl Fn([f64; 3]) -> [f64; 3] + Sync,
+) -> ([Vec<T>; 3], usize) {
+    const CHUNK: usize = 1 << 14;
+    /// Texels that stay in the nearest cache.
+    const FEW: usize = 1 << 9;
+    let [mut xs, mut ys, mut zs] = [0; 3].map(|_| vec![T::zero(); raster.width * raster.height]);
+    let convert = |first: usize, [xs, ys, zs]: [&mut [T]; 3]| {
+        let mut stored = [[0.0; FEW]; 3];
+        for (plane, stored) in components(raster, encoding).zip(&mut stored) {
+            plane.read(first, &mut stored[..xs.len()]);
+        }
         let mut missing = 0;
-        for index in 0..xs.len() {
-            let mut n = vector_of([0, 1, 2].map(|c| stored[c][index]), encoding, two);
-            let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if !length.is_finite() || length < SHORTEST {
-                missing += 1;
-                n = [0.0, 0.0, 1.0];
-            }
-            [xs[index], ys[index], zs[index]] = [n[0], sign * n[1], n[2]].map(T::of);
+        let texels = xs.iter_mut().zip(ys).zip(zs).zip(stored[0].iter().zip(&stored[1]).zip(&stored[2]));
+        for (((x, y), z), ((&stored_x, &stored_y), &stored_z)) in texels {
+            let n = of([stored_x, stored_y, stored_z]);
+            let squared = n.iter().map(|x| x * x).sum::<f64>();
+            let is_direction = squared.is_finite() & (squared >= SHORTEST * SHORTEST);
+            missing += usize::from(!is_direction);
+            let n = if is_direction { n } else { [0.0, 0.0, 1.0] };
+            [*x, *y, *z] = n.map(T::of);
         }
         missing
     };
     let chunks = xs.par_chunks_mut(CHUNK).zip(ys.par_chunks_mut(CHUNK)).zip(zs.par_chunks_mut(CHUNK));
-    let missing = chunks.enumerate().map(|(number, ((xs, ys), zs))| convert(number, [xs, ys, zs])).sum();
+    let missing = chunks.enumerate().map(|(number, ((xs, ys), zs))| {
+        let parts = xs.chunks_mut(FEW).zip(ys.chunks_mut(FEW)).zip(zs.chunks_mut(FEW)).enumerate();
+        let counts = parts.map(|(part, ((xs, ys), zs))| convert(number * CHUNK + part * FEW, [xs, ys, zs]));
+        counts.sum::<usize>()
+    });
+    let missing = missing.sum();
     ([xs, ys, zs], missing)
 }

@@ -93,10 +93,7 @@ fn report(map: Role, source: &StoredMap) -> MapReport {
         }
         (low, high) = (low.min(least), high.max(most));
     }
-    let scores = [detect::normal_score(raster), detect::signed_normal_score(raster)];
-    let unit = scores[0].max(scores[1]);
-    let vector = |index| raster.rgb(index).map(|c| if scores[1] > scores[0] { c } else { 2.0 * c - 1.0 });
-    let curl = || detect::curl(raster.width, raster.height, vector);
+    let [non_unit, curl] = if map == Role::Normal { of_normals(raster) } else { [None; 2] };
     MapReport {
         map,
         file: source.file.clone(),
@@ -108,10 +105,18 @@ fn report(map: Role, source: &StoredMap) -> MapReport {
         clipped: f64::from(clipped as u32) / f64::from(count.max(1) as u32),
         constant: raster.channels.iter().all(Samples::is_constant),
         flat: flat(raster),
-        non_unit: (map == Role::Normal).then_some(1.0 - unit),
-        curl: (map == Role::Normal).then(curl).flatten(),
+        non_unit,
+        curl,
         specular_median: (map == Role::Specular).then(|| detect::specular_median(raster)),
     }
+}
+
+/// Share of the texels that are not unit vectors, and the curl correlation.
+fn of_normals(raster: &Raster) -> [Option<f64>; 2] {
+    let [unsigned, signed] = [detect::normal_score(raster), detect::signed_normal_score(raster)];
+    let vector = |index| raster.rgb(index).map(|c| if signed > unsigned { c } else { 2.0 * c - 1.0 });
+    let curl = detect::curl(raster.width, raster.height, vector);
+    [Some(1.0 - unsigned.max(signed)), curl]
 }
 
 /// Share of the texels that are the same as their right neighbour.

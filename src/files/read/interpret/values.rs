@@ -3,9 +3,9 @@
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::options::{NonFinite, ReadOptions};
+use crate::files::read::outside::Outside;
 use crate::files::read::reason::Reason;
 use crate::files::read::role::Role;
-use crate::files::read::samples::Outside;
 use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.

@@ -56,12 +56,31 @@ pub fn open(
     let set = grouping::choose(path, &names, None, &roles)?;
     if prefix.is_empty() && set.files.is_empty() && bound.is_empty() && !set.unlabelled.is_empty() {
         match open_packed(path, folder, &set.unlabelled, options, progress) {
-            Err(Error::NotAMaterial { .. } | Error::NotPacked { .. }) if set.unlabelled.len() == 1 => {}
+            Err(Error::NotAMaterial { .. } | Error::NotPacked { .. }) if set.unlabelled.len() == 1 => {
+                return Err(lone_picture(path, &names, &set.unlabelled[0]));
+            }
             found => return found,
         }
     }
     let name = material_name(path, prefix);
     Assembly { path, folder, name, set, bound, names: &names, options }.read(progress)
+}
+
+/// A picture in a folder of its own that is not packed, and whose name names no map.
+fn lone_picture(path: &Path, names: &[String], picture: &str) -> Error {
+    let others: Vec<_> = names.iter().filter(|name| *name != picture).cloned().collect();
+    let others = if others.is_empty() { String::new() } else { format!(", and {}", listing(&others)) };
+    let stem = Path::new(picture).file_stem().unwrap_or_default().to_string_lossy();
+    Error::NotAMaterial {
+        path: path.to_owned(),
+        expected: format!(
+            "a packed picture, or one for the diffuse map (named after one of {}) and one for the roughness map ({})",
+            Role::Base.examples(),
+            Role::Roughness.examples()
+        ),
+        found: format!("{picture}, whose name names no map{others}"),
+        remedy: format!("name it {stem}_basecolor if it is that, and add the roughness map"),
+    }
 }
 
 /// Reads the material of the only one of `folders` within a folder without pictures.

@@ -8,8 +8,9 @@ use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::decode::Layer;
 use crate::files::read::note::{Note, Unused};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
+use crate::files::read::pictures::Pictures;
 use crate::files::read::storage_convention::StorageConvention;
-use crate::files::read::stored::{Pictures, StoredMap, StoredMaterial};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// Whether the name of a layer names a map.
 pub fn is_named(layer: &Layer) -> bool {

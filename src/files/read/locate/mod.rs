@@ -7,6 +7,7 @@ pub mod folder;
 pub mod grouping;
 pub mod layers;
 pub mod names;
+pub mod neighbours;
 pub mod packed;
 pub mod picture;
 pub mod reading;

@@ -8,14 +8,15 @@ use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
 use crate::files::read::grid::Grid;
 use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
-use crate::files::read::note::{Container, Note, SpecifiedBy};
+use crate::files::read::note::{Note, SpecifiedBy};
 use crate::files::read::options::{Albedo, Energy, NormalY, ReadOptions, Roughness};
 use crate::files::read::order::Order;
+use crate::files::read::pictures::Pictures;
 use crate::files::read::preset::Preset;
 use crate::files::read::raster::Raster;
 use crate::files::read::reason::Reason;
 use crate::files::read::storage_convention::StorageConvention;
-use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
+use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// Of a picture of diffuse alone.
 const ROUGHNESS: f32 = 0.5;
@@ -78,7 +79,7 @@ pub fn unpack(
     }
     if is_stack(grid, order.len()) {
         let index = first / grid.columns;
-        found.notes.push(Note::Several { container: Container::Image, count: grid.rows, index });
+        found.notes.push(Note::Rows { count: grid.rows, index });
     }
     Ok(found)
 }

@@ -9,10 +9,11 @@ use crate::files::read::decode;
 use crate::files::read::interpret::detect::normal_score;
 use crate::files::read::note::{Note, Subject, Unused};
 use crate::files::read::options::Reflectance;
+use crate::files::read::pictures::Pictures;
 use crate::files::read::raster::Raster;
 use crate::files::read::reason::Reason;
 use crate::files::read::role::Role;
-use crate::files::read::stored::{Pictures, StoredMap};
+use crate::files::read::stored::StoredMap;
 
 /// An unlabelled picture is the normal map where this share of its pixels looks like normals.
 const NORMAL_ALL_OVER: f64 = 0.95;

@@ -55,10 +55,10 @@ pub fn transforms_differ(material: &Material) -> Option<String> {
     ))
 }
 
-/// Offset, rotation and scale of a texture.
-fn transform(texture: &Value) -> [f64; 5] {
+/// Offset, rotation and scale of a texture; of 32 bits, since the library keeps some of them so.
+fn transform(texture: &Value) -> [f32; 5] {
     let said = texture.get("extensions").and_then(|all| all.get("KHR_texture_transform"));
-    let number = |value: Option<&Value>, usual: f64| value.and_then(Value::as_f64).unwrap_or(usual);
+    let number = |value: Option<&Value>, usual: f64| value.and_then(Value::as_f64).unwrap_or(usual) as f32;
     let of = |key: &str, index: usize| said.and_then(|said| said.get(key)?.get(index));
     let rotation = number(said.and_then(|said| said.get("rotation")), 0.0);
     let [u, v] = [0, 1].map(|index| number(of("offset", index), 0.0));

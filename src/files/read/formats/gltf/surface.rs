@@ -11,8 +11,9 @@ use crate::files::read::formats::scaled_normals::scaled;
 use crate::files::read::locate::names::Role;
 use crate::files::read::note::Subject;
 use crate::files::read::options::Albedo;
+use crate::files::read::pictures::Pictures;
 use crate::files::read::raster::Raster;
-use crate::files::read::stored::{Pictures, StoredMap};
+use crate::files::read::stored::StoredMap;
 use crate::progress::Progress;
 
 /// The refractive index of a material that says none.
@@ -76,6 +77,8 @@ impl<'a> Surface<'a> {
 
     /// Puts the maps into `pictures`; returns whether colours are linear.
     pub fn put(mut self, material: &Material<'_>, pictures: &mut Pictures) -> Result<bool, Error> {
+        let all = [&self.normal, &self.colour, &self.packed, &self.specular, &self.specular_colour];
+        all.into_iter().flatten().for_each(|source| pictures.record_size(source.raster.size()));
         if let Some(normal) = self.normal.take() {
             pictures.add(Role::Normal, normal);
         }

@@ -5,22 +5,19 @@ mod statement;
 use std::fs;
 use std::path::Path;
 
+use super::ahead::Ahead;
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::decode;
 use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score};
 use crate::files::read::locate::names::{Label, Role};
-use crate::files::read::note::{Container, Note, Subject, Unused};
+use crate::files::read::note::{Note, Subject, Unused};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
+use crate::files::read::pictures::Pictures;
 use crate::files::read::reason::Reason;
 use crate::files::read::storage_convention::StorageConvention;
-use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
+use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::progress::Progress;
-use statement::{Entry, Texture, entries, is_picture};
-
-/// Statements for normals, the plainest first; those of `bump` may also hold heights.
-const NORMALS: [&str; 2] = ["norm", "map_kn"];
-const BUMPS: [&str; 2] = ["map_bump", "bump"];
+use statement::{BUMPS, Entry, NORMALS, Texture, entries, is_packed, is_picture, listed};
 
 /// Reads material number `exemplar` of the file `path`.
 ///
@@ -45,11 +42,10 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
             count: all.len(),
         });
     }
-    progress.begin(6);
     let mut reading = Reading {
         path,
         entry,
-        progress,
+        ahead: Ahead::of(listed(path, entry), progress)?,
         of_blender: text.starts_with("# Blender"),
         used: Vec::new(),
         spaces: Vec::new(),
@@ -77,7 +73,8 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
     found.assumptions.extend(assumptions);
     found.notes.splice(0..0, notes);
     if all.len() > 1 {
-        found.notes.push(Note::Several { container: Container::Mtl, count: all.len(), index });
+        let names = all.iter().map(|entry| entry.name.clone()).collect();
+        found.notes.push(Note::Materials { names, index });
     }
     Ok(found)
 }
@@ -93,7 +90,7 @@ fn named_y(file: &Path) -> Inferred<NormalY> {
 struct Reading<'a> {
     path: &'a Path,
     entry: &'a Entry,
-    progress: &'a Progress,
+    ahead: Ahead,
     of_blender: bool,
     /// Keywords that have been made use of.
     used: Vec<&'a str>,
@@ -107,7 +104,7 @@ impl<'a> Reading<'a> {
     fn pictures(&mut self) -> Result<Pictures, Error> {
         let mut pictures = Pictures::default();
         let colour = self.colour("map_kd", "kd", Role::Diffuse)?;
-        let packed = self.is_packed();
+        let packed = is_packed(self.entry);
         let roughness = self.value("map_pr", "pr", Role::Roughness)?;
         let specular = if packed { self.load(&["map_ks"], Role::OcclusionRoughnessMetallic)? } else { None };
         let metallic = if self.has("map_pm") || !self.has("map_ks") {
@@ -150,18 +147,6 @@ impl<'a> Reading<'a> {
         let (key, rest) = keys.iter().find_map(|key| self.entry.lines.iter().find(|(k, _)| k == key))?;
         self.used.push(key);
         Some(rest)
-    }
-
-    /// Whether specular is occlusion, roughness and metallic: so its name says, or the `bsdf` of nvdiffrec.
-    fn is_packed(&self) -> bool {
-        let specular = self.entry.lines.iter().find(|(key, _)| key == "map_ks");
-        let named = |rest: &str| {
-            let file = Texture::of(rest).file;
-            let stem = Path::new(&file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            Label::of(&stem).is_some_and(|label| label.role == Role::OcclusionRoughnessMetallic)
-        };
-        let lone = self.has("map_kd") && !self.has("map_pr") && !self.has("map_pm");
-        lone && specular.is_some_and(|(_, rest)| self.has("bsdf") || named(rest))
     }
 
     /// One or three numbers.
@@ -249,7 +234,6 @@ impl<'a> Reading<'a> {
 
     /// The picture that the first of the statements `keys` names.
     fn load(&mut self, keys: &[&str], map: Role) -> Result<Option<StoredMap>, Error> {
-        self.progress.step()?;
         let Some(rest) = self.line(keys) else { return Ok(None) };
         let texture = Texture::of(rest);
         let file = texture.path(self.path);
@@ -257,7 +241,7 @@ impl<'a> Reading<'a> {
         if file != self.path.with_file_name(&said) {
             self.notes.push(Note::Substituted { file: said, by: file.clone() });
         }
-        let (mut raster, notes) = decode::decode_one(&file, Subject::Map(map))?;
+        let (mut raster, notes) = self.ahead.picture(&file, Subject::Map(map))?;
         self.notes.push(Note::MapFile { map, file: file.display().to_string() });
         self.notes.extend(notes);
         if !unused.is_empty() {

@@ -2,8 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::files::read::locate::names::{Label, Role};
+use crate::files::read::note::Subject;
+
 /// Statements that name pictures although they do not begin with `map_`.
 const PICTURES: [&str; 5] = ["norm", "bump", "disp", "decal", "refl"];
+
+/// Statements for normals, the plainest first; those of `bump` may also hold heights.
+pub const NORMALS: [&str; 2] = ["norm", "map_kn"];
+pub const BUMPS: [&str; 2] = ["map_bump", "bump"];
 
 /// A material: its statements, each a keyword in lower case and the rest of its line.
 pub struct Entry {
@@ -32,6 +39,35 @@ pub fn entries(text: &str) -> Vec<Entry> {
 /// Whether a statement of this keyword names a picture.
 pub fn is_picture(key: &str) -> bool {
     key.starts_with("map_") || PICTURES.contains(&key)
+}
+
+/// Whether specular is occlusion, roughness and metallic: so its name says, or the `bsdf` of nvdiffrec.
+pub fn is_packed(entry: &Entry) -> bool {
+    let has = |key: &str| entry.lines.iter().any(|(k, _)| k == key);
+    let specular = entry.lines.iter().find(|(key, _)| key == "map_ks");
+    let named = |rest: &str| {
+        let file = Texture::of(rest).file;
+        let stem = Path::new(&file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Label::of(&stem).is_some_and(|label| label.role == Role::OcclusionRoughnessMetallic)
+    };
+    let lone = has("map_kd") && !has("map_pr") && !has("map_pm");
+    lone && specular.is_some_and(|(_, rest)| has("bsdf") || named(rest))
+}
+
+/// The pictures that are read of a material, and what they are expected to be.
+pub fn listed(path: &Path, entry: &Entry) -> Vec<(PathBuf, Subject)> {
+    let line = |key: &str| entry.lines.iter().find(|(k, _)| k == key).map(|(_, rest)| rest);
+    let normal = NORMALS.into_iter().chain(BUMPS).find(|key| line(key).is_some()).unwrap_or_default();
+    let specular = if line("map_pm").is_none() { "map_ks" } else { "" };
+    let keys = [
+        ("map_kd", Role::Diffuse),
+        ("map_pr", Role::Roughness),
+        ("map_pm", Role::Metallic),
+        (specular, if is_packed(entry) { Role::OcclusionRoughnessMetallic } else { Role::Specular }),
+        (normal, Role::Normal),
+    ];
+    let picture = |(key, role)| Some((Texture::of(line(key)?).path(path), Subject::Map(role)));
+    keys.into_iter().filter_map(picture).collect()
 }
 
 /// What a statement says about a picture.

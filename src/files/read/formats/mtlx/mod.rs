@@ -9,17 +9,18 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node};
 
+use super::ahead::Ahead;
 use super::principled::{Field, reflectance, separated};
 use super::scaled_normals::scaled;
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::decode;
 use crate::files::read::locate::names::Role;
-use crate::files::read::note::{Container, Note, Subject};
+use crate::files::read::note::{Note, Subject};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
+use crate::files::read::pictures::Pictures;
 use crate::files::read::reason::{Known, Reason};
 use crate::files::read::storage_convention::StorageConvention;
-use crate::files::read::stored::{Inferred, Pictures, StoredMap, StoredMaterial};
+use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 use graph::{Bound, Obstacle, bound};
 use model::{Input, Model, USD_SPECULAR};
@@ -46,9 +47,10 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
         found: "none of them".to_owned(),
         remedy: "translate the material to one of them".to_owned(),
     })?;
-    let surface = Surface { path, node, model };
+    let files = listed(path, node, model);
+    let surface = Surface { path, node, model, ahead: Ahead::of(files, progress)? };
     let mut pictures = Pictures::default();
-    let albedo = surface.put(&mut pictures, progress)?;
+    let albedo = surface.put(&mut pictures)?;
     let name = node.attribute("name").unwrap_or("material").to_owned();
     let mut found = pictures.assemble(path, name, "", options)?;
     found.files.push(path.to_owned());
@@ -66,10 +68,27 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
         found.notes.push(Note::NotModelled { features });
     }
     if surfaces.len() > 1 {
-        let count = surfaces.len();
-        found.notes.push(Note::Several { container: Container::MaterialX, count, index });
+        let name = |(node, _): &(Node<'_, '_>, _)| node.attribute("name").unwrap_or("material").to_owned();
+        found.notes.push(Note::Materials { names: surfaces.iter().map(name).collect(), index });
     }
     Ok(found)
+}
+
+/// The pictures that the inputs of a surface lead to, and what they are expected to be.
+fn listed(path: &Path, node: Node<'_, '_>, model: &Model) -> Vec<(PathBuf, Subject)> {
+    let roles = [
+        (model.normal, Role::Normal),
+        (model.roughness.0, Role::Roughness),
+        (model.metallic.0, Role::Metallic),
+        (model.base.0, Role::Base),
+    ];
+    let weight = model.weight.map(|(name, _)| (name, Role::Base));
+    let specular = model.specular.iter().map(|(name, _)| (*name, Role::Specular));
+    let picture = |(name, role)| match bound(node, name) {
+        Ok(Some(Bound::File { file, .. })) => Some((resolved(path, &file), Subject::Map(role))),
+        _ => None,
+    };
+    roles.into_iter().chain(weight).chain(specular).filter_map(picture).collect()
 }
 
 /// The surface that is read.
@@ -77,6 +96,7 @@ struct Surface<'a, 'd> {
     path: &'a Path,
     node: Node<'a, 'd>,
     model: &'static Model,
+    ahead: Ahead,
 }
 
 /// An input that has been read.
@@ -107,19 +127,14 @@ impl Loaded {
 
 impl Surface<'_, '_> {
     /// Reads the inputs; returns what is said about colours.
-    fn put(&self, pictures: &mut Pictures, progress: &Progress) -> Result<Inferred<Albedo>, Error> {
-        progress.begin(4);
+    fn put(&self, pictures: &mut Pictures) -> Result<Inferred<Albedo>, Error> {
         let Model { base, metallic, roughness, normal, .. } = *self.model;
         if let Some(normal) = self.load((normal, 0.0), Role::Normal)? {
             pictures.add(Role::Normal, normal.source);
         }
-        progress.step()?;
         pictures.add(Role::Roughness, self.said(roughness, Role::Roughness)?.source);
-        progress.step()?;
         let metallic = self.said(metallic, Role::Metallic)?;
-        progress.step()?;
         let base = self.said(base, Role::Base)?;
-        progress.step()?;
         if self.is_specular_usd()? {
             let specular = self.said(USD_SPECULAR, Role::Specular)?;
             pictures.add(Role::Diffuse, self.computed(base.colours(), "diffuseColor"));
@@ -212,7 +227,7 @@ impl Surface<'_, '_> {
             }
             Some(Bound::File { file, space, channel, scale }) => {
                 let file = resolved(self.path, &file);
-                let whole = decode::decode_one(&file, Subject::Map(role))?.0;
+                let whole = self.ahead.picture(&file, Subject::Map(role))?.0;
                 let raster = channel.map_or(whole.clone(), |c| whole.channel(c));
                 let source = StoredMap { raster, file, part: String::new() };
                 let source = if role == Role::Normal { scaled(source, scale.into()) } else { source };
