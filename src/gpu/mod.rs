@@ -27,6 +27,7 @@ pub(crate) mod shaders;
 #[cfg(feature = "testing")]
 pub mod shaders;
 mod shading;
+mod still;
 mod textures;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod uniforms;
@@ -43,6 +44,7 @@ pub(crate) use {
     display::{Display, Pane},
     params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
+    still::{Blit, Still},
     textures::MaterialTextures,
 };
 #[cfg(feature = "testing")]
@@ -50,5 +52,6 @@ pub use {
     display::{Display, Pane},
     params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
+    still::{Blit, Still},
     textures::MaterialTextures,
 };

@@ -1,0 +1,121 @@
+"""Scenes, conventions, and renderings of a material."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+from numpy.typing import NDArray
+
+from . import _core
+from ._arrays import from_bytes
+from ._material import Material, Source, opened
+
+
+class Scene(NamedTuple):
+    """One view and one light.
+
+    Coordinates are in units of half the width of the material, which lies in the plane z = 0 with z up.
+    """
+
+    kind: Literal["near", "distant"]
+    """Whether view and light are positions ("near") or directions of any length ("distant")."""
+    view: tuple[float, float, float]
+    light: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Convention:
+    """The numbers in which the published variants of the rendering loss differ. A limit of 0 is no limit."""
+
+    name: str
+    intensity: float
+    """Factor on the rendered radiance R."""
+    roughness_floor: float
+    """Smallest roughness that is rendered."""
+    light_z_floor: float
+    """Smallest l.z that R is divided by."""
+    clamp_n_dot_h: bool
+    """Whether NoH is clamped at 0 from below in D."""
+    d_floor: float
+    """Smallest denominator of D."""
+    g_floor: float
+    """Smallest denominator of either factor of G."""
+    epsilon: float
+    """Epsilon in the logarithms of the loss."""
+    light_distance_sigma: float
+    """Standard deviation of the logarithm of the distance of a near-field light."""
+    u1_max: float
+    """Upper end of u1 in Algorithm 2."""
+    shift_z: float
+    """Height of the random shift of near-field scenes."""
+
+
+CONVENTIONS = {items["name"]: Convention(**items) for items in _core.conventions()}
+"""Every convention by its name; "printed" is the default."""
+
+
+def _scene(kind: str, view: Any, light: Any) -> Scene:
+    return Scene("near" if kind == "near" else "distant", tuple(view), tuple(light))
+
+
+def scenes_of(found: Sequence[tuple[Any, Any, Any]]) -> list[Scene]:
+    """Scenes of the core."""
+    return [_scene(*scene) for scene in found]
+
+
+def sample_scenes(
+    near: int = 6,
+    distant: int = 3,
+    *,
+    seed: int = 0,
+    sampler: Literal["random", "sobol"] = "random",
+    convention: str = "printed",
+) -> list[Scene]:
+    """The scenes of a seed: near-field ones, then distant ones.
+
+    The i-th scene of a kind depends on the seed, the sampler, the convention and i only.
+
+    >>> [scene.kind for scene in sample_scenes(near=2, distant=1, seed=7)]
+    ['near', 'near', 'distant']
+
+    Raises:
+        svbrdf.Error: There is no such sampler or convention, no scene, or more than 10,000,000.
+    """
+    return scenes_of(_core.sample_scenes(near, distant, seed, sampler, convention))
+
+
+def read_scenes(path: str | os.PathLike[str]) -> list[Scene]:
+    """The scenes of a scene file: `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`.
+
+    Raises:
+        OSError: The file cannot be read.
+        svbrdf.Error: It has another form, or a scene that cannot be rendered.
+    """
+    return scenes_of(_core.read_scenes(path))
+
+
+def render(material: Material | Source, scene: Scene, *, convention: str = "printed") -> NDArray[Any]:
+    """Renders a material in one scene (Algorithm 3).
+
+    >>> import svbrdf
+    >>> scene = svbrdf.Scene("near", view=(0, 0, 2.5), light=(0.4, 0.5, 1.2))
+    >>> svbrdf.render(svbrdf.built_in()[0], scene).shape
+    (256, 256, 3)
+
+    Args:
+        material: A material, or the path of one.
+        scene: Positions or directions of view and light, above the plane of the material.
+        convention: A name of `svbrdf.CONVENTIONS`.
+
+    Returns:
+        Linear radiance, height x width x 3, in the precision of the material.
+
+    Raises:
+        svbrdf.Error: The scene cannot be rendered, or the material cannot be read.
+    """
+    material = opened(material)
+    core = material._core
+    return from_bytes(
+        _core.render(core, (scene.kind, scene.view, scene.light), convention), core.size, 3, core.precision
+    )

@@ -1,0 +1,45 @@
+//! Errors of the crate as Python exceptions with the same text.
+
+use std::io;
+
+use pyo3::PyErr;
+use pyo3::exceptions::{
+    PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyPermissionError, PyRuntimeError,
+};
+use svbrdf::error::Error as CoreError;
+
+// The macro makes public items without comments.
+#[allow(missing_docs)]
+mod class {
+    pyo3::create_exception!(
+        svbrdf,
+        Error,
+        pyo3::exceptions::PyValueError,
+        "Input that cannot be used: a file, an array, a scene or an option. The text says where, what was expected, what \
+         was found and what to do."
+    );
+}
+
+pub use class::Error;
+
+/// The exception for `error`: [`Error`], an `OSError` where a file cannot be read or written, `KeyboardInterrupt` where the
+/// work was cancelled.
+pub fn exception(error: CoreError) -> PyErr {
+    let text = error.to_string();
+    match error {
+        CoreError::Unreadable { source, .. } | CoreError::Unwritable { source, .. } => {
+            os_error(&source, text)
+        }
+        CoreError::Cancelled => PyKeyboardInterrupt::new_err(text),
+        CoreError::Internal(_) => PyRuntimeError::new_err(text),
+        _ => Error::new_err(text),
+    }
+}
+
+fn os_error(source: &io::Error, text: String) -> PyErr {
+    match source.kind() {
+        io::ErrorKind::NotFound => PyFileNotFoundError::new_err(text),
+        io::ErrorKind::PermissionDenied => PyPermissionError::new_err(text),
+        _ => PyOSError::new_err(text),
+    }
+}

@@ -1,0 +1,282 @@
+//! Materials: from arrays and files, to arrays, files and pictures.
+
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use pyo3::buffer::Element;
+use pyo3::prelude::*;
+use pyo3::types::PyByteArray;
+use svbrdf::error::Error;
+use svbrdf::files::read::{self as reading, Certainty, Read, ReadOptions};
+use svbrdf::files::write::{self as writing, WriteOptions};
+use svbrdf::image::Image;
+use svbrdf::loss::Precision;
+use svbrdf::material::{Material, Planes};
+use svbrdf::math::real::Real;
+use svbrdf::progress::Progress;
+use svbrdf::{render as renderer, report, samples};
+
+use crate::arrays::{self, Bytes};
+use crate::errors::exception;
+use crate::model::SceneTuple;
+use crate::work;
+
+/// A material.
+#[pyclass(frozen, module = "svbrdf._core")]
+#[derive(Debug)]
+pub struct CoreMaterial(pub Stored);
+
+/// A material in one of the two precisions.
+#[derive(Debug)]
+pub enum Stored {
+    /// For speed.
+    F32(Material<f32>),
+    /// For reference.
+    F64(Material<f64>),
+}
+
+/// The arrays of a material; colours and normals are HxWx3, or 3xHxW where `planar` says so.
+#[derive(Debug, FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Arrays<'py> {
+    name: String,
+    size: [usize; 2],
+    normal: Bound<'py, PyAny>,
+    diffuse: Bound<'py, PyAny>,
+    specular: Bound<'py, PyAny>,
+    roughness: Bound<'py, PyAny>,
+    /// Of normal, diffuse and specular.
+    planar: [bool; 3],
+}
+
+impl Arrays<'_> {
+    fn material<T: Element + Real>(&self, py: Python<'_>) -> PyResult<Material<T>> {
+        let maps = [&self.normal, &self.diffuse, &self.specular].map(arrays::values::<T>);
+        let [normal, diffuse, specular] = maps;
+        let maps = [normal?, diffuse?, specular?];
+        let roughness = arrays::values(&self.roughness)?;
+        let (name, [width, height], mut planar) = (&self.name, self.size, self.planar.into_iter());
+        work::at_once(py, move || {
+            let [normal, diffuse, specular] =
+                maps.map(|values| arrays::planes(values, planar.next().unwrap_or_default()));
+            Material::new(name, width, height, Planes { normal, diffuse, specular, roughness })
+        })
+    }
+}
+
+#[pymethods]
+impl CoreMaterial {
+    #[staticmethod]
+    fn from_arrays(py: Python<'_>, arrays: Arrays<'_>, precision: &str) -> PyResult<Self> {
+        match Precision::from_str(precision).map_err(exception)? {
+            Precision::F32 => arrays.material(py).map(single),
+            Precision::F64 => arrays.material(py).map(double),
+        }
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        match &self.0 {
+            Stored::F32(material) => material.name(),
+            Stored::F64(material) => material.name(),
+        }
+    }
+
+    /// (width, height).
+    #[getter]
+    fn size(&self) -> (usize, usize) {
+        match &self.0 {
+            Stored::F32(material) => material.size().into(),
+            Stored::F64(material) => material.size().into(),
+        }
+    }
+
+    #[getter]
+    fn precision(&self) -> &'static str {
+        match &self.0 {
+            Stored::F32(_) => f32::NAME,
+            Stored::F64(_) => f64::NAME,
+        }
+    }
+
+    /// The values of a map, channels interleaved.
+    fn map<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyByteArray>> {
+        match &self.0 {
+            Stored::F32(material) => map_bytes(py, material, name),
+            Stored::F64(material) => map_bytes(py, material, name),
+        }
+    }
+}
+
+fn single(material: Material<f32>) -> CoreMaterial {
+    CoreMaterial(Stored::F32(material))
+}
+
+fn double(material: Material<f64>) -> CoreMaterial {
+    CoreMaterial(Stored::F64(material))
+}
+
+impl CoreMaterial {
+    /// A copy in f32.
+    pub fn single(&self) -> Material<f32> {
+        match &self.0 {
+            Stored::F32(material) => material.clone(),
+            Stored::F64(material) => material.cast(),
+        }
+    }
+
+    /// A copy in f64.
+    pub fn double(&self) -> Material<f64> {
+        match &self.0 {
+            Stored::F32(material) => material.cast(),
+            Stored::F64(material) => material.clone(),
+        }
+    }
+}
+
+fn map_bytes<'py, T: Real + Bytes>(
+    py: Python<'py>,
+    material: &Material<T>,
+    name: &str,
+) -> PyResult<Bound<'py, PyByteArray>> {
+    let planes = material.planes();
+    let colour = match name {
+        "normal" => &planes.normal,
+        "diffuse" => &planes.diffuse,
+        "specular" => &planes.specular,
+        _ => return arrays::bytes(py, planes.roughness.len(), planes.roughness.iter().copied()),
+    };
+    let numbers = (0..colour[0].len()).flat_map(|i| [colour[0][i], colour[1][i], colour[2][i]]);
+    arrays::bytes(py, 3 * colour[0].len(), numbers)
+}
+
+/// What reading a material gave.
+#[derive(Debug, IntoPyObject)]
+pub struct Found {
+    material: CoreMaterial,
+    notes: Vec<String>,
+    /// About what, the choice, why, how certain.
+    assumptions: Vec<[String; 4]>,
+    files: Vec<PathBuf>,
+}
+
+/// Reads a material; `options` are those of a sidecar file, as JSON.
+#[pyfunction]
+pub fn read(
+    py: Python<'_>,
+    path: PathBuf,
+    options: &str,
+    precision: &str,
+    strict: bool,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Found> {
+    let parsed = serde_json::from_str::<ReadOptions>(options);
+    let options = &parsed.map_err(|e| crate::errors::Error::new_err(e.to_string()))?;
+    match Precision::from_str(precision).map_err(exception)? {
+        Precision::F32 => {
+            let read =
+                work::run(py, progress, |progress| read_checked::<f32>(&path, options, strict, progress))?;
+            Ok(found(read, single))
+        }
+        Precision::F64 => {
+            let read =
+                work::run(py, progress, |progress| read_checked::<f64>(&path, options, strict, progress))?;
+            Ok(found(read, double))
+        }
+    }
+}
+
+fn read_checked<T: Real>(
+    path: &Path,
+    options: &ReadOptions,
+    strict: bool,
+    progress: &Progress,
+) -> Result<Read<T>, Error> {
+    let read = reading::read(path, options, progress)?;
+    if strict {
+        read.refuse_guesses(path)?;
+    }
+    Ok(read)
+}
+
+fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>) -> CoreMaterial) -> Found {
+    let certainty = |certainty| match certainty {
+        Certainty::Unsure => "unsure",
+        Certainty::Likely => "likely",
+        Certainty::Sure => "sure",
+        Certainty::Given => "given",
+    };
+    let assumptions = read.assumptions.iter();
+    let assumptions = assumptions
+        .map(|a| [a.what.name(), &a.chosen, &a.why.to_string(), certainty(a.certainty)].map(str::to_owned));
+    Found {
+        assumptions: assumptions.collect(),
+        notes: read.notes.iter().map(ToString::to_string).collect(),
+        files: read.files,
+        material: material(read.material),
+    }
+}
+
+/// The built-in ground truth, then the predictions of it.
+#[pyfunction]
+pub fn built_in(py: Python<'_>, precision: &str) -> PyResult<Vec<CoreMaterial>> {
+    fn all<T: Real>(material: fn(Material<T>) -> CoreMaterial) -> Result<Vec<CoreMaterial>, Error> {
+        let samples = samples::load::<T>()?;
+        let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
+        Ok(all.map(|read| material(read.material)).collect())
+    }
+    match Precision::from_str(precision).map_err(exception)? {
+        Precision::F32 => work::at_once(py, || all(single)),
+        Precision::F64 => work::at_once(py, || all(double)),
+    }
+}
+
+/// Writes a material.
+#[pyfunction]
+pub fn write(
+    py: Python<'_>,
+    material: &CoreMaterial,
+    path: PathBuf,
+    depth: Option<&str>,
+    preset: Option<&str>,
+    preview: bool,
+) -> PyResult<()> {
+    let depth = depth.map(str::parse).transpose().map_err(exception)?;
+    let like = preset.map(str::parse).transpose().map_err(exception)?;
+    let kind = writing::Kind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
+    let material = material.single();
+    work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))
+}
+
+/// Renders a material in one scene: the RGB values of all texels.
+#[pyfunction]
+pub fn render<'py>(
+    py: Python<'py>,
+    material: &CoreMaterial,
+    scene: SceneTuple,
+    convention: &str,
+) -> PyResult<Bound<'py, PyByteArray>> {
+    let scene = scene.scene()?;
+    let convention = convention.parse().map_err(exception)?;
+    match &material.0 {
+        Stored::F32(material) => {
+            let image = work::run(py, None, |p| renderer::render_f32(material, &scene, &convention, p))?;
+            pixels(py, image)
+        }
+        Stored::F64(material) => {
+            let image = work::run(py, None, |p| renderer::render(material, &scene, &convention, p))?;
+            pixels(py, image)
+        }
+    }
+}
+
+fn pixels<T: Bytes>(py: Python<'_>, image: Image<T>) -> PyResult<Bound<'_, PyByteArray>> {
+    arrays::bytes(py, 3 * image.pixels.len(), image.pixels.into_iter().flatten())
+}
+
+/// Names that tell materials apart, of (name, path).
+#[pyfunction]
+pub fn distinct_names(named: Vec<(String, PathBuf)>) -> Vec<String> {
+    let named: Vec<_> = named.iter().map(|(name, path)| (&**name, &**path)).collect();
+    report::distinct_names(&named)
+}

@@ -1,0 +1,108 @@
+//! Conventions and scenes.
+
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use svbrdf::loss::{Sampling, Texels};
+use svbrdf::model::convention::{self, Convention};
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::model::scene_file;
+
+use crate::errors::{Error, exception};
+
+/// A convention as a dictionary.
+#[derive(Debug, IntoPyObject)]
+pub struct ConventionItems {
+    name: &'static str,
+    intensity: f64,
+    roughness_floor: f64,
+    light_z_floor: f64,
+    clamp_n_dot_h: bool,
+    d_floor: f64,
+    g_floor: f64,
+    epsilon: f64,
+    light_distance_sigma: f64,
+    u1_max: f64,
+    shift_z: f64,
+}
+
+impl From<Convention> for ConventionItems {
+    fn from(c: Convention) -> Self {
+        Self {
+            name: c.name,
+            intensity: c.intensity,
+            roughness_floor: c.roughness_floor,
+            light_z_floor: c.light_z_floor,
+            clamp_n_dot_h: c.clamp_n_dot_h,
+            d_floor: c.d_floor,
+            g_floor: c.g_floor,
+            epsilon: c.epsilon,
+            light_distance_sigma: c.light_distance_sigma,
+            u1_max: c.u1_max,
+            shift_z: c.shift_z,
+        }
+    }
+}
+
+/// Every convention, the default first.
+#[pyfunction]
+pub fn conventions() -> Vec<ConventionItems> {
+    convention::ALL.map(ConventionItems::from).into()
+}
+
+/// Kind, view and light.
+#[derive(Clone, Debug, FromPyObject, IntoPyObject)]
+pub struct SceneTuple(String, [f64; 3], [f64; 3]);
+
+impl SceneTuple {
+    /// The scene.
+    ///
+    /// # Errors
+    /// [`Error`] where the kind is unknown.
+    pub fn scene(&self) -> PyResult<Scene> {
+        let Self(kind, view, light) = self;
+        let kind = match kind.as_str() {
+            "near" => Kind::Near,
+            "distant" => Kind::Distant,
+            _ => {
+                return Err(Error::new_err(format!(
+                    "unknown kind of scene `{kind}`; use one of: near, distant"
+                )));
+            }
+        };
+        Ok(Scene { kind, view: *view, light: *light })
+    }
+}
+
+impl From<&Scene> for SceneTuple {
+    fn from(scene: &Scene) -> Self {
+        let kind = match scene.kind {
+            Kind::Near => "near",
+            Kind::Distant => "distant",
+        };
+        Self(kind.to_owned(), scene.view, scene.light)
+    }
+}
+
+/// The scenes of a seed.
+#[pyfunction]
+pub fn sample_scenes(
+    near: usize,
+    distant: usize,
+    seed: u64,
+    sampler: &str,
+    convention: &str,
+) -> PyResult<Vec<SceneTuple>> {
+    let convention = convention.parse().map_err(exception)?;
+    let sampler = sampler.parse().map_err(exception)?;
+    let sampling = Sampling { near, distant, seed, sampler, texels: Texels::All };
+    let scenes = sampling.scenes(&convention).map_err(exception)?;
+    Ok(scenes.iter().map(SceneTuple::from).collect())
+}
+
+/// The scenes of a scene file.
+#[pyfunction]
+pub fn read_scenes(path: PathBuf) -> PyResult<Vec<SceneTuple>> {
+    let scenes = scene_file::read(&path).map_err(exception)?;
+    Ok(scenes.iter().map(SceneTuple::from).collect())
+}

@@ -1,0 +1,200 @@
+"""The rendering loss: the numbers of the core, and what is refused."""
+
+import json
+import subprocess
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import svbrdf
+from conftest import golden_materials, maps
+
+
+def of_program(program: str, *arguments: str) -> dict[str, Any]:
+    command = [program, "loss", *arguments, "--format", "json"]
+    report: dict[str, Any] = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    return report
+
+
+@pytest.mark.parametrize(
+    ("options", "arguments"),
+    [
+        ({"seed": 7}, ["--near", "6", "--distant", "3", "--seed", "7"]),
+        ({"near": 20, "distant": 12, "sampler": "sobol"}, ["--near", "20", "--distant", "12", "--sampler", "sobol"]),
+        ({"near": 30, "distant": 30, "texels": 64}, ["--near", "30", "--distant", "30", "--texels", "64"]),
+        ({"convention": "guided-2020", "seed": 1}, ["--near", "6", "--seed", "1", "--convention", "guided-2020"]),
+        ({"precision": "f64", "near": 2, "distant": 1}, ["--near", "2", "--distant", "1", "--precision", "f64"]),
+        ({"target_error": 0.03}, ["--target-error", "3%"]),
+    ],
+)
+def test_the_loss_is_that_of_the_command_line_bit_for_bit(
+    program: str, options: dict[str, Any], arguments: list[str]
+) -> None:
+    expected = of_program(program, *arguments)
+    ground_truth, *predictions = svbrdf.built_in(precision=options.get("precision", "f32"))
+    got = json.loads(json.dumps(svbrdf.loss(ground_truth, predictions, **options).to_dict()))
+    del expected["all_scenes"]
+    assert got == {key: got.get(key) if value is None and key == "scenes" else value for key, value in expected.items()}
+
+
+def test_paths_and_arrays_give_the_same_bits_as_the_command_line(program: str, tmp_path: Path) -> None:
+    paths = [tmp_path / name for name in ("gt.exr", "a.exr", "b.exr")]
+    materials = [svbrdf.Material(**maps(33, 47, seed), name=path.stem) for seed, path in enumerate(paths)]
+    for material, path in zip(materials, paths, strict=True):
+        svbrdf.write(material, path, depth="float")
+    expected = [result["loss"] for result in of_program(program, *map(str, paths), "--near", "4")["results"]]
+    from_paths = svbrdf.loss(paths[0], paths[1:], near=4)
+    from_arrays = svbrdf.loss(materials[0], materials[1:], near=4)
+    assert [result.loss for result in from_paths.results] == expected
+    assert [result.loss for result in from_arrays.results] == expected
+    assert from_paths.results[0].path == str(paths[1])
+    # One number in the last bit of one texel is seen.
+    other = maps(33, 47, 1)
+    other["roughness"][0, 0] = np.nextafter(other["roughness"][0, 0], np.float32(2))
+    assert svbrdf.loss(materials[0], svbrdf.Material(**other), near=4).loss != expected[0]
+
+
+def test_the_text_is_the_table_of_the_command_line(program: str) -> None:
+    command = [program, "loss", "--near", "6"]
+    expected = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    ground_truth, *predictions = svbrdf.built_in()
+    assert repr(svbrdf.loss(ground_truth, predictions)) + "\n" == expected
+
+
+def test_the_golden_losses_are_met_in_either_precision(golden: Path) -> None:
+    worst: dict[Any, float] = {"f32": 0.0, "f64": 0.0}
+    for path in sorted((golden / "loss").glob("*.json")):
+        case = json.loads(path.read_text())
+        scenes = svbrdf.read_scenes(golden / "scenes" / path.name)
+        for precision in worst:
+            materials = golden_materials(golden, case, precision)
+            for convention, expected in case["expected"].items():
+                report = svbrdf.loss(*materials, scenes=scenes, convention=convention, precision=precision)
+                error = abs(report.loss - expected["loss"]) / max(expected["loss"], 1e-30)
+                worst[precision] = max(worst[precision], error)
+    assert 0 < worst["f64"] < 1e-9, worst
+    assert 0 < worst["f32"] < 2e-5, worst
+
+
+def test_a_report_has_losses_intervals_and_differences() -> None:
+    ground_truth, *predictions = svbrdf.built_in()
+    report = svbrdf.loss(ground_truth, predictions, near=8, distant=4, seed=3)
+    first, second = report.results
+    assert first.losses is not None
+    assert second.losses is not None
+    assert report.scenes is not None
+    assert len(first.losses) == len(report.scenes) == 12
+    assert first.interval95 is not None
+    assert first.interval95[0] < first.loss < first.interval95[1]
+    assert np.isclose(np.mean(first.losses), first.loss, rtol=1e-14)
+    (difference,) = report.differences
+    assert (difference.prediction, difference.to) == ("wrong roughness", "blurred normals")
+    assert difference.difference == pytest.approx(second.loss - first.loss, abs=1e-12)
+    assert report.loss == first.loss
+    assert report.scenes == tuple(svbrdf.sample_scenes(8, 4, seed=3))
+
+
+def test_the_blame_is_that_of_the_command_line_and_adds_up(program: str) -> None:
+    command = [program, "blame", "--target-error", "5%", "--format", "json"]
+    expected = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["attributions"]
+    ground_truth, *predictions = svbrdf.built_in()
+    for prediction, entry in zip(predictions, expected, strict=True):
+        got = svbrdf.blame(ground_truth, prediction, target_error=0.05)
+        assert got.loss.mean == entry["loss"]["mean"]
+        assert [share.shapley.mean for share in got.maps] == [share["shapley"]["mean"] for share in entry["maps"]]
+        assert sum(share.shapley.mean for share in got.maps) == pytest.approx(got.loss.mean, rel=1e-12)
+
+
+def test_a_ranking_is_by_loss_in_groups_that_the_data_separate() -> None:
+    ground_truth, blurred, rough = svbrdf.built_in()
+    ranked = svbrdf.rank(ground_truth, [blurred, rough, blurred], target_error=0.05)
+    assert [place.index for _, place in ranked] == [1, 0, 2]
+    assert [place.group for _, place in ranked] == [1, 2, 2]
+    assert ranked[0][1].to_best is None
+    difference = ranked[1][1].to_best
+    assert difference is not None
+    assert difference.difference == pytest.approx(ranked[1][0].loss - ranked[0][0].loss, rel=1e-9)
+
+
+def test_listed_scenes_give_the_losses_of_the_sampled_ones() -> None:
+    ground_truth, prediction, _ = svbrdf.built_in()
+    sampled = svbrdf.loss(ground_truth, prediction, seed=5)
+    listed = svbrdf.loss(ground_truth, prediction, scenes=sampled.scenes)
+    assert listed.results[0].losses == sampled.results[0].losses
+    assert listed.seed is None
+
+
+def test_a_target_error_is_reached_and_reproduced_by_its_counts() -> None:
+    ground_truth, prediction, _ = svbrdf.built_in()
+    report = svbrdf.loss(ground_truth, prediction, target_error=0.02)
+    assert report.target_reached
+    assert report.scenes is None
+    again = svbrdf.loss(
+        ground_truth, prediction, near=report.near, distant=report.distant, sampler="sobol", texels=report.texels
+    )
+    assert again.loss == report.loss
+
+
+def test_unnamed_materials_are_numbered_and_alike_names_are_told_apart(tmp_path: Path) -> None:
+    a, b = svbrdf.Material(**maps(4, 4, 1)), svbrdf.Material(**maps(4, 4, 2))
+    report = svbrdf.loss(a, [a, b])
+    assert report.ground_truth == "ground truth"
+    assert [result.prediction for result in report.results] == ["prediction 1", "prediction 2"]
+    assert report.results[0].loss == 0
+    tiles = svbrdf.built_in()[0]
+    for folder in ("x", "y"):
+        (tmp_path / folder).mkdir()
+        svbrdf.write(tiles, tmp_path / folder / "m.exr", depth="float")
+    report = svbrdf.loss(tiles, [tmp_path / "x" / "m.exr", tmp_path / "y" / "m.exr"])
+    assert [result.prediction for result in report.results] == ["x/m.exr", "y/m.exr"]
+
+
+def test_what_cannot_be_compared_is_refused_with_the_text_of_the_core() -> None:
+    small, large = svbrdf.Material(**maps(4, 4)), svbrdf.Material(**maps(4, 5))
+    with pytest.raises(svbrdf.Error, match=r"sizes differ: .* 4 x 4, .* 5 x 4; resize them to one size"):
+        svbrdf.loss(small, large)
+    with pytest.raises(svbrdf.Error, match="unknown convention `none`; use one of: printed, single-image-2018"):
+        svbrdf.loss(small, small, convention="none")
+    with pytest.raises(svbrdf.Error, match="at least one scene"):
+        svbrdf.loss(small, small, near=0, distant=0)
+    with pytest.raises(svbrdf.Error, match="unknown number of texels `0`"):
+        svbrdf.loss(small, small, texels=0)
+    below = svbrdf.Scene("near", (0, 0, 1), (0, 0, -1))
+    with pytest.raises(svbrdf.Error, match=r"its light .* is not above the plane"):
+        svbrdf.loss(small, small, scenes=[below])
+
+
+def test_arguments_are_checked_by_name() -> None:
+    material = svbrdf.Material(**maps(4, 4))
+    with pytest.raises(ValueError, match="predictions: expected at least one"):
+        svbrdf.loss(material, [])
+    with pytest.raises(ValueError, match="target_error: expected a number above 0 and below 1"):
+        svbrdf.loss(material, material, target_error=1.5)
+    with pytest.raises(ValueError, match="time_budget: expected seconds above 0"):
+        svbrdf.loss(material, material, time_budget=0)
+    with pytest.raises(ValueError, match="target_error and scenes: expected one of them"):
+        svbrdf.loss(material, material, target_error=0.1, scenes=[])
+    with pytest.raises(TypeError, match=r"expected a svbrdf.Material or the path of one, found dict"):
+        svbrdf.loss(material, [maps(4, 4)])  # type: ignore[list-item]
+    with pytest.raises(FileNotFoundError, match=r"cannot read .*nowhere"):
+        svbrdf.loss(material, "/nowhere/at/all.png")
+
+
+def test_a_target_that_is_not_reached_is_a_warning(monkeypatch: pytest.MonkeyPatch) -> None:
+    from svbrdf import _core
+
+    def missed(*arguments: Any) -> dict[str, Any]:
+        return {**real(*arguments), "relative_error95": 0.5}
+
+    real = _core.loss
+    monkeypatch.setattr(_core, "loss", missed)
+    ground_truth, prediction, _ = svbrdf.built_in()
+    with pytest.warns(UserWarning, match=r"known to \+-50.00%, not to the \+-30.00% that was asked for"):
+        report = svbrdf.loss(ground_truth, prediction, target_error=0.3)
+    assert report.target_reached is False
+    monkeypatch.undo()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert svbrdf.loss(ground_truth, prediction, target_error=0.3).target_reached

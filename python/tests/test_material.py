@@ -1,0 +1,134 @@
+"""Materials: arrays in, arrays out, files."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import svbrdf
+from conftest import maps
+
+
+def normalized(normal: Any) -> Any:
+    return normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+
+
+@pytest.mark.parametrize("precision", ["f32", "f64"])
+def test_arrays_come_back_as_they_went_in(precision: Any) -> None:
+    given = maps(5, 7, dtype=np.float32 if precision == "f32" else np.float64)
+    material = svbrdf.Material(**given, precision=precision)
+    assert material.size == (7, 5)
+    for name in ("diffuse", "specular", "roughness"):
+        got = getattr(material, name)
+        assert got.dtype == given[name].dtype
+        np.testing.assert_array_equal(got, given[name])
+    np.testing.assert_allclose(material.normal, normalized(given["normal"]), rtol=0, atol=2e-7)
+
+
+def test_every_memory_layout_gives_the_same_material() -> None:
+    given = maps(5, 7)
+    expected = svbrdf.Material(**given)
+    layouts: dict[str, Any] = {
+        "planes": lambda x: np.ascontiguousarray(np.moveaxis(x, -1, 0)).transpose(1, 2, 0) if x.ndim == 3 else x,
+        "columns first": np.asfortranarray,
+        "every second row": lambda x: np.repeat(x, 2, axis=0)[::2],
+        "mirrored twice": lambda x: x[::-1].copy()[::-1],
+        "float64": lambda x: x.astype(np.float64),
+        "read only": lambda x: np.broadcast_to(x, x.shape),
+        "lists": lambda x: x.astype(np.float64).tolist(),
+    }
+    for layout, convert in layouts.items():
+        material = svbrdf.Material(**{name: convert(array) for name, array in given.items()})
+        for name in given:
+            np.testing.assert_array_equal(getattr(material, name), getattr(expected, name), layout)
+    square = maps(3, 3)
+    assert not np.array_equal(svbrdf.Material(**square).diffuse, square["diffuse"].transpose(1, 0, 2))
+
+
+def test_shapes_types_and_values_are_checked_by_the_name_of_the_map() -> None:
+    def refused(error: type[Exception], match: str, **changed: Any) -> None:
+        with pytest.raises(error, match=match):
+            svbrdf.Material(**{**maps(4, 5), **changed})
+
+    refused(ValueError, "diffuse: expected height x width x 3, found 4 x 5", diffuse=np.zeros((4, 5), np.float32))
+    refused(ValueError, "normal: .* found 3 x 4 x 5; move the channels to the end", normal=np.zeros((3, 4, 5)))
+    refused(ValueError, "roughness: expected height x width, found 4", roughness=np.zeros(4))
+    refused(ValueError, "specular: expected the shape of roughness, 4 x 5, found 4 x 4", specular=np.zeros((4, 4, 3)))
+    refused(TypeError, "diffuse: expected floating-point numbers, found uint8", diffuse=np.zeros((4, 5, 3), np.uint8))
+    refused(TypeError, "normal: expected floating-point numbers, found", normal="gt.png")
+    refused(ValueError, "roughness: expected height x width, found a number", roughness=0.5)
+    nan, high, dark = maps(4, 5)["roughness"], maps(4, 5)["specular"], maps(4, 5)["normal"]
+    nan[2, 3], high[1, 0, 2], dark[3, 4] = np.nan, 1.5, 0
+    refused(
+        svbrdf.Error,
+        r"material: roughness map, column 3, row 2: expected a value in \[0, 1\], found NaN",
+        roughness=nan,
+    )
+    refused(svbrdf.Error, "specular map, column 0, row 1: .* found 1.5", specular=high)
+    refused(svbrdf.Error, "normal map, column 4, row 3: .* some length", normal=dark)
+    large = maps(200, 200)
+    large["diffuse"][170, 3, 1] = large["diffuse"][180, 2, 1] = -1
+    refused(svbrdf.Error, "diffuse map, column 3, row 170: .* found -1", **large)
+    refused(svbrdf.Error, "material is not a material: expected at least one texel", **maps(0, 0))
+
+
+def test_a_material_survives_a_file_of_floats_bit_for_bit(tmp_path: Path) -> None:
+    material = svbrdf.built_in()[0]
+    svbrdf.write(material, tmp_path / "made.exr", depth="float")
+    read = svbrdf.read(tmp_path / "made.exr", strict=True)
+    for name in ("normal", "diffuse", "specular", "roughness"):
+        np.testing.assert_array_equal(getattr(read, name), getattr(material, name))
+    assert read.path == str(tmp_path / "made.exr")
+    assert read.name == "made"
+
+
+def test_reading_reports_what_it_assumed(tmp_path: Path) -> None:
+    svbrdf.write(svbrdf.built_in()[0], tmp_path / "tiles.png")
+    material = svbrdf.read(tmp_path / "tiles.png", normal_y="up")
+    (given,) = (a for a in material.assumptions if a.what == "normal y")
+    assert (given.chosen, given.certainty) == ("up", "given")
+    folder = tmp_path / "unknown"
+    svbrdf.write(svbrdf.built_in()[0], folder)
+    (folder / "roughness.png").rename(folder / "gloss.png")
+    with pytest.raises(svbrdf.Error, match=r"is ambiguous: .*; specify what is unsure, or allow guesses"):
+        svbrdf.read(folder, strict=True)
+
+
+def test_files_that_cannot_be_used_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError, match="cannot read"):
+        svbrdf.read(tmp_path / "nothing.png")
+    (tmp_path / "bad.png").write_bytes(b"no picture")
+    with pytest.raises(svbrdf.Error, match=r"bad.png is not a readable image"):
+        svbrdf.read(tmp_path / "bad.png")
+    with pytest.raises(svbrdf.Error, match="unknown variant `blue`, expected one of `linear`, `srgb`"):
+        svbrdf.read(tmp_path / "bad.png", albedo="blue")  # type: ignore[arg-type]
+    with pytest.raises(svbrdf.Error, match=r"cannot be written: name an \.exr file"):
+        svbrdf.write(svbrdf.built_in()[0], tmp_path / "a.jpg")
+    (tmp_path / "file").touch()
+    with pytest.raises(OSError, match="cannot write"):
+        svbrdf.write(svbrdf.built_in()[0], tmp_path / "file" / "a.exr")
+
+
+def test_a_rendering_is_that_of_the_reference(points: list[dict[str, Any]]) -> None:
+    scene = svbrdf.Scene("near", view=(0.1, 0.2, 2.5), light=(0.4, 0.5, 1.2))
+    single = svbrdf.render(svbrdf.Material(**maps(9, 6)), scene)
+    double = svbrdf.render(svbrdf.Material(**maps(9, 6), precision="f64"), scene)
+    assert single.shape == (9, 6, 3)
+    assert single.dtype == np.float32
+    assert double.dtype == np.float64
+    np.testing.assert_allclose(single, double, rtol=1e-4)
+    assert not np.allclose(single[::-1], double, rtol=1e-4)
+    checked = 0
+    for row in points:
+        if min(row["l"][2], row["v"][2]) <= 1e-15 or row["check"] != "ok":
+            continue
+        names = (("normal", "n"), ("diffuse", "d"), ("specular", "s"))
+        one: dict[str, Any] = {name: np.reshape(row[key], (1, 1, 3)) for name, key in names}
+        material = svbrdf.Material(**one, roughness=np.full((1, 1), float(row["r"])), precision="f64")
+        got = svbrdf.render(material, svbrdf.Scene("distant", tuple(row["v"]), tuple(row["l"])))[0, 0]
+        bound = 16 * max(row["kappa"] or 1, 1) * 2.0**-53
+        if row["cat"].startswith("r0_at_mirror"):
+            continue
+        np.testing.assert_allclose(got, row["expected"], rtol=bound, atol=1e-300, err_msg=row["id"])
+        checked += 1
+    assert checked > 100
