@@ -27,6 +27,7 @@ pub(crate) mod shaders;
 #[cfg(feature = "testing")]
 pub mod shaders;
 mod shading;
+mod still;
 mod textures;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod uniforms;
@@ -46,6 +47,7 @@ pub(crate) use {
     display::{Display, Pane},
     params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
+    still::{Blit, Still},
     textures::MaterialTextures,
 };
 #[cfg(feature = "testing")]
@@ -53,5 +55,6 @@ pub use {
     display::{Display, Pane},
     params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
+    still::{Blit, Still},
     textures::MaterialTextures,
 };

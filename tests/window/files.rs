@@ -144,6 +144,7 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
         wait(&mut window, "the end of reading", |app| !app.is_reading());
         if fit {
             assert_eq!(window.state().names(), ["large", "small"]);
+            tab(&mut window, "Files");
             window.get_by_label("Resized from 128 x 128 to the 256 x 256 of the ground truth.");
             wait(&mut window, "the loss", |app| app.losses().is_some());
         } else {

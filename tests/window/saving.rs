@@ -123,7 +123,9 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     apply(&mut first, DisplayCommand::SetQuantity(Quantity::Normal));
     apply(&mut first, DisplayCommand::SetExposure(1.5));
     apply(&mut first, SceneCommand::SetConvention("guided-2020"));
-    apply(&mut first, SceneCommand::MoveOverPlane(svbrdf::viewer::state::Endpoint::Light, [0.1, -0.7]));
+    let mut scene = first.state().state.scene;
+    scene.light = [0.1, -0.7, 1.3];
+    apply(&mut first, SceneCommand::Set(scene));
     let mut settings = first.state().settings.loss.clone();
     settings.near = 17;
     apply(&mut first, LossCommand::SetSettings(settings));

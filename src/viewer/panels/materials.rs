@@ -4,7 +4,8 @@ use eframe::egui::{self, RichText};
 
 use crate::files::read::{Certainty, Note, ReadOptions, Sidecar};
 use crate::viewer::command::{Command, MaterialsCommand};
-use crate::viewer::slots::{Slot, Slots};
+use crate::viewer::slot::Slot;
+use crate::viewer::slots::Slots;
 use crate::viewer::source::Origin;
 use crate::viewer::theme;
 

@@ -7,11 +7,14 @@ mod loss_results;
 pub mod materials;
 pub mod messages;
 pub mod open;
+pub mod pins;
 pub mod save;
 pub mod scene;
 pub mod status;
 pub mod study;
 pub mod top;
+pub mod values;
+pub mod why;
 
 use eframe::egui::{self, DragValue, Response, RichText};
 
