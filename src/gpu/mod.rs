@@ -38,6 +38,9 @@ pub use adapter::AdapterReport;
 pub use context::Gpu;
 pub use loss::Losses;
 
+#[cfg(feature = "viewer")]
+pub(crate) use read_back::read_rgba;
+
 #[cfg(not(feature = "testing"))]
 #[allow(unused_imports, reason = "the window uses them all")]
 pub(crate) use {

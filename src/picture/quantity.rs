@@ -1,5 +1,7 @@
 //! The quantities of a material: its rendering and its maps.
 
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
@@ -89,5 +91,18 @@ impl Quantity {
         };
         let pixels = (0..x.len()).map(|i| [x[i], y[i], z[i]]).collect();
         Ok(Image { width: material.width(), height: material.height(), pixels })
+    }
+}
+
+impl FromStr for Quantity {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|quantity| quantity.name() == text);
+        found.ok_or_else(|| Error::UnknownName {
+            what: "quantity",
+            found: text.to_owned(),
+            known: Self::ALL.map(Self::name).join(", "),
+        })
     }
 }

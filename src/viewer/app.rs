@@ -74,6 +74,8 @@ pub struct App {
     pub(super) read: ReadOptions,
     pub(super) messages: MessageList,
     pub(super) stop: Stop,
+    /// Size of the panes and the legend, in pixels.
+    pub(super) picture_size: [u32; 2],
     /// The time of the last frame, in seconds.
     now: f64,
     pub(super) frame_ms: f32,
@@ -125,6 +127,7 @@ impl App {
             read: ReadOptions::AUTO,
             messages,
             stop: Stop::default(),
+            picture_size: [1, 1],
             now: 0.0,
             frame_ms: 0.0,
         };
@@ -139,15 +142,17 @@ impl App {
     }
 
     fn open_first(&mut self, ctx: &egui::Context, options: ViewerOptions) {
-        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
         self.slots.rules = Rules { strict: options.strict, fit: options.fit };
+        if let Some(session) = &options.session {
+            return self.open_session(ctx, session);
+        }
         let Some(ground_truth) = options.ground_truth else {
-            return self.slots.open_built_in(ctx, gpu);
+            return self.slots.open_built_in(ctx, self.gpu.as_ref().map(|g| &g.gpu));
         };
         let predictions = options.predictions.into_iter().map(|p| Source::file(p, options.prediction_read));
         let ground_truth = Source::file(ground_truth, options.ground_truth_read);
         let sources = std::iter::once(ground_truth).chain(predictions).collect();
-        self.slots.open(ctx, gpu, sources, Target::Everything);
+        self.slots.open(ctx, self.gpu.as_ref().map(|g| &g.gpu), sources, Target::Everything);
     }
 
     /// Whether the side panel is shown. Narrow windows have a choice of their own, which starts with no panel.
@@ -274,6 +279,7 @@ impl eframe::App for App {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.remember_session();
         eframe::set_value(storage, settings::KEY, &self.settings);
     }
 

@@ -8,6 +8,7 @@ use super::animation::{Animation, Preset};
 use super::endpoint::Endpoint;
 use super::inspect::Region;
 use super::loss_settings::LossSettings;
+use super::save_kind::SaveKind;
 use super::settings::Tab;
 use super::source::Source;
 use super::state::Layout;
@@ -41,6 +42,8 @@ pub enum MaterialsCommand {
     /// Opens a prediction that was refused or closed.
     OpenAgain(Box<Source>),
     OpenBuiltIn,
+    /// Opens the session of the last materials from files.
+    ReopenLast,
     /// Reads all files again.
     Reload,
     /// Reads the material in slot `slot` again under other assumptions.
@@ -167,8 +170,14 @@ pub enum WindowCommand {
         folder: bool,
     },
     ShowSave(bool),
-    /// Writes the view to this file, as `svbrdf render` does.
-    SaveView(PathBuf),
+    /// Writes to this file; `size` in pixels is that of a picture of the view.
+    Save {
+        what: SaveKind,
+        path: PathBuf,
+        size: [u32; 2],
+    },
+    /// Puts the view on the clipboard as a picture.
+    CopyPicture,
     SetDark(bool),
     /// Sets the size of text and controls: 1 is that of the system.
     SetScale(f32),

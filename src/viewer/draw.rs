@@ -16,7 +16,6 @@ use super::panels::top::TopBar;
 use super::panels::values::ValueStrip;
 use super::panels::why::WhyPanel;
 use super::panes::Scenery;
-use super::save;
 use super::settings::Tab;
 use crate::files::read::Certainty;
 
@@ -48,16 +47,24 @@ impl App {
         if side_panel != shown {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
+        let area = ui.available_rect_before_wrap();
+        self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
+        commands.extend(self.content(ui));
+        commands.extend(panels::messages::ui(ui.ctx(), area, &self.messages));
+        commands.extend(self.windows(ui.ctx()));
+        commands
+    }
+
+    /// The panes and the legend: what a picture of the view has.
+    pub(super) fn content(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
         if self.state.difference && !self.slots.predictions().is_empty() {
             bare(egui::Panel::bottom("legend"), ui).show(ui, |ui| commands.extend(self.legend(ui)));
         }
         if self.settings.histograms && !self.state.difference && self.slots.ground_truth().is_some() {
             bare(egui::Panel::bottom("values"), ui).show(ui, |ui| self.values(ui));
         }
-        let area = ui.available_rect_before_wrap();
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
-        commands.extend(panels::messages::ui(ui.ctx(), area, &self.messages));
-        commands.extend(self.windows(ui.ctx()));
         commands
     }
 
@@ -224,10 +231,10 @@ impl App {
             commands.extend(self.study_window(ctx));
         }
         if let Some(window) = &mut self.open_window {
-            commands.extend(window.ui(ctx, &self.settings.recent));
+            commands.extend(window.ui(ctx, &self.settings.recent, self.settings.last.as_ref()));
         }
         if let Some(window) = &mut self.save_window {
-            commands.extend(window.ui(ctx, save::shows(&self.state)));
+            commands.extend(window.ui(ctx, self.picture_size));
         }
         commands
     }

@@ -42,6 +42,8 @@ struct Key {
 /// The passes, the shaded materials and the pixels of the panes. The materials' textures are part of the materials.
 pub struct GpuView {
     pub gpu: Gpu,
+    /// The device of the window, for pictures of it.
+    pub state: egui_wgpu::RenderState,
     shading: Shading,
     display: Display,
     blit: Arc<Blit>,
@@ -58,7 +60,16 @@ impl GpuView {
         let shading = Shading::new(&gpu)?;
         let display = Display::new(&gpu, state.target_format)?;
         let blit = Arc::new(Blit::new(&gpu, state.target_format)?);
-        Ok(Self { gpu, shading, display, blit, shaded: HashMap::new(), versions: 0, stills: Vec::new() })
+        Ok(Self {
+            gpu,
+            state: state.clone(),
+            shading,
+            display,
+            blit,
+            shaded: HashMap::new(),
+            versions: 0,
+            stills: Vec::new(),
+        })
     }
 
     /// Shades every `stride`-th texel of the material of `slot`, unless it has been shaded with these parameters; all texels

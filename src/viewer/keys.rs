@@ -38,9 +38,13 @@ pub const HELP: &[(&str, &str)] = &[
     ("Enter", "compute the loss"),
     ("Esc", "close a dialog, or cancel the loss"),
     ("B", "side panel, on / off"),
-    ("Ctrl + O / Ctrl + S", "open materials / save the view as a picture"),
+    ("Ctrl + O / Ctrl + Shift + O", "open materials or a session / reopen the last materials"),
+    ("Ctrl + S / Ctrl + Shift + C", "save view, renderings, strip or session / copy the view as a picture"),
     ("Ctrl + R", "read all files again"),
-    ("Ctrl + Z / Ctrl + Shift + Z", "undo / redo light, view and display (redo also: Ctrl + Y)"),
+    (
+        "Ctrl + Z / Ctrl + Shift + Z",
+        "undo / redo light, view, display and set of materials (redo also: Ctrl + Y)",
+    ),
     ("Ctrl + plus / minus / 0", "size of text and controls"),
     ("Ctrl + C / Ctrl + V", "copy / paste the scene as JSON"),
     ("double-click a number", "reset it to its default"),
@@ -90,6 +94,8 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
     let none = Modifiers::NONE;
     let mut table: Vec<(Modifiers, Key, Command)> = vec![
         (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, DisplayCommand::Redo.into()),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::O, MaterialsCommand::ReopenLast.into()),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::C, WindowCommand::CopyPicture.into()),
         (Modifiers::COMMAND, Key::Z, DisplayCommand::Undo.into()),
         (Modifiers::COMMAND, Key::Y, DisplayCommand::Redo.into()),
         (Modifiers::COMMAND, Key::O, WindowCommand::ShowOpen(true).into()),

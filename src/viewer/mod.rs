@@ -50,11 +50,17 @@ mod draw;
 mod endpoint;
 mod readout;
 mod save;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod save_kind;
+#[cfg(feature = "testing")]
+pub mod save_kind;
 mod scene_loss;
+mod session;
 mod settings;
 mod sight;
 mod slot;
 mod slots;
+mod snapshot;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod source;
 #[cfg(feature = "testing")]

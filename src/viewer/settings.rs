@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::loss_settings::LossSettings;
+use crate::files::session::Session;
 
 /// The key of the settings in the storage.
 pub const KEY: &str = "settings";
@@ -57,6 +58,8 @@ pub struct Settings {
     pub watch: bool,
     /// Recently opened materials, the latest first.
     pub recent: Vec<PathBuf>,
+    /// The session of the last materials from files.
+    pub last: Option<Session>,
 }
 
 impl Default for Settings {
@@ -74,6 +77,7 @@ impl Default for Settings {
             loss: LossSettings::default(),
             watch: false,
             recent: Vec::new(),
+            last: None,
         }
     }
 }

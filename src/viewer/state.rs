@@ -55,6 +55,7 @@ impl Projection {
 
 /// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct ViewState {
     pub scene: Scene,
     pub quantity: Quantity,

@@ -10,6 +10,7 @@ mod key_presses;
 mod loss_panel;
 mod panels;
 mod reading;
+mod saving;
 mod study;
 mod texels;
 mod view;

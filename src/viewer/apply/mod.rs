@@ -3,6 +3,7 @@
 mod display;
 mod inspect;
 mod materials;
+mod saving;
 mod scene;
 mod undo;
 
@@ -12,7 +13,7 @@ use super::app::App;
 use super::browse;
 use super::command::{Command, LossCommand, WindowCommand};
 use super::panels::open::OpenWindow;
-use super::save;
+use super::panels::save::SaveWindow;
 
 impl App {
     /// Carries out one command.
@@ -64,12 +65,9 @@ impl App {
         match command {
             WindowCommand::ShowOpen(on) => self.open_window = on.then(|| OpenWindow::from(self.read)),
             WindowCommand::Browse { folder } => self.browsing = Some(browse::start(ctx, folder)),
-            WindowCommand::ShowSave(on) => self.save_window = on.then(Default::default),
-            WindowCommand::SaveView(path) => {
-                let saving = save::start(ctx, &self.slots, &self.state, path);
-                self.stop.cancels(&saving.progress());
-                self.saving = Some(saving);
-            }
+            WindowCommand::ShowSave(on) => self.save_window = on.then(|| SaveWindow::new(self.picture_size)),
+            WindowCommand::Save { what, path, size } => self.start_saving(ctx, what, path, size),
+            WindowCommand::CopyPicture => self.copy_picture(ctx),
             WindowCommand::SetDark(on) => self.settings.dark = on,
             WindowCommand::SetScale(scale) => ctx.set_zoom_factor(scale),
             WindowCommand::ToggleSidePanel => *self.side_panel(ctx) ^= true,

@@ -42,10 +42,12 @@ impl TopBar<'_> {
         button(
             ui,
             "Save",
-            "Save this view as a picture (Ctrl+S)",
+            "Save view, renderings, strip or session (Ctrl+S)",
             commands,
             WindowCommand::ShowSave(true).into(),
         );
+        let hover = "Copy the view as a picture (Ctrl+Shift+C)";
+        button(ui, "Copy", hover, commands, WindowCommand::CopyPicture.into());
     }
 
     fn choices(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
