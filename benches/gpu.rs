@@ -117,6 +117,8 @@ fn display_params() -> DisplayParams {
         encoding: Encoding::Radiance,
         show_clipping: false,
         epsilon: 0.01,
+        tiled: false,
+        false_colour: false,
         background: [0.0; 3],
     }
 }

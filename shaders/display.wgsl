@@ -15,6 +15,12 @@ struct Display {
     difference: u32,
     // The difference that has the last colour.
     range: f32,
+    // How many texels along an axis of the material one of the pictures stands for.
+    stride: u32,
+    // Of the material, in texels.
+    size: vec2u,
+    tiled: u32,
+    false_colour: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Display;
@@ -54,7 +60,21 @@ fn colour(value: vec3f, from_reference: bool, pixel: vec2u) -> vec3f {
     if params.difference != DIFFERENCE_NONE && !from_reference {
         return difference_colour(params.difference, value.x / params.range);
     }
+    if params.false_colour != 0u && params.encoding == ENCODING_DATA {
+        return heat(value.x);
+    }
     return encode(value, params.encoding, params.exposure, params.show_clipping != 0u, pixel);
+}
+
+// The texel that is shown in the place of `texel`: another one where the material is repeated. The twin of
+// Grid::repeated_texel_at in src/material/grid.rs.
+fn repeated(texel: vec2f) -> vec2f {
+    if params.tiled == 0u {
+        return texel;
+    }
+    let size = vec2f(params.size);
+    let shifted = 2.0 * texel + 0.5 * size;
+    return clamp(shifted - floor(shifted / size) * size, vec2f(0.0), size - 0.001);
 }
 
 @fragment
@@ -63,13 +83,16 @@ fn display(corner: Corner) -> @location(0) vec4f {
     let extent = abs(dpdx(seen.point)) + abs(dpdy(seen.point));
 
     let from_reference = params.mode == MODE_WIPE && corner.ndc.x < params.wipe;
-    let size = select(textureDimensions(shown), textureDimensions(reference), vec2<bool>(from_reference));
-    let place = texel_from_plane(seen.point, size);
-    let inside = all(place >= vec2f(0.0)) && all(place < vec2f(size));
+    let size = textureDimensions(shown);
+    let texel = texel_from_plane(seen.point, params.size);
+    let inside = all(texel >= vec2f(0.0)) && all(texel < vec2f(params.size));
     if !(seen.hit && inside) {
         return vec4f(params.background, 1.0);
     }
-    let covered = texels_from_plane_extent(extent, size);
+    let repeats = select(1.0, 2.0, params.tiled != 0u);
+    let scale = repeats / f32(params.stride);
+    let place = repeated(texel) / f32(params.stride);
+    let covered = texels_from_plane_extent(extent, params.size) * scale;
     let columns = span(place.x, covered.x, size.x);
     let rows = span(place.y, covered.y, size.y);
     let value = average(columns, rows, from_reference);

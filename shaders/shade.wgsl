@@ -12,6 +12,8 @@ struct Shading {
     quantity: u32,
     // The largest number that the target holds.
     largest: f32,
+    // How many texels along an axis one fragment stands for.
+    stride: u32,
 }
 
 @group(0) @binding(0) var<uniform> shading: Shading;
@@ -40,6 +42,7 @@ fn shade_texel(place: vec2u) -> vec3f {
 
 @fragment
 fn shade(corner: Corner) -> @location(0) vec4f {
-    let value = shade_texel(vec2u(corner.position.xy));
+    let middle = vec2u(corner.position.xy) * shading.stride + shading.stride / 2u;
+    let value = shade_texel(min(middle, textureDimensions(normal_roughness) - 1u));
     return vec4f(min(value, vec3f(shading.largest)), 1.0);
 }

@@ -123,6 +123,10 @@ pub enum Error {
     )]
     SceneCount { count: usize, most: usize },
 
+    /// A session file that cannot be used.
+    #[error("the session {} cannot be opened: {problem}; save it again from the window", path.display())]
+    BadSession { path: PathBuf, problem: String },
+
     /// A command line that makes no sense. Only the command line makes this error.
     #[error("{0}")]
     Usage(String),

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use svbrdf::error::Error;
 use svbrdf::files::read::{self, Binding, Read, ReadOptions};
+use svbrdf::files::session::Session;
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;
 use svbrdf::report::distinct_names;
@@ -20,7 +21,8 @@ const MAX_BYTES: usize = 4 << 30;
 
 #[derive(Debug, clap::Args)]
 pub struct MaterialArgs {
-    /// Ground truth: a packed or layered image, a folder, a name prefix; without one, the built-in materials
+    /// Ground truth: a packed or layered image, a folder, a name prefix, or a session file of the window with its
+    /// predictions; without one, the built-in materials
     #[arg(value_name = "GT")]
     pub ground_truth: Option<PathBuf>,
 
@@ -58,6 +60,9 @@ pub fn open<T: Real>(args: &MaterialArgs) -> Result<Opened<T>, Error> {
             predictions: built_in.predictions.into_iter().map(|read| read.material).collect(),
         });
     };
+    if Session::is_named(ground_truth) {
+        return open_session(args, ground_truth);
+    }
     let paths: Vec<&Path> = std::iter::once(ground_truth).chain(&args.predictions).map(|p| &**p).collect();
     let options = [args.reading.of_ground_truth(), args.reading.of_predictions()];
     let one = |(index, path): (usize, &&Path)| -> Result<Read<T>, Error> {
@@ -81,6 +86,39 @@ pub fn open<T: Real>(args: &MaterialArgs) -> Result<Opened<T>, Error> {
         Some(to) => resized(opened, to),
         None => Ok(opened),
     }
+}
+
+/// The materials of a session file, as it reads them.
+fn open_session<T: Real>(args: &MaterialArgs, path: &Path) -> Result<Opened<T>, Error> {
+    if !args.predictions.is_empty() {
+        return Err(Error::Usage("a session names its predictions itself; give it alone".to_owned()));
+    }
+    let mut materials: Vec<Material<T>> = Vec::new();
+    for entry in Session::read(path)?.materials {
+        let read = match (&entry.path, entry.built_in) {
+            (Some(path), _) => {
+                let text = format!("reading {}", path.display());
+                watched(&text, |progress| read::read_as::<T>(path, &entry.read, progress))?
+            }
+            (None, number) => built_in(number.unwrap_or(0))?,
+        };
+        args.reading.both.check(path, &read)?;
+        let material = args.reading.both.noted(read);
+        let size = materials.first().map_or_else(|| material.size(), Material::size);
+        materials.push(if entry.fit { material.resized(size)? } else { material });
+    }
+    let mut materials = materials.into_iter();
+    // A session has at least one.
+    let ground_truth =
+        materials.next().ok_or_else(|| Error::Internal("there is no ground truth".to_owned()))?;
+    Ok(Opened { ground_truth, predictions: materials.collect() })
+}
+
+/// The built-in material of this number, 0 for the ground truth.
+fn built_in<T: Real>(number: usize) -> Result<Read<T>, Error> {
+    let built_in = samples::load()?;
+    let mut all = std::iter::once(built_in.ground_truth).chain(built_in.predictions);
+    all.nth(number).ok_or_else(|| Error::Usage(format!("there is no built-in material {number}")))
 }
 
 /// Every material in one size.

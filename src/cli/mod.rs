@@ -18,6 +18,7 @@ mod report;
 mod scene_args;
 mod scenes;
 mod stop;
+mod strip;
 mod study;
 mod table;
 mod view;
@@ -37,6 +38,7 @@ Examples:
   svbrdf loss gt.png a.png --format json  the same as JSON
   svbrdf blame gt.png prediction.png      prints how much of the loss comes from each map
   svbrdf render gt.png -o gt.exr          renders to linear floats
+  svbrdf strip gt.png a.png -o fig.png    writes a labelled figure of maps and renderings
   svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
   svbrdf info gt.png                      prints what the files hold and what was assumed
   svbrdf convert gt.png gt.exr            writes the material as one layered EXR
@@ -67,6 +69,7 @@ enum Command {
     View(view::ViewArgs),
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
+    Strip(strip::StripArgs),
     Rank(rank::RankArgs),
     Blame(blame::BlameArgs),
     Scenes(scenes::ScenesArgs),
@@ -88,6 +91,7 @@ impl Cli {
             Command::View(args) => view::run(args),
             Command::Loss(args) => loss::run(&args),
             Command::Render(args) => render::run(&args),
+            Command::Strip(args) => strip::run(&args),
             Command::Rank(args) => rank::run(args),
             Command::Blame(args) => blame::run(&args),
             Command::Scenes(args) => scenes::run(&args),

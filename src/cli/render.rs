@@ -1,6 +1,7 @@
 //! `svbrdf render`: renders materials (Algorithm 3) to a file.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use svbrdf::error::Error;
 use svbrdf::image::Image;
@@ -8,15 +9,16 @@ use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::picture::export::Destination;
-use svbrdf::picture::export::{Provenance, Shows};
-use svbrdf::render;
+use svbrdf::picture::difference::Difference;
+use svbrdf::picture::export::{Destination, Provenance};
+use svbrdf::picture::quantity::Quantity;
+use svbrdf::picture::shown::{Pictures, Shown, ShownDifference};
 
 use super::bar::watched;
 use super::materials;
 use super::stop::stoppable;
 
-/// Renders one material, or several side by side, to a file
+/// Renders one material, or several side by side, to a file; or their maps, or differences
 ///
 /// The material spans x in [-1, 1] in the plane z = 0; y points up, z towards the viewer. Without GT and PRED: the built-in
 /// materials.
@@ -44,13 +46,23 @@ pub struct RenderArgs {
     #[arg(long, value_name = "NAME", default_value = "printed")]
     convention: Convention,
 
-    /// Exposure of a PNG in stops; an EXR keeps the radiance
+    /// Exposure of renderings in a PNG, in stops; an EXR keeps the radiance, and differences have none
     #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
     exposure: f32,
 
-    /// Writes |ln(PRED + epsilon) - ln(GT + epsilon)| of each prediction instead of radiance, in a PNG as colours
-    #[arg(long)]
-    difference: bool,
+    /// What is written: rendering, normal, diffuse, specular or roughness
+    #[arg(long, value_name = "QUANTITY", default_value = "rendering")]
+    show: Quantity,
+
+    /// Writes the difference of each prediction from GT, in a PNG as colours: log, signed-log, absolute, signed or relative;
+    /// of normals angle [default: log, of normals angle, of other maps absolute]
+    #[arg(long, value_name = "KIND", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    difference: Option<String>,
+
+    /// The difference with the last colour: a number, or auto for the 99th percentile of the largest [default: 2 for
+    /// logarithms, 45 degrees, else 1]
+    #[arg(long, value_name = "RANGE", requires = "difference")]
+    range: Option<Range>,
 
     /// Renders on the graphics adapter instead of the CPU
     #[arg(long)]
@@ -68,24 +80,69 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
     let destination = Destination::new(&args.output)?;
     let scene = scene(args);
     scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+    let shown = shown(args)?;
     let materials = materials::open::<f32>(&args.materials)?.into_all();
     match materials.as_slice() {
-        [_] if args.difference => {
+        [_] if shown.difference.is_some() => {
             let problem = "--difference compares predictions with a ground truth; give both";
             return Err(Error::Usage(problem.to_owned()));
         }
-        [ground_truth, predictions @ ..] if args.difference => {
+        [ground_truth, predictions @ ..] if shown.difference.is_some() => {
             predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
         }
         _ => {}
     }
     check_heights(&materials)?;
-    let (mut panes, renderer) = panes(args, &materials, &scene)?;
-    if args.difference {
-        panes = render::log_differences(&panes, args.convention.epsilon as f32);
+    let (values, renderer) = values(args, &materials, &scene)?;
+    let Pictures { images, shown } = shown.of_values(values, &args.convention);
+    let provenance = provenance(args, &materials, shown, scene, renderer);
+    stoppable(|progress| destination.write(&images, &provenance, progress))
+}
+
+/// What is written.
+fn shown(args: &RenderArgs) -> Result<Shown, Error> {
+    let Some(kind) = &args.difference else { return Ok(Shown { quantity: args.show, difference: None }) };
+    let difference = difference_of(args.show, kind, args.range)?;
+    Ok(Shown { quantity: args.show, difference: Some(difference) })
+}
+
+/// The difference of this name, or the default one of `quantity`.
+///
+/// # Errors
+/// [`Error::UnknownName`], [`Error::Usage`] where the quantity has no such difference.
+pub fn difference_of(quantity: Quantity, name: &str, range: Option<Range>) -> Result<ShownDifference, Error> {
+    let all = Difference::all(quantity);
+    let kind = if name.is_empty() { all[0] } else { name.parse()? };
+    if !all.contains(&kind) {
+        let known = all.iter().map(|kind| kind.key()).collect::<Vec<_>>().join(", ");
+        let (quantity, found) = (quantity.name(), kind.key());
+        return Err(Error::Usage(format!("expected a difference of {quantity}, {known}; found {found}")));
     }
-    let provenance = provenance(args, &materials, scene, renderer);
-    stoppable(|progress| destination.write(&panes, &provenance, progress))
+    let range = match range {
+        Some(Range::Auto) => None,
+        Some(Range::Last(range)) => Some(range),
+        None => Some(kind.default_range()),
+    };
+    Ok(ShownDifference { kind, range })
+}
+
+/// The difference that has the last colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    Auto,
+    Last(f64),
+}
+
+impl FromStr for Range {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match (text, text.parse()) {
+            ("auto", _) => Ok(Self::Auto),
+            (_, Ok(range)) if range > 0.0 && f64::is_finite(range) => Ok(Self::Last(range)),
+            _ => Err("expected auto or a number above 0".to_owned()),
+        }
+    }
 }
 
 fn scene(args: &RenderArgs) -> Scene {
@@ -93,9 +150,15 @@ fn scene(args: &RenderArgs) -> Scene {
     Scene { kind, view: args.view, light: args.light }
 }
 
-fn provenance(args: &RenderArgs, materials: &[Material<f32>], scene: Scene, renderer: String) -> Provenance {
+fn provenance(
+    args: &RenderArgs,
+    materials: &[Material<f32>],
+    shown: Shown,
+    scene: Scene,
+    renderer: String,
+) -> Provenance {
     Provenance {
-        shows: if args.difference { Shows::LogDifference } else { Shows::Radiance },
+        shown,
         scene,
         convention: args.convention,
         exposure_ev: args.exposure,
@@ -117,17 +180,17 @@ fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
     })
 }
 
-/// The renderings, and the name of the device that rendered them.
-fn panes(
+/// The renderings or maps, and the name of the device that rendered them.
+fn values(
     args: &RenderArgs,
     materials: &[Material<f32>],
     scene: &Scene,
 ) -> Result<(Vec<Image<f32>>, String), Error> {
-    if args.gpu {
+    if args.gpu && args.show == Quantity::Rendering {
         return panes_of_gpu(args, materials, scene);
     }
     let one = |material| {
-        watched("rendering", |progress| render::render_f32(material, scene, &args.convention, progress))
+        watched("rendering", |progress| args.show.image(material, scene, &args.convention, progress))
     };
     let panes = materials.iter().map(one).collect::<Result<_, _>>()?;
     Ok((panes, "CPU, f32".to_owned()))
@@ -161,7 +224,7 @@ pub fn triple(text: &str) -> Result<[f64; 3], String> {
     numbers.ok().and_then(|numbers| numbers.try_into().ok()).ok_or_else(expected)
 }
 
-fn stops(text: &str) -> Result<f32, String> {
+pub fn stops(text: &str) -> Result<f32, String> {
     let finite = text.parse().ok().filter(|stops: &f32| stops.is_finite());
     finite.ok_or_else(|| format!("expected a number of stops like -1.5, found `{text}`"))
 }

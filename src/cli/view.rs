@@ -38,7 +38,9 @@ fn open_window(materials: MaterialArgs) -> Result<(), Error> {
             ));
         }
     };
+    let session = session_of(&materials)?;
     svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
+        session,
         strict: materials.reading.both.strict,
         fit,
         ground_truth_read: materials.reading.of_ground_truth(),
@@ -46,6 +48,18 @@ fn open_window(materials: MaterialArgs) -> Result<(), Error> {
         ground_truth: materials.ground_truth,
         predictions: materials.predictions,
     })
+}
+
+/// The session file that is given in place of a ground truth.
+#[cfg(feature = "viewer")]
+fn session_of(materials: &MaterialArgs) -> Result<Option<svbrdf::files::session::Session>, Error> {
+    use svbrdf::files::session::Session;
+
+    let session = materials.ground_truth.as_ref().filter(|path| Session::is_named(path));
+    if session.is_some() && !materials.predictions.is_empty() {
+        return Err(Error::Usage("a session names its predictions itself; give it alone".to_owned()));
+    }
+    session.map(|path| Session::read(path)).transpose()
 }
 
 #[cfg(not(feature = "viewer"))]

@@ -22,4 +22,5 @@ pub(crate) mod atomic;
 #[cfg(feature = "testing")]
 pub mod atomic;
 pub mod read;
+pub mod session;
 pub mod write;

@@ -22,6 +22,9 @@ pub struct Display {
 /// Two pictures and how they are shown; as many as there are panes.
 #[derive(Debug)]
 pub struct Pane {
+    /// Of the materials, and how many of their texels along an axis make one of the pictures.
+    size: [usize; 2],
+    stride: usize,
     uniforms: Buffer,
     group: BindGroup,
 }
@@ -29,7 +32,11 @@ pub struct Pane {
 impl Pane {
     /// Sets how the next frame shows the pane.
     pub fn write(&self, queue: &Queue, params: &DisplayParams) {
-        queue.write_buffer(&self.uniforms, 0, bytemuck::bytes_of(&DisplayUniforms::from(params)));
+        queue.write_buffer(
+            &self.uniforms,
+            0,
+            bytemuck::bytes_of(&DisplayUniforms::new(params, self.size, self.stride)),
+        );
     }
 }
 
@@ -55,7 +62,7 @@ impl Display {
         })
     }
 
-    /// A pane of two pictures; the same one twice where there is no reference. Shows nothing before
+    /// A pane of two pictures of one size and stride; the same one twice where there is no reference. Shows nothing before
     /// [`Pane::write`]. A failure waits in [`Gpu::take_fault`].
     pub fn pane(&self, gpu: &Gpu, shown: &Shaded, reference: &Shaded) -> Pane {
         let uniforms = uniform_buffer(&gpu.device, &[0; size_of::<DisplayUniforms>()]);
@@ -65,7 +72,7 @@ impl Display {
             BindingResource::TextureView(&reference.view),
         ];
         let group = bind(&gpu.device, &self.layout, &resources);
-        Pane { uniforms, group }
+        Pane { size: shown.size(), stride: shown.stride(), uniforms, group }
     }
 
     /// Draws `pane` over the viewport of `pass`, which is the pane's rectangle.

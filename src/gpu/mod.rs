@@ -27,6 +27,7 @@ pub(crate) mod shaders;
 #[cfg(feature = "testing")]
 pub mod shaders;
 mod shading;
+mod still;
 mod textures;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod uniforms;
@@ -37,12 +38,16 @@ pub use adapter::AdapterReport;
 pub use context::Gpu;
 pub use loss::Losses;
 
+#[cfg(feature = "viewer")]
+pub(crate) use read_back::read_rgba;
+
 #[cfg(not(feature = "testing"))]
 #[allow(unused_imports, reason = "the window uses them all")]
 pub(crate) use {
     display::{Display, Pane},
     params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
+    still::{Blit, Still},
     textures::MaterialTextures,
 };
 #[cfg(feature = "testing")]
@@ -50,5 +55,6 @@ pub use {
     display::{Display, Pane},
     params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
+    still::{Blit, Still},
     textures::MaterialTextures,
 };

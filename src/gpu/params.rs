@@ -28,6 +28,11 @@ pub struct DisplayParams {
     pub show_clipping: bool,
     /// Epsilon of the difference's logarithms: that of the convention.
     pub epsilon: f32,
+    /// Whether the material is repeated 2 x 2 times, shifted by half of itself, in the place of one.
+    pub tiled: bool,
+    /// Whether [`Encoding::Data`] shows its first channel, in [0, 1], in the colours of
+    /// [`heat`](crate::picture::colour_map::heat).
+    pub false_colour: bool,
     /// What is shown beside the material, already encoded for the screen.
     pub background: [f32; 3],
 }

@@ -48,6 +48,35 @@ impl Shaded {
     }
 }
 
+/// The bytes of the pixels of a texture of four bytes a pixel, in the texture's own order of channels.
+///
+/// # Errors
+/// [`Error::Gpu`] where the adapter failed.
+#[cfg(feature = "viewer")]
+pub fn read_rgba(
+    gpu: &Gpu,
+    texture: &wgpu::Texture,
+    [width, height]: [u32; 2],
+) -> Result<Vec<[u8; 4]>, Error> {
+    let stride = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = scoped(&gpu.device, "reading a picture back", || {
+        let buffer = read_buffer(gpu, (stride * height) as usize);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(stride), rows_per_image: None };
+        let size = Extent3d { width, height, depth_or_array_layers: 1 };
+        let target = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
+        encoder.copy_texture_to_buffer(texture.as_image_copy(), target, size);
+        gpu.queue.submit([encoder.finish()]);
+        buffer
+    })?;
+    let bytes = read(gpu, &buffer)?;
+    let rows = bytes.chunks_exact(stride as usize);
+    Ok(rows
+        .flat_map(|row| bytemuck::cast_slice::<u8, [u8; 4]>(&row[..4 * width as usize]).to_vec())
+        .collect())
+}
+
 fn copy_rows(
     gpu: &Gpu,
     source: &Shaded,

@@ -51,6 +51,9 @@ pub const DISPLAY: Shader = Shader {
     ],
 };
 
+/// Kept pixels, copied.
+pub const BLIT: Shader = Shader { name: "blit", pieces: &[piece!("fullscreen.wgsl"), piece!("blit.wgsl")] };
+
 /// The BRDF at single points.
 #[cfg(feature = "testing")]
 pub const PROBE: Shader = Shader { name: "probe", pieces: &[piece!("brdf.wgsl"), piece!("probe.wgsl")] };
@@ -69,4 +72,4 @@ pub const LOSS: Shader = Shader {
 
 /// Every shader of this crate.
 #[cfg(feature = "testing")]
-pub const ALL: [Shader; 4] = [SHADE, DISPLAY, PROBE, LOSS];
+pub const ALL: [Shader; 5] = [SHADE, DISPLAY, BLIT, PROBE, LOSS];

@@ -30,12 +30,18 @@ pub struct Shaded {
     pub(super) texture: Texture,
     pub(super) view: TextureView,
     size: [usize; 2],
+    stride: usize,
 }
 
 impl Shaded {
-    /// (width, height) in texels.
+    /// (width, height) of the material in texels.
     pub fn size(&self) -> [usize; 2] {
         self.size
+    }
+
+    /// How many texels along an axis one stands for; 1 where all are shaded.
+    pub fn stride(&self) -> usize {
+        self.stride
     }
 }
 
@@ -59,7 +65,16 @@ impl Shading {
     /// # Errors
     /// [`Error::Gpu`] where it is too large for the adapter or for its memory.
     pub fn target(&self, gpu: &Gpu, size: [usize; 2]) -> Result<Shaded, Error> {
-        let extent = extent(gpu, size)?;
+        self.reduced_target(gpu, size, 1)
+    }
+
+    /// A target for every `stride`-th texel along both axes of materials of `size` = (width, height): quick to shade, for
+    /// screens that show several texels in a pixel.
+    ///
+    /// # Errors
+    /// As [`Shading::target`].
+    pub fn reduced_target(&self, gpu: &Gpu, size: [usize; 2], stride: usize) -> Result<Shaded, Error> {
+        let extent = extent(gpu, size.map(|side| side.div_ceil(stride)))?;
         scoped(&gpu.device, "creating a picture to shade into", || {
             let texture = gpu.device.create_texture(&TextureDescriptor {
                 label: Some("shaded"),
@@ -74,7 +89,7 @@ impl Shading {
                 view_formats: &[],
             });
             let view = texture.create_view(&Default::default());
-            Shaded { texture, view, size }
+            Shaded { texture, view, size, stride }
         })
     }
 
@@ -86,7 +101,7 @@ impl Shading {
             TextureFormat::Rgba16Float => LARGEST_F16,
             _ => f32::MAX,
         };
-        let uniforms = ShadingUniforms::new(params, largest);
+        let uniforms = ShadingUniforms::new(params, largest, target.stride);
         let buffer = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
         let [normal_roughness, diffuse, specular] = &textures.views;
         let maps = [normal_roughness, diffuse, specular].map(wgpu::BindingResource::TextureView);

@@ -70,12 +70,14 @@ pub struct ShadingUniforms {
     pub model: ModelUniforms,
     pub quantity: u32,
     pub largest: f32,
-    pub pad: [u32; 2],
+    pub stride: u32,
+    pub pad: u32,
 }
 
 impl ShadingUniforms {
     /// For a target whose largest number is `largest`.
-    pub(super) fn new(params: &ShadeParams, largest: f32) -> Self {
+    /// It shades every `stride`-th texel along both axes.
+    pub(super) fn new(params: &ShadeParams, largest: f32, stride: usize) -> Self {
         let quantity = match params.quantity {
             Quantity::Rendering => 0,
             Quantity::Normal => 1,
@@ -84,7 +86,14 @@ impl ShadingUniforms {
             Quantity::Roughness => 4,
         };
         let model = ModelUniforms::from(&Model::from(&params.convention));
-        Self { rays: SceneUniforms::from(&params.scene), model, quantity, largest, pad: [0; 2] }
+        Self {
+            rays: SceneUniforms::from(&params.scene),
+            model,
+            quantity,
+            largest,
+            stride: stride as u32,
+            pad: 0,
+        }
     }
 }
 
@@ -178,11 +187,15 @@ pub struct DisplayUniforms {
     pub show_clipping: u32,
     pub difference: u32,
     pub range: f32,
-    pub pad: u32,
+    pub stride: u32,
+    pub size: [u32; 2],
+    pub tiled: u32,
+    pub false_colour: u32,
 }
 
-impl From<&DisplayParams> for DisplayUniforms {
-    fn from(p: &DisplayParams) -> Self {
+impl DisplayUniforms {
+    /// For pictures of every `stride`-th texel of materials of `size` = (width, height).
+    pub(super) fn new(p: &DisplayParams, size: [usize; 2], stride: usize) -> Self {
         let (mode, wipe) = match p.mode {
             DisplayMode::Value => (0, 0.0),
             DisplayMode::Wipe(x) => (1, x),
@@ -212,7 +225,10 @@ impl From<&DisplayParams> for DisplayUniforms {
             show_clipping: p.show_clipping.into(),
             difference,
             range: p.difference.map_or(1.0, |difference| difference.range),
-            pad: 0,
+            stride: stride as u32,
+            size: size.map(|side| side as u32),
+            tiled: p.tiled.into(),
+            false_colour: p.false_colour.into(),
         }
     }
 }

@@ -28,6 +28,17 @@ impl Grid {
         Some([index(x + half_width, self.width)?, index(half_height - y, self.height)?])
     }
 
+    /// As [`Grid::texel_at`], where the material is repeated 2 x 2 times in its own place, shifted by half of itself.
+    pub fn repeated_texel_at(&self, [x, y]: [f32; 2]) -> Option<[usize; 2]> {
+        self.texel_at([x, y])?;
+        let [half_width, half_height] = self.half_extent();
+        let index = |distance: f32, count: usize| {
+            let texel = distance * self.half_spacings() / 2.0;
+            ((2.0 * texel + 0.5 * count as f32).rem_euclid(count as f32) as usize).min(count - 1)
+        };
+        Some([index(x + half_width, self.width), index(half_height - y, self.height)])
+    }
+
     /// How many halves of the distance between two texels make a unit of length.
     fn half_spacings(&self) -> f32 {
         self.width.saturating_sub(1).max(1) as f32

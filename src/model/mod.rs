@@ -18,3 +18,4 @@ pub mod convention;
 pub mod sampler;
 pub mod scene;
 pub mod scene_file;
+pub mod terms;

@@ -11,14 +11,12 @@ const COEFFICIENTS: [[f32; 3]; 7] = [
     [25.131_126, -12.242_669, -23.070_325],
 ];
 
-/// The difference of logarithms that takes the last colour at exposure 0.
-pub const FULL_DIFFERENCE: f32 = 2.0;
-
-/// The colour of a texel whose channels differ by these logarithms, in 8 bits: of their mean, brightened by
-/// `exposure_ev` stops.
-pub fn difference_to_display(logarithms: [f32; 3], exposure_ev: f32) -> [u8; 3] {
-    let mean = logarithms.iter().sum::<f32>() / 3.0;
-    heat(mean * exposure_ev.exp2() / FULL_DIFFERENCE).map(|c| (c * 255.0 + 0.5).floor() as u8)
+/// The colour of a difference, in 8 bits: the last one at `range`, [`diverging`] where it is signed and [`heat`] where not.
+pub fn difference_to_display(difference: f32, range: f32, signed: bool) -> [u8; 3] {
+    let amount = difference / range;
+    let colour = if signed { diverging(amount) } else { heat(amount) };
+    // A float that is cast saturates, and NaN becomes 0.
+    colour.map(|c| (c * 255.0 + 0.5).floor() as u8)
 }
 
 /// The colour, encoded for the screen, of an amount from 0 (black) to 1 (light yellow); what lies beyond is clamped.
@@ -30,7 +28,6 @@ pub fn heat(amount: f32) -> [f32; 3] {
 
 /// The colour, encoded for the screen, of a signed amount from -1 (light cyan) over 0 (black) to 1 (light yellow); what
 /// lies beyond is clamped.
-#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
 pub fn diverging(amount: f32) -> [f32; 3] {
     let t = amount.abs().min(1.0);
     let [first, second, third] = [2.2 * t, 1.6 * t - 0.5, 3.0 * t - 2.2].map(|c: f32| c.clamp(0.0, 1.0));
@@ -65,9 +62,11 @@ mod tests {
     }
 
     #[test]
-    fn a_stop_halves_the_difference_that_has_a_colour() {
-        assert_eq!(difference_to_display([0.2, 0.4, 0.6], 1.0), difference_to_display([0.8; 3], 0.0));
-        assert_ne!(difference_to_display([0.4; 3], 0.0), difference_to_display([0.8; 3], 0.0));
-        assert_eq!(difference_to_display([9.0; 3], 0.0), difference_to_display([FULL_DIFFERENCE; 3], 0.0));
+    fn the_range_has_the_last_colour() {
+        assert_eq!(difference_to_display(0.4, 0.8, false), difference_to_display(1.0, 2.0, false));
+        assert_ne!(difference_to_display(0.4, 0.8, false), difference_to_display(0.4, 0.9, false));
+        assert_eq!(difference_to_display(9.0, 2.0, false), difference_to_display(2.0, 2.0, false));
+        let [r, g, b] = difference_to_display(0.3, 1.0, true);
+        assert_eq!(difference_to_display(-0.3, 1.0, true), [b, g, r]);
     }
 }

@@ -2,11 +2,14 @@
 //!
 //! `shaders/difference.wgsl` is the twin of [`Difference::of_texel`].
 
+use std::str::FromStr;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::quantity::Quantity;
+use crate::error::Error;
 use crate::image::Image;
 
 /// How a prediction p differs from the ground truth g at a texel: the mean over RGB of the expression given, with the
@@ -51,6 +54,18 @@ impl Difference {
         }
     }
 
+    /// The name on the command line and in metadata.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Log => "log",
+            Self::SignedLog => "signed-log",
+            Self::Absolute => "absolute",
+            Self::Signed => "signed",
+            Self::Relative => "relative",
+            Self::Angle => "angle",
+        }
+    }
+
     /// The formula or unit for users.
     pub fn unit(self) -> &'static str {
         match self {
@@ -79,26 +94,58 @@ impl Difference {
 
     /// The difference at one texel.
     pub fn of_texel(self, ground_truth: [f32; 3], prediction: [f32; 3], epsilon: f64) -> f64 {
+        match self {
+            Self::Angle => angle(ground_truth, prediction),
+            _ => self.of_channels(ground_truth, prediction, epsilon).into_iter().sum::<f64>() / 3.0,
+        }
+    }
+
+    /// The difference of each channel at one texel; of an angle, the same three times.
+    pub fn of_channels(self, ground_truth: [f32; 3], prediction: [f32; 3], epsilon: f64) -> [f64; 3] {
         let [g, p] = [ground_truth, prediction].map(|rgb| rgb.map(f64::from));
-        let mean = |of: &dyn Fn(f64, f64) -> f64| (0..3).map(|c| of(g[c], p[c])).sum::<f64>() / 3.0;
+        let each = |of: &dyn Fn(f64, f64) -> f64| [0, 1, 2].map(|c| of(g[c], p[c]));
         let log = |g: f64, p: f64| (p + epsilon).ln() - (g + epsilon).ln();
         match self {
-            Self::Log => mean(&|g, p| log(g, p).abs()),
-            Self::SignedLog => mean(&log),
-            Self::Absolute => mean(&|g, p| (p - g).abs()),
-            Self::Signed => mean(&|g, p| p - g),
-            Self::Relative => mean(&|g, p| (p - g).abs() / (g + epsilon)),
-            Self::Angle => {
-                let [g, p] = [DVec3::from(g), DVec3::from(p)];
-                g.cross(p).length().atan2(g.dot(p)).to_degrees()
-            }
+            Self::Log => each(&|g, p| log(g, p).abs()),
+            Self::SignedLog => each(&log),
+            Self::Absolute => each(&|g, p| (p - g).abs()),
+            Self::Signed => each(&|g, p| p - g),
+            Self::Relative => each(&|g, p| (p - g).abs() / (g + epsilon)),
+            Self::Angle => [angle(ground_truth, prediction); 3],
         }
+    }
+
+    /// The difference of each channel of every texel of two pictures of one size.
+    pub fn picture(self, ground_truth: &Image<f32>, prediction: &Image<f32>, epsilon: f64) -> Image<f32> {
+        let texels = ground_truth.pixels.par_iter().zip(&prediction.pixels);
+        let pixels = texels.map(|(g, p)| self.of_channels(*g, *p, epsilon).map(|d| d as f32)).collect();
+        Image { width: ground_truth.width, height: ground_truth.height, pixels }
     }
 
     /// The difference of every texel of two pictures of one size, as [`Quantity::image`] gives them.
     pub fn of_images(self, ground_truth: &Image<f32>, prediction: &Image<f32>, epsilon: f64) -> Vec<f32> {
         let texels = ground_truth.pixels.par_iter().zip(&prediction.pixels);
         texels.map(|(g, p)| self.of_texel(*g, *p, epsilon) as f32).collect()
+    }
+}
+
+/// The angle between two unit vectors, in degrees.
+fn angle(a: [f32; 3], b: [f32; 3]) -> f64 {
+    let [a, b] = [a, b].map(|v| DVec3::from(v.map(f64::from)));
+    a.cross(b).length().atan2(a.dot(b)).to_degrees()
+}
+
+impl FromStr for Difference {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let all = [Quantity::Rendering, Quantity::Normal].into_iter().flat_map(Self::all);
+        let mut named = all.clone().filter(|difference| difference.key() == text);
+        named.next().copied().ok_or_else(|| Error::UnknownName {
+            what: "difference",
+            found: text.to_owned(),
+            known: all.map(|difference| difference.key()).collect::<Vec<_>>().join(", "),
+        })
     }
 }
 

@@ -9,22 +9,13 @@ pub mod camera;
 pub(crate) mod colour_map;
 #[cfg(feature = "testing")]
 pub mod colour_map;
-#[cfg(all(feature = "gpu", not(feature = "testing")))]
-#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
-pub(crate) mod difference;
-#[cfg(feature = "testing")]
 pub mod difference;
 pub mod export;
-#[cfg(all(feature = "gpu", not(feature = "testing")))]
-#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
-pub(crate) mod quantity;
-#[cfg(feature = "testing")]
 pub mod quantity;
-#[cfg(all(feature = "gpu", not(feature = "testing")))]
-#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "of the window"))]
-pub(crate) mod statistics;
-#[cfg(feature = "testing")]
+pub mod shown;
 pub mod statistics;
+pub mod strip;
+mod text;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod tone;
 #[cfg(feature = "testing")]

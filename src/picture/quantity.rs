@@ -1,10 +1,13 @@
 //! The quantities of a material: its rendering and its maps.
 
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::image::Image;
 use crate::material::Material;
+use crate::model::brdf::Model;
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
@@ -42,6 +45,31 @@ impl Quantity {
         }
     }
 
+    /// The quantity of the texel in column `column` of row `row`; of normals (x, y, z), of roughness the same three times.
+    pub fn at(
+        self,
+        material: &Material<f32>,
+        scene: &Scene,
+        convention: &Convention,
+        [column, row]: [usize; 2],
+    ) -> [f32; 3] {
+        let texel = || material.texel(row * material.width() + column);
+        match self {
+            Self::Rendering => {
+                render::render_texel(material, &Model::from(convention), &scene.rays(), column, row)
+            }
+            Self::Normal => texel().normal.to_array(),
+            Self::Diffuse => texel().diffuse,
+            Self::Specular => texel().specular,
+            Self::Roughness => [texel().roughness; 3],
+        }
+    }
+
+    /// How many numbers a texel has that differ from each other: 1 for roughness, otherwise 3.
+    pub fn channels(self) -> usize {
+        if self == Self::Roughness { 1 } else { 3 }
+    }
+
     /// The quantity of every texel of `material` as linear RGB; of normals (x, y, z), of roughness the same three times.
     ///
     /// # Errors
@@ -63,5 +91,18 @@ impl Quantity {
         };
         let pixels = (0..x.len()).map(|i| [x[i], y[i], z[i]]).collect();
         Ok(Image { width: material.width(), height: material.height(), pixels })
+    }
+}
+
+impl FromStr for Quantity {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|quantity| quantity.name() == text);
+        found.ok_or_else(|| Error::UnknownName {
+            what: "quantity",
+            found: text.to_owned(),
+            known: Self::ALL.map(Self::name).join(", "),
+        })
     }
 }

@@ -5,11 +5,13 @@ use std::time::Instant;
 
 use eframe::egui;
 
+use super::animation::Animation;
 use super::browse::Browsed;
-use super::command::{Command, LossCommand, MaterialsCommand, WindowCommand};
+use super::command::{Command, InspectCommand, LossCommand, MaterialsCommand, WindowCommand};
 use super::difference_run::DifferenceRun;
 use super::gpu_view::GpuView;
 use super::history::History;
+use super::inspect::{Inspect, RegionRun};
 use super::loaded::Rules;
 use super::loss_run::Asked;
 use super::loss_run::LossRun;
@@ -18,17 +20,22 @@ use super::message_list::MessageList;
 use super::options::ViewerOptions;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
+use super::scene_loss::SceneLoss;
 use super::settings::{self, Settings};
 use super::slots::{Slots, Target};
 use super::source::Source;
 use super::state::ViewState;
 use super::stop::Stop;
 use super::study::StudyRun;
+use super::values_run::ValuesRun;
 use super::viewport::Viewport;
 use super::watch::Watch;
 use super::worker::Task;
-use super::{keys, theme};
+use super::{keys, sight, theme};
 use crate::files::read::ReadOptions;
+
+/// Width of a window, in points, below which the side panel is hidden until it is asked for.
+const NARROW: f32 = 900.0;
 
 /// The viewer. Only [`Command`]s change it.
 #[derive(Debug)]
@@ -40,9 +47,18 @@ pub struct App {
     pub(super) slots: Slots,
     pub(super) history: History,
     pub(super) loss: LossRun,
+    /// The loss over the few scenes of the papers, beside a more accurate one.
+    pub(super) few: LossRun,
+    pub(super) scene_loss: SceneLoss,
+    pub(super) values: ValuesRun,
+    pub(super) animation: Animation,
+    /// Whether something was dragged since Space was pressed: then Space pans and does not pause.
+    pub(super) space_dragged: bool,
     pub(super) study: StudyRun,
     pub(super) difference: DifferenceRun,
     pub(super) study_window: bool,
+    pub(super) inspect: Inspect,
+    pub(super) region: RegionRun,
     pub(super) gpu: Option<GpuView>,
     pub(super) viewport: Viewport,
     pub(super) watch: Watch,
@@ -52,10 +68,14 @@ pub struct App {
     pub(super) save_window: Option<SaveWindow>,
     pub(super) help: bool,
     pub(super) swapped: bool,
+    /// Whether the side panel is shown where the window is narrow.
+    narrow_side_panel: bool,
     /// How the last materials were read: what the open dialog starts with.
     pub(super) read: ReadOptions,
     pub(super) messages: MessageList,
     pub(super) stop: Stop,
+    /// Size of the panes and the legend, in pixels.
+    pub(super) picture_size: [u32; 2],
     /// The time of the last frame, in seconds.
     now: f64,
     pub(super) frame_ms: f32,
@@ -67,6 +87,7 @@ impl App {
         theme::install(&cc.egui_ctx);
         let settings: Settings =
             cc.storage.and_then(|s| eframe::get_value(s, settings::KEY)).unwrap_or_default();
+        cc.egui_ctx.set_zoom_factor(settings.ui_scale);
         let mut messages = MessageList::default();
         let gpu = match cc.wgpu_render_state.as_ref().map(GpuView::new) {
             Some(Ok(gpu)) => Some(gpu),
@@ -83,9 +104,16 @@ impl App {
             slots: Slots::default(),
             history: History::default(),
             loss: LossRun::default(),
+            few: LossRun::default(),
+            scene_loss: SceneLoss::default(),
+            values: ValuesRun::default(),
+            animation: Animation::default(),
+            space_dragged: false,
             study: StudyRun::default(),
             difference: DifferenceRun::default(),
             study_window: false,
+            inspect: Inspect::default(),
+            region: RegionRun::default(),
             gpu,
             viewport: Viewport::default(),
             watch: Watch::default(),
@@ -95,9 +123,11 @@ impl App {
             save_window: None,
             help: false,
             swapped: false,
+            narrow_side_panel: false,
             read: ReadOptions::AUTO,
             messages,
             stop: Stop::default(),
+            picture_size: [1, 1],
             now: 0.0,
             frame_ms: 0.0,
         };
@@ -112,15 +142,26 @@ impl App {
     }
 
     fn open_first(&mut self, ctx: &egui::Context, options: ViewerOptions) {
-        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
         self.slots.rules = Rules { strict: options.strict, fit: options.fit };
+        if let Some(session) = &options.session {
+            return self.open_session(ctx, session);
+        }
         let Some(ground_truth) = options.ground_truth else {
-            return self.slots.open_built_in(ctx, gpu);
+            return self.slots.open_built_in(ctx, self.gpu.as_ref().map(|g| &g.gpu));
         };
         let predictions = options.predictions.into_iter().map(|p| Source::file(p, options.prediction_read));
         let ground_truth = Source::file(ground_truth, options.ground_truth_read);
         let sources = std::iter::once(ground_truth).chain(predictions).collect();
-        self.slots.open(ctx, gpu, sources, Target::Everything);
+        self.slots.open(ctx, self.gpu.as_ref().map(|g| &g.gpu), sources, Target::Everything);
+    }
+
+    /// Whether the side panel is shown. Narrow windows have a choice of their own, which starts with no panel.
+    pub(super) fn side_panel(&mut self, ctx: &egui::Context) -> &mut bool {
+        if ctx.content_rect().width() < NARROW {
+            &mut self.narrow_side_panel
+        } else {
+            &mut self.settings.side_panel
+        }
     }
 
     /// What is asked of the loss: by the settings, in the convention that is rendered.
@@ -156,8 +197,7 @@ impl App {
         let auto = self.settings.auto_loss && !self.slots.expects_more();
         self.loss.follow(ctx, &self.slots, &self.asked(), auto);
         self.loss.poll(ctx);
-        let error = self.difference.follow(ctx, &self.slots, &self.state);
-        self.report(error.map(Message::Failed));
+        self.follow_shown(ctx);
     }
 
     fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
@@ -166,6 +206,8 @@ impl App {
             (_, Some(_), _) => WindowCommand::ShowOpen(false).into(),
             (_, _, Some(_)) => WindowCommand::ShowSave(false).into(),
             _ if self.study_window => LossCommand::ShowStudy(false).into(),
+            _ if self.inspect.armed => InspectCommand::Arm(false).into(),
+            _ if self.inspect.region.is_some() => InspectCommand::SetRegion(None).into(),
             _ => LossCommand::Cancel.into(),
         };
         let now = keys::Context {
@@ -174,6 +216,14 @@ impl App {
             difference: self.state.difference,
         };
         keys::commands(ctx, now)
+    }
+
+    /// Pans back a material that would be lost from sight.
+    fn keep_in_sight(&mut self) {
+        if let Some(slot) = self.slots.ground_truth() {
+            let grid = slot.loaded.material.grid();
+            self.state.pan = sight::kept_pan(&self.state, grid, self.viewport.aspect());
+        }
     }
 
     /// Stores changed settings at once: a program that is killed stores nothing at its end.
@@ -203,12 +253,20 @@ impl eframe::App for App {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.settings.dark);
+        // Ctrl with plus, minus or 0 changes it, too.
+        self.settings.ui_scale = ctx.zoom_factor();
         self.poll(&ctx);
         let mut commands = self.keys(&ctx);
+        commands.extend(self.pause_key(&ctx));
+        self.animation.follow(&ctx, &mut self.state.scene);
         commands.extend(self.dropped(&ctx));
         commands.extend(self.draw(ui));
+        let changed = !commands.is_empty();
         for command in commands {
             self.apply(&ctx, command);
+        }
+        if changed {
+            self.keep_in_sight();
             ctx.request_repaint();
         }
         self.remember_moment(&ctx);
@@ -216,7 +274,12 @@ impl eframe::App for App {
         self.frame_ms = start.elapsed().as_secs_f32() * 1e3;
     }
 
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.remember_session();
         eframe::set_value(storage, settings::KEY, &self.settings);
     }
 

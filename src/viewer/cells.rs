@@ -31,6 +31,14 @@ pub fn cells(area: Rect, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
         .collect()
 }
 
+/// The empty place behind the last of `cells`, in a grid whose last row is not full.
+pub fn free_cell(area: Rect, cells: &[Rect]) -> Option<Rect> {
+    let [first, second, .., last] = cells else { return None };
+    let step = second.left() - first.left();
+    let free = last.translate(vec2(step, 0.0));
+    (step > 0.0 && area.expand(0.5).contains_rect(free)).then_some(free)
+}
+
 fn cell_size(area: Rect, columns: usize, rows: usize) -> Vec2 {
     let gaps = vec2(columns as f32 - 1.0, rows as f32 - 1.0) * GAP;
     ((area.size() - gaps) / vec2(columns as f32, rows as f32)).max(Vec2::splat(TITLE + 8.0))
@@ -70,6 +78,21 @@ mod tests {
                 assert!(cells[..i].iter().all(|other| !other.shrink(0.1).intersects(cell.shrink(0.1))));
             }
         }
+    }
+
+    #[test]
+    fn a_grid_of_three_has_a_free_cell_and_a_row_has_none() {
+        let square = area(900.0, 900.0);
+        let three = cells(square, 3, SQUARE, 1.0);
+        let free = free_cell(square, &three).unwrap();
+        assert!(
+            three.iter().all(|cell| !cell.shrink(0.1).intersects(free.shrink(0.1))),
+            "{three:?}, {free:?}"
+        );
+        assert_eq!((free.left(), free.top()), (three[1].left(), three[2].top()));
+        assert_eq!(free_cell(square, &cells(square, 4, SQUARE, 1.0)), None);
+        let wide = area(1200.0, 400.0);
+        assert_eq!(free_cell(wide, &cells(wide, 3, SQUARE, 1.0)), None);
     }
 
     #[test]

@@ -4,12 +4,17 @@
 
 use std::path::PathBuf;
 
+use super::animation::{Animation, Preset};
+use super::endpoint::Endpoint;
+use super::inspect::Region;
 use super::loss_settings::LossSettings;
+use super::save_kind::SaveKind;
+use super::settings::Tab;
 use super::source::Source;
-use super::state::{Endpoint, Layout};
+use super::state::Layout;
 use crate::files::read::ReadOptions;
 use crate::loss::Sampling;
-use crate::model::scene::Scene;
+use crate::model::scene::{Kind, Scene};
 use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 
@@ -21,6 +26,7 @@ pub enum Command {
     Display(DisplayCommand),
     Loss(LossCommand),
     Window(WindowCommand),
+    Inspect(InspectCommand),
 }
 
 /// Files and materials.
@@ -36,6 +42,8 @@ pub enum MaterialsCommand {
     /// Opens a prediction that was refused or closed.
     OpenAgain(Box<Source>),
     OpenBuiltIn,
+    /// Opens the session of the last materials from files.
+    ReopenLast,
     /// Reads all files again.
     Reload,
     /// Reads the material in slot `slot` again under other assumptions.
@@ -61,6 +69,8 @@ pub enum MaterialsCommand {
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneCommand {
     Set(Scene),
+    /// Makes the scene near-field or distant; light and view keep their directions and distances.
+    SetKind(Kind),
     /// Moves an endpoint so that its projection onto the plane is at (x, y).
     MoveOverPlane(Endpoint, [f64; 2]),
     /// Moves the light so that its mirror highlight is at (x, y) of the plane.
@@ -75,6 +85,14 @@ pub enum SceneCommand {
         upwards: f64,
     },
     ToggleHighlightFollows,
+    /// Shows or hides the handle of the view.
+    ToggleViewHandle,
+    /// Puts the light where the preset has it.
+    Preset(Preset),
+    /// Starts or changes what moves by itself.
+    Animate(Animation),
+    /// Pauses what moves, or goes on.
+    TogglePause,
     SetConvention(&'static str),
     /// Puts the scene on the clipboard as a scene file.
     Copy,
@@ -101,8 +119,14 @@ pub enum DisplayCommand {
     /// Sets the exposure at which the brightest 1% of the ground truth just clips.
     AutoExposure,
     ToggleClipping,
+    /// Repeats the material 2 x 2 times, or not.
+    ToggleTiled,
+    /// Shows roughness in false colours, or not.
+    ToggleFalseColour,
     SetWipe(f32),
     ChoosePrediction(usize),
+    /// Chooses the prediction this many places on, around the end.
+    StepPrediction(isize),
     /// Ground truth and chosen prediction change places.
     Swap,
     /// Magnifies by a factor about a point of the pane (x right, y up in [-1, 1]).
@@ -126,6 +150,8 @@ pub enum LossCommand {
     /// Whether the loss is computed again after every change.
     SetAuto(bool),
     SetSettings(LossSettings),
+    /// Whether the prediction with the least loss comes first in the panel.
+    SortByLoss(bool),
     /// Puts the losses on the clipboard as text.
     Copy,
     ShowStudy(bool),
@@ -144,14 +170,46 @@ pub enum WindowCommand {
         folder: bool,
     },
     ShowSave(bool),
-    /// Writes the view to this file, as `svbrdf render` does.
-    SaveView(PathBuf),
+    /// Writes to this file; `size` in pixels is that of a picture of the view.
+    Save {
+        what: SaveKind,
+        path: PathBuf,
+        size: [u32; 2],
+    },
+    /// Puts the view on the clipboard as a picture.
+    CopyPicture,
     SetDark(bool),
+    /// Sets the size of text and controls: 1 is that of the system.
+    SetScale(f32),
     ToggleSidePanel,
+    /// Shows or hides the histograms of the values.
+    ToggleHistograms,
+    ChooseTab(Tab),
     ShowHelp(bool),
     /// Dismisses the message of this number.
     DismissMessage(usize),
     DismissMessages,
+}
+
+/// Texels that are looked at closely.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum InspectCommand {
+    /// Pins the texel (column, row), or removes its pin.
+    TogglePin([usize; 2]),
+    /// Pins the texel under the pointer, or removes its pin; without one, that of the last time.
+    TogglePinHere,
+    ClearPins,
+    /// Whether the next left-drag draws a rectangle.
+    Arm(bool),
+    SetRegion(Option<Region>),
+    /// Puts the numbers of the pins on the clipboard as CSV.
+    CopyPins,
+}
+
+impl From<InspectCommand> for Command {
+    fn from(command: InspectCommand) -> Self {
+        Self::Inspect(command)
+    }
 }
 
 impl From<MaterialsCommand> for Command {

@@ -58,9 +58,15 @@ impl DifferenceRun {
         set.or_else(auto).unwrap_or_else(|| state.difference_kind().default_range())
     }
 
-    /// Takes over a result, and computes what is needed now. A computation for an earlier scene is completed, so that there
+    /// Takes over a result, and computes what is needed now, where a difference is `shown`. A computation for an earlier scene is completed, so that there
     /// are results while the light moves.
-    pub fn follow(&mut self, ctx: &egui::Context, slots: &Slots, state: &ViewState) -> Option<Error> {
+    pub fn follow(
+        &mut self,
+        ctx: &egui::Context,
+        shown: bool,
+        slots: &Slots,
+        state: &ViewState,
+    ) -> Option<Error> {
         let mut error = None;
         if let Some((key, task)) = &self.running
             && let Some(result) = task.poll(ctx)
@@ -74,7 +80,7 @@ impl DifferenceRun {
             }
             self.running = None;
         }
-        if !state.difference || slots.predictions().is_empty() {
+        if !shown || slots.predictions().is_empty() {
             self.running = None;
             return error;
         }

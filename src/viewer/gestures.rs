@@ -2,11 +2,15 @@
 
 use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
 
-use super::command::{Command, DisplayCommand, SceneCommand};
+use super::command::{Command, DisplayCommand, InspectCommand, SceneCommand};
+use super::endpoint::{self, Endpoint};
 use super::handles::{self, REACH};
-use super::state::{self, Endpoint, Layout, Projection, ViewState};
+use super::inspect::Region;
+use super::state::{Layout, Projection, ViewState};
+use crate::material::Grid;
 use crate::model::scene::Kind;
 use crate::picture::camera::Camera;
+use crate::picture::quantity::Quantity;
 
 /// Radians of orbit per point that the pointer moves.
 const ORBIT_SPEED: f64 = 0.008;
@@ -16,7 +20,7 @@ const SCALE_STEP: f64 = 1.1;
 const ZOOM_STEP: f32 = 1.15;
 
 /// What the current drag does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Gesture {
     Light,
     View,
@@ -25,6 +29,10 @@ pub enum Gesture {
     LightDistance,
     Pan,
     Wipe,
+    /// Pins the texel that was pressed, and nothing more.
+    Pin,
+    /// Draws a rectangle from this point of the plane.
+    Rectangle([f32; 2]),
 }
 
 /// A pane under the mouse.
@@ -34,6 +42,11 @@ pub struct Target<'a> {
     pub camera: &'a Camera,
     pub state: &'a ViewState,
     pub highlight_follows: bool,
+    /// Whether the handle of the view is shown, and can be grabbed.
+    pub view_handle: bool,
+    pub grid: Grid,
+    /// Whether a left-drag draws a rectangle.
+    pub armed: bool,
 }
 
 impl Target<'_> {
@@ -44,7 +57,14 @@ impl Target<'_> {
         match button {
             PointerButton::Primary if space => Gesture::Pan,
             PointerButton::Primary if chord => Gesture::OrbitLight,
-            PointerButton::Primary => self.grabbed(pos),
+            PointerButton::Primary if modifiers.alt => Gesture::Pin,
+            PointerButton::Primary => {
+                let on_map = self.state.quantity != Quantity::Rendering;
+                match self.point(pos).filter(|_| self.armed || on_map && modifiers.shift) {
+                    Some(point) => Gesture::Rectangle(point),
+                    None => self.grabbed(pos),
+                }
+            }
             PointerButton::Secondary if chord => Gesture::LightDistance,
             PointerButton::Secondary if self.state.projection == Projection::Perspective => {
                 Gesture::OrbitView
@@ -54,21 +74,33 @@ impl Target<'_> {
         }
     }
 
-    /// What a left press grabs: the sun first, then the eye, then the wipe line; elsewhere it moves the light.
+    /// The point of the plane that is seen at `pos`.
+    fn point(&self, pos: Pos2) -> Option<[f32; 2]> {
+        let [x, y] = handles::ndc_from_pos(self.rect, pos);
+        self.camera.plane_from_ndc(x, y)
+    }
+
+    /// What a left press grabs: the wipe line first, then the sun, then the eye; elsewhere it moves the light. Maps have no
+    /// light: there it pans.
     fn grabbed(&self, pos: Pos2) -> Gesture {
-        if self.over(Endpoint::Light, pos) {
-            Gesture::Light
-        } else if self.state.projection == Projection::Flat && self.over(Endpoint::View, pos) {
-            Gesture::View
-        } else if self.over_wipe(pos) {
+        if self.over_wipe(pos) {
             Gesture::Wipe
+        } else if self.state.quantity != Quantity::Rendering {
+            Gesture::Pan
+        } else if self.over(Endpoint::Light, pos) {
+            Gesture::Light
+        } else if self.view_handle
+            && self.state.projection == Projection::Flat
+            && self.over(Endpoint::View, pos)
+        {
+            Gesture::View
         } else {
             Gesture::Light
         }
     }
 
     fn over(&self, endpoint: Endpoint, pos: Pos2) -> bool {
-        let at = state::over_plane(&self.state.scene, endpoint);
+        let at = endpoint::over_plane(&self.state.scene, endpoint);
         handles::pos_from_plane(self.camera, self.rect, at).is_some_and(|(at, _)| at.distance(pos) <= REACH)
     }
 
@@ -80,8 +112,10 @@ impl Target<'_> {
     /// The pointer's shape over this pane.
     fn cursor(&self, pos: Pos2) -> egui::CursorIcon {
         match self.grabbed(pos) {
+            _ if self.armed => egui::CursorIcon::Crosshair,
             Gesture::Wipe => egui::CursorIcon::ResizeHorizontal,
             Gesture::View => egui::CursorIcon::Grab,
+            Gesture::Pan => egui::CursorIcon::Default,
             _ if self.over(Endpoint::Light, pos) => egui::CursorIcon::Grab,
             _ => egui::CursorIcon::Crosshair,
         }
@@ -89,8 +123,7 @@ impl Target<'_> {
 
     /// What `gesture` does as the pointer stands at `pos` after moving by `delta`.
     fn carry_on(&self, gesture: Gesture, pos: Pos2, delta: Vec2) -> Option<Command> {
-        let [x, y] = handles::ndc_from_pos(self.rect, pos);
-        let plane = || self.camera.plane_from_ndc(x, y).map(|p| p.map(f64::from));
+        let plane = || self.point(pos).map(|p| p.map(f64::from));
         let over_plane = |endpoint| plane().map(|p| SceneCommand::MoveOverPlane(endpoint, p).into());
         let (sideways, upwards) = (f64::from(delta.x) * ORBIT_SPEED, -f64::from(delta.y) * ORBIT_SPEED);
         match gesture {
@@ -99,12 +132,18 @@ impl Target<'_> {
             }
             Gesture::Light => over_plane(Endpoint::Light),
             Gesture::View => over_plane(Endpoint::View),
-            // The material follows the pointer, so the view moves the other way.
-            Gesture::OrbitView => Some(orbit(Endpoint::View, -sideways, -upwards)),
+            // As in the flat view, the view goes where the pointer goes. In perspective the points of the plane then move with
+            // the pointer on the screen.
+            Gesture::OrbitView => Some(orbit(Endpoint::View, sideways, upwards)),
             Gesture::OrbitLight => Some(orbit(Endpoint::Light, sideways, upwards)),
             Gesture::LightDistance => {
                 let factor = SCALE_STEP.powf(-f64::from(delta.y) / 25.0);
                 Some(SceneCommand::ScaleDistance(Endpoint::Light, factor).into())
+            }
+            Gesture::Pin => None,
+            Gesture::Rectangle(from) => {
+                let region = Region::between(self.grid, from, self.point(pos)?)?;
+                Some(InspectCommand::SetRegion(Some(region)).into())
             }
             Gesture::Pan => {
                 let by = delta / (self.rect.size() * 0.5);
@@ -162,7 +201,14 @@ pub fn commands(
         if response.drag_started_by(button)
             && let Some(pos) = ui.input(|i| i.pointer.press_origin())
         {
-            *current = Some(target.begin(ui, button, pos));
+            let gesture = target.begin(ui, button, pos);
+            *current = Some(gesture);
+            if gesture == Gesture::Pin
+                && let Some(texel) =
+                    target.point(pos).and_then(|point| target.state.texel_at(target.grid, point))
+            {
+                commands.push(InspectCommand::TogglePin(texel).into());
+            }
         }
     }
     if response.dragged()

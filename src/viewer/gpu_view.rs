@@ -1,26 +1,55 @@
-//! The panes on the graphics adapter: shading of what has changed, and drawing.
+//! The panes on the graphics adapter: shading and drawing of what has changed, and the copy of the rest.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use eframe::{egui, egui_wgpu, wgpu};
 
-use super::slots::Slot;
+use super::slot::Slot;
 use crate::error::Error;
-use crate::gpu::{Display, DisplayParams, Gpu, Pane, ShadeParams, Shaded, Shading};
+use crate::gpu::{Blit, Display, DisplayParams, Gpu, ShadeParams, Shaded, Shading, Still};
 
-/// The shaded texels of one material and what they were shaded with.
-struct Entry {
-    target: Shaded,
+/// Shaded texels and what they were shaded with.
+struct Target {
+    shaded: Shaded,
     drawn: Option<ShadeParams>,
+    /// Changes whenever the texels do.
+    version: u64,
 }
 
-/// The passes and the shaded materials. The materials' textures are part of the materials.
+/// The shaded texels of one material: all of them, and every n-th one while something moves on a slow adapter.
+#[derive(Default)]
+struct Entry {
+    full: Option<Target>,
+    quick: Option<Target>,
+    shows_quick: bool,
+}
+
+impl Entry {
+    fn shown(&self) -> Option<&Target> {
+        if self.shows_quick { self.quick.as_ref() } else { self.full.as_ref() }
+    }
+}
+
+/// What the pixels of a pane depend on.
+#[derive(PartialEq)]
+struct Key {
+    ids: [u64; 2],
+    versions: [u64; 2],
+    params: DisplayParams,
+}
+
+/// The passes, the shaded materials and the pixels of the panes. The materials' textures are part of the materials.
 pub struct GpuView {
     pub gpu: Gpu,
+    /// The device of the window, for pictures of it.
+    pub state: egui_wgpu::RenderState,
     shading: Shading,
-    display: Arc<Display>,
+    display: Display,
+    blit: Arc<Blit>,
     shaded: HashMap<u64, Entry>,
+    versions: u64,
+    stills: Vec<Option<(Key, Arc<Still>)>>,
 }
 
 impl GpuView {
@@ -29,84 +58,110 @@ impl GpuView {
     pub fn new(state: &egui_wgpu::RenderState) -> Result<Self, Error> {
         let gpu = Gpu::from_eframe_parts(&state.adapter, &state.device, &state.queue)?;
         let shading = Shading::new(&gpu)?;
-        let display = Arc::new(Display::new(&gpu, state.target_format)?);
-        Ok(Self { gpu, shading, display, shaded: HashMap::new() })
+        let display = Display::new(&gpu, state.target_format)?;
+        let blit = Arc::new(Blit::new(&gpu, state.target_format)?);
+        Ok(Self {
+            gpu,
+            state: state.clone(),
+            shading,
+            display,
+            blit,
+            shaded: HashMap::new(),
+            versions: 0,
+            stills: Vec::new(),
+        })
     }
 
-    /// Shades the material of `slot`, unless it has been shaded with these parameters.
+    /// Shades every `stride`-th texel of the material of `slot`, unless it has been shaded with these parameters; all texels
+    /// where that has been done before.
     ///
     /// # Errors
     /// A text for the pane, where the adapter cannot hold the material.
-    pub fn shade(&mut self, slot: &Slot, params: ShadeParams) -> Result<(), String> {
+    pub fn shade(&mut self, slot: &Slot, params: ShadeParams, stride: usize) -> Result<(), String> {
         let textures = match &slot.loaded.textures {
             Some(Ok(textures)) => textures,
             Some(Err(problem)) => return Err(problem.clone()),
             None => return Err("This material has no textures: reload it".to_owned()),
         };
-        let entry = match self.shaded.entry(slot.id) {
-            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
-            std::collections::hash_map::Entry::Vacant(entry) => {
-                let target =
-                    self.shading.target(&self.gpu, slot.loaded.material.size()).map_err(|e| e.to_string())?;
-                entry.insert(Entry { target, drawn: None })
-            }
+        let entry = self.shaded.entry(slot.id).or_default();
+        let is_whole = entry.full.as_ref().is_some_and(|full| full.drawn == Some(params));
+        entry.shows_quick = stride > 1 && !is_whole;
+        let (place, stride) = match entry.shows_quick {
+            true => (&mut entry.quick, stride),
+            false => (&mut entry.full, 1),
         };
-        if entry.drawn != Some(params) {
-            self.shading.draw(&self.gpu, textures, &params, &entry.target);
-            entry.drawn = Some(params);
+        let fits = place.as_ref().is_some_and(|target| target.shaded.stride() == stride);
+        if !fits {
+            let size = slot.loaded.material.size();
+            let shaded =
+                self.shading.reduced_target(&self.gpu, size, stride).map_err(|error| error.to_string())?;
+            *place = Some(Target { shaded, drawn: None, version: 0 });
+        }
+        if let Some(target) = place.as_mut().filter(|target| target.drawn != Some(params)) {
+            self.shading.draw(&self.gpu, textures, &params, &target.shaded);
+            self.versions += 1;
+            (target.drawn, target.version) = (Some(params), self.versions);
         }
         Ok(())
     }
 
-    /// Frees the shaded pictures of closed materials.
-    pub fn keep_only(&mut self, slots: &[Slot]) {
+    /// Frees the shaded pictures of closed materials, and the pixels of all but the first `panes` panes.
+    pub fn keep_only(&mut self, slots: &[Slot], panes: usize) {
         self.shaded.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
+        self.stills.truncate(panes);
     }
 
-    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded.
+    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded. The pixels of pane
+    /// `number` are drawn anew only where they change.
     pub fn paint(
-        &self,
+        &mut self,
         painter: &egui::Painter,
         rect: egui::Rect,
-        [shown, reference]: [u64; 2],
+        number: usize,
+        ids: [u64; 2],
         params: DisplayParams,
     ) {
-        let (Some(shown), Some(reference)) = (self.shaded.get(&shown), self.shaded.get(&reference)) else {
-            return;
+        let [shown, reference] = ids.map(|id| self.shaded.get(&id).and_then(Entry::shown));
+        let (Some(shown), Some(reference)) = (shown, reference) else { return };
+        let size = (rect.size() * painter.ctx().pixels_per_point()).round().max(egui::Vec2::splat(1.0));
+        let size = [size.x as u32, size.y as u32];
+        let key = Key { ids, versions: [shown.version, reference.version], params };
+        if self.stills.len() <= number {
+            self.stills.resize_with(number + 1, || None);
+        }
+        let kept = self.stills[number].take();
+        let kept = kept.filter(|(_, still)| still.size() == size);
+        let still = match kept {
+            Some((of, still)) if of == key => still,
+            old => {
+                let still =
+                    old.map_or_else(|| Arc::new(self.blit.still(&self.gpu, size)), |(_, still)| still);
+                let pane = self.display.pane(&self.gpu, &shown.shaded, &reference.shaded);
+                pane.write(&self.gpu.queue, &params);
+                still.draw(&self.gpu, &self.display, &pane);
+                still
+            }
         };
-        let pane = self.display.pane(&self.gpu, &shown.target, &reference.target);
-        let draw = DrawPane { display: self.display.clone(), pane, params };
-        painter.add(egui_wgpu::Callback::new_paint_callback(rect, draw));
+        self.stills[number] = Some((key, still.clone()));
+        let copy = CopyPane { blit: self.blit.clone(), still };
+        painter.add(egui_wgpu::Callback::new_paint_callback(rect, copy));
     }
 }
 
-/// One pane of one frame, in egui's render pass.
-struct DrawPane {
-    display: Arc<Display>,
-    pane: Pane,
-    params: DisplayParams,
+/// The pixels of one pane, in egui's render pass.
+struct CopyPane {
+    blit: Arc<Blit>,
+    still: Arc<Still>,
 }
 
-impl egui_wgpu::CallbackTrait for DrawPane {
-    fn prepare(
-        &self,
-        _device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        _screen: &egui_wgpu::ScreenDescriptor,
-        _encoder: &mut wgpu::CommandEncoder,
-        _resources: &mut egui_wgpu::CallbackResources,
-    ) -> Vec<wgpu::CommandBuffer> {
-        self.pane.write(queue, &self.params);
-        Vec::new()
-    }
-
+impl egui_wgpu::CallbackTrait for CopyPane {
     fn paint(
         &self,
         _info: egui::PaintCallbackInfo,
         pass: &mut wgpu::RenderPass<'static>,
         _resources: &egui_wgpu::CallbackResources,
     ) {
-        self.display.draw(pass, &self.pane);
+        self.blit.draw(pass, &self.still);
     }
 }
 

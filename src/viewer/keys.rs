@@ -2,36 +2,50 @@
 
 use eframe::egui::{self, Key, Modifiers};
 
-use super::command::{Command, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand};
+use super::command::{
+    Command, DisplayCommand, InspectCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
+};
 
 /// Every gesture and key with its effect, for the help window and the README.
 pub const HELP: &[(&str, &str)] = &[
-    ("left-drag", "move the light: its x and y follow the pointer"),
+    ("left-drag", "move the light: its x and y follow the pointer; on maps, pan"),
     ("right-drag", "move the view; in perspective, orbit it"),
     ("Shift + wheel", "height of the light"),
     ("Alt + wheel", "height of the view"),
     ("Ctrl + Shift + left-drag", "orbit the light"),
     ("Ctrl + Shift + right-drag", "distance of the light"),
+    ("Space", "pause or resume the light and the turntable that move by themselves"),
     ("H", "highlight follows the pointer, on / off"),
     ("wheel", "zoom at the pointer"),
     ("middle-drag, Space + left-drag", "pan"),
+    ("I, Alt + click", "pin the texel: all its numbers in a table below; again: remove the pin"),
+    ("Q, then left-drag; on maps Shift + left-drag", "statistics of a rectangle; Esc removes it"),
     ("F / 0 / R", "fit / one texel per pixel / reset light, view, zoom, exposure and clipping marks"),
     ("G (hold)", "show the ground truth in every pane"),
     ("X", "swap prediction and ground truth"),
     ("1 .. 9", "choose the prediction"),
+    ("Ctrl + Up / Down", "previous / next prediction"),
     ("C", "layout: side by side, wipe, single"),
     ("D", "value / difference from the ground truth"),
     ("P", "flat / perspective"),
     ("M / Shift + M", "next / previous of rendering and maps"),
     ("E / Shift + E", "exposure up / down by 0.5 EV"),
     ("N", "automatic exposure: the brightest 1% of the ground truth clips"),
+    ("T", "repeat the material 2 x 2 times to show its seams, on / off"),
+    ("J", "histograms of the values, on / off"),
+    ("V", "false colours for roughness, on / off"),
     ("L", "mark clipped pixels, on / off"),
     ("Enter", "compute the loss"),
     ("Esc", "close a dialog, or cancel the loss"),
     ("B", "side panel, on / off"),
-    ("Ctrl + O / Ctrl + S", "open materials / save the view as a picture"),
+    ("Ctrl + O / Ctrl + Shift + O", "open materials or a session / reopen the last materials"),
+    ("Ctrl + S / Ctrl + Shift + C", "save view, renderings, strip or session / copy the view as a picture"),
     ("Ctrl + R", "read all files again"),
-    ("Ctrl + Z / Ctrl + Shift + Z", "undo / redo light, view and display (redo also: Ctrl + Y)"),
+    (
+        "Ctrl + Z / Ctrl + Shift + Z",
+        "undo / redo light, view, display and set of materials (redo also: Ctrl + Y)",
+    ),
+    ("Ctrl + plus / minus / 0", "size of text and controls"),
     ("Ctrl + C / Ctrl + V", "copy / paste the scene as JSON"),
     ("double-click a number", "reset it to its default"),
     ("?", "this help"),
@@ -80,11 +94,15 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
     let none = Modifiers::NONE;
     let mut table: Vec<(Modifiers, Key, Command)> = vec![
         (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, DisplayCommand::Redo.into()),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::O, MaterialsCommand::ReopenLast.into()),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::C, WindowCommand::CopyPicture.into()),
         (Modifiers::COMMAND, Key::Z, DisplayCommand::Undo.into()),
         (Modifiers::COMMAND, Key::Y, DisplayCommand::Redo.into()),
         (Modifiers::COMMAND, Key::O, WindowCommand::ShowOpen(true).into()),
         (Modifiers::COMMAND, Key::S, WindowCommand::ShowSave(true).into()),
         (Modifiers::COMMAND, Key::R, MaterialsCommand::Reload.into()),
+        (Modifiers::COMMAND, Key::ArrowUp, DisplayCommand::StepPrediction(-1).into()),
+        (Modifiers::COMMAND, Key::ArrowDown, DisplayCommand::StepPrediction(1).into()),
         (Modifiers::SHIFT, Key::M, DisplayCommand::CycleQuantity(-1).into()),
         (Modifiers::SHIFT, Key::E, DisplayCommand::StepExposure(-0.5).into()),
         (none, Key::M, DisplayCommand::CycleQuantity(1).into()),
@@ -93,6 +111,9 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (none, Key::C, DisplayCommand::CycleLayout.into()),
         (none, Key::D, DisplayCommand::ShowDifference(!now.difference).into()),
         (none, Key::P, DisplayCommand::ToggleProjection.into()),
+        (none, Key::T, DisplayCommand::ToggleTiled.into()),
+        (none, Key::J, WindowCommand::ToggleHistograms.into()),
+        (none, Key::V, DisplayCommand::ToggleFalseColour.into()),
         (none, Key::L, DisplayCommand::ToggleClipping.into()),
         (none, Key::H, SceneCommand::ToggleHighlightFollows.into()),
         (none, Key::B, WindowCommand::ToggleSidePanel.into()),
@@ -100,6 +121,8 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (none, Key::F, DisplayCommand::Fit.into()),
         (none, Key::Num0, DisplayCommand::OneToOne.into()),
         (none, Key::R, DisplayCommand::Reset.into()),
+        (none, Key::I, InspectCommand::TogglePinHere.into()),
+        (none, Key::Q, InspectCommand::Arm(true).into()),
         (none, Key::Escape, now.escape.clone()),
     ];
     let digits =

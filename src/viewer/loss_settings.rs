@@ -10,8 +10,8 @@ use crate::model::sampler::Sampler;
 /// What decides how many scenes there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ask {
-    #[default]
     Scenes,
+    #[default]
     Accuracy,
     Time,
 }
@@ -34,7 +34,7 @@ pub struct LossSettings {
 impl Default for LossSettings {
     fn default() -> Self {
         let Sampling { near, distant, sampler, texels, seed } = Sampling::default();
-        Self { ask: Ask::Scenes, near, distant, sampler, texels, seed, target_percent: 1.0, time_ms: 100 }
+        Self { ask: Ask::Accuracy, near, distant, sampler, texels, seed, target_percent: 1.0, time_ms: 100 }
     }
 }
 
@@ -59,6 +59,11 @@ impl LossSettings {
         }
     }
 
+    /// The 6 near-field and 3 distant random scenes of the papers, of this seed.
+    pub fn few_scenes(&self) -> Request {
+        Request::Scenes(Sampling { seed: self.seed, ..Sampling::default() })
+    }
+
     /// These settings with the numbers, sampler and texels of `sampling`; the seed stays.
     #[must_use]
     pub fn with_sampling(&self, sampling: Sampling) -> Self {
@@ -72,10 +77,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_default_is_what_the_papers_report_and_hidden_fields_change_no_request() {
-        let settings = LossSettings::default();
+    fn the_default_is_an_accuracy_of_1_percent_and_hidden_fields_change_no_request() {
+        assert_eq!(LossSettings::default().request(), Request::Accuracy { target: 0.01, seed: 0 });
+        let settings = LossSettings { ask: Ask::Scenes, ..LossSettings::default() };
         let request = settings.request();
-        assert_eq!(request, Request::default());
+        assert_eq!(request, Request::default(), "the scenes are those of the papers");
         for ask in [Ask::Accuracy, Ask::Time] {
             let settings = LossSettings { ask, ..settings.clone() };
             let other = LossSettings {

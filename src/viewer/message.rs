@@ -35,6 +35,8 @@ pub enum Message {
     /// These predictions were not opened: their ground truth could not be read.
     NotOpened(Vec<String>),
     NotPasted(PasteProblem),
+    /// There is no session of materials from files.
+    NothingToReopen,
     Failed(Error),
 }
 
@@ -66,6 +68,7 @@ impl Message {
             | Self::NotRead { .. }
             | Self::NotOpened(_)
             | Self::NotPasted(_)
+            | Self::NothingToReopen
             | Self::Failed(_) => Severity::Error,
         }
     }
@@ -111,6 +114,9 @@ impl fmt::Display for Message {
             Self::NotPasted(PasteProblem::Unusable(problem)) => {
                 write!(f, "Not pasted: the scene cannot be rendered, {problem}.")
             }
+            Self::NothingToReopen => f.write_str(
+                "Nothing to reopen: no materials from files have been open yet. Open some with Ctrl+O.",
+            ),
             Self::Copied(what) => write!(f, "Copied {what}"),
             Self::NotRead { error, .. } | Self::Failed(error) => error.fmt(f),
         }

@@ -2,6 +2,7 @@
 //!
 //! Panels and keys return `command::Command`s; `app::App` carries them out; slow work runs in `worker::Task`s.
 
+mod animation;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod app;
 #[cfg(feature = "testing")]
@@ -13,26 +14,32 @@ mod cells;
 pub(crate) mod command;
 #[cfg(feature = "testing")]
 pub mod command;
+mod follow;
 mod gestures;
 mod gpu_view;
 mod handles;
 mod history;
+mod inspect;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod keys;
 #[cfg(feature = "testing")]
 pub mod keys;
+mod latest;
 mod loaded;
 mod loss_run;
 mod loss_settings;
+mod marks;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod message;
 #[cfg(feature = "testing")]
 pub mod message;
 mod message_list;
+mod names;
 #[cfg(feature = "testing")]
 mod observe;
 mod opening;
 mod options;
+mod pace;
 mod panels;
 mod panes;
 mod polling;
@@ -40,10 +47,20 @@ mod polling;
 mod difference_run;
 mod differences;
 mod draw;
+mod endpoint;
+mod readout;
 mod save;
+#[cfg(not(feature = "testing"))]
+pub(crate) mod save_kind;
+#[cfg(feature = "testing")]
+pub mod save_kind;
+mod scene_loss;
+mod session;
 mod settings;
+mod sight;
 mod slot;
 mod slots;
+mod snapshot;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod source;
 #[cfg(feature = "testing")]
@@ -56,6 +73,7 @@ mod stop;
 mod study;
 mod theme;
 mod title;
+mod values_run;
 mod viewport;
 mod watch;
 #[cfg(not(feature = "testing"))]
@@ -124,6 +142,8 @@ fn native_options() -> eframe::NativeOptions {
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,
+        // Colours are shown as they are.
+        dithering: false,
         ..Default::default()
     };
     options.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);

@@ -42,6 +42,11 @@ impl App {
         self.slots.slots.iter().map(|slot| &slot.loaded.material)
     }
 
+    /// Size of the panes and the legend, in pixels.
+    pub fn picture_size(&self) -> [u32; 2] {
+        self.picture_size
+    }
+
     /// Why a material is not what its files hold now, of each material.
     pub fn problems(&self) -> Vec<Option<&str>> {
         self.slots.slots.iter().map(|slot| slot.problem.as_deref()).collect()

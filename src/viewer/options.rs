@@ -3,10 +3,13 @@
 use std::path::PathBuf;
 
 use crate::files::read::ReadOptions;
+use crate::files::session::Session;
 
 /// The materials that the window opens, and how it reads them.
 #[derive(Clone, Debug, Default)]
 pub struct ViewerOptions {
+    /// A session, in place of materials.
+    pub session: Option<Session>,
     /// `None` for the built-in pair.
     pub ground_truth: Option<PathBuf>,
     pub predictions: Vec<PathBuf>,

@@ -1,7 +1,8 @@
 //! Which panes there are, and what each shows.
 
-use super::slots::Slot;
-use super::state::{Layout, Projection, ViewState};
+use super::inspect::Inspect;
+use super::slot::Slot;
+use super::state::{Layout, ViewState};
 use crate::gpu::DisplayMode;
 use crate::material::Grid;
 use crate::picture::camera::Camera;
@@ -13,6 +14,8 @@ pub struct Scenery<'a> {
     pub state: &'a ViewState,
     pub dark: bool,
     pub highlight_follows: bool,
+    /// Whether the handle of the view is shown.
+    pub view_handle: bool,
     /// Whether every pane shows the ground truth, as long as a key is held.
     pub peek: bool,
     /// Whether the chosen prediction and the ground truth are swapped.
@@ -21,6 +24,8 @@ pub struct Scenery<'a> {
     pub reading: bool,
     /// The difference that has the last colour.
     pub range: f64,
+    /// Pins and rectangle.
+    pub inspect: &'a Inspect,
 }
 
 /// The content of a pane: the slot it shows, the slot that is compared with, and how.
@@ -76,12 +81,17 @@ impl Scenery<'_> {
         }
     }
 
+    /// What fills an empty place beside the panes: the difference of the chosen prediction, where panes show values.
+    pub(super) fn extra(&self) -> Option<Content> {
+        let shows_values = !self.state.difference && !self.peek && !self.swapped;
+        let grid = self.state.layout == Layout::SideBySide && self.slots.len() > 2;
+        let content =
+            Content { slot: self.chosen(), reference: 0, mode: DisplayMode::Value, difference: true };
+        (shows_values && grid).then_some(content)
+    }
+
     pub(super) fn camera(&self, grid: Grid, aspect: f32) -> Camera {
-        let fitted = match self.state.projection {
-            Projection::Flat => Camera::flat(grid, aspect),
-            Projection::Perspective => Camera::of_scene(&self.state.scene, grid, aspect),
-        };
-        fitted.zoomed(self.state.zoom, self.state.pan)
+        self.state.fitted_camera(grid, aspect).zoomed(self.state.zoom, self.state.pan)
     }
 
     /// The name of slot `index` as titles give it.

@@ -1,4 +1,4 @@
-//! Saving the view as a picture on a worker, as `svbrdf render` does.
+//! Writing pictures of the materials on a worker, as `svbrdf render` and `svbrdf strip` do.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -10,37 +10,95 @@ use super::slots::Slots;
 use super::state::ViewState;
 use super::worker::Task;
 use crate::files::atomic::Destination;
-use crate::picture::export::{Provenance, Shows};
-use crate::render;
+use crate::image::Image;
+use crate::material::Material;
+use crate::picture::export::{PngDestination, Provenance};
+use crate::picture::quantity::Quantity;
+use crate::picture::shown::{Pictures, Shown, ShownDifference};
+use crate::picture::strip::{Column, Strip};
 
-/// The content of the saved picture.
-pub fn shows(state: &ViewState) -> Shows {
-    if state.difference { Shows::LogDifference } else { Shows::Radiance }
+/// What the panes show; `range` is the difference that has the last colour.
+pub fn shown(slots: &Slots, state: &ViewState, range: f64) -> Shown {
+    let difference = ShownDifference { kind: state.difference_kind(), range: Some(range) };
+    let compares = state.difference && !slots.predictions().is_empty();
+    Shown { quantity: state.quantity, difference: compares.then_some(difference) }
 }
 
-/// Starts to write the renderings of all materials, or the differences of the predictions, side by side to `path`.
-pub fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBuf) -> Task<PathBuf> {
-    let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|s| s.loaded.clone()).collect();
-    let shows = if materials.len() > 1 { shows(state) } else { Shows::Radiance };
-    let provenance = Provenance {
-        shows,
+/// Where a picture of the materials comes from.
+pub fn provenance(slots: &Slots, state: &ViewState, shown: Shown) -> Provenance {
+    Provenance {
+        shown,
         scene: state.scene,
         convention: state.convention(),
-        // Exposure does not change a difference.
-        exposure_ev: if shows == Shows::LogDifference { 0.0 } else { state.exposure_ev },
-        sources: slots.slots.iter().map(|slot| slot.name().to_owned()).collect(),
+        exposure_ev: state.exposure_ev,
+        sources: names(slots),
         renderer: "CPU, f32".to_owned(),
-    };
+    }
+}
+
+fn names(slots: &Slots) -> Vec<String> {
+    slots.slots.iter().map(|slot| slot.name().to_owned()).collect()
+}
+
+fn materials(slots: &Slots) -> Vec<Arc<Loaded>> {
+    slots.slots.iter().map(|slot| slot.loaded.clone()).collect()
+}
+
+/// Starts to write what `shown` says of all materials, side by side, to `path`.
+pub fn renderings(
+    ctx: &egui::Context,
+    slots: &Slots,
+    state: &ViewState,
+    shown: Shown,
+    path: PathBuf,
+) -> Task<PathBuf> {
+    let (all, mut provenance) = (materials(slots), provenance(slots, state, shown));
     Task::start(ctx, move |progress| {
         let destination = Destination::new(&path)?;
-        let render = |loaded: &Arc<Loaded>| {
-            render::render_f32(&loaded.material, &provenance.scene, &provenance.convention, progress)
-        };
-        let mut panes = materials.iter().map(render).collect::<Result<Vec<_>, _>>()?;
-        if provenance.shows == Shows::LogDifference {
-            panes = render::log_differences(&panes, provenance.convention.epsilon as f32);
-        }
-        destination.write(&panes, &provenance, progress)?;
+        let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
+        let Pictures { images, shown } =
+            shown.pictures(&all, &provenance.scene, &provenance.convention, progress)?;
+        provenance.shown = shown;
+        destination.write(&images, &provenance, progress)?;
+        Ok(path)
+    })
+}
+
+/// Starts to write the figure of all materials to `path`.
+pub fn strip(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBuf) -> Task<PathBuf> {
+    let (all, names) = (materials(slots), names(slots));
+    let value = |quantity| Shown { quantity, difference: None };
+    let maps = [Quantity::Normal, Quantity::Diffuse, Quantity::Roughness, Quantity::Specular];
+    let kind = state.differences.kind(Quantity::Rendering);
+    let range = state.differences.range(Quantity::Rendering);
+    let difference = Some(ShownDifference { kind, range });
+    let mut shown: Vec<Shown> = maps.into_iter().chain([Quantity::Rendering]).map(value).collect();
+    if !slots.predictions().is_empty() {
+        shown.push(Shown { quantity: Quantity::Rendering, difference });
+    }
+    let columns = shown.into_iter().map(|shown| Column { shown, scene: state.scene }).collect();
+    let strip = Strip { columns, convention: state.convention(), exposure_ev: state.exposure_ev };
+    Task::start(ctx, move |progress| {
+        let destination = PngDestination::new(&path)?;
+        let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
+        let picture = strip.picture(&all, &names, progress)?;
+        destination.write(&picture, &strip.entries(&names), progress)?;
+        Ok(path)
+    })
+}
+
+/// Starts to write a picture of the window to `path`.
+pub fn view(
+    ctx: &egui::Context,
+    picture: egui::ColorImage,
+    entries: Vec<(&'static str, String)>,
+    path: PathBuf,
+) -> Task<PathBuf> {
+    Task::start(ctx, move |progress| {
+        let destination = PngDestination::new(&path)?;
+        let pixels = picture.pixels.iter().map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
+        let [width, height] = picture.size;
+        destination.write(&Image { width, height, pixels }, &entries, progress)?;
         Ok(path)
     })
 }

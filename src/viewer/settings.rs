@@ -5,11 +5,33 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::loss_settings::LossSettings;
+use crate::files::session::Session;
 
 /// The key of the settings in the storage.
 pub const KEY: &str = "settings";
 /// Number of recent materials.
 const RECENT: usize = 12;
+
+/// The questions that the side panel answers, one at a time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Tab {
+    /// Which prediction is better?
+    #[default]
+    Loss,
+    /// Where and by what is it wrong?
+    Why,
+    /// Is each material read rightly?
+    Files,
+}
+
+impl Tab {
+    /// Every tab with its name and its question.
+    pub const ALL: [(Self, &'static str, &'static str); 3] = [
+        (Self::Loss, "Loss", "Which prediction is better?"),
+        (Self::Why, "Why", "Where and by what is a prediction wrong?"),
+        (Self::Files, "Files", "Is each material read rightly?"),
+    ];
+}
 
 /// Persistent settings. Every field has a default, so that the settings of older versions load.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,6 +41,16 @@ pub struct Settings {
     pub side_panel: bool,
     /// Whether a left-drag moves the highlight under the pointer, instead of the light.
     pub highlight_follows: bool,
+    /// Whether the handle of the view is shown.
+    pub view_handle: bool,
+    /// Size of the window's text and controls: 1 is that of the system.
+    pub ui_scale: f32,
+    /// Whether histograms of the values are below the panes.
+    pub histograms: bool,
+    /// The tab of the side panel.
+    pub tab: Tab,
+    /// Whether the prediction with the least loss comes first in the panel.
+    pub sort_losses: bool,
     /// Whether the loss is computed again after every change.
     pub auto_loss: bool,
     pub loss: LossSettings,
@@ -26,6 +58,8 @@ pub struct Settings {
     pub watch: bool,
     /// Recently opened materials, the latest first.
     pub recent: Vec<PathBuf>,
+    /// The session of the last materials from files.
+    pub last: Option<Session>,
 }
 
 impl Default for Settings {
@@ -34,10 +68,16 @@ impl Default for Settings {
             dark: true,
             side_panel: true,
             highlight_follows: false,
+            view_handle: true,
+            ui_scale: 1.0,
+            histograms: false,
+            tab: Tab::Loss,
+            sort_losses: true,
             auto_loss: true,
             loss: LossSettings::default(),
             watch: false,
             recent: Vec::new(),
+            last: None,
         }
     }
 }

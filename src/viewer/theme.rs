@@ -12,6 +12,8 @@ pub const SUN: Color32 = Color32::from_rgb(0xff, 0xd2, 0x4a);
 pub const EYE: Color32 = Color32::from_rgb(0xf5, 0xf5, 0xf5);
 const PROBLEM: Color32 = Color32::from_rgb(0xef, 0x7f, 0x71);
 const DARK_PROBLEM: Color32 = Color32::from_rgb(0xa3, 0x1d, 0x10);
+const BETTER: Color32 = Color32::from_rgb(0x7f, 0xcf, 0x8f);
+const DARK_BETTER: Color32 = Color32::from_rgb(0x0f, 0x5a, 0x26);
 /// The colours of warnings, as text on dark and on light gray.
 const UNSURE: Color32 = Color32::from_rgb(0xff, 0x9f, 0x43);
 const DARK_UNSURE: Color32 = Color32::from_rgb(0x8f, 0x40, 0x00);
@@ -19,6 +21,19 @@ const DARK_UNSURE: Color32 = Color32::from_rgb(0x8f, 0x40, 0x00);
 /// The accent colour, readable on the theme's grays.
 pub fn accent(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { ACCENT } else { DARK_ACCENT }
+}
+
+/// The colour of what is better than another, readable on the theme's grays.
+pub fn better(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { BETTER } else { DARK_BETTER }
+}
+
+/// The colour of prediction `index` in histograms and bars: Okabe and Ito's palette, which colour-blind people can tell apart.
+pub fn series(index: usize, dark: bool) -> Color32 {
+    const COLOURS: [[u8; 3]; 6] =
+        [[86, 180, 233], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0], [0, 114, 178]];
+    let [r, g, b] = COLOURS[index % COLOURS.len()];
+    Color32::from_rgb(r, g, b).lerp_to_gamma(Color32::BLACK, if dark { 0.0 } else { 0.35 })
 }
 
 /// The colour of errors, readable on the theme's grays.
@@ -113,6 +128,7 @@ mod tests {
                 ("warnings", visuals.warn_fg_color),
                 ("problems", problem(&visuals)),
                 ("accent", accent(&visuals)),
+                ("better", better(&visuals)),
             ];
             for (what, colour) in texts {
                 let found = contrast(colour, visuals.panel_fill);

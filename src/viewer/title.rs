@@ -34,7 +34,6 @@ pub fn title_bar(
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let painter = ui.painter_at(rect);
-    painter.rect_filled(rect, 0.0, ui.visuals().panel_fill);
     let colour = if content.slot == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
     let font = FontId::proportional(13.5);
     let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))

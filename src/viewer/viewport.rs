@@ -1,14 +1,19 @@
 //! The panes, drawn, and what the mouse does in them.
 
-use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2};
+use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2, vec2};
 
-use super::cells::{TITLE, cells, pixel_aligned};
+use super::cells::{TITLE, cells, free_cell, pixel_aligned};
 use super::command::Command;
+use super::endpoint::{self, Endpoint};
 use super::gestures::{self, Gesture, Target};
 use super::gpu_view::GpuView;
 use super::handles;
+use super::marks::Placed;
+use super::pace::{Pace, REST};
 use super::panes::{Content, Hovered, Scenery};
-use super::state::{self, Endpoint, Projection, ViewState};
+use super::readout;
+use super::sight;
+use super::state::{Projection, ViewState};
 use super::theme;
 use super::title::title_bar;
 use crate::gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
@@ -22,6 +27,11 @@ pub struct Viewport {
     gesture: Option<Gesture>,
     /// What is under the pointer.
     pub hovered: Option<Hovered>,
+    /// The texel that was under the pointer last.
+    pub last_texel: Option<[usize; 2]>,
+    pace: Pace,
+    /// Whether the difference of the chosen prediction fills an empty place.
+    pub shows_extra: bool,
     /// Size of a pane in physical pixels.
     pane_pixels: Vec2,
 }
@@ -35,7 +45,6 @@ impl Viewport {
         gpu: Option<&mut GpuView>,
     ) -> Vec<Command> {
         let area = ui.available_rect_before_wrap();
-        ui.painter().rect_filled(area, 0.0, theme::surround(scenery.dark));
         self.hovered = None;
         let Some(gpu) = gpu else {
             note(ui, area, "No graphics adapter: materials cannot be drawn. The loss can be computed.");
@@ -50,15 +59,24 @@ impl Viewport {
             note(ui, area, text);
             return Vec::new();
         }
-        if let Err(problem) = shade(gpu, scenery) {
+        if let Err(problem) = self.shade(ui, gpu, scenery) {
             note(ui, area, &problem);
             return Vec::new();
         }
         let contents = scenery.contents();
         let grid = scenery.slots[0].loaded.material.grid();
         let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
+        let free = free_cell(area, &cells);
+        let mut panes: Vec<(Content, Rect)> = contents.into_iter().zip(cells).collect();
+        let extra = scenery.extra().zip(free);
+        self.shows_extra = extra.is_some();
+        panes.extend(extra);
+        self.hovered = panes.iter().find_map(|(content, cell)| hovered(ui, scenery, *content, *cell));
+        if let Some(texel) = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point)) {
+            self.last_texel = Some(texel);
+        }
         let mut commands = Vec::new();
-        for (i, (content, cell)) in contents.into_iter().zip(cells).enumerate() {
+        for (i, (content, cell)) in panes.into_iter().enumerate() {
             commands.extend(self.pane(ui, scenery, gpu, i, content, cell));
         }
         commands
@@ -68,36 +86,36 @@ impl Viewport {
         &mut self,
         ui: &mut egui::Ui,
         scenery: &Scenery<'_>,
-        gpu: &GpuView,
+        gpu: &mut GpuView,
         number: usize,
         content: Content,
         cell: Rect,
     ) -> Vec<Command> {
         let mut commands = Vec::new();
-        let (title, rect) = cell.split_top_bottom_at_y(cell.top() + TITLE);
+        let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
         commands.extend(title_bar(ui, scenery, number, content, title));
-        let rect = pixel_aligned(ui, rect);
+        let rect = picture_rect(ui, cell);
         self.pane_pixels = rect.size() * ui.pixels_per_point();
 
         let response = ui.interact(rect, ui.scope_id().with(("pane", number)), Sense::drag());
-        let label = format!("Pane {}", scenery.title(content.slot));
+        let label = match content.difference && !scenery.state.difference {
+            true => format!("Difference pane {}", scenery.title(content.slot)),
+            false => format!("Pane {}", scenery.title(content.slot)),
+        };
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
-        self.paint(ui, scenery, gpu, content, rect, camera);
+        self.paint(ui, scenery, gpu, number, content, rect, camera);
 
         let target = Target {
             rect,
             camera: &camera,
             state: scenery.state,
             highlight_follows: scenery.highlight_follows,
+            view_handle: scenery.view_handle,
+            grid: scenery.slots[0].loaded.material.grid(),
+            armed: scenery.inspect.armed,
         };
         commands.extend(gestures::commands(ui, &response, &target, &mut self.gesture));
-        let pointer = response.hover_pos().or_else(|| response.interact_pointer_pos());
-        if let Some(pos) = pointer {
-            let [x, y] = handles::ndc_from_pos(rect, pos);
-            self.hovered =
-                camera.plane_from_ndc(x, y).map(|point| Hovered { slot: slot_at(content, x), point });
-        }
         commands
     }
 
@@ -105,7 +123,8 @@ impl Viewport {
         &self,
         ui: &egui::Ui,
         scenery: &Scenery<'_>,
-        gpu: &GpuView,
+        gpu: &mut GpuView,
+        number: usize,
         content: Content,
         rect: Rect,
         camera: Camera,
@@ -123,16 +142,91 @@ impl Viewport {
             encoding: state.quantity.into(),
             show_clipping: state.show_clipping,
             epsilon: state.convention().epsilon as f32,
+            tiled: state.tiled,
+            false_colour: state.false_colour,
             background: [background[0], background[1], background[2]],
         };
         let ids = [content.slot, content.reference].map(|i| scenery.slots[i].id);
-        gpu.paint(&painter, rect, ids, params);
+        gpu.paint(&painter, rect, number, ids, params);
+        self.paint_marks(&painter, scenery, content, rect, &camera);
+        if state.quantity == Quantity::Rendering {
+            paint_handles(&painter, rect, &camera, state, scenery.view_handle);
+        }
         if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.wipe);
         }
-        if state.quantity == Quantity::Rendering {
-            paint_handles(&painter, rect, &camera, state);
+        if let Some(text) = sight::hint(scenery, rect.width() / rect.height()) {
+            paint_hint(&painter, rect, text);
         }
+    }
+
+    /// Shades every material in a pane; while something moves on a slow adapter, about one texel a pixel.
+    fn shade(&mut self, ui: &egui::Ui, gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
+        let state = scenery.state;
+        let convention = state.convention();
+        let params = ShadeParams { scene: state.scene, convention, quantity: state.quantity };
+        let (now, seconds) = ui.input(|i| (i.time, i.unstable_dt));
+        let in_part = self.pace.frame(params, now, seconds);
+        let stride = if in_part {
+            ui.ctx().request_repaint_after_secs(REST as f32 + 0.01);
+            let grid = scenery.slots[0].loaded.material.grid();
+            let pixels_per_texel = self.magnification(grid, state);
+            (pixels_per_texel.recip() as usize).clamp(1, 64)
+        } else {
+            1
+        };
+        let contents = scenery.contents();
+        gpu.keep_only(scenery.slots, contents.len() + 1);
+        for content in contents {
+            for index in [content.slot, content.reference] {
+                gpu.shade(&scenery.slots[index], params, stride)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What is drawn over a pane about texels.
+    fn paint_marks(
+        &self,
+        painter: &egui::Painter,
+        scenery: &Scenery<'_>,
+        content: Content,
+        rect: Rect,
+        camera: &Camera,
+    ) {
+        let grid = scenery.slots[0].loaded.material.grid();
+        let placed = Placed { rect, camera, grid };
+        let state = scenery.state;
+        if state.tiled {
+            // A texel is in four places.
+            return;
+        }
+        if state.projection == Projection::Flat && content.mode == DisplayMode::Value {
+            let (slot, difference) = (content.slot, content.difference);
+            placed.paint_numbers(painter, |texel| {
+                readout::shown(scenery.slots, state, slot, difference, texel)
+            });
+        }
+        placed.paint_inspected(painter, scenery.inspect);
+        let texel = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point));
+        if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
+            placed.paint_crosshair(painter, texel);
+        }
+    }
+
+    /// Screen pixels per texel in the middle of a pane.
+    pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
+        let camera = state.fitted_camera(grid, self.aspect()).zoomed(state.zoom, state.pan);
+        let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
+        let middle = camera.plane_from_ndc(0.0, 0.0).and_then(|point| grid.texel_at(point));
+        let middle = middle.unwrap_or([grid.width / 2, grid.height / 2]);
+        Placed { rect, camera: &camera, grid }.texel_side(middle)
+    }
+
+    /// Width of a pane over its height; 1 before there is one.
+    pub fn aspect(&self) -> f32 {
+        let aspect = self.pane_pixels.x / self.pane_pixels.y;
+        if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 }
     }
 
     /// The magnification at which a texel of `grid` covers one physical pixel.
@@ -145,6 +239,25 @@ impl Viewport {
     }
 }
 
+/// The rectangle of a pane's picture: its cell without the title.
+fn picture_rect(ui: &egui::Ui, cell: Rect) -> Rect {
+    pixel_aligned(ui, cell.split_top_bottom_at_y(cell.top() + TITLE).1)
+}
+
+/// The point under the pointer, if it is over this pane and nothing lies in between.
+fn hovered(ui: &egui::Ui, scenery: &Scenery<'_>, content: Content, cell: Rect) -> Option<Hovered> {
+    let rect = picture_rect(ui, cell);
+    let pos = ui.input(|i| i.pointer.latest_pos()).filter(|pos| rect.contains(*pos))?;
+    let covered = ui.ctx().layer_id_at(pos).is_some_and(|layer| layer != ui.layer_id());
+    if covered {
+        return None;
+    }
+    let [x, y] = handles::ndc_from_pos(rect, pos);
+    let grid = scenery.slots[0].loaded.material.grid();
+    let camera = scenery.camera(grid, rect.width() / rect.height());
+    camera.plane_from_ndc(x, y).map(|point| Hovered { slot: slot_at(content, x), point })
+}
+
 /// The slot whose value is shown at this x of a pane, from -1 to 1.
 fn slot_at(content: Content, x: f32) -> usize {
     match content.mode {
@@ -153,31 +266,28 @@ fn slot_at(content: Content, x: f32) -> usize {
     }
 }
 
-/// Shades every material in a pane.
-fn shade(gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
-    let state = scenery.state;
-    let params = ShadeParams { scene: state.scene, convention: state.convention(), quantity: state.quantity };
-    gpu.keep_only(scenery.slots);
-    for content in scenery.contents() {
-        for index in [content.slot, content.reference] {
-            gpu.shade(&scenery.slots[index], params)?;
-        }
-    }
-    Ok(())
-}
-
-fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState) {
-    if state.projection == Projection::Flat
+fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState, view_handle: bool) {
+    if view_handle
+        && state.projection == Projection::Flat
         && let Some((at, outside)) =
-            handles::pos_from_plane(camera, rect, state::over_plane(&state.scene, Endpoint::View))
+            handles::pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, Endpoint::View))
     {
         handles::paint_eye(painter, at, outside);
     }
     if let Some((at, outside)) =
-        handles::pos_from_plane(camera, rect, state::over_plane(&state.scene, Endpoint::Light))
+        handles::pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, Endpoint::Light))
     {
         handles::paint_sun(painter, at, outside);
     }
+}
+
+/// A text at the bottom of a pane.
+fn paint_hint(painter: &egui::Painter, rect: Rect, text: &str) {
+    let (font, ink) = (FontId::proportional(13.0), egui::Color32::from_gray(235));
+    let galley = painter.layout(text.to_owned(), font, ink, (rect.width() - 24.0).max(40.0));
+    let place = Align2::CENTER_BOTTOM.anchor_size(rect.center_bottom() - vec2(0.0, 10.0), galley.size());
+    painter.rect_filled(place.expand2(vec2(8.0, 4.0)), 4.0, egui::Color32::from_black_alpha(170));
+    painter.galley(place.min, galley, ink);
 }
 
 /// A text in the middle of an empty area.

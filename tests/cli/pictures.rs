@@ -8,6 +8,7 @@ use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::picture::colour_map::difference_to_display;
 use svbrdf::picture::export::GAP;
+use svbrdf::picture::strip::HEADER;
 use svbrdf::picture::tone::to_display;
 use svbrdf::progress::Progress;
 use svbrdf::render::render_f32;
@@ -130,17 +131,21 @@ fn the_mean_of_a_difference_is_the_loss_in_that_scene() {
 }
 
 #[test]
-fn a_png_of_a_difference_has_the_colours_of_the_map_and_says_so() {
+fn a_png_of_a_difference_has_the_colours_of_the_map_at_any_exposure_and_says_so() {
     let folder = folder();
     succeed(folder.path(), "render --difference -o out.exr");
     succeed(folder.path(), "render --difference -o out.png --exposure 1");
     let floats = image_of_exr(&folder.path().join("out.exr"));
     let (width, side) = (floats.width, floats.height);
     let shown = image::open(folder.path().join("out.png")).unwrap().into_rgb8();
+    let mut brighter = 0;
     for (x, y, pixel) in shown.enumerate_pixels().filter(|(x, ..)| (*x as usize) < side) {
         let logarithms = floats.pixels[y as usize * width + x as usize];
-        assert_eq!(pixel.0, difference_to_display(logarithms, 1.0), "{x}, {y}");
+        let mean = logarithms.iter().sum::<f32>() / 3.0;
+        assert_eq!(pixel.0, difference_to_display(mean, 2.0, false), "{x}, {y}");
+        brighter += usize::from(pixel.0 != difference_to_display(mean * 2.0, 2.0, false));
     }
+    assert!(brighter > 1000, "an exposed difference has other colours");
     let bytes = std::fs::read(folder.path().join("out.png")).unwrap();
     let text = b"|ln(prediction + 0.01) - ln(ground truth + 0.01)|";
     assert!(bytes.windows(text.len()).any(|window| window == text));
@@ -151,4 +156,72 @@ fn a_difference_needs_two_materials_of_one_size() {
     let folder = folder();
     fail(folder.path(), "render gt.png --difference -o out.png", 64);
     fail(folder.path(), "render gt.png big.png --difference -o out.png", 1);
+    fail(folder.path(), "render --show normal --difference=log -o out.png", 64);
+    fail(folder.path(), "render --show height -o out.png", 64);
+}
+
+/// The pixels of a cell of a picture.
+fn crop(picture: &image::RgbImage, [x, y]: [usize; 2], side: usize) -> Vec<[u8; 3]> {
+    let cell = image::imageops::crop_imm(picture, x as u32, y as u32, side as u32, side as u32).to_image();
+    cell.pixels().map(|pixel| pixel.0).collect()
+}
+
+#[test]
+fn a_strip_has_the_pixels_that_render_writes() {
+    let folder = folder();
+    let view = "--view 0.2,-0.3,2 --light -1,0.5,0.8 --exposure 0.5 --range auto";
+    succeed(
+        folder.path(),
+        &format!(
+            "strip -o strip.png --columns normal,diffuse,roughness,specular,rendering,rendering:,normal: {view}"
+        ),
+    );
+    let open = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgb8();
+    let strip = open("strip.png");
+    let side = 256;
+    let left = strip.width() as usize - 7 * (side + GAP);
+    let scene = "--view 0.2,-0.3,2 --light -1,0.5,0.8 --exposure 0.5";
+    for (column, ask, first) in [
+        (0, "--show normal", 0),
+        (1, "--show diffuse", 0),
+        (2, "--show roughness", 0),
+        (3, "--show specular", 0),
+        (4, "", 0),
+        (5, "--difference --range auto", 1),
+        (6, "--show normal --difference --range auto", 1),
+    ] {
+        succeed(folder.path(), &format!("render -o one.png {scene} {ask}"));
+        let one = open("one.png");
+        for row in first..3 {
+            let cell = crop(&strip, [left + column * (side + GAP), HEADER + row * (side + GAP)], side);
+            let pane = crop(&one, [(row - first) * (side + GAP), 0], side);
+            assert!(cell == pane, "column {column}, row {row}");
+            // The normals of the prediction with wrong roughness are right.
+            let is_empty = cell.iter().all(|pixel| *pixel == cell[0]);
+            assert_eq!(is_empty, (column, row) == (6, 2), "column {column}, row {row}");
+        }
+    }
+    let label = image::imageops::crop_imm(&strip, 0, HEADER as u32, left as u32 - 1, side as u32).to_image();
+    assert!(label.pixels().any(|pixel| pixel.0[0] < 100), "the rows have names");
+}
+
+#[test]
+fn a_strip_has_a_column_for_each_scene_and_says_what_it_shows() {
+    let folder = folder();
+    let scenes = r#"{"scenes": [
+        {"kind": "near", "view": [0, 0, 2.5], "light": [0.4, 0.5, 1.2]},
+        {"kind": "distant", "view": [0, 0, 1], "light": [0.5, 0.5, 0.7]}
+    ]}"#;
+    std::fs::write(folder.path().join("scenes.json"), scenes).unwrap();
+    succeed(folder.path(), "strip gt.png a.png -o two.png --columns normal,rendering --scenes scenes.json");
+    succeed(folder.path(), "strip gt.png a.png -o one.png --columns normal,rendering");
+    let width = |name: &str| image::open(folder.path().join(name)).unwrap().width() as usize;
+    let side = image::open(folder.path().join("gt.png")).unwrap().height() as usize;
+    assert_eq!(width("two.png"), width("one.png") + side + GAP);
+    let bytes = std::fs::read(folder.path().join("two.png")).unwrap();
+    for text in ["distant light 0.500, 0.500, 0.700", "svbrdf:columns"] {
+        assert!(bytes.windows(text.len()).any(|window| window == text.as_bytes()), "{text}");
+    }
+    fail(folder.path(), "strip gt.png a.png -o strip.exr", 64);
+    fail(folder.path(), "strip gt.png a.png -o strip.png --columns height", 64);
 }

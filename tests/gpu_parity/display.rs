@@ -58,6 +58,8 @@ fn params(camera: Camera, quantity: Quantity) -> DisplayParams {
         encoding: Encoding::from(quantity),
         show_clipping: false,
         epsilon: 0.01,
+        tiled: false,
+        false_colour: false,
         background: BACKGROUND,
     }
 }

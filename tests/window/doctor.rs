@@ -25,6 +25,7 @@ fn on_two_strips<'a>([truth, guess]: [PathBuf; 2]) -> Window<'a> {
     let options =
         ViewerOptions { ground_truth: Some(truth), predictions: vec![guess], ..ViewerOptions::default() };
     let mut window = window(options);
+    tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
     wait(&mut window, "the loss", |app| app.losses().is_some());
     window
@@ -125,6 +126,7 @@ fn a_click_on_another_workflow_changes_the_material() {
     put("specular.png", 99);
     let options = ViewerOptions { ground_truth: Some(folder.path().to_owned()), ..ViewerOptions::default() };
     let mut window = window(options);
+    tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
     window.run_steps(3);
     let name = window.state().names()[0].clone();
@@ -152,6 +154,7 @@ fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
     image::RgbImage::from_fn(3 * 32, 16, tile).save(&path).unwrap();
     let options = ViewerOptions { ground_truth: Some(path), ..ViewerOptions::default() };
     let mut window = window(options);
+    tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
     window.run_steps(3);
     assert_eq!(material(window.state(), 0).size(), [16, 16]);
@@ -231,7 +234,8 @@ fn what_the_maps_hold_is_listed_on_a_click() {
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn nobody_is_said_to_have_said_what_is_built_in() {
-    let window = built_in();
+    let mut window = built_in();
+    tab(&mut window, "Files");
     assert!(window.query_all_by_label_contains("as specified").next().is_none());
     assert!(window.query_all_by_label_contains("the built-in materials are stored in this way").count() >= 3);
 }

@@ -61,7 +61,9 @@ fn the_saved_view_is_written_and_said_so() {
     let path = folder.path().join("view.png");
     window.get_by_label("Save").click();
     window.run_steps(4);
-    let label = "To file (.png as displayed, .exr as linear floats):";
+    window.get_by_label("Renderings").click();
+    window.run_steps(3);
+    let label = "To file:";
     let field = || egui::accesskit::Role::TextInput;
     window.get_by_role_and_label(field(), label).focus();
     window.run_steps(2);
@@ -69,7 +71,7 @@ fn the_saved_view_is_written_and_said_so() {
     window.run_steps(2);
     window.get_by_role_and_label(field(), label).type_text(&path.display().to_string());
     window.run_steps(2);
-    window.get_by_label("Save picture").click();
+    window.get_by_label("Save file").click();
     wait(&mut window, "the file", |app| !app.messages().is_empty());
     assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
     let picture = image::open(&path).unwrap();
@@ -142,6 +144,7 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
         wait(&mut window, "the end of reading", |app| !app.is_reading());
         if fit {
             assert_eq!(window.state().names(), ["large", "small"]);
+            tab(&mut window, "Files");
             window.get_by_label("Resized from 128 x 128 to the 256 x 256 of the ground truth.");
             wait(&mut window, "the loss", |app| app.losses().is_some());
         } else {

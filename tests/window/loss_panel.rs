@@ -2,6 +2,7 @@
 
 mod differences;
 mod on_the_way;
+mod tabs;
 
 use svbrdf::loss::{Comparison, Outcome, Request, Sampling};
 use svbrdf::material::Material;
@@ -31,7 +32,7 @@ fn enter(window: &mut Window<'_>, name: &str, text: &str) {
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_loss_button_yields_the_number_that_the_core_gives() {
-    let mut window = built_in();
+    let mut window = by_scenes();
     window.get_by_label("Auto").click();
     window.run_steps(3);
     press(&mut window, egui::Key::Escape);
@@ -44,8 +45,10 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     let expected = expected(&Sampling { seed: 7, ..Sampling::default() }).losses;
     assert_eq!(window.state().losses().unwrap(), expected);
     for loss in &expected {
-        let [mean, error, interval] = loss.estimate.texts();
-        window.get_by_label(&format!("{mean} +- {error}"));
+        let [low, high] = loss.estimate.interval95.unwrap();
+        // Intervals of about +-20% have one digit more than their means.
+        let (mean, interval) = (loss.estimate.mean, format!("[{low:.3}, {high:.3}]"));
+        window.get_by_label(&format!("{mean:.2}"));
         window.get_by_label(&interval);
     }
 }
@@ -53,7 +56,7 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn many_scenes_end_with_the_bits_of_one_go() {
-    let mut window = built_in();
+    let mut window = by_scenes();
     enter(&mut window, "Near-field scenes", "60");
     enter(&mut window, "Distant scenes", "31");
     wait(&mut window, "the loss", |app| app.losses().is_some());
@@ -65,7 +68,7 @@ fn many_scenes_end_with_the_bits_of_one_go() {
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn auto_computes_again_when_the_convention_changes() {
-    let mut window = built_in();
+    let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     let before = window.state().losses().unwrap()[0].estimate.mean;
     window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Convention").click();
@@ -80,7 +83,7 @@ fn auto_computes_again_when_the_convention_changes() {
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
-    let mut window = built_in();
+    let mut window = by_scenes();
     wait(&mut window, "the loss", |app| app.losses().is_some());
     window.get_by_label("Copy").click();
     let mut copied = String::new();

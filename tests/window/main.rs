@@ -10,7 +10,10 @@ mod key_presses;
 mod loss_panel;
 mod panels;
 mod reading;
+mod saving;
 mod study;
+mod texels;
+mod view;
 
 #[path = "../support/gpu.rs"]
 #[allow(dead_code, reason = "the tests of the core use the rest")]
@@ -29,9 +32,15 @@ type Window<'a> = Harness<'a, App>;
 
 /// The window on the given materials (none: the built-in pair), once they have been read.
 fn window<'a>(options: ViewerOptions) -> Window<'a> {
+    scaled_window(options, 1.0)
+}
+
+/// The window on a screen with this many pixels per point.
+fn scaled_window<'a>(options: ViewerOptions, scale: f32) -> Window<'a> {
     gpu::gpu();
     let mut window = Harness::builder()
         .with_size(vec2(1200.0, 800.0))
+        .with_pixels_per_point(scale)
         .with_max_steps(16)
         .with_step_dt(1.0 / 30.0)
         .wgpu()
@@ -60,6 +69,20 @@ fn built_in<'a>() -> Window<'a> {
     window(ViewerOptions::default())
 }
 
+/// The built-in pair, with the loss over the 6 + 3 scenes of the papers.
+fn by_scenes<'a>() -> Window<'a> {
+    let mut window = built_in();
+    window.get_by_label("Scenes").click();
+    window.run_steps(4);
+    window
+}
+
+/// Opens a tab of the side panel.
+fn tab(window: &mut Window<'_>, name: &str) {
+    window.get_by_label(&format!("Tab {name}")).click();
+    window.run_steps(4);
+}
+
 fn pane(window: &Window<'_>, title: &str) -> egui::Rect {
     window.get_by_label(&format!("Pane {title}")).rect()
 }
@@ -69,6 +92,19 @@ const GROUND_TRUTH: &str = "GROUND TRUTH  worn tiles";
 fn press(window: &mut Window<'_>, key: egui::Key) {
     window.key_press(key);
     window.run_steps(3);
+}
+
+/// The text of the status line's column that begins with `start`.
+fn column(window: &Window<'_>, start: &str) -> String {
+    let mut nodes = window.query_all_by_label_contains(start).filter_map(|node| node.value());
+    nodes.find(|text| text.starts_with(start)).unwrap_or_else(|| panic!("no column {start:?}"))
+}
+
+/// The (column, row) that the status line names; `None` beside the material.
+fn texel_read(window: &Window<'_>) -> Option<[usize; 2]> {
+    let text = column(window, "texel ");
+    let (column, row) = text.trim_start_matches("texel ").trim().split_once(',')?;
+    Some([column.parse().unwrap(), row.parse().unwrap()])
 }
 
 /// Drags with a button from one point of the pane to another, both as shares of its size.

@@ -27,6 +27,8 @@ fn tiny<'a>(folder: &std::path::Path) -> Window<'a> {
 fn a_click_on_a_point_of_the_study_sets_the_loss_to_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tiny(folder.path());
+    window.get_by_label("Menu").click();
+    window.run_steps(4);
     window.get_by_label("Study: time against error...").click();
     window.run_steps(3);
     wait(&mut window, "the first points", |app| app.study().is_some_and(|(study, _)| study.points.len() > 4));

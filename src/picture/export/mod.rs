@@ -8,10 +8,9 @@ use std::path::Path;
 
 pub use crate::files::atomic::{Destination, check_place, write_text};
 pub(crate) use crate::files::atomic::{Watched, check, folder_of, replace};
-pub use provenance::{Entries, Provenance, Shows};
+pub use provenance::{Entries, Provenance};
 
-use super::colour_map::{difference_to_display, heat};
-use super::tone::to_display;
+use super::colour_map::heat;
 use crate::error::Error;
 use crate::image::Image;
 use crate::progress::Progress;
@@ -56,7 +55,8 @@ impl Destination<Format> {
         provenance: &Provenance,
         progress: &Progress,
     ) -> Result<(), Error> {
-        self.write_as(panes, |rgb| colour(rgb, provenance), &provenance.entries(), progress)
+        let colour = |rgb| provenance.shown.colour(rgb, provenance.exposure_ev);
+        self.write_as(panes, colour, &provenance.entries(), progress)
     }
 
     /// Writes maps of numbers, which are equally high, side by side: an EXR has the numbers, a PNG the colours of the means of
@@ -99,6 +99,31 @@ impl Destination<Format> {
     }
 }
 
+/// A PNG of a whole picture.
+#[derive(Clone, Debug)]
+pub struct PngDestination(Destination<()>);
+
+impl PngDestination {
+    /// Checks what can be checked of `path` before there is anything to write.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] for an extension other than png, [`Error::Unwritable`] where its folder is missing or it is
+    /// itself a folder.
+    pub fn new(path: &Path) -> Result<Self, Error> {
+        let format = |extension: &str| (extension == "png").then_some(());
+        Destination::among(path, format, "extension of a figure", ".png").map(Self)
+    }
+
+    /// Writes a picture with these (keyword, text) entries of metadata. The file appears when it is complete, or not at
+    /// all.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write(&self, picture: &Image<u8>, entries: &Entries, progress: &Progress) -> Result<(), Error> {
+        self.0.replace(progress, |file| png::write(file, picture, entries))
+    }
+}
+
 /// `panes` from left to right, [`GAP`] texels of `gap` between them; the height is that of the least high one.
 fn side_by_side<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
     let height = panes.iter().map(|p| p.height).min().unwrap_or(0);
@@ -112,13 +137,6 @@ fn side_by_side<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
         }
     }
     Image { width, height, pixels }
-}
-
-fn colour(rgb: [f32; 3], provenance: &Provenance) -> [u8; 3] {
-    match provenance.shows {
-        Shows::Radiance => to_display(rgb, provenance.exposure_ev),
-        Shows::LogDifference => difference_to_display(rgb, provenance.exposure_ev),
-    }
 }
 
 fn displayed(image: &Image<f32>, colour: impl Fn([f32; 3]) -> [u8; 3]) -> Image<u8> {

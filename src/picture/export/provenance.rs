@@ -2,17 +2,7 @@
 
 use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
-use crate::picture::colour_map::FULL_DIFFERENCE;
-
-/// What the numbers of a picture are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shows {
-    /// Linear radiance.
-    #[default]
-    Radiance,
-    /// How far the logarithms of predictions are from those of the ground truth; a PNG has them as colours.
-    LogDifference,
-}
+use crate::picture::shown::Shown;
 
 /// What a file says about its picture: (keyword, text).
 pub type Entries = [(&'static str, String)];
@@ -20,10 +10,10 @@ pub type Entries = [(&'static str, String)];
 /// What a picture shows, and how.
 #[derive(Clone, Debug)]
 pub struct Provenance {
-    pub shows: Shows,
+    pub shown: Shown,
     pub scene: Scene,
     pub convention: Convention,
-    /// Stops by which a PNG is brightened; an EXR keeps the radiance as it is.
+    /// Stops by which the renderings of a PNG are brightened; an EXR keeps the radiance as it is.
     pub exposure_ev: f32,
     /// The names of the materials, from left to right; of differences the ground truth first.
     pub sources: Vec<String>,
@@ -42,17 +32,8 @@ impl Provenance {
             Kind::Near => "near",
             Kind::Distant => "distant",
         };
-        let shows = match self.shows {
-            Shows::Radiance => "radiance".to_owned(),
-            Shows::LogDifference => {
-                let epsilon = self.convention.epsilon;
-                format!(
-                    "|ln(prediction + {epsilon}) - ln(ground truth + {epsilon})|, {FULL_DIFFERENCE} the last colour at 0 EV"
-                )
-            }
-        };
         vec![
-            ("svbrdf:shows", shows),
+            ("svbrdf:shows", self.shown.text(self.convention.epsilon)),
             ("svbrdf:sources", self.sources.join(" | ")),
             ("svbrdf:convention", self.convention.name.to_owned()),
             ("svbrdf:kind", kind.to_owned()),

@@ -40,11 +40,17 @@ impl App {
                 }
             }
             DisplayCommand::ToggleClipping => state.show_clipping = !state.show_clipping,
+            DisplayCommand::ToggleTiled => state.tiled = !state.tiled,
+            DisplayCommand::ToggleFalseColour => state.false_colour = !state.false_colour,
             DisplayCommand::SetWipe(at) => state.wipe = at.clamp(0.0, 1.0),
             DisplayCommand::ChoosePrediction(index) => {
                 if index < self.slots.predictions().len() {
                     state.prediction = index;
                 }
+            }
+            DisplayCommand::StepPrediction(by) => {
+                let count = self.slots.predictions().len().max(1) as isize;
+                state.prediction = (state.prediction as isize + by).rem_euclid(count) as usize;
             }
             DisplayCommand::Swap => self.swapped = !self.swapped,
             DisplayCommand::Zoom { factor, at } => zoom(state, factor, at),

@@ -1,7 +1,11 @@
 //! Commands about files and materials.
 
+use std::path::PathBuf;
+
 use eframe::egui;
 
+use crate::error::Error;
+use crate::files::session::Session;
 use crate::viewer::app::App;
 use crate::viewer::command::MaterialsCommand;
 use crate::viewer::message::Message;
@@ -12,6 +16,16 @@ impl App {
     pub(super) fn apply_to_materials(&mut self, ctx: &egui::Context, command: MaterialsCommand) {
         let gpu = self.gpu.as_ref().map(|g| &g.gpu);
         match command {
+            MaterialsCommand::Open { paths, .. } if paths.iter().any(|path| Session::is_named(path)) => {
+                self.open_session_file(ctx, &paths);
+            }
+            MaterialsCommand::ReopenLast => match self.settings.last.clone() {
+                Some(session) => {
+                    self.open_window = None;
+                    self.open_session(ctx, &session);
+                }
+                None => self.report([Message::NothingToReopen]),
+            },
             MaterialsCommand::Open { paths, replace, read } => {
                 self.read = read;
                 let target = if replace { Target::Everything } else { Target::Predictions };
@@ -35,6 +49,25 @@ impl App {
             MaterialsCommand::MakeGroundTruth(slot) => self.slots.make_ground_truth(slot),
             MaterialsCommand::SetWatch(on) => self.settings.watch = on,
             MaterialsCommand::SetFit(on) => self.slots.rules.fit = on,
+        }
+    }
+
+    /// Opens a session file, which stands alone.
+    fn open_session_file(&mut self, ctx: &egui::Context, paths: &[PathBuf]) {
+        let session = match paths {
+            [path] => Session::read(path),
+            _ => {
+                let problem = "expected a session file alone: it names its materials itself".to_owned();
+                Err(Error::BadSession { path: paths[0].clone(), problem })
+            }
+        };
+        match (session, &mut self.open_window) {
+            (Ok(session), _) => {
+                self.open_window = None;
+                self.open_session(ctx, &session);
+            }
+            (Err(error), Some(window)) => window.fail(error.to_string()),
+            (Err(error), None) => self.report([Message::Failed(error)]),
         }
     }
 

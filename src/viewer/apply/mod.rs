@@ -1,7 +1,9 @@
 //! Commands, carried out: the only place where the model changes.
 
 mod display;
+mod inspect;
 mod materials;
+mod saving;
 mod scene;
 mod undo;
 
@@ -11,7 +13,7 @@ use super::app::App;
 use super::browse;
 use super::command::{Command, LossCommand, WindowCommand};
 use super::panels::open::OpenWindow;
-use super::save;
+use super::panels::save::SaveWindow;
 
 impl App {
     /// Carries out one command.
@@ -22,6 +24,7 @@ impl App {
             Command::Display(command) => self.apply_to_display(ctx, command),
             Command::Loss(command) => self.apply_to_loss(ctx, command),
             Command::Window(command) => self.apply_to_window(ctx, command),
+            Command::Inspect(command) => self.apply_to_inspect(ctx, command),
         }
         ctx.request_repaint();
     }
@@ -36,6 +39,7 @@ impl App {
             LossCommand::Cancel => self.loss.cancel(),
             LossCommand::SetAuto(on) => self.settings.auto_loss = on,
             LossCommand::SetSettings(settings) => self.settings.loss = settings,
+            LossCommand::SortByLoss(on) => self.settings.sort_losses = on,
             LossCommand::Copy => {
                 if let Some(losses) = self.loss.losses() {
                     ctx.copy_text(losses.report.text());
@@ -61,14 +65,14 @@ impl App {
         match command {
             WindowCommand::ShowOpen(on) => self.open_window = on.then(|| OpenWindow::from(self.read)),
             WindowCommand::Browse { folder } => self.browsing = Some(browse::start(ctx, folder)),
-            WindowCommand::ShowSave(on) => self.save_window = on.then(Default::default),
-            WindowCommand::SaveView(path) => {
-                let saving = save::start(ctx, &self.slots, &self.state, path);
-                self.stop.cancels(&saving.progress());
-                self.saving = Some(saving);
-            }
+            WindowCommand::ShowSave(on) => self.save_window = on.then(|| SaveWindow::new(self.picture_size)),
+            WindowCommand::Save { what, path, size } => self.start_saving(ctx, what, path, size),
+            WindowCommand::CopyPicture => self.copy_picture(ctx),
             WindowCommand::SetDark(on) => self.settings.dark = on,
-            WindowCommand::ToggleSidePanel => self.settings.side_panel = !self.settings.side_panel,
+            WindowCommand::SetScale(scale) => ctx.set_zoom_factor(scale),
+            WindowCommand::ToggleSidePanel => *self.side_panel(ctx) ^= true,
+            WindowCommand::ToggleHistograms => self.settings.histograms = !self.settings.histograms,
+            WindowCommand::ChooseTab(tab) => self.settings.tab = tab,
             WindowCommand::ShowHelp(on) => self.help = on,
             WindowCommand::DismissMessage(number) => self.messages.dismiss(number),
             WindowCommand::DismissMessages => self.messages.dismiss_all(),

@@ -5,24 +5,38 @@ use eframe::egui;
 use crate::model::scene::{Scene, SceneFile};
 use crate::viewer::app::App;
 use crate::viewer::command::SceneCommand;
+use crate::viewer::endpoint;
 use crate::viewer::message::{Message, PasteProblem};
-use crate::viewer::state;
 
 impl App {
     pub(super) fn apply_to_scene(&mut self, ctx: &egui::Context, command: SceneCommand) {
         let scene = &mut self.state.scene;
         match command {
             SceneCommand::Set(new) => *scene = new,
-            SceneCommand::MoveOverPlane(endpoint, at) => state::move_over_plane(scene, endpoint, at),
-            SceneCommand::PutHighlight(at) => state::put_highlight(scene, at),
-            SceneCommand::ScaleHeight(endpoint, factor) => state::scale_height(scene, endpoint, factor),
-            SceneCommand::ScaleDistance(endpoint, factor) => state::scale_distance(scene, endpoint, factor),
+            SceneCommand::SetKind(kind) => endpoint::set_kind(scene, kind),
+            SceneCommand::MoveOverPlane(endpoint, at) => endpoint::move_over_plane(scene, endpoint, at),
+            SceneCommand::PutHighlight(at) => endpoint::put_highlight(scene, at),
+            SceneCommand::ScaleHeight(endpoint, factor) => endpoint::scale_height(scene, endpoint, factor),
+            SceneCommand::ScaleDistance(endpoint, factor) => {
+                endpoint::scale_distance(scene, endpoint, factor)
+            }
             SceneCommand::Orbit { endpoint, sideways, upwards } => {
-                state::orbit(scene, endpoint, sideways, upwards);
+                endpoint::orbit(scene, endpoint, sideways, upwards);
             }
             SceneCommand::ToggleHighlightFollows => {
                 self.settings.highlight_follows = !self.settings.highlight_follows;
             }
+            SceneCommand::ToggleViewHandle => self.settings.view_handle = !self.settings.view_handle,
+            SceneCommand::Preset(preset) => preset.apply(scene),
+            SceneCommand::Animate(animation) => {
+                let starts =
+                    animation.light && (!self.animation.light || animation.path != self.animation.path);
+                self.animation = animation;
+                if starts {
+                    self.animation.start_light(&self.state.scene);
+                }
+            }
+            SceneCommand::TogglePause => self.animation.paused = !self.animation.paused,
             SceneCommand::SetConvention(name) => self.state.convention = name.to_owned(),
             SceneCommand::Copy => ctx.copy_text(scene_text(*scene)),
             SceneCommand::Paste(text) => match pasted_scene(&text) {

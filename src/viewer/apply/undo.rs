@@ -9,7 +9,11 @@ impl App {
     /// Takes note of the moment, once the first materials are there. A set counts once it has been read.
     pub(in crate::viewer) fn remember_moment(&mut self, ctx: &egui::Context) {
         if self.slots.openings.is_empty() {
-            self.history.materials = self.slots.sources();
+            let materials = self.slots.sources();
+            if materials != self.history.materials {
+                self.history.materials = materials;
+                self.remember_session();
+            }
         }
         if !self.history.materials.is_empty() {
             let now = self.moment();

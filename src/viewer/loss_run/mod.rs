@@ -88,6 +88,11 @@ impl LossRun {
         (elapsed > SOON).then_some((fraction.min(1.0), elapsed, scenes > 0))
     }
 
+    /// Whether losses are being computed.
+    pub fn is_running(&self) -> bool {
+        self.phase.run().is_some()
+    }
+
     /// Why the wanted losses could not be computed.
     pub fn problem(&self) -> Option<&str> {
         match &self.phase {

@@ -9,6 +9,7 @@ use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 use crate::picture::statistics::{Distributions, Histogram, Statistics};
 use crate::viewer::command::{Command, DisplayCommand};
+use crate::viewer::theme;
 
 /// Height of the histograms and of the colour bar below them, in points.
 const HISTOGRAM: f32 = 54.0;
@@ -116,7 +117,7 @@ impl LegendStrip<'_> {
         let fade = if self.current { 1.0 } else { 0.5 };
         let histograms = self.distributions.map_or(&[][..], |distributions| &distributions.histograms);
         for (index, histogram) in histograms.iter().enumerate() {
-            let colour = line_colour(index, ui.visuals().dark_mode).gamma_multiply(fade);
+            let colour = theme::series(index, ui.visuals().dark_mode).gamma_multiply(fade);
             let stroke = Stroke::new(if index == self.chosen { 2.0 } else { 1.0 }, colour);
             painter.add(Shape::line(outline(histogram, area.with_max_y(bar.top())), stroke));
         }
@@ -201,7 +202,7 @@ impl LegendStrip<'_> {
         statistics: Option<&Statistics>,
         histogram: Option<&Histogram>,
     ) {
-        let colour = line_colour(index, ui.visuals().dark_mode);
+        let colour = theme::series(index, ui.visuals().dark_mode);
         let name = self.names.get(index).copied().unwrap_or_default();
         let text = RichText::new(format!("{}  {name}", index + 1)).color(colour);
         let text = if index == self.chosen { text.strong().underline() } else { text };
@@ -225,7 +226,7 @@ impl LegendStrip<'_> {
 }
 
 /// The logarithms of the counts as a line over `area`.
-fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
+pub(super) fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
     let log = |count: u64| (1.0 + count as f64).ln() as f32;
     let highest = histogram.counts.iter().map(|count| log(*count)).fold(f32::MIN_POSITIVE, f32::max);
     let step = area.width() / histogram.counts.len() as f32;
@@ -236,16 +237,8 @@ fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
     histogram.counts.iter().enumerate().map(point).collect()
 }
 
-/// The colour of a prediction's histogram: Okabe and Ito's palette, which colour-blind people can tell apart.
-fn line_colour(index: usize, dark: bool) -> Color32 {
-    const COLOURS: [[u8; 3]; 6] =
-        [[86, 180, 233], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0], [0, 114, 178]];
-    let [r, g, b] = COLOURS[index % COLOURS.len()];
-    Color32::from_rgb(r, g, b).lerp_to_gamma(Color32::BLACK, if dark { 0.0 } else { 0.35 })
-}
-
 /// A number in four significant digits, at least down to 0.0001.
-fn digits(value: f64) -> String {
+pub(super) fn digits(value: f64) -> String {
     match value.abs() {
         v if v >= 1e4 => format!("{value:.2e}"),
         v if v >= 100.0 => format!("{value:.1}"),

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::{self, RichText, Slider};
 
-use super::loss_results::{self, seconds};
+use super::loss_results::{self, Results, seconds};
 use crate::loss::{Request, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
@@ -27,6 +27,10 @@ pub struct LossPanel<'a> {
     pub settings: &'a LossSettings,
     pub auto: bool,
     pub run: &'a LossRun,
+    /// The loss over the few scenes of the papers, where it is another one.
+    pub few: &'a LossRun,
+    /// Whether the least loss comes first.
+    pub sorted: bool,
     pub slots: &'a Slots,
     pub chosen: usize,
 }
@@ -54,7 +58,18 @@ impl LossPanel<'_> {
                 if self.run.stale() {
                     ui.set_opacity(0.5);
                 }
-                commands.extend(loss_results::ui(ui, losses, self.chosen));
+                let few = self.few.losses().filter(|_| self.few.is_complete());
+                // Those of other materials or of another convention belong to no row.
+                let of_these = |few: &&Losses| {
+                    few.key.ids == losses.key.ids && few.key.asked.convention == losses.key.asked.convention
+                };
+                let results = Results {
+                    latest: losses,
+                    few: few.filter(of_these),
+                    chosen: self.chosen,
+                    sorted: self.sorted,
+                };
+                commands.extend(results.ui(ui));
             });
         }
         commands

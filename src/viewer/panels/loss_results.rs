@@ -1,83 +1,188 @@
-//! The losses with their errors, and their differences.
+//! The losses with their intervals, and their differences.
 
 use std::time::Duration;
 
-use eframe::egui::{self, RichText, Sides};
+use eframe::egui::{self, Color32, Rect, RichText, Sense, Sides, Stroke, pos2, vec2};
 
 use crate::loss::{Estimate, Loss};
 use crate::model::sampler::Sampler;
-use crate::viewer::command::{Command, DisplayCommand};
+use crate::model::scene::Kind;
+use crate::viewer::command::{Command, DisplayCommand, LossCommand};
 use crate::viewer::loss_run::Losses;
+use crate::viewer::names::shortened;
 use crate::viewer::theme;
 
-/// The losses, and their differences from that of the chosen prediction; a click chooses another one.
-pub(super) fn ui(ui: &mut egui::Ui, latest: &Losses, chosen: usize) -> Vec<Command> {
-    let mut commands = Vec::new();
-    let losses = &latest.report.outcome.losses;
-    for (index, loss) in losses.iter().enumerate() {
-        if result(ui, index, loss, index == chosen).clicked() {
-            commands.push(DisplayCommand::ChoosePrediction(index).into());
+/// Number of predictions from which on there is a field that filters them.
+const MANY: usize = 12;
+/// Characters of a name in a row.
+const NAME: usize = 30;
+/// Height of a bar, in points.
+const BAR: f32 = 6.0;
+
+/// What the rows show.
+#[derive(Debug)]
+pub(super) struct Results<'a> {
+    pub latest: &'a Losses,
+    /// The losses over the 6 + 3 scenes of the papers; `None` where they are not known, or are what `latest` is.
+    pub few: Option<&'a Losses>,
+    pub chosen: usize,
+    /// Whether the least loss comes first.
+    pub sorted: bool,
+}
+
+impl Results<'_> {
+    /// A row for each prediction; a click chooses it.
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let losses = &self.latest.report.outcome.losses;
+        let filter = self.controls(ui, losses.len(), &mut commands);
+        let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
+        let short = shortened(&names, NAME);
+        for index in order(losses, self.sorted) {
+            if !names[index].to_lowercase().contains(&filter) {
+                continue;
+            }
+            let name = format!("{}  {}", index + 1, short[index]);
+            if self.row(ui, index, &losses[index], name).clicked() {
+                commands.push(DisplayCommand::ChoosePrediction(index).into());
+            }
+        }
+        ui.add_space(4.0);
+        ui.label(RichText::new(summary(self.latest)).weak().small());
+        commands
+    }
+
+    /// The order, and the text that names must contain.
+    fn controls(&self, ui: &mut egui::Ui, count: usize, commands: &mut Vec<Command>) -> String {
+        let mut filter = String::new();
+        ui.horizontal(|ui| {
+            if count > 1 {
+                let mut sorted = self.sorted;
+                ui.checkbox(&mut sorted, "Sort by loss").on_hover_text("Otherwise in the order of the panes");
+                if sorted != self.sorted {
+                    commands.push(LossCommand::SortByLoss(sorted).into());
+                }
+            }
+            if count > MANY {
+                let id = ui.scope_id().with("filter");
+                filter = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+                let field =
+                    egui::TextEdit::singleline(&mut filter).hint_text("Filter names").desired_width(120.0);
+                ui.add(field);
+                ui.data_mut(|data| data.insert_temp(id, filter.clone()));
+            }
+        });
+        filter.to_lowercase()
+    }
+
+    fn row(&self, ui: &mut egui::Ui, index: usize, loss: &Loss, name: String) -> egui::Response {
+        let chosen = index == self.chosen;
+        let [mean, interval] = significant(&loss.estimate);
+        let left = |ui: &mut egui::Ui| {
+            let hover = format!("{}\nClick to choose this prediction", loss.prediction);
+            ui.selectable_label(chosen, name).on_hover_text(hover)
+        };
+        let right = |ui: &mut egui::Ui| {
+            ui.label(RichText::new(mean).monospace().strong()).on_hover_text(self.in_full(&loss.estimate));
+        };
+        let (response, ()) = Sides::new().shrink_left().truncate().show(ui, left, right);
+        ui.horizontal(|ui| {
+            ui.add_space(10.0);
+            self.bar(ui, index, &loss.estimate);
+            ui.label(RichText::new(interval).monospace().size(11.5))
+                .on_hover_text(self.in_full(&loss.estimate));
+        });
+        self.difference(ui, index);
+        self.few_scenes(ui, index);
+        response
+    }
+
+    /// The loss as a share of the largest one, with its interval as a line.
+    fn bar(&self, ui: &mut egui::Ui, index: usize, estimate: &Estimate) {
+        let end = |estimate: &Estimate| estimate.interval95.map_or(estimate.mean, |[_, high]| high);
+        let losses = &self.latest.report.outcome.losses;
+        let most = losses.iter().map(|loss| end(&loss.estimate)).fold(f64::MIN_POSITIVE, f64::max);
+        let width = (ui.available_width() - 150.0).max(30.0);
+        let (area, _) = ui.allocate_exact_size(vec2(width, BAR + 6.0), Sense::hover());
+        let x = |value: f64| area.left() + area.width() * (value / most).clamp(0.0, 1.0) as f32;
+        let bar = Rect::from_center_size(area.center(), vec2(width, BAR)).with_max_x(x(estimate.mean));
+        let colour = theme::series(index, ui.visuals().dark_mode);
+        ui.painter().rect_filled(bar, 1.0, colour);
+        if let Some([low, high]) = estimate.interval95 {
+            let y = area.center().y;
+            let stroke = Stroke::new(1.5, ui.visuals().text_color());
+            ui.painter().line_segment([pos2(x(low), y), pos2(x(high), y)], stroke);
+            for at in [low, high] {
+                ui.painter().line_segment([pos2(x(at), y - 4.0), pos2(x(at), y + 4.0)], stroke);
+            }
         }
     }
-    if let (Some(other), Some(differences)) = (losses.get(chosen), latest.differences.get(chosen)) {
-        let all = losses.iter().zip(differences).enumerate();
-        for (index, (loss, estimate)) in all.filter(|(index, _)| *index != chosen) {
-            let names =
-                [(index, loss), (chosen, other)].map(|(i, loss)| format!("{} {}", i + 1, loss.prediction));
-            difference(ui, index, &names, estimate);
-        }
+
+    /// The loss minus that of the chosen prediction, and whether that is significant.
+    fn difference(&self, ui: &mut egui::Ui, index: usize) {
+        let of_chosen = self.latest.differences.get(self.chosen);
+        let Some(estimate) = of_chosen.and_then(|all| all.get(index)).filter(|_| index != self.chosen) else {
+            return;
+        };
+        let verdict = Verdict::of(estimate);
+        let colour = verdict.colour(ui.visuals());
+        let name = format!("{} - {}", index + 1, self.chosen + 1);
+        let [mean, interval] = significant(estimate);
+        let meaning = verdict.meaning(index + 1, self.chosen + 1);
+        ui.horizontal_wrapped(|ui| {
+            ui.add_space(10.0);
+            ui.spacing_mut().item_spacing.x = 6.0;
+            ui.label(RichText::new(name).small().weak());
+            let sign = if estimate.mean > 0.0 { "+" } else { "" };
+            ui.label(RichText::new(format!("{sign}{mean}")).monospace().size(11.5))
+                .on_hover_text(format!("{interval}\n{}", self.in_full(estimate)));
+            ui.label(RichText::new(verdict.text()).monospace().size(11.5).color(colour))
+                .on_hover_text(meaning);
+        });
     }
-    ui.label(RichText::new(summary(latest)).weak().small());
-    commands
+
+    fn few_scenes(&self, ui: &mut egui::Ui, index: usize) {
+        let Some(few) = self.few else { return };
+        let Some(loss) = few.report.outcome.losses.get(index) else { return };
+        let [near, distant] = [Kind::Near, Kind::Distant].map(|kind| few.report.count(kind));
+        let [mean, interval] = significant(&loss.estimate);
+        ui.horizontal(|ui| {
+            ui.add_space(10.0);
+            let text = format!("{near} + {distant} scenes: {mean} {interval}");
+            ui.label(RichText::new(text).small().weak()).on_hover_text(
+                "The loss over the 6 near-field and 3 distant random scenes of the papers, for this seed: other seeds \
+                 give other numbers within about this interval",
+            );
+        });
+    }
+
+    /// Every digit, the standard error and the scenes.
+    fn in_full(&self, estimate: &Estimate) -> String {
+        let [mean, error, interval] = estimate.texts();
+        let [near, distant] = [Kind::Near, Kind::Distant].map(|kind| self.latest.report.count(kind));
+        format!(
+            "{mean} +- {error} (standard error)\n95% interval {interval}\n{near} near-field and {distant} distant scenes"
+        )
+    }
 }
 
-/// One prediction's loss.
-fn result(ui: &mut egui::Ui, index: usize, loss: &Loss, chosen: bool) -> egui::Response {
-    let name = format!("{}  {}", index + 1, loss.prediction);
-    let left = |ui: &mut egui::Ui| {
-        let hover = format!("{}\nClick to choose this prediction", loss.prediction);
-        ui.selectable_label(chosen, name).on_hover_text(hover)
-    };
-    let right = |ui: &mut egui::Ui| {
-        ui.label(RichText::new(accuracy(loss.estimate.relative_error95())).monospace())
-            .on_hover_text("Half the width of the 95% interval, relative to the loss")
-    };
-    let (response, _) = Sides::new().shrink_left().truncate().show(ui, left, right);
-    numbers(ui, ("loss result", index), "loss", &loss.estimate, "Mean over the scenes");
-    response
+/// An estimate as a person reads it: its mean in significant digits only, and its 95% interval with one digit more.
+fn significant(estimate: &Estimate) -> [String; 2] {
+    let Estimate { mean, interval95, .. } = *estimate;
+    let Some([low, high]) = interval95 else { return [format!("{mean:.2}"), "[unknown]".to_owned()] };
+    let half = 0.5 * (high - low);
+    let decimals = if half > 0.0 { (-half.log10().floor()).clamp(0.0, 12.0) as usize } else { 6 };
+    let more = decimals + usize::from(half > 0.0);
+    [format!("{mean:.decimals$}"), format!("[{low:.more$}, {high:.more$}]")]
 }
 
-/// The first loss minus the second, and whether that is significant.
-fn difference(ui: &mut egui::Ui, index: usize, [first, second]: &[String; 2], estimate: &Estimate) {
-    ui.separator();
-    let name = format!("{first} - {second}");
-    let verdict = Verdict::of(estimate);
-    let colour = match verdict {
-        Verdict::Better => theme::accent(ui.visuals()),
-        Verdict::Worse => theme::problem(ui.visuals()),
-        Verdict::NotSignificant => ui.visuals().weak_text_color(),
-    };
-    let left = |ui: &mut egui::Ui| ui.label(name);
-    let right = |ui: &mut egui::Ui| {
-        ui.label(RichText::new(verdict.text()).color(colour)).on_hover_text(verdict.meaning(first, second));
-    };
-    Sides::new().shrink_left().truncate().show(ui, left, right);
-    let meaning = "Mean of the differences over the scenes, which both share";
-    numbers(ui, ("loss difference", index), "mean", estimate, meaning);
-}
-
-/// A mean with its error, and its interval below.
-fn numbers(ui: &mut egui::Ui, id: (&str, usize), label: &str, estimate: &Estimate, meaning: &str) {
-    let [mean, error, interval] = estimate.texts();
-    egui::Grid::new(id).num_columns(2).spacing([6.0, 5.0]).show(ui, |ui| {
-        ui.label(format!("  {label}"));
-        ui.label(RichText::new(format!("{mean} +- {error}")).monospace().strong())
-            .on_hover_text(format!("{meaning} +- its standard error over the scenes"));
-        ui.end_row();
-        ui.label("  95%");
-        ui.label(RichText::new(interval).monospace());
-        ui.end_row();
-    });
+/// The indices of the losses as rows show them.
+fn order(losses: &[Loss], sorted: bool) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..losses.len()).collect();
+    if sorted {
+        order.sort_by(|a, b| losses[*a].estimate.mean.total_cmp(&losses[*b].estimate.mean));
+    }
+    order
 }
 
 /// What a difference says of its first prediction.
@@ -100,13 +205,21 @@ impl Verdict {
 
     fn text(self) -> &'static str {
         match self {
-            Self::Better => "better",
-            Self::Worse => "worse",
+            Self::Better => "\u{2193} better",
+            Self::Worse => "\u{2191} worse",
             Self::NotSignificant => "no significant difference",
         }
     }
 
-    fn meaning(self, first: &str, second: &str) -> String {
+    fn colour(self, visuals: &egui::Visuals) -> Color32 {
+        match self {
+            Self::Better => theme::better(visuals),
+            Self::Worse => theme::problem(visuals),
+            Self::NotSignificant => visuals.weak_text_color(),
+        }
+    }
+
+    fn meaning(self, first: usize, second: usize) -> String {
         match self {
             Self::Better => format!("{first} is closer to the ground truth than {second}"),
             Self::Worse => format!("{first} is farther from the ground truth than {second}"),
@@ -161,6 +274,16 @@ mod tests {
         assert_eq!(of(Some([-0.1, 0.2])), Verdict::NotSignificant);
         assert_eq!(of(Some([0.0, 0.0])), Verdict::NotSignificant);
         assert_eq!(of(None), Verdict::NotSignificant);
+    }
+
+    #[test]
+    fn means_have_their_significant_digits_and_intervals_one_more() {
+        let of = |mean, interval95| significant(&Estimate { mean, standard_error: None, interval95 });
+        assert_eq!(of(0.321_814, Some([0.319_551, 0.324_195])), ["0.322", "[0.3196, 0.3242]"]);
+        assert_eq!(of(0.371_2, Some([0.284, 0.473])), ["0.37", "[0.284, 0.473]"]);
+        assert_eq!(of(-0.117, Some([-0.119_365, -0.114_891])), ["-0.117", "[-0.1194, -0.1149]"]);
+        assert_eq!(of(0.0, Some([0.0, 0.0])), ["0.000000", "[0.000000, 0.000000]"]);
+        assert_eq!(of(0.5, None), ["0.50", "[unknown]"]);
     }
 
     #[test]

@@ -2,9 +2,10 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::files::read::{Certainty, Sidecar};
+use crate::files::read::{Certainty, Note, ReadOptions, Sidecar};
 use crate::viewer::command::{Command, MaterialsCommand};
-use crate::viewer::slots::{Slot, Slots};
+use crate::viewer::slot::Slot;
+use crate::viewer::slots::Slots;
 use crate::viewer::source::Origin;
 use crate::viewer::theme;
 
@@ -70,6 +71,31 @@ fn save_button(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<
     }
 }
 
+/// The names of a file of several materials, to choose one.
+fn chooser(ui: &mut egui::Ui, slot: &Slot, read: &mut ReadOptions) {
+    let names = slot.loaded.notes.iter().find_map(|note| match note {
+        Note::Materials { names, index } => Some((names, *index)),
+        _ => None,
+    });
+    let Some((names, index)) = names else { return };
+    let mut chosen = index;
+    let text = names.get(index).map_or("", String::as_str);
+    let response = egui::ComboBox::from_id_salt((slot.id, "material"))
+        .selected_text(format!("material {text}"))
+        .show_ui(ui, |ui| {
+            for (i, name) in names.iter().enumerate() {
+                ui.selectable_value(&mut chosen, i, format!("{i}: {name}"));
+            }
+        })
+        .response;
+    let label = format!("material of {}", slot.name());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &label));
+    response.on_hover_text(format!("The file has {} materials", names.len()));
+    if chosen != index {
+        read.exemplar = Some(chosen);
+    }
+}
+
 fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
     let loaded = &slot.loaded;
     let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
@@ -100,6 +126,7 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
     if matches!(loaded.origin, Origin::Path(_)) {
         let mut read = loaded.read;
         super::read_options(ui, slot.name(), &mut read, &loaded.assumptions);
+        chooser(ui, slot, &mut read);
         if read != loaded.read {
             commands.push(MaterialsCommand::ReadAs { slot: index, read }.into());
         }

@@ -7,11 +7,14 @@ mod loss_results;
 pub mod materials;
 pub mod messages;
 pub mod open;
+pub mod pins;
 pub mod save;
 pub mod scene;
 pub mod status;
 pub mod study;
 pub mod top;
+pub mod values;
+pub mod why;
 
 use eframe::egui::{self, DragValue, Response, RichText};
 
@@ -88,9 +91,12 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         options.dielectric = f0.filter(|f0| *f0 != Reflectance::DIELECTRIC);
         let exemplar = format!("exemplar of {name}");
         let mut number_of = options.exemplar.unwrap_or(0);
+        let before = number_of;
         number(ui, &exemplar, &mut number_of, 0, |drag| drag.range(0..=999).prefix("exemplar "))
             .on_hover_text("Row of a packed image, or material of a file, counted from 0");
-        options.exemplar = (number_of > 0).then_some(number_of);
+        if number_of != before {
+            options.exemplar = (number_of > 0).then_some(number_of);
+        }
         let mut replace = options.non_finite == Some(NonFinite::Replace);
         ui.checkbox(&mut replace, "replace NaN")
             .on_hover_text("Replace NaN and infinity; otherwise they are an error");

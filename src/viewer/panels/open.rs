@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use eframe::egui::{self, RichText};
 
 use crate::files::read::ReadOptions;
+use crate::files::session::Session;
 use crate::viewer::command::{Command, MaterialsCommand, WindowCommand};
+use crate::viewer::source::file_name;
 use crate::viewer::theme;
 
 /// The paths and choices so far.
@@ -43,6 +45,15 @@ fn ending(ui: &egui::Ui, path: &str) -> String {
     starts.skip(1).find(|end| width(end) <= room).unwrap_or_else(|| path.to_owned())
 }
 
+/// The button that opens the last materials again.
+fn reopen(ui: &mut egui::Ui, last: &Session, commands: &mut Vec<Command>) {
+    let names: Vec<String> = last.materials.iter().filter_map(|m| m.path.as_deref()).map(file_name).collect();
+    let hover = format!("{}, as they were shown (Ctrl+Shift+O)", names.join(", "));
+    if ui.button("Reopen last").on_hover_text(hover).clicked() {
+        commands.push(MaterialsCommand::ReopenLast.into());
+    }
+}
+
 impl From<ReadOptions> for OpenWindow {
     fn from(read: ReadOptions) -> Self {
         Self { read, ..Self::default() }
@@ -50,7 +61,7 @@ impl From<ReadOptions> for OpenWindow {
 }
 
 impl OpenWindow {
-    pub fn ui(&mut self, ctx: &egui::Context, recent: &[PathBuf]) -> Vec<Command> {
+    pub fn ui(&mut self, ctx: &egui::Context, recent: &[PathBuf], last: Option<&Session>) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut open = true;
         egui::Window::new("Open materials")
@@ -60,6 +71,9 @@ impl OpenWindow {
             .anchor(egui::Align2::CENTER_TOP, [0.0, 40.0])
             .show(ctx, |ui| {
                 self.paths(ui, &mut commands);
+                if let Some(last) = last {
+                    reopen(ui, last, &mut commands);
+                }
                 // The buttons stay visible, however long the list is.
                 let rest = ui.ctx().content_rect().bottom() - ui.cursor().top() - BELOW_RECENT;
                 egui::ScrollArea::vertical()

@@ -1,17 +1,20 @@
-//! The dialog that saves the view as a picture.
+//! The dialog that saves the view, the renderings, a strip or the session.
 
 use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
-use crate::picture::export::Shows;
 use crate::viewer::command::{Command, WindowCommand};
+use crate::viewer::save_kind::SaveKind;
 use crate::viewer::theme;
 
-/// The path typed so far.
+/// What is typed and chosen so far.
 #[derive(Debug)]
 pub struct SaveWindow {
     pub path: String,
+    pub what: SaveKind,
+    /// Size of a picture of the view, in pixels.
+    size: [u32; 2],
     /// The path of an existing file, once the dialog has said that it exists.
     replaces: Option<String>,
     /// Whether the path field has been given the focus.
@@ -22,45 +25,36 @@ pub struct SaveWindow {
     problem: Option<String>,
 }
 
-impl Default for SaveWindow {
-    fn default() -> Self {
-        Self {
-            path: "svbrdf-view.png".to_owned(),
-            replaces: None,
-            focused: false,
-            saving: false,
-            problem: None,
-        }
-    }
-}
-
 impl SaveWindow {
-    /// `shows` is the content of the file.
-    pub fn ui(&mut self, ctx: &egui::Context, shows: Shows) -> Vec<Command> {
+    /// `size` is that of the view in the window, in pixels.
+    pub fn new(size: [u32; 2]) -> Self {
+        let what = SaveKind::default();
+        let path = what.proposal().to_owned();
+        Self { path, what, size, replaces: None, focused: false, saving: false, problem: None }
+    }
+
+    /// `seen` is the size of the view in the window, in pixels.
+    pub fn ui(&mut self, ctx: &egui::Context, seen: [u32; 2]) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut open = true;
-        egui::Window::new("Save view")
+        egui::Window::new("Save")
             .open(&mut open)
             .collapsible(false)
             .default_width(420.0)
             .anchor(egui::Align2::CENTER_TOP, [0.0, 60.0])
             .show(ctx, |ui| {
-                let label = ui.label("To file (.png as displayed, .exr as linear floats):");
+                self.choice(ui);
+                let label = ui.label("To file:");
                 let field = egui::TextEdit::singleline(&mut self.path).desired_width(f32::INFINITY);
                 let field = ui.add(field).labelled_by(label.id);
                 if !std::mem::replace(&mut self.focused, true) {
                     field.request_focus();
                 }
                 let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-                let what = match shows {
-                    Shows::Radiance => "Renderings of ground truth and predictions",
-                    Shows::LogDifference => "The log difference of every prediction",
-                };
-                let text = format!(
-                    "{what}, side by side, one pixel per texel, with light, view, exposure and convention in the file's \
-                     metadata; the same as `svbrdf render` writes."
-                );
-                ui.label(RichText::new(text).small().weak());
+                ui.label(RichText::new(self.what.explanation()).small().weak());
+                if self.what == SaveKind::View {
+                    self.sizes(ui, seen);
+                }
                 let told = self.replaces.as_deref() == Some(self.path.trim());
                 if told {
                     ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
@@ -71,7 +65,7 @@ impl SaveWindow {
                 let text = match (self.saving, told) {
                     (true, _) => "Saving...",
                     (_, true) => "Replace it",
-                    _ => "Save picture",
+                    _ => "Save file",
                 };
                 let clicked = ui.add_enabled(!self.saving, egui::Button::new(text)).clicked();
                 if clicked || (entered && !self.saving) {
@@ -82,6 +76,33 @@ impl SaveWindow {
             commands.push(WindowCommand::ShowSave(false).into());
         }
         commands
+    }
+
+    /// What is saved; a name that was proposed follows.
+    fn choice(&mut self, ui: &mut egui::Ui) {
+        ui.horizontal(|ui| {
+            for what in SaveKind::ALL {
+                let button = ui.selectable_label(self.what == what, what.name());
+                if button.on_hover_text(what.explanation()).clicked() {
+                    if SaveKind::ALL.iter().any(|kind| kind.proposal() == self.path) {
+                        self.path = what.proposal().to_owned();
+                    }
+                    self.what = what;
+                }
+            }
+        });
+    }
+
+    fn sizes(&mut self, ui: &mut egui::Ui, seen: [u32; 2]) {
+        ui.horizontal(|ui| {
+            ui.label("Size");
+            for (name, side, default) in [("Width in pixels", 0, seen[0]), ("Height in pixels", 1, seen[1])] {
+                super::number(ui, name, &mut self.size[side], default, |drag| drag.range(64..=8192));
+            }
+            if ui.button("As in the window").clicked() {
+                self.size = seen;
+            }
+        });
     }
 
     /// Shows what went wrong, and puts the cursor into the path field.
@@ -98,6 +119,6 @@ impl SaveWindow {
             return;
         }
         (self.saving, self.problem) = (true, None);
-        commands.push(WindowCommand::SaveView(path).into());
+        commands.push(WindowCommand::Save { what: self.what, path, size: self.size }.into());
     }
 }

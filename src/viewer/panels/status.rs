@@ -1,91 +1,148 @@
-//! The line at the bottom: the values of the texel under the pointer, and the graphics adapter.
+//! The line at the bottom: the numbers of the texel under the pointer, and the graphics adapter.
 
 use eframe::egui::{self, RichText};
 
 use crate::gpu::AdapterReport;
-use crate::material::Material;
-use crate::model::brdf::Model;
-use crate::model::convention::Convention;
-use crate::picture::quantity::Quantity;
-use crate::render::render_texel;
-use crate::viewer::panes::Hovered;
-use crate::viewer::slots::Slot;
+use crate::viewer::command::{Command, InspectCommand};
+use crate::viewer::readout;
+use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
+use crate::viewer::theme;
+
+/// Least width of the line, in points, in which the adapter is named.
+const WIDE: f32 = 1000.0;
+/// Width of the line, in points, below which its buttons have short names.
+const NARROW: f32 = 850.0;
+/// Characters of the texel's (column, row).
+const PLACE: usize = 9;
 
 /// What the line shows.
 #[derive(Debug)]
 pub struct StatusBar<'a> {
     pub state: &'a ViewState,
     pub slots: &'a [Slot],
-    pub hovered: Option<Hovered>,
+    /// The texel under the pointer.
+    pub texel: Option<[usize; 2]>,
+    /// The slot of the pane under the pointer.
+    pub hovered: Option<usize>,
+    /// Screen pixels per texel.
+    pub magnification: f32,
+    pub armed: bool,
     /// `None` where there is no adapter.
     pub adapter: Option<&'a AdapterReport>,
     pub frame_ms: f32,
 }
 
 impl StatusBar<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) {
-        ui.horizontal(|ui| {
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                ui.label(RichText::new(format!("{:5.1} ms", self.frame_ms)).monospace().weak())
-                    .on_hover_text("CPU time of the last frame");
-                if let Some(adapter) = self.adapter {
-                    let name = egui::Label::new(RichText::new(&adapter.name).weak()).truncate();
-                    ui.add_sized([150.0, 16.0], name).on_hover_text(adapter.to_string());
-                }
-                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                    ui.add(egui::Label::new(RichText::new(self.readout()).monospace()).truncate());
-                });
-            });
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.set_height(ui.spacing().interact_size.y);
+            if ui.available_width() > WIDE {
+                self.adapter(ui);
+            }
+            self.buttons(ui, &mut commands);
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| self.columns(ui));
         });
+        commands
     }
 
-    /// The values at the texel under the pointer: of the ground truth, and of the prediction in the pane there (in that
-    /// of the ground truth: the chosen one).
-    fn readout(&self) -> String {
-        let texel = self.hovered.and_then(|hovered| {
-            let ground_truth = self.slots.first()?;
-            Some((hovered.slot, ground_truth, ground_truth.loaded.material.grid().texel_at(hovered.point)?))
-        });
-        let Some((hovered, ground_truth, [column, row])) = texel else {
-            return "texel -".to_owned();
-        };
-        let convention = self.state.convention();
-        let value = |slot: &Slot| value(&slot.loaded.material, self.state, &convention, [column, row]);
-        let expected = value(ground_truth);
-        let mut text = format!("texel {column:4},{row:4}  gt {}", self.numbers(expected));
-        let number = if hovered == 0 { self.state.prediction + 1 } else { hovered };
-        if let Some(prediction) = self.slots.get(number) {
-            let got = value(prediction);
-            let kind = self.state.difference_kind();
-            let difference = kind.of_texel(expected, got, convention.epsilon);
-            text += &format!("  {number} {}  {} {difference:.4}", self.numbers(got), kind.unit());
+    fn adapter(&self, ui: &mut egui::Ui) {
+        ui.label(RichText::new(format!("{:5.1} ms", self.frame_ms)).monospace().weak())
+            .on_hover_text("CPU time of the last frame");
+        if let Some(adapter) = self.adapter {
+            let name = egui::Label::new(RichText::new(&adapter.name).weak()).truncate();
+            ui.add_sized([120.0, 16.0], name).on_hover_text(adapter.to_string());
         }
-        text
     }
 
-    /// The numbers of a value; of roughness only one.
-    fn numbers(&self, value: [f32; 3]) -> String {
-        let count = if self.state.quantity == Quantity::Roughness { 1 } else { 3 };
-        value[..count].iter().map(|v| format!("{v:7.4}")).collect::<Vec<_>>().join(" ")
+    fn buttons(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let wide = ui.ctx().content_rect().width() > NARROW;
+        let (rectangle, pin) = if wide { ("Rectangle (Q)", "Pin (I)") } else { ("Rect.", "Pin") };
+        let rectangle = ui.selectable_label(self.armed, rectangle).on_hover_text(
+            "Statistics of a rectangle: the next left-drag draws it (Q); on maps also Shift + left-drag",
+        );
+        if rectangle.clicked() {
+            commands.push(InspectCommand::Arm(!self.armed).into());
+        }
+        let pin = ui.button(pin).on_hover_text(
+            "Pin the texel that was last under the pointer: all its numbers in a table (I); also Alt + click",
+        );
+        if pin.clicked() {
+            commands.push(InspectCommand::TogglePinHere.into());
+        }
+    }
+
+    /// The texel, then one column for each material whose numbers fit, the ground truth first.
+    fn columns(&self, ui: &mut egui::Ui) {
+        let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 10.5 };
+        let font = egui::FontId::monospace(size);
+        let place = match self.texel {
+            Some([column, row]) => format!("{column},{row}"),
+            None => "-".to_owned(),
+        };
+        let mono = |text: String| RichText::new(text).font(font.clone());
+        ui.label(mono(format!("texel {place:<PLACE$}")));
+        ui.label(mono(magnification(self.magnification)).weak())
+            .on_hover_text("Magnification: screen pixels per texel");
+        for index in self.order() {
+            let name = if index == 0 { "gt".to_owned() } else { index.to_string() };
+            let text = format!("{name} {}", self.numbers(index));
+            let glyph = ui.fonts_mut(|fonts| fonts.glyph_width(&font, 'm'));
+            let width = glyph * text.chars().count() as f32;
+            if ui.available_width() < width + 12.0 {
+                break;
+            }
+            ui.separator();
+            let text = if index == 0 { mono(text).color(theme::accent(ui.visuals())) } else { mono(text) };
+            let text = if self.hovered == Some(index) { text.strong() } else { text };
+            ui.label(text).on_hover_text(self.slots[index].name());
+        }
+    }
+
+    /// The slots in the order of their columns: the ground truth, the chosen prediction, then the others. It does not depend
+    /// on the pointer, so that columns stay where they are.
+    fn order(&self) -> Vec<usize> {
+        let all = 0..self.slots.len();
+        let fits_all = self.slots.len() <= 4;
+        let chosen = self.state.prediction + 1;
+        let mut order: Vec<usize> = all.collect();
+        if !fits_all && chosen < order.len() {
+            order.remove(chosen);
+            order.insert(1, chosen);
+        }
+        order
+    }
+
+    /// The numbers of slot `index` at the texel, always of the same width.
+    fn numbers(&self, index: usize) -> String {
+        let unit = readout::unit(self.state, index);
+        let numbers: Vec<String> = match self.texel {
+            Some(texel) => readout::shown(self.slots, self.state, index, self.state.difference, texel)
+                .into_iter()
+                .map(readout::fixed)
+                .collect(),
+            None => vec![format!("{:>1$}", "-", readout::WIDTH); readout::count(self.state, index)],
+        };
+        format!("{}{unit}", numbers.join(" "))
     }
 }
 
-/// The rendering or map at one texel, from the core.
-fn value(
-    material: &Material<f32>,
-    state: &ViewState,
-    convention: &Convention,
-    [column, row]: [usize; 2],
-) -> [f32; 3] {
-    let texel = material.texel(row * material.width() + column);
-    match state.quantity {
-        Quantity::Rendering => {
-            render_texel(material, &Model::from(convention), &state.scene.rays(), column, row)
-        }
-        Quantity::Normal => texel.normal.to_array(),
-        Quantity::Diffuse => texel.diffuse,
-        Quantity::Specular => texel.specular,
-        Quantity::Roughness => [texel.roughness; 3],
+/// Screen pixels per texel, in 6 characters.
+fn magnification(pixels: f32) -> String {
+    match pixels {
+        p if p >= 9.95 => format!("x{p:<5.0}"),
+        p if p >= 0.995 => format!("x{p:<5.1}"),
+        p => format!("x{p:<5.2}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_magnification_keeps_its_width() {
+        assert_eq!([0.254, 1.0, 12.3, 400.0].map(magnification), ["x0.25 ", "x1.0  ", "x12   ", "x400  "]);
     }
 }

@@ -25,13 +25,6 @@ pub struct StudyWindow<'a> {
     pub current: Option<Sampling>,
 }
 
-/// Opens the window.
-pub fn button(ui: &mut egui::Ui, enabled: bool) -> Option<Command> {
-    let button = ui.add_enabled(enabled, egui::Button::new("Study: time against error..."));
-    let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
-    button.on_hover_text(hover).clicked().then_some(LossCommand::ShowStudy(true).into())
-}
-
 impl StudyWindow<'_> {
     pub fn ui(&self, ctx: &egui::Context) -> Vec<Command> {
         let mut commands = Vec::new();

@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use crate::picture::quantity::Quantity;
-use crate::viewer::command::{Command, DisplayCommand, WindowCommand};
+use crate::viewer::command::{Command, DisplayCommand, LossCommand, WindowCommand};
 use crate::viewer::state::{Layout, Projection, ViewState};
 
 /// What the bar shows.
@@ -13,6 +13,11 @@ pub struct TopBar<'a> {
     pub dark: bool,
     pub side_panel: bool,
     pub swapped: bool,
+    /// Whether histograms of the values are shown.
+    pub histograms: bool,
+    /// Size of text and controls.
+    pub scale: f32,
+    pub has_predictions: bool,
 }
 
 impl TopBar<'_> {
@@ -37,10 +42,12 @@ impl TopBar<'_> {
         button(
             ui,
             "Save",
-            "Save this view as a picture (Ctrl+S)",
+            "Save view, renderings, strip or session (Ctrl+S)",
             commands,
             WindowCommand::ShowSave(true).into(),
         );
+        let hover = "Copy the view as a picture (Ctrl+Shift+C)";
+        button(ui, "Copy", hover, commands, WindowCommand::CopyPicture.into());
     }
 
     fn choices(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
@@ -61,12 +68,34 @@ impl TopBar<'_> {
                 commands.push(DisplayCommand::ShowDifference(difference).into());
             }
         }
+        if !self.state.difference {
+            let histograms = ui
+                .selectable_label(self.histograms, "Histogram")
+                .on_hover_text("Histograms of the values, per channel, of every material (J)");
+            if histograms.clicked() {
+                commands.push(WindowCommand::ToggleHistograms.into());
+            }
+        }
         let perspective = self.state.projection == Projection::Perspective;
         let toggle = ui
             .selectable_label(perspective, "Perspective")
             .on_hover_text("The plane seen from the view position, or the flat texture (P)");
         if toggle.clicked() {
             commands.push(DisplayCommand::ToggleProjection.into());
+        }
+        let tiled = ui.selectable_label(self.state.tiled, "Tile").on_hover_text(
+            "Repeat the material 2 x 2 times, shifted by half of itself: shows its seams; for display only (T)",
+        );
+        if tiled.clicked() {
+            commands.push(DisplayCommand::ToggleTiled.into());
+        }
+        if self.state.quantity == Quantity::Roughness {
+            let colours = ui
+                .selectable_label(self.state.false_colour, "False colour")
+                .on_hover_text("Roughness from 0 (black) to 1 (light yellow) (V)");
+            if colours.clicked() {
+                commands.push(DisplayCommand::ToggleFalseColour.into());
+            }
         }
         let swap = ui.selectable_label(self.swapped, "Swap").on_hover_text(
             "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
@@ -114,15 +143,35 @@ impl TopBar<'_> {
     }
 
     fn window(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let light = ui.selectable_label(!self.dark, "Light theme").on_hover_text("Light or dark theme");
-        if light.clicked() {
-            commands.push(WindowCommand::SetDark(!self.dark).into());
-        }
+        let menu = ui.menu_button("Menu", |ui| self.menu(ui, commands));
+        menu.response.on_hover_text("Study, theme and size of the window's text");
         let panel = ui.selectable_label(self.side_panel, "Panel").on_hover_text("Side panel (B)");
         if panel.clicked() {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
         button(ui, "?", "Keys and mouse (?)", commands, WindowCommand::ShowHelp(true).into());
+    }
+
+    fn menu(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let study = ui.add_enabled(self.has_predictions, egui::Button::new("Study: time against error..."));
+        let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
+        if study.on_hover_text(hover).clicked() {
+            commands.push(LossCommand::ShowStudy(true).into());
+        }
+        ui.separator();
+        let theme = if self.dark { "Light theme" } else { "Dark theme" };
+        button(ui, theme, "Colours of the window", commands, WindowCommand::SetDark(!self.dark).into());
+        ui.menu_button("UI scale", |ui| {
+            for percent in [75, 100, 125, 150, 175, 200, 250, 300] {
+                let scale = percent as f32 / 100.0;
+                let is_current = (self.scale - scale).abs() < 1e-3;
+                if ui.selectable_label(is_current, format!("{percent}%")).clicked() {
+                    commands.push(WindowCommand::SetScale(scale).into());
+                }
+            }
+        })
+        .response
+        .on_hover_text("Size of text and controls (Ctrl with plus, minus; Ctrl+0 for 100%)");
     }
 }
 

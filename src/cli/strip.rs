@@ -1,0 +1,117 @@
+//! `svbrdf strip`: a figure with materials in rows, and maps, renderings and differences in columns.
+
+use std::path::PathBuf;
+
+use svbrdf::error::Error;
+use svbrdf::loss::check_same_size;
+use svbrdf::material::Material;
+use svbrdf::model::convention::Convention;
+use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::model::scene_file;
+use svbrdf::picture::export::PngDestination;
+use svbrdf::picture::quantity::Quantity;
+use svbrdf::picture::shown::Shown;
+use svbrdf::picture::strip::{Column, Strip};
+
+use super::bar::watched;
+use super::materials;
+use super::render::{Range, difference_of, stops, triple};
+use super::stop::stoppable;
+
+/// Writes a labelled figure: a row per material, a column per map, rendering or difference
+///
+/// Every cell has the pixels that `svbrdf render` writes, one per texel. The row of GT has the legends of differences.
+#[derive(Debug, clap::Args)]
+pub struct StripArgs {
+    /// Output file, .png
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+
+    /// Columns: rendering, normal, diffuse, specular, roughness; with a colon and a kind, or a colon alone, differences:
+    /// rendering:log, normal:
+    #[arg(
+        long,
+        value_name = "COLUMN,...",
+        value_delimiter = ',',
+        default_value = "normal,diffuse,roughness,specular,rendering,rendering:"
+    )]
+    columns: Vec<String>,
+
+    /// Scene file; renderings and their differences have a column for each of its scenes
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["view", "light", "distant"])]
+    scenes: Option<PathBuf>,
+
+    /// Position of the viewer, or its direction with --distant
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
+        default_value = "0,0,2.5")]
+    view: [f64; 3],
+
+    /// Position of the light, or its direction with --distant
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
+        default_value = "0.4,0.5,1.2")]
+    light: [f64; 3],
+
+    /// Places light and viewer infinitely far away
+    #[arg(long)]
+    distant: bool,
+
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
+    #[arg(long, value_name = "NAME", default_value = "printed")]
+    convention: Convention,
+
+    /// Exposure of renderings in stops
+    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
+    exposure: f32,
+
+    /// The difference with the last colour: a number, or auto for the 99th percentile of the largest in a column
+    /// [default: 2 for logarithms, 45 degrees, else 1]
+    #[arg(long, value_name = "RANGE")]
+    range: Option<Range>,
+
+    #[command(flatten)]
+    materials: materials::MaterialArgs,
+}
+
+/// Renders and writes the figure.
+///
+/// # Errors
+/// Where the output cannot be written, or a material cannot be read or rendered.
+pub fn run(args: &StripArgs) -> Result<(), Error> {
+    let destination = PngDestination::new(&args.output)?;
+    let columns = columns(args)?;
+    let materials = materials::open::<f32>(&args.materials)?.into_all();
+    if let [ground_truth, predictions @ ..] = materials.as_slice() {
+        predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
+    }
+    let strip = Strip { columns, convention: args.convention, exposure_ev: args.exposure };
+    let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
+    let all: Vec<&Material<f32>> = materials.iter().collect();
+    let picture = watched("rendering", |progress| strip.picture(&all, &names, progress))?;
+    stoppable(|progress| destination.write(&picture, &strip.entries(&names), progress))
+}
+
+fn columns(args: &StripArgs) -> Result<Vec<Column>, Error> {
+    let scenes = match &args.scenes {
+        Some(path) => scene_file::read(path)?,
+        None => {
+            let kind = if args.distant { Kind::Distant } else { Kind::Near };
+            vec![Scene { kind, view: args.view, light: args.light }]
+        }
+    };
+    for scene in &scenes {
+        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+    }
+    let mut columns = Vec::new();
+    for text in &args.columns {
+        let (quantity, difference) = match text.split_once(':') {
+            Some((quantity, kind)) => (quantity, Some(kind)),
+            None => (text.as_str(), None),
+        };
+        let quantity: Quantity = quantity.trim().parse()?;
+        let difference = difference.map(|kind| difference_of(quantity, kind, args.range)).transpose()?;
+        let count = if quantity == Quantity::Rendering { scenes.len() } else { 1 };
+        let shown = Shown { quantity, difference };
+        columns.extend(scenes.iter().take(count).map(|scene| Column { shown, scene: *scene }));
+    }
+    Ok(columns)
+}

@@ -1,0 +1,198 @@
+//! The session file: a comparison that another person can open, with everything that it takes.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::read::ReadOptions;
+use crate::error::Error;
+use crate::model::scene::Scene;
+
+/// What the names of session files end with.
+const ENDING: &str = ".svbrdf-session.json";
+/// The version that is written, and the latest that is read.
+const VERSION: u32 = 1;
+
+/// A comparison: materials, how they are read and rendered, and what a window adds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Session {
+    #[serde(rename = "svbrdf-session")]
+    version: u32,
+    /// The ground truth first, then the predictions.
+    pub materials: Vec<SessionMaterial>,
+    pub scene: Scene,
+    /// The name of the convention.
+    pub convention: String,
+    /// Exposure in stops.
+    #[serde(default)]
+    pub exposure: f32,
+    /// Display and loss settings of the window.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub window: Map<String, Value>,
+}
+
+/// A material of a session.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct SessionMaterial {
+    /// Its file, folder or prefix. In a file, it is relative to the folder of the file. `None` for a built-in material.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathBuf>,
+    /// The number of a built-in material.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub built_in: Option<usize>,
+    /// How it is read; what is not specified is inferred.
+    #[serde(default)]
+    pub read: ReadOptions,
+    /// Whether it is resized to the ground truth.
+    #[serde(default)]
+    pub fit: bool,
+}
+
+impl Session {
+    /// Whether `path` is named like a session file.
+    pub fn is_named(path: &Path) -> bool {
+        path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ENDING))
+    }
+
+    /// A session without anything of a window.
+    pub fn new(materials: Vec<SessionMaterial>, scene: Scene, convention: String, exposure: f32) -> Self {
+        Self { version: VERSION, materials, scene, convention, exposure, window: Map::new() }
+    }
+
+    /// Reads a session file; the paths of its materials become those from here.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`], [`Error::BadSession`].
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
+        let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
+        let mut session: Self = serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
+        if session.version > VERSION {
+            let version = session.version;
+            return Err(bad(format!(
+                "expected version {VERSION}, found version {version} of a newer program"
+            )));
+        }
+        session.scene.check().map_err(|problem| bad(format!("the scene cannot be rendered, {problem}")))?;
+        if session.materials.is_empty() {
+            return Err(bad("expected at least one material, found none".to_owned()));
+        }
+        let folder = path.parent().unwrap_or(Path::new(""));
+        for material in &mut session.materials {
+            match (&mut material.path, material.built_in) {
+                (Some(path), None) => *path = folder.join(&path),
+                (None, Some(_)) => {}
+                _ => return Err(bad("expected a path or the number of a built-in material".to_owned())),
+            }
+        }
+        Ok(session)
+    }
+
+    /// The text of the session file `path`: the paths of materials are relative to its folder.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] where the file is not named like a session file, [`Error::Internal`].
+    pub fn text(&self, path: &Path) -> Result<String, Error> {
+        if !Self::is_named(path) {
+            let (found, known) = (path.display().to_string(), format!("NAME{ENDING}"));
+            return Err(Error::UnknownName { what: "name of a session file", found, known });
+        }
+        let mut session = self.clone();
+        let folder = absolute(path.parent().unwrap_or(Path::new("")));
+        for material in &mut session.materials {
+            material.path = material.path.as_ref().map(|path| relative(&absolute(path), &folder));
+        }
+        let failed = |e: serde_json::Error| Error::Internal(format!("a session cannot be written: {e}"));
+        let mut value = serde_json::to_value(&session).map_err(failed)?;
+        for material in value["materials"].as_array_mut().into_iter().flatten() {
+            if let Some(read) = material["read"].as_object_mut() {
+                read.retain(|_, option| !option.is_null());
+            }
+        }
+        Ok(format!("{value:#}\n"))
+    }
+}
+
+fn absolute(path: &Path) -> PathBuf {
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    path.components().fold(PathBuf::new(), |mut path, component| {
+        match component {
+            Component::ParentDir => drop(path.pop()),
+            component => path.push(component),
+        }
+        path
+    })
+}
+
+/// The way from `folder` to `path`, both absolute, with slashes; `path` itself on another drive.
+fn relative(path: &Path, folder: &Path) -> PathBuf {
+    let (to, from): (Vec<_>, Vec<_>) = (path.components().collect(), folder.components().collect());
+    let common = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
+    if common == 0 {
+        return path.to_owned();
+    }
+    let up = from[common..].iter().map(|_| "..".to_owned());
+    let down = to[common..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
+    up.chain(down).collect::<Vec<_>>().join("/").into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::read::Albedo;
+    use crate::model::scene::Kind;
+
+    fn session(paths: &[PathBuf]) -> Session {
+        let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };
+        let material =
+            |path: &PathBuf| SessionMaterial { path: Some(path.clone()), built_in: None, read, fit: true };
+        let scene = Scene { kind: Kind::Distant, view: [0.1, 0.2, 1.0], light: [0.3, 0.1, 0.7] };
+        Session::new(paths.iter().map(material).collect(), scene, "guided-2020".to_owned(), -0.5)
+    }
+
+    #[test]
+    fn a_session_that_moves_with_its_files_finds_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let [here, there] = ["here", "there"].map(|name| folder.path().join(name));
+        fs::create_dir_all(here.join("runs")).unwrap();
+        let paths = [here.join("maps/gt.png"), here.join("p.png")];
+        let file = here.join("runs/a.svbrdf-session.json");
+        let saved = session(&paths);
+        let text = saved.text(&file).unwrap();
+        assert!(text.contains("\"../maps/gt.png\"") && text.contains("\"../p.png\""), "{text}");
+        assert!(!text.contains("null") && text.contains("srgb"), "{text}");
+        fs::write(&file, text).unwrap();
+        fs::rename(&here, &there).unwrap();
+        let read = Session::read(&there.join("runs/a.svbrdf-session.json")).unwrap();
+        let found: Vec<_> = read.materials.iter().map(|m| absolute(m.path.as_ref().unwrap())).collect();
+        assert_eq!(found, [there.join("maps/gt.png"), there.join("p.png")]);
+        let moved = [there.join("runs/../maps/gt.png"), there.join("runs/../p.png")];
+        assert_eq!(read, session(&moved));
+    }
+
+    #[test]
+    fn what_is_no_session_is_refused_with_its_reason() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.svbrdf-session.json");
+        let good = session(&["gt.png".into()]).text(&path).unwrap();
+        let cases = [
+            (good.replace("\"svbrdf-session\": 1", "\"svbrdf-session\": 2"), "newer program"),
+            (good.replace("0.7", "-0.7"), "cannot be rendered"),
+            (good.replace("\"path\"", "\"way\""), "expected a path"),
+            (good.replace("\"materials\"", "\"things\""), "materials"),
+            ("[".to_owned(), "EOF"),
+        ];
+        for (text, reason) in cases {
+            assert_ne!(text, good);
+            fs::write(&path, text).unwrap();
+            let error = Session::read(&path).unwrap_err().to_string();
+            assert!(error.contains(reason), "{error}");
+        }
+        assert!(session(&[]).text(Path::new("a.json")).is_err());
+    }
+}

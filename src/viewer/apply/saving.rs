@@ -1,0 +1,95 @@
+//! Saving and copying.
+
+use std::io::Write as _;
+use std::path::PathBuf;
+
+use eframe::egui;
+
+use crate::error::Error;
+use crate::files::atomic;
+use crate::viewer::app::App;
+use crate::viewer::message::Message;
+use crate::viewer::save;
+use crate::viewer::save_kind::SaveKind;
+use crate::viewer::snapshot::{Size, snapshot};
+use crate::viewer::worker::Task;
+
+impl App {
+    /// Starts to save; `size` is that of a picture of the view.
+    pub(super) fn start_saving(
+        &mut self,
+        ctx: &egui::Context,
+        what: SaveKind,
+        path: PathBuf,
+        size: [u32; 2],
+    ) {
+        let range = self.difference.range(&self.slots, &self.state);
+        let shown = save::shown(&self.slots, &self.state, range);
+        let task = match what {
+            SaveKind::Renderings => save::renderings(ctx, &self.slots, &self.state, shown, path),
+            SaveKind::Strip => save::strip(ctx, &self.slots, &self.state, path),
+            SaveKind::Session => self.save_session(ctx, path),
+            SaveKind::View => match self.picture(ctx, size) {
+                Ok(picture) => {
+                    let mut entries = save::provenance(&self.slots, &self.state, shown).entries();
+                    entries.extend(self.view_entries());
+                    save::view(ctx, picture, entries, path)
+                }
+                Err(error) => Task::start(ctx, |_| Err(error)),
+            },
+        };
+        self.stop.cancels(&task.progress());
+        self.saving = Some(task);
+    }
+
+    /// Puts the view on the clipboard as a picture of the size that it has in the window.
+    pub(super) fn copy_picture(&mut self, ctx: &egui::Context) {
+        match self.picture(ctx, self.picture_size) {
+            Ok(picture) => {
+                ctx.copy_image(picture);
+                self.report([Message::Copied("the view as a picture")]);
+            }
+            Err(error) => self.report([Message::Failed(error)]),
+        }
+    }
+
+    /// The panes and the legend, as they are seen, in a picture of this size.
+    fn picture(&mut self, ctx: &egui::Context, pixels: [u32; 2]) -> Result<egui::ColorImage, Error> {
+        let seen = self.picture_size;
+        // A larger picture has larger text.
+        let grown = (pixels[0] as f32 / seen[0].max(1) as f32).min(pixels[1] as f32 / seen[1].max(1) as f32);
+        let scale = (ctx.pixels_per_point() * grown).clamp(0.5, 8.0);
+        let Some(view) = &self.gpu else {
+            return Err(Error::Internal("there is no graphics adapter to draw the view".to_owned()));
+        };
+        let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), self.settings.dark);
+        // The gestures of the window are not those of the picture.
+        let viewport = std::mem::take(&mut self.viewport);
+        let picture = snapshot(&state, &gpu, Size { pixels, scale }, dark, |ui| {
+            drop(self.content(ui));
+        });
+        self.viewport = viewport;
+        picture
+    }
+
+    /// How the view is displayed, as (keyword, text).
+    fn view_entries(&self) -> [(&'static str, String); 3] {
+        let state = &self.state;
+        let [x, y] = state.pan;
+        [
+            ("svbrdf:layout", state.layout.name().to_owned()),
+            ("svbrdf:projection", format!("{:?}", state.projection).to_lowercase()),
+            ("svbrdf:zoom", format!("{}, pan {x}, {y}", state.zoom)),
+        ]
+    }
+
+    fn save_session(&self, ctx: &egui::Context, path: PathBuf) -> Task<PathBuf> {
+        let session = self.session();
+        Task::start(ctx, move |progress| {
+            let text = session.text(&path)?;
+            atomic::check_place(&path)?;
+            atomic::replace(&path, progress, |file| file.write_all(text.as_bytes()))?;
+            Ok(path)
+        })
+    }
+}

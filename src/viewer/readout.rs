@@ -1,0 +1,65 @@
+//! Numbers of texels as text, in columns that do not move.
+
+use super::slot::Slot;
+use super::state::ViewState;
+use crate::picture::difference::Difference;
+use crate::picture::quantity::Quantity;
+
+/// Characters of a number.
+pub const WIDTH: usize = 8;
+
+/// A number in exactly [`WIDTH`] characters, with as many digits as fit, at most 4 behind the point.
+pub fn fixed(value: f64) -> String {
+    let digits = match value.abs() {
+        v if v < 100.0 => 4,
+        v if v < 1e3 => 3,
+        v if v < 1e4 => 2,
+        v if v < 1e5 => 1,
+        v if v.is_finite() => return format!("{value:>WIDTH$.1e}"),
+        _ => 0,
+    };
+    format!("{value:>WIDTH$.digits$}")
+}
+
+/// The numbers of a slot's pane at a texel: its value, or its difference from the ground truth where the panes show that.
+pub fn shown(
+    slots: &[Slot],
+    state: &ViewState,
+    index: usize,
+    difference: bool,
+    texel: [usize; 2],
+) -> Vec<f64> {
+    let convention = state.convention();
+    let value =
+        |index: usize| state.quantity.at(&slots[index].loaded.material, &state.scene, &convention, texel);
+    if difference && index > 0 {
+        return vec![state.difference_kind().of_texel(value(0), value(index), convention.epsilon)];
+    }
+    value(index)[..state.quantity.channels()].iter().map(|v| f64::from(*v)).collect()
+}
+
+/// How many numbers a column of the status line has.
+pub fn count(state: &ViewState, index: usize) -> usize {
+    if state.difference && index > 0 { 1 } else { state.quantity.channels() }
+}
+
+/// The unit behind a number of a pane.
+pub fn unit(state: &ViewState, index: usize) -> &'static str {
+    let angle = state.difference_kind() == Difference::Angle && state.quantity == Quantity::Normal;
+    if state.difference && index > 0 && angle { " deg" } else { "" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_their_width() {
+        for value in
+            [0.0, -0.12345, 12.345_678, -99.9999, 123.456, 9_999.9, 65_504.0, 1e30, f64::NAN, f64::INFINITY]
+        {
+            assert_eq!(fixed(value).len(), WIDTH, "{value}: {:?}", fixed(value));
+        }
+        assert_eq!([fixed(0.5), fixed(-12.3456)], ["  0.5000", "-12.3456"]);
+    }
+}

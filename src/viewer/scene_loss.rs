@@ -1,0 +1,63 @@
+//! The loss of the current scene alone, computed on a worker.
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+use super::latest::Latest;
+use super::loaded::Loaded;
+use super::slots::Slots;
+use super::state::ViewState;
+use super::worker::Task;
+use crate::error::Error;
+use crate::loss::{Comparison, Request};
+use crate::material::Material;
+use crate::model::scene::Scene;
+
+/// What the losses depend on.
+#[derive(Clone, Debug, PartialEq)]
+struct Key {
+    ids: Vec<u64>,
+    scene: Scene,
+    convention: &'static str,
+}
+
+/// The loss of each prediction under the light and view of now.
+#[derive(Debug, Default)]
+pub struct SceneLoss(Latest<Key, Vec<f64>>);
+
+impl SceneLoss {
+    /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
+    pub fn follow(
+        &mut self,
+        ctx: &egui::Context,
+        shown: bool,
+        slots: &Slots,
+        state: &ViewState,
+    ) -> Option<Error> {
+        let wanted = (shown && !slots.predictions().is_empty()).then(|| key(slots, state));
+        let convention = state.convention();
+        self.0.follow(ctx, wanted, |key| {
+            let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|slot| slot.loaded.clone()).collect();
+            let request = Request::Listed(vec![key.scene]);
+            Task::start(ctx, move |progress| {
+                let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
+                let comparison = Comparison::new(materials[0], &materials[1..], convention)?;
+                let outcome = comparison.run(&request, progress)?;
+                Ok(outcome.losses.iter().map(|loss| loss.estimate.mean).collect())
+            })
+        })
+    }
+
+    /// The latest losses of these materials, and whether they are those of now.
+    pub fn get(&self, slots: &Slots, state: &ViewState) -> Option<(&[f64], bool)> {
+        let (of, losses) = self.0.get()?;
+        let now = key(slots, state);
+        (of.ids == now.ids).then_some((losses.as_slice(), *of == now))
+    }
+}
+
+fn key(slots: &Slots, state: &ViewState) -> Key {
+    let ids = slots.slots.iter().map(|slot| slot.id).collect();
+    Key { ids, scene: state.scene, convention: state.convention().name }
+}

@@ -1,0 +1,82 @@
+//! The session of the window: saved, opened, and remembered for the next start.
+
+use eframe::egui;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
+
+use super::app::App;
+use super::source::{Origin, Source};
+use super::state::ViewState;
+use crate::files::read::ReadOptions;
+use crate::files::session::{Session, SessionMaterial};
+
+/// The keys of the window's part, and of what is in the session itself.
+const VIEW: &str = "view";
+const LOSS: &str = "loss";
+const ELSEWHERE: [&str; 3] = ["scene", "convention", "exposure_ev"];
+
+impl App {
+    /// The session of now.
+    pub(super) fn session(&self) -> Session {
+        let materials = self.slots.slots.iter().map(|slot| {
+            let (path, built_in) = match &slot.loaded.origin {
+                Origin::Path(path) => {
+                    (Some(std::path::absolute(path).unwrap_or_else(|_| path.clone())), None)
+                }
+                Origin::BuiltIn(number) => (None, Some(*number)),
+            };
+            let read = if built_in.is_some() { ReadOptions::AUTO } else { slot.loaded.read };
+            SessionMaterial { path, built_in, read, fit: slot.loaded.fit }
+        });
+        let state = &self.state;
+        let convention = state.convention.clone();
+        let mut session = Session::new(materials.collect(), state.scene, convention, state.exposure_ev);
+        let mut view = value(state);
+        if let Some(view) = view.as_object_mut() {
+            ELSEWHERE.iter().for_each(|key| drop(view.remove(*key)));
+        }
+        session.window =
+            Map::from_iter([(VIEW.to_owned(), view), (LOSS.to_owned(), value(&self.settings.loss))]);
+        session
+    }
+
+    /// Opens the materials of a session, and shows them as it does.
+    pub(super) fn open_session(&mut self, ctx: &egui::Context, session: &Session) {
+        let part = |key| session.window.get(key).cloned();
+        let view: ViewState = part(VIEW).and_then(from_value).unwrap_or_default();
+        let (convention, exposure_ev) = (session.convention.clone(), session.exposure);
+        self.state = ViewState { scene: session.scene, convention, exposure_ev, ..view };
+        if let Some(loss) = part(LOSS).and_then(from_value) {
+            self.settings.loss = loss;
+        }
+        let sources: Vec<_> = session.materials.iter().filter_map(source).collect();
+        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+        self.slots.restore(ctx, gpu, &sources);
+    }
+
+    /// Remembers the session for the next start, unless there are only built-in materials.
+    pub(super) fn remember_session(&mut self) {
+        if !self.slots.only_built_in() && self.slots.openings.is_empty() {
+            self.settings.last = Some(self.session());
+        }
+    }
+}
+
+fn source(material: &SessionMaterial) -> Option<Source> {
+    let origin = match (&material.path, material.built_in) {
+        (Some(path), _) => Origin::Path(path.clone()),
+        (None, number) => return number.map(Source::built_in),
+    };
+    let (read, fit) = (material.read, material.fit);
+    Some(Source { origin, asked: read, exactly: Some(read), fit })
+}
+
+fn value(of: &impl Serialize) -> Value {
+    serde_json::to_value(of).unwrap_or_default()
+}
+
+/// What an older or newer program has saved otherwise is left at its default.
+fn from_value<T: DeserializeOwned>(value: Value) -> Option<T> {
+    serde_json::from_value(value).ok()
+}

@@ -1,0 +1,94 @@
+//! Keeps the material in sight, and says how to find it.
+
+use glam::Vec3;
+
+use super::panes::Scenery;
+use super::state::{Projection, ViewState};
+use crate::material::Grid;
+
+/// Least part of the material, or of the pane where the material is larger, that panning leaves in sight along each axis:
+/// a fifth of the area along both.
+const LEAST: f32 = 0.447_213_6;
+/// A part in sight below which a pane says how to fit the material.
+const NEARLY_LOST: f32 = 0.3;
+/// A view steeper than this above the plane (its sine) sees the plane from straight above.
+const STEEP: f64 = 0.999;
+
+/// The pan nearest to that of `state` which leaves a fifth of the material in sight.
+pub fn kept_pan(state: &ViewState, grid: Grid, aspect: f32) -> [f32; 2] {
+    let Some(extents) = extents(state, grid, aspect) else { return state.pan };
+    std::array::from_fn(|axis| {
+        let [low, high] = extents[axis];
+        let least = LEAST * (high - low).min(2.0);
+        // At pan p the material covers [low + p, high + p] of the pane's [-1, 1].
+        state.pan[axis].clamp(least - 1.0 - high, 1.0 - least - low)
+    })
+}
+
+/// The share in sight of the material, or of the pane where the material is larger.
+fn share_in_sight(state: &ViewState, grid: Grid, aspect: f32) -> f32 {
+    let Some(extents) = extents(state, grid, aspect) else { return 1.0 };
+    let share = |axis: usize| {
+        let [low, high] = extents[axis].map(|end| end + state.pan[axis]);
+        ((high.min(1.0) - low.max(-1.0)) / (high - low).min(2.0)).max(0.0)
+    };
+    share(0) * share(1)
+}
+
+/// From where to where the magnified material reaches along each axis of the pane, before panning; `None` where a corner
+/// is behind the view.
+fn extents(state: &ViewState, grid: Grid, aspect: f32) -> Option<[[f32; 2]; 2]> {
+    let camera = state.fitted_camera(grid, aspect);
+    let [x, y] = grid.half_extent();
+    let mut all = [[f32::INFINITY, f32::NEG_INFINITY]; 2];
+    for corner in [[-x, -y], [x, -y], [-x, y], [x, y]] {
+        let seen = camera.ndc_from_point(Vec3::new(corner[0], corner[1], 0.0))?;
+        for (extent, at) in all.iter_mut().zip(seen) {
+            *extent = [extent[0].min(at * state.zoom), extent[1].max(at * state.zoom)];
+        }
+    }
+    Some(all)
+}
+
+/// What a pane says at its bottom, where its picture may puzzle.
+pub fn hint(scenery: &Scenery<'_>, aspect: f32) -> Option<&'static str> {
+    let state = scenery.state;
+    let grid = scenery.slots.first()?.loaded.material.grid();
+    if share_in_sight(state, grid, aspect) < NEARLY_LOST {
+        return Some("F fits the material");
+    }
+    let [x, y, z] = state.scene.view;
+    let steep = z > STEEP * (x * x + y * y + z * z).sqrt();
+    let perspective = state.projection == Projection::Perspective;
+    (perspective && steep).then_some("Perspective from straight above: right-drag to tilt")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GRID: Grid = Grid { width: 64, height: 48 };
+
+    #[test]
+    fn the_material_stays_in_sight_at_every_zoom_and_projection() {
+        for projection in [Projection::Flat, Projection::Perspective] {
+            for zoom in [0.1, 0.5, 1.0, 7.0, 400.0] {
+                for far in [[1e4, 0.0], [0.0, -1e4], [1e4, 1e4], [-1e4, 30.0]] {
+                    let mut state = ViewState { projection, zoom, pan: far, ..ViewState::default() };
+                    assert!(share_in_sight(&state, GRID, 1.3) < NEARLY_LOST, "a planted fault");
+                    state.pan = kept_pan(&state, GRID, 1.3);
+                    let share = share_in_sight(&state, GRID, 1.3);
+                    assert!(share > 0.199, "{share} in sight of {state:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_pan_that_leaves_enough_in_sight_is_kept() {
+        for pan in [[0.0, 0.0], [0.9, -0.4], [-0.5, 0.9]] {
+            let state = ViewState { zoom: 3.0, pan, ..ViewState::default() };
+            assert_eq!(kept_pan(&state, GRID, 1.0), pan);
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Histograms of the values in the panes, computed on a worker.
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+use super::latest::Latest;
+use super::loaded::Loaded;
+use super::slots::Slots;
+use super::state::ViewState;
+use super::worker::Task;
+use crate::error::Error;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::picture::quantity::Quantity;
+use crate::picture::statistics::{Histogram, Statistics};
+use crate::progress::Progress;
+
+/// Bins of a histogram.
+const BINS: usize = 96;
+
+/// What the histograms depend on.
+#[derive(Clone, Debug, PartialEq)]
+struct Key {
+    ids: Vec<u64>,
+    quantity: Quantity,
+    /// Of a rendering.
+    scene: Option<Scene>,
+    convention: &'static str,
+}
+
+/// One channel of one material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    pub histogram: Histogram,
+    /// `None` where nothing is finite.
+    pub statistics: Option<Statistics>,
+}
+
+/// For each channel of the quantity, every material, the ground truth first.
+pub type Values = Vec<Vec<Channel>>;
+
+/// The histograms of the values.
+#[derive(Debug, Default)]
+pub struct ValuesRun(Latest<Key, Values>);
+
+impl ValuesRun {
+    /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
+    pub fn follow(
+        &mut self,
+        ctx: &egui::Context,
+        shown: bool,
+        slots: &Slots,
+        state: &ViewState,
+    ) -> Option<Error> {
+        let wanted = (shown && slots.ground_truth().is_some()).then(|| key(slots, state));
+        let (scene, convention) = (state.scene, state.convention());
+        self.0.follow(ctx, wanted, |key| {
+            let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|slot| slot.loaded.clone()).collect();
+            let quantity = key.quantity;
+            Task::start(ctx, move |progress| values(&materials, quantity, &scene, &convention, progress))
+        })
+    }
+
+    /// The latest histograms of these materials and this quantity, and whether they are those of now.
+    pub fn get(&self, slots: &Slots, state: &ViewState) -> Option<(&Values, bool)> {
+        let (of, values) = self.0.get()?;
+        let now = key(slots, state);
+        (of.ids == now.ids && of.quantity == now.quantity).then_some((values, *of == now))
+    }
+}
+
+fn key(slots: &Slots, state: &ViewState) -> Key {
+    Key {
+        ids: slots.slots.iter().map(|slot| slot.id).collect(),
+        quantity: state.quantity,
+        scene: (state.quantity == Quantity::Rendering).then_some(state.scene),
+        convention: state.convention().name,
+    }
+}
+
+fn values(
+    materials: &[Arc<Loaded>],
+    quantity: Quantity,
+    scene: &Scene,
+    convention: &Convention,
+    progress: &Progress,
+) -> Result<Values, Error> {
+    let images = materials
+        .iter()
+        .map(|loaded| quantity.image(&loaded.material, scene, convention, progress))
+        .collect::<Result<Vec<_>, Error>>()?;
+    let channel = |c: usize| {
+        let planes: Vec<Vec<f32>> =
+            images.iter().map(|image| image.pixels.iter().map(|pixel| pixel[c]).collect()).collect();
+        of_channel(&planes, quantity)
+    };
+    Ok((0..quantity.channels()).map(channel).collect())
+}
+
+/// One channel of every material, on one axis.
+fn of_channel(planes: &[Vec<f32>], quantity: Quantity) -> Vec<Channel> {
+    let statistics: Vec<Option<Statistics>> = planes.iter().map(|plane| Statistics::of(plane)).collect();
+    let axis = match quantity {
+        Quantity::Normal => [-1.0, 1.0],
+        // Highlights are rare and far away: the axis ends a little beyond the 95th percentile.
+        Quantity::Rendering => {
+            let most = statistics.iter().flatten().map(|one| one.p95).fold(0.0, f64::max);
+            [0.0, if most > 0.0 { 1.5 * most } else { 1.0 }]
+        }
+        _ => [0.0, 1.0],
+    };
+    let one = |(plane, statistics): (&Vec<f32>, Option<Statistics>)| Channel {
+        histogram: Histogram::of(plane, axis, BINS),
+        statistics,
+    };
+    planes.iter().zip(statistics).map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_texel_is_in_one_bin_of_its_channel_or_beyond_the_axis() {
+        let planes = [vec![0.0, 0.25, 0.5, 1.0], vec![0.1; 4]];
+        for quantity in [Quantity::Roughness, Quantity::Rendering, Quantity::Normal] {
+            for (channel, plane) in of_channel(&planes, quantity).iter().zip(&planes) {
+                let Histogram { counts, above, below, .. } = &channel.histogram;
+                assert_eq!(counts.iter().sum::<u64>() + above + below, 4, "{quantity:?}");
+                assert_eq!(channel.statistics, Statistics::of(plane));
+            }
+        }
+        let roughness = of_channel(&planes, Quantity::Roughness);
+        assert_eq!(roughness[1].histogram.counts[9], 4, "0.1 of 96 bins");
+    }
+}

@@ -1,0 +1,182 @@
+//! Saving the view, renderings, strips and sessions.
+
+use std::path::{Path, PathBuf};
+
+use svbrdf::files::read::ReadOptions;
+use svbrdf::files::session::Session;
+use svbrdf::picture::difference::Difference;
+use svbrdf::picture::quantity::Quantity;
+use svbrdf::picture::shown::{Shown, ShownDifference};
+use svbrdf::progress::Progress;
+use svbrdf::viewer::command::{
+    Command, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
+};
+use svbrdf::viewer::save_kind::SaveKind;
+use svbrdf::viewer::state::{Layout, Projection};
+
+use super::*;
+
+fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
+    let (ctx, command) = (window.ctx.clone(), command.into());
+    window.state_mut().apply(&ctx, command);
+    window.run_steps(2);
+}
+
+fn save(window: &mut Window<'_>, what: SaveKind, path: &Path, size: [u32; 2]) {
+    apply(window, WindowCommand::Save { what, path: path.to_owned(), size });
+    wait(window, "the file", |app| !app.messages().is_empty());
+    assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
+    apply(window, WindowCommand::DismissMessages);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn saved_renderings_are_what_is_selected() {
+    let mut window = built_in();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("normals.png");
+    apply(&mut window, DisplayCommand::SetQuantity(Quantity::Normal));
+    apply(&mut window, DisplayCommand::ShowDifference(true));
+    apply(&mut window, DisplayCommand::SetRange(Some(20.0)));
+    apply(&mut window, DisplayCommand::SetExposure(3.0));
+    save(&mut window, SaveKind::Renderings, &path, [0; 2]);
+    let got = image::open(&path).unwrap().to_rgb8();
+    let materials: Vec<_> = window.state().materials().collect();
+    let difference = ShownDifference { kind: Difference::Angle, range: Some(20.0) };
+    let shown = Shown { quantity: Quantity::Normal, difference: Some(difference) };
+    let (scene, convention) = (window.state().state.scene, window.state().state.convention());
+    let pictures = shown.pictures(&materials, &scene, &convention, &Progress::default()).unwrap();
+    let image = &pictures.images[0];
+    for (i, rgb) in image.pixels.iter().enumerate() {
+        let (x, y) = (i % image.width, i / image.width);
+        assert_eq!(got.get_pixel(x as u32, y as u32).0, shown.colour(*rgb, 0.0), "{x}, {y}");
+    }
+    assert!(image.pixels.iter().any(|rgb| rgb[0] > 1.0), "the normals differ");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
+    let mut window = built_in();
+    let folder = tempfile::tempdir().unwrap();
+    apply(&mut window, DisplayCommand::ShowDifference(true));
+    wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
+    apply(&mut window, DisplayCommand::Zoom { factor: 2.0, at: [0.2, 0.1] });
+    apply(&mut window, WindowCommand::ShowSave(true));
+    apply(&mut window, WindowCommand::ShowSave(false));
+    let size = window.state().picture_size();
+    let path = folder.path().join("view.png");
+    save(&mut window, SaveKind::View, &path, size);
+    window.run_steps(8);
+    let saved = image::open(&path).unwrap().to_rgb8();
+    assert_eq!([saved.width(), saved.height()], size);
+    let rect = pane(&window, GROUND_TRUTH);
+    let top = rect.top() - 24.0;
+    let area = egui::Rect::from_min_size(egui::pos2(0.0, top), vec2(size[0] as f32, size[1] as f32));
+    let seen = pixels(&mut window, area);
+    let far = |(a, b): (&image::Rgb<u8>, &image::Rgba<u8>)| (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 8);
+    let different = saved.pixels().zip(seen.pixels()).filter(|pair| far(*pair)).count();
+    let all = (size[0] * size[1]) as usize;
+    assert!(different < all / 100, "{different} of {all} pixels differ");
+    let bytes = std::fs::read(&path).unwrap();
+    for text in ["svbrdf:layout", "side by side", "svbrdf:zoom", "log difference of rendering"] {
+        assert!(bytes.windows(text.len()).any(|window| window == text.as_bytes()), "{text}");
+    }
+    let large = folder.path().join("large.png");
+    save(&mut window, SaveKind::View, &large, [size[0] * 2, size[1] * 2]);
+    let large = image::open(&large).unwrap().to_rgb8();
+    assert_eq!([large.width(), large.height()], size.map(|side| side * 2));
+    // The same picture, larger: not the same one in a corner.
+    let small = image::imageops::thumbnail(&large, size[0], size[1]);
+    let near = saved
+        .pixels()
+        .zip(small.pixels())
+        .map(|(a, b)| (0..3).map(|c| f64::from(a.0[c].abs_diff(b.0[c]))).sum::<f64>() / 3.0);
+    let mean = near.sum::<f64>() / all as f64;
+    assert!(mean < 12.0, "it differs by {mean} on average");
+}
+
+/// Two strips in a folder.
+fn strips(folder: &Path) -> [PathBuf; 2] {
+    let side = svbrdf::samples::generate::SIDE as u32;
+    let pixels = svbrdf::samples::generate::pack(&svbrdf::samples::generate::ground_truth());
+    let strip = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
+    ["gt.png", "p.png"].map(|name| {
+        let path = folder.join(name);
+        strip.save(&path).unwrap();
+        path
+    })
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let [gt, p] = strips(folder.path());
+    let options = ViewerOptions { ground_truth: Some(gt), predictions: vec![p], ..ViewerOptions::default() };
+    let mut first = window(options);
+    let read = ReadOptions { normal_y: Some(svbrdf::files::read::NormalY::Down), ..ReadOptions::AUTO };
+    apply(&mut first, MaterialsCommand::ReadAs { slot: 1, read });
+    wait(&mut first, "the other assumption", |app| !app.is_reading());
+    apply(&mut first, DisplayCommand::SetLayout(Layout::Wipe));
+    apply(&mut first, DisplayCommand::ToggleProjection);
+    apply(&mut first, DisplayCommand::SetQuantity(Quantity::Normal));
+    apply(&mut first, DisplayCommand::SetExposure(1.5));
+    apply(&mut first, SceneCommand::SetConvention("guided-2020"));
+    let mut scene = first.state().state.scene;
+    scene.light = [0.1, -0.7, 1.3];
+    apply(&mut first, SceneCommand::Set(scene));
+    let mut settings = first.state().settings.loss.clone();
+    settings.near = 17;
+    apply(&mut first, LossCommand::SetSettings(settings));
+    let path = folder.path().join("a.svbrdf-session.json");
+    save(&mut first, SaveKind::Session, &path, [0; 2]);
+    let (state, materials) =
+        (first.state().state.clone(), first.state().materials().cloned().collect::<Vec<_>>());
+    assert!(state.projection == Projection::Perspective && state.exposure_ev == 1.5);
+
+    let same = |window: &Window<'_>| {
+        assert_eq!(window.state().state, state);
+        assert_eq!(window.state().materials().cloned().collect::<Vec<_>>(), materials);
+        assert_eq!(window.state().settings.loss.near, 17);
+    };
+    let session = Some(Session::read(&path).unwrap());
+    same(&window(ViewerOptions { session, ..ViewerOptions::default() }));
+
+    let mut later = built_in();
+    assert!(later.state().messages().is_empty());
+    let open = MaterialsCommand::Open { paths: vec![path], replace: true, read: ReadOptions::AUTO };
+    apply(&mut later, open);
+    wait(&mut later, "the session", |app| app.names() == ["gt", "p"] && !app.is_reading());
+    same(&later);
+    later.run_steps(3);
+    apply(&mut later, MaterialsCommand::OpenBuiltIn);
+    wait(&mut later, "the built-in pair", |app| app.names().len() == 3 && !app.is_reading());
+    apply(&mut later, MaterialsCommand::ReopenLast);
+    wait(&mut later, "the last materials", |app| app.names() == ["gt", "p"] && !app.is_reading());
+    same(&later);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
+    let mut window = built_in();
+    window.get_by_label("Save").click();
+    window.run_steps(4);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
+    window.run_steps(2);
+    window.event(egui::Event::Text("no/such/folder/view.png".to_owned()));
+    window.run_steps(2);
+    window.get_by_label("Save file").click();
+    for _ in 0..500 {
+        window.step();
+        if window.query_by_label_contains("its folder does not exist").is_some() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    window.get_by_label_contains("its folder does not exist");
+    let field = window.get_by_role_and_label(egui::accesskit::Role::TextInput, "To file:");
+    assert_eq!(field.value().as_deref(), Some("no/such/folder/view.png"));
+    assert!(window.state().messages().is_empty());
+}

@@ -1,0 +1,216 @@
+//! The texel under the pointer, pins and the rectangle.
+
+use std::path::Path;
+
+use svbrdf::files::read::{Albedo, ReadOptions};
+use svbrdf::viewer::state::Projection;
+
+use super::*;
+
+/// Columns and rows of a material whose diffuse map encodes the texel's place.
+const SIZE: [u32; 2] = [48, 20];
+
+/// A folder with maps of a material; red of the diffuse map counts columns, green counts rows.
+fn numbered(folder: &Path) -> ViewerOptions {
+    let save = |name: &str, at: &dyn Fn(u32, u32) -> [u8; 3]| {
+        let picture = image::RgbImage::from_fn(SIZE[0], SIZE[1], |x, y| at(x, y).into());
+        picture.save(folder.join(name)).unwrap();
+    };
+    save("normal.png", &|_, _| [128, 128, 255]);
+    save("diffuse.png", &|x, y| [5 * x as u8 + 4, 12 * y as u8 + 4, 9]);
+    save("specular.png", &|_, _| [10, 10, 10]);
+    save("roughness.png", &|_, _| [100, 100, 100]);
+    let read = ReadOptions { albedo: Some(Albedo::Linear), ..ReadOptions::AUTO };
+    ViewerOptions {
+        ground_truth: Some(folder.to_owned()),
+        ground_truth_read: read,
+        ..ViewerOptions::default()
+    }
+}
+
+/// The texel whose colour this is; `None` for the background.
+fn texel_of([red, green, blue]: [u8; 3]) -> Option<[usize; 2]> {
+    // The map is linear, the screen sRGB.
+    let shown = |value: usize| (255.0 * crate::pictures::srgb(value as f64 / 255.0)).round() as u8;
+    let find = |count: u32, step: usize, seen: u8| {
+        (0..count as usize).find(|i| shown(step * i + 4).abs_diff(seen) <= 1)
+    };
+    let is_background = blue.abs_diff(shown(9)) > 1;
+    if is_background { None } else { Some([find(SIZE[0], 5, red)?, find(SIZE[1], 12, green)?]) }
+}
+
+fn hover(window: &mut Window<'_>, at: Pos2) {
+    window.event(egui::Event::PointerMoved(at));
+    window.run_steps(2);
+}
+
+fn wheel(window: &mut Window<'_>, at: Pos2, notches: f32) {
+    hover(window, at);
+    window.event(egui::Event::MouseWheel {
+        unit: egui::MouseWheelUnit::Line,
+        delta: vec2(0.0, notches),
+        phase: egui::TouchPhase::Move,
+        source: egui::MouseWheelSource::Wheel,
+        modifiers: egui::Modifiers::NONE,
+    });
+    window.run_steps(3);
+}
+
+/// Compares the readout with the colour on the screen at many pixels; returns how many lay on the material.
+fn check_readout(window: &mut Window<'_>, scale: f32, what: &str) -> usize {
+    let title = format!("GROUND TRUTH  {}", window.state().names()[0]);
+    let rect = pane(window, &title);
+    hover(window, Pos2::ZERO);
+    let picture = window.render().unwrap();
+    let mut on_material = 0;
+    for i in 0..16 {
+        for j in 0..9 {
+            let share = vec2((i as f32 + 0.37) / 16.0, (j as f32 + 0.53) / 9.0);
+            // The middle of a pixel.
+            let pixel = ((rect.min + rect.size() * share).to_vec2() * scale).floor();
+            let colour = picture.get_pixel(pixel.x as u32, pixel.y as u32).0;
+            hover(window, ((pixel + vec2(0.5, 0.5)) / scale).to_pos2());
+            let expected = texel_of([colour[0], colour[1], colour[2]]);
+            assert_eq!(texel_read(window), expected, "{what}: pixel {pixel:?} has the colour {colour:?}");
+            on_material += usize::from(expected.is_some());
+        }
+    }
+    on_material
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_projection() {
+    let folder = tempfile::tempdir().unwrap();
+    for scale in [1.0, 1.25, 1.5, 2.0] {
+        let mut window = scaled_window(numbered(folder.path()), scale);
+        window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+        for projection in [Projection::Flat, Projection::Perspective] {
+            window.state_mut().state.projection = projection;
+            window.state_mut().state.scene.view = [0.7, -0.9, 2.0];
+            window.run_steps(2);
+            // Not so far that the numbers of texels are drawn on them.
+            for (notches, corner) in [(0.0, [0.5, 0.5]), (5.0, [0.1, 0.15]), (5.0, [0.93, 0.9])] {
+                press(&mut window, egui::Key::F);
+                let title = format!("GROUND TRUTH  {}", window.state().names()[0]);
+                let rect = pane(&window, &title);
+                wheel(&mut window, rect.min + rect.size() * vec2(corner[0], corner[1]), notches);
+                let what = format!("scale {scale}, {projection:?}, {notches} notches");
+                assert!(check_readout(&mut window, scale, &what) > 20, "{what}: little of it is in sight");
+            }
+        }
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(numbered(folder.path()));
+    window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    press(&mut window, egui::Key::T);
+    assert!(window.state().state.tiled);
+    assert!(check_readout(&mut window, 1.0, "tiled") > 20);
+    let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
+    hover(&mut window, rect.center() + vec2(1.0, 1.0));
+    // Its corner is in the middle of a quarter: half of it lies left of and above each seam.
+    let [column, row] = texel_read(&window).unwrap();
+    assert_eq!([column, row], [24, 10], "the middle of the picture is the middle of a repeated one");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn roughness_in_false_colours_has_the_colour_of_its_value() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(numbered(folder.path()));
+    window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Roughness;
+    press(&mut window, egui::Key::V);
+    let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
+    let picture = pixels(&mut window, rect);
+    let found = picture.get_pixel(picture.width() / 3, picture.height() / 2).0;
+    let expected = svbrdf::picture::colour_map::heat(100.0 / 255.0).map(|c| (c * 255.0).round() as u8);
+    assert!((0..3).all(|c| found[c].abs_diff(expected[c]) <= 1), "{found:?}, expected {expected:?}");
+}
+
+#[test]
+fn the_colours_of_texels_are_told_apart() {
+    let shown = |value: u8| (255.0 * crate::pictures::srgb(f64::from(value) / 255.0)).round() as u8;
+    for row in 0..20_u8 {
+        for column in 0..48_u8 {
+            let texel = texel_of([shown(5 * column + 4), shown(12 * row + 4), shown(9)]);
+            assert_eq!(texel, Some([usize::from(column), usize::from(row)]));
+        }
+    }
+    assert_eq!(texel_of([0x4b; 3]), None);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_columns_of_the_status_line_do_not_move_with_the_pointer() {
+    let mut window = built_in();
+    let rect = pane(&window, GROUND_TRUTH);
+    let lefts = |window: &Window<'_>| -> Vec<f32> {
+        ["gt ", "1 ", "2 "]
+            .map(|start| {
+                let mut all = window.query_all_by_label_contains(start);
+                all.find(|n| n.value().is_some_and(|v| v.starts_with(start))).unwrap().rect().left()
+            })
+            .to_vec()
+    };
+    hover(&mut window, rect.min - vec2(20.0, 60.0));
+    let outside = lefts(&window);
+    for share in [vec2(0.05, 0.05), vec2(0.5, 0.5), vec2(0.7, 0.3), vec2(0.9, 0.9)] {
+        hover(&mut window, rect.min + rect.size() * share);
+        assert_eq!(lefts(&window), outside);
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_texel_is_pinned_by_key_and_by_click_and_its_numbers_are_in_the_drawer() {
+    let mut window = built_in();
+    let rect = pane(&window, GROUND_TRUTH);
+    hover(&mut window, rect.min + rect.size() * vec2(0.3, 0.4));
+    let first = texel_read(&window).unwrap();
+    press(&mut window, egui::Key::I);
+    window.get_by_label("Pinned texels");
+    window.get_by_label(&format!("1: {},{}", first[0], first[1]));
+    let rough = window.state().materials().nth(2).unwrap();
+    let rough = rough.texel(first[1] * rough.width() + first[0]).roughness;
+    assert!(window.query_all_by_label(&format!("{rough:8.4}")).next().is_some());
+    let before = window.state().state.scene;
+    // The drawer has moved the panes.
+    window.run_steps(8);
+    let rect = pane(&window, GROUND_TRUTH);
+    hover(&mut window, rect.min + rect.size() * vec2(0.6, 0.6));
+    let [column, row] = texel_read(&window).unwrap();
+    window.event(egui::Event::ModifiersChanged(egui::Modifiers::ALT));
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.6, 0.6), vec2(0.6, 0.6));
+    window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
+    window.get_by_label(&format!("2: {column},{row}"));
+    assert_eq!(window.state().state.scene, before, "the click moves no light");
+    window.get_by_label("Remove all pins").click();
+    window.run_steps(4);
+    assert!(window.query_by_label("Pinned texels").is_none());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_rectangle_is_drawn_by_q_anywhere_and_by_shift_on_maps_and_escape_removes_it() {
+    let mut window = built_in();
+    let rect = pane(&window, GROUND_TRUTH);
+    let before = window.state().state.clone();
+    press(&mut window, egui::Key::Q);
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.3, 0.3), vec2(0.6, 0.5));
+    assert_eq!(window.state().state, before, "light and view stay");
+    assert!(window.query_all_by_label_contains("texels, rendering").next().is_some());
+    press(&mut window, egui::Key::Escape);
+    assert!(window.query_all_by_label_contains("texels, rendering").next().is_none());
+    press(&mut window, egui::Key::M);
+    let rect = pane(&window, GROUND_TRUTH);
+    window.event(egui::Event::ModifiersChanged(egui::Modifiers::SHIFT));
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.3, 0.3), vec2(0.6, 0.5));
+    window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
+    assert!(window.query_all_by_label_contains("texels, normal").next().is_some());
+    assert_eq!(window.state().state.pan, [0.0; 2], "it does not pan");
+}

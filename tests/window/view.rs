@@ -1,0 +1,141 @@
+//! Light and view: what the mouse grabs, what stays in sight, what small windows show.
+
+use svbrdf::viewer::state::Layout;
+
+use super::*;
+
+fn length(p: [f64; 3]) -> f64 {
+    p.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_wipe_line_wins_over_the_handle_of_the_view() {
+    let mut window = built_in();
+    press(&mut window, egui::Key::C);
+    assert_eq!(window.state().state.layout, Layout::Wipe);
+    let title = "Pane 1  blurred normals";
+    let rect = window.get_by_label(title).rect();
+    let before = window.state().state.scene;
+    // The eye is in the middle, and so is the line.
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.3, 0.5));
+    assert_eq!(window.state().state.scene, before, "neither light nor view has moved");
+    let wipe = window.state().state.wipe;
+    assert!((wipe - 0.3).abs() < 0.01, "the line is at {wipe}");
+    // Without the line there, the same drag moves the view.
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.6, 0.5));
+    assert!(window.state().state.scene.view[0] > 0.1, "{:?}", window.state().state.scene);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_hidden_handle_of_the_view_is_not_grabbed() {
+    let mut window = built_in();
+    let rect = pane(&window, GROUND_TRUTH);
+    window.get_by_label("View handle").click();
+    window.run_steps(4);
+    let before = window.state().state.scene;
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.4, 0.4));
+    let after = window.state().state.scene;
+    assert_eq!(after.view, before.view);
+    assert_ne!(after.light, before.light);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_left_drag_pans_a_map_and_leaves_the_light() {
+    let mut window = built_in();
+    press(&mut window, egui::Key::M);
+    let rect = pane(&window, GROUND_TRUTH);
+    let before = window.state().state.scene;
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
+    let state = &window.state().state;
+    assert_eq!(state.scene, before);
+    assert!((state.pan[0] - 0.2).abs() < 0.02 && (state.pan[1] - 0.2).abs() < 0.02, "{:?}", state.pan);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_right_drag_moves_the_view_the_same_way_in_both_projections() {
+    for perspective in [false, true] {
+        let mut window = built_in();
+        if perspective {
+            press(&mut window, egui::Key::P);
+        }
+        let rect = pane(&window, GROUND_TRUTH);
+        drag(&mut window, egui::PointerButton::Secondary, rect, vec2(0.4, 0.5), vec2(0.6, 0.4));
+        let view = window.state().state.scene.view;
+        assert!(view[0] > 0.1 && view[1] > 0.05, "perspective {perspective}: {view:?}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_surface_follows_the_hand_in_perspective() {
+    use svbrdf::picture::camera::Camera;
+    let mut window = built_in();
+    press(&mut window, egui::Key::P);
+    let rect = pane(&window, GROUND_TRUTH);
+    let grid = window.state().materials().next().unwrap().grid();
+    let places = |window: &Window<'_>| -> f32 {
+        let camera = Camera::of_scene(&window.state().state.scene, grid, 1.0);
+        let at = |x: f32, y: f32| camera.ndc_from_point([x, y, 0.0].into()).unwrap()[0];
+        [(-0.8, 0.0), (0.8, 0.0), (0.4, 0.4), (-0.4, -0.4)].iter().map(|(x, y)| at(*x, *y)).sum()
+    };
+    let before = places(&window);
+    drag(&mut window, egui::PointerButton::Secondary, rect, vec2(0.45, 0.5), vec2(0.55, 0.5));
+    assert!(places(&window) > before + 0.01, "from {before} to {}", places(&window));
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_distant_light_at_the_rim_becomes_a_near_one_at_the_distance_it_had() {
+    let mut window = built_in();
+    let distance = length(window.state().state.scene.light);
+    window.get_by_label("Distant").click();
+    window.run_steps(3);
+    let rect = pane(&window, GROUND_TRUTH);
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.7, 0.3), vec2(0.999, 0.5));
+    window.get_by_label("Near-field").click();
+    window.run_steps(3);
+    let light = window.state().state.scene.light;
+    assert!((length(light) - distance).abs() < 1e-3, "{light:?} was {distance} away");
+    assert!(light[2] > 0.09 * distance, "{light:?} lies in the plane");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_material_cannot_be_dragged_out_of_sight() {
+    let mut window = built_in();
+    let rect = pane(&window, GROUND_TRUTH);
+    for _ in 0..4 {
+        drag(&mut window, egui::PointerButton::Middle, rect, vec2(0.1, 0.1), vec2(0.9, 0.9));
+    }
+    let picture = pixels(&mut window, rect);
+    let background = picture.get_pixel(3, picture.height() / 2).0;
+    let seen = picture.pixels().filter(|pixel| pixel.0 != background).count();
+    let share = seen as f64 / f64::from(picture.width() * picture.height());
+    assert!(share > 0.15, "{share} of the pane shows the material");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
+    let mut window = built_in();
+    window.set_size(vec2(700.0, 500.0));
+    window.run_steps(20);
+    assert!(window.query_by_label("Copy scene").is_none());
+    let rect = pane(&window, GROUND_TRUTH);
+    window.event(egui::Event::PointerMoved(rect.center()));
+    window.run_steps(3);
+    assert!(texel_read(&window).is_some());
+    column(&window, "gt ");
+    column(&window, "1 ");
+    press(&mut window, egui::Key::B);
+    window.run_steps(20);
+    window.get_by_label("Copy scene");
+    window.set_size(vec2(1200.0, 800.0));
+    window.run_steps(20);
+    window.get_by_label("Copy scene");
+    assert!(window.state().settings.side_panel, "the choice of wide windows is their own");
+}
