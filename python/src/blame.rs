@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use svbrdf::loss::Estimate;
 use svbrdf::why::{self, Attribution, MapShare};
 
-use crate::loss::{Asked, Held};
+use crate::loss::Asked;
 use crate::material::CoreMaterial;
 use crate::work;
 
@@ -53,10 +53,9 @@ pub fn blame(
 ) -> PyResult<AttributionItems> {
     let convention = asked.convention()?;
     let request = asked.request()?;
-    let (truth, other) = (Held::<f32>::of(ground_truth), Held::<f32>::of(prediction));
-    let attribution = work::run(py, progress, |progress| {
-        why::attribute(truth.get(), other.get(), &convention, &request, progress)
-    })?;
+    let (truth, other) = (ground_truth.single(), prediction.single());
+    let attribution =
+        work::run(py, progress, |progress| why::attribute(&truth, &other, &convention, &request, progress))?;
     Ok(items(&attribution))
 }
 

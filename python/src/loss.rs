@@ -1,5 +1,6 @@
 //! The rendering loss: a comparison, a request, and its outcome as a dictionary.
 
+use std::borrow::Cow;
 use std::str::FromStr;
 use std::time::Duration;
 
@@ -12,7 +13,7 @@ use svbrdf::rank::{self, Place};
 use svbrdf::report::Report;
 
 use crate::errors::exception;
-use crate::material::{CoreMaterial, Stored};
+use crate::material::CoreMaterial;
 use crate::model::SceneTuple;
 use crate::work;
 
@@ -129,44 +130,8 @@ pub fn loss(
     let run = Run { request: &request, convention, names: &asked.names };
     let materials = std::iter::once(ground_truth).chain(predictions.iter().map(|p| &**p));
     match Precision::from_str(&asked.precision).map_err(exception)? {
-        Precision::F32 => run.report(py, &materials.map(Held::<f32>::of).collect::<Vec<_>>(), progress),
-        Precision::F64 => run.report(py, &materials.map(Held::<f64>::of).collect::<Vec<_>>(), progress),
-    }
-}
-
-/// A material in the precision of the loss: a copy only where it is in the other one.
-pub enum Held<'a, T> {
-    Borrowed(&'a Material<T>),
-    Cast(Material<T>),
-}
-
-impl<'a> Held<'a, f32> {
-    /// `material`, in this precision.
-    pub fn of(material: &'a CoreMaterial) -> Self {
-        match &material.0 {
-            Stored::F32(single) => Self::Borrowed(single),
-            Stored::F64(_) => Self::Cast(material.single()),
-        }
-    }
-}
-
-impl<'a> Held<'a, f64> {
-    /// `material`, in this precision.
-    pub fn of(material: &'a CoreMaterial) -> Self {
-        match &material.0 {
-            Stored::F64(double) => Self::Borrowed(double),
-            Stored::F32(_) => Self::Cast(material.double()),
-        }
-    }
-}
-
-impl<T> Held<'_, T> {
-    /// The material.
-    pub fn get(&self) -> &Material<T> {
-        match self {
-            Self::Borrowed(material) => material,
-            Self::Cast(material) => material,
-        }
+        Precision::F32 => run.report(py, &materials.map(CoreMaterial::single).collect::<Vec<_>>(), progress),
+        Precision::F64 => run.report(py, &materials.map(CoreMaterial::double).collect::<Vec<_>>(), progress),
     }
 }
 
@@ -181,10 +146,10 @@ impl Run<'_> {
     fn report<T: Compute>(
         &self,
         py: Python<'_>,
-        materials: &[Held<'_, T>],
+        materials: &[Cow<'_, Material<T>>],
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<ReportItems> {
-        let all: Vec<_> = materials.iter().map(Held::get).collect();
+        let all: Vec<_> = materials.iter().map(|material| &**material).collect();
         let comparison = Comparison::new(all[0], &all[1..], self.convention).map_err(exception)?;
         let outcome = work::run(py, progress, |progress| comparison.run(self.request, progress))?;
         Ok(items(&Report::new(&comparison, outcome).renamed(self.names)))

@@ -1,5 +1,6 @@
 //! Materials: from arrays and files, to arrays, files and pictures.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -117,19 +118,19 @@ fn double(material: Material<f64>) -> CoreMaterial {
 }
 
 impl CoreMaterial {
-    /// A copy in f32.
-    pub fn single(&self) -> Material<f32> {
+    /// The material in f32: a copy only where it is in f64.
+    pub fn single(&self) -> Cow<'_, Material<f32>> {
         match &self.0 {
-            Stored::F32(material) => material.clone(),
-            Stored::F64(material) => material.cast(),
+            Stored::F32(material) => Cow::Borrowed(material),
+            Stored::F64(material) => Cow::Owned(material.cast()),
         }
     }
 
-    /// A copy in f64.
-    pub fn double(&self) -> Material<f64> {
+    /// The material in f64: a copy only where it is in f32.
+    pub fn double(&self) -> Cow<'_, Material<f64>> {
         match &self.0 {
-            Stored::F32(material) => material.cast(),
-            Stored::F64(material) => material.clone(),
+            Stored::F32(material) => Cow::Owned(material.cast()),
+            Stored::F64(material) => Cow::Borrowed(material),
         }
     }
 }
