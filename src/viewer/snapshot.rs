@@ -51,7 +51,11 @@ pub fn snapshot(
     let mut renderer = Renderer::new(&state.device, state.target_format, options);
     let mut shapes = Vec::new();
     for _ in 0..FRAMES {
-        let mut output = ctx.run_ui(input.clone(), &mut content);
+        let mut output = ctx.run_ui(input.clone(), |ui| {
+            // As the window is cleared before its panels.
+            ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
+            content(ui);
+        });
         for (id, deltas) in output.textures_delta.set.drain() {
             for delta in &deltas {
                 renderer.update_texture(&state.device, &state.queue, id, delta);

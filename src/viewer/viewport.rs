@@ -104,7 +104,7 @@ impl Viewport {
         };
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
-        self.paint(ui, scenery, gpu, number, content, rect, camera);
+        self.paint(ui, scenery, gpu, (number, content), rect, camera);
 
         let target = Target {
             rect,
@@ -124,8 +124,7 @@ impl Viewport {
         ui: &egui::Ui,
         scenery: &Scenery<'_>,
         gpu: &mut GpuView,
-        number: usize,
-        content: Content,
+        (number, content): (usize, Content),
         rect: Rect,
         camera: Camera,
     ) {
