@@ -85,7 +85,7 @@ fn auto_computes_again_when_the_convention_changes() {
 fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
     let mut window = by_scenes();
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    window.get_by_label("Copy").click();
+    window.get_by_label("Copy losses").click();
     let mut copied = String::new();
     for _ in 0..4 {
         window.step();

@@ -98,7 +98,7 @@ impl LossPanel<'_> {
             if auto != self.auto {
                 commands.push(LossCommand::SetAuto(auto).into());
             }
-            let copy = ui.add_enabled(self.run.losses().is_some(), egui::Button::new("Copy"));
+            let copy = ui.add_enabled(self.run.losses().is_some(), egui::Button::new("Copy losses"));
             if copy.on_hover_text("As text, as `svbrdf loss` prints it").clicked() {
                 commands.push(LossCommand::Copy.into());
             }
