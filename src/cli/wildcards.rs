@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use svbrdf::error::Error;
 
-/// `paths` with those that have `*`, `?` or `[...]`, and do not exist as they are, replaced by what they match, by name.
+/// Expands the wildcards `*`, `?` and `[...]` in `paths`, in the order of names. A path that exists is taken as it is.
 ///
 /// # Errors
 /// [`Error::Usage`] where a pattern is malformed or matches nothing.

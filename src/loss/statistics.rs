@@ -160,7 +160,7 @@ const SKEWNESS: f64 = 1.447_153;
 
 /// The 97.5% quantile of Student's t with `freedom` degrees of freedom.
 ///
-/// From 1e6 degrees on, that of the normal distribution, which then differs by less than 3e-6: the library's search
+/// From 1e6 degrees on, the quantile of the normal distribution, which then differs by less than 3e-6: the library's search
 /// does not end at infinity.
 pub(super) fn student_quantile(freedom: f64) -> f64 {
     const LEVEL: f64 = 0.975;

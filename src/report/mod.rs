@@ -59,7 +59,7 @@ impl Report {
         }
     }
 
-    /// The same report with other names: that of the ground truth first, then one per prediction.
+    /// The same report with other names: the ground truth first, then each prediction.
     #[must_use]
     pub fn renamed(mut self, names: &[String]) -> Self {
         let Some((ground_truth, predictions)) = names.split_first() else { return self };

@@ -170,7 +170,7 @@ pub enum WindowCommand {
         folder: bool,
     },
     ShowSave(bool),
-    /// Writes to this file; `size` in pixels is that of a picture of the view.
+    /// Writes to this file; `size` is the size of a picture of the view, in pixels.
     Save {
         what: SaveKind,
         path: PathBuf,
@@ -179,7 +179,7 @@ pub enum WindowCommand {
     /// Puts the view on the clipboard as a picture.
     CopyPicture,
     SetDark(bool),
-    /// Sets the size of text and controls: 1 is that of the system.
+    /// Sets the size of text and controls: 1 is the size of the system.
     SetScale(f32),
     ToggleSidePanel,
     /// Shows or hides the histograms of the values.
@@ -196,7 +196,7 @@ pub enum WindowCommand {
 pub enum InspectCommand {
     /// Pins the texel (column, row), or removes its pin.
     TogglePin([usize; 2]),
-    /// Pins the texel under the pointer, or removes its pin; without one, that of the last time.
+    /// Pins the texel under the pointer, or removes its pin; without one, the texel last under it.
     TogglePinHere,
     ClearPins,
     /// Whether the next left-drag draws a rectangle.

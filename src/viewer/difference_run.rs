@@ -58,8 +58,8 @@ impl DifferenceRun {
         set.or_else(auto).unwrap_or_else(|| state.difference_kind().default_range())
     }
 
-    /// Takes over a result, and computes what is needed now, where a difference is `shown`. A computation for an earlier scene is completed, so that there
-    /// are results while the light moves.
+    /// Takes over a result, and computes what is needed now, where a difference is `shown`. A computation for an earlier
+    /// scene is completed, so that there are results while the light moves.
     pub fn follow(
         &mut self,
         ctx: &egui::Context,

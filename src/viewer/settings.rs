@@ -43,7 +43,7 @@ pub struct Settings {
     pub highlight_follows: bool,
     /// Whether the handle of the view is shown.
     pub view_handle: bool,
-    /// Size of the window's text and controls: 1 is that of the system.
+    /// Size of the window's text and controls: 1 is the size of the system.
     pub ui_scale: f32,
     /// Whether histograms of the values are below the panes.
     pub histograms: bool,

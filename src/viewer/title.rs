@@ -8,7 +8,7 @@ use super::state::Layout;
 use super::theme;
 use crate::gpu::DisplayMode;
 
-/// The title of a pane. A click on that of a prediction chooses it.
+/// The title of a pane. A click on the title of a prediction chooses the prediction.
 pub fn title_bar(
     ui: &egui::Ui,
     scenery: &Scenery<'_>,

@@ -106,7 +106,7 @@ struct Object<'a> {
 struct Entry<'a> {
     prediction: &'a str,
     loss: Number,
-    /// The loss - that of the best, in the same scenes.
+    /// The loss - the loss of the best prediction, over the same scenes.
     to_best: Option<Number>,
     group: usize,
 }

@@ -46,7 +46,7 @@ enum TexelsEntry {
     Word(Texels),
 }
 
-/// How much larger the loss of a prediction is than that of the first, on the same scenes.
+/// The loss of a prediction - the loss of the first one, over the same scenes.
 #[derive(Serialize)]
 struct DifferenceEntry<'a> {
     prediction: &'a str,

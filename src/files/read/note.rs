@@ -27,7 +27,7 @@ impl fmt::Display for SpecifiedBy {
 /// Why a file, a layer or a statement is not used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unused {
-    /// Its name is that of no map that a material has.
+    /// Its name is not the name of a map of a material.
     NotAMap,
     /// Its name does not name a map.
     Unlabelled,

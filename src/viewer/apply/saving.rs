@@ -15,7 +15,7 @@ use crate::viewer::snapshot::{Size, snapshot};
 use crate::viewer::worker::Task;
 
 impl App {
-    /// Starts to save; `size` is that of a picture of the view.
+    /// Starts to save; `size` is the size of a picture of the view.
     pub(super) fn start_saving(
         &mut self,
         ctx: &egui::Context,

@@ -118,7 +118,7 @@ impl Results<'_> {
         }
     }
 
-    /// The loss minus that of the chosen prediction, and whether that is significant.
+    /// The loss - the loss of the chosen prediction, and whether the difference is significant.
     fn difference(&self, ui: &mut egui::Ui, index: usize) {
         let of_chosen = self.latest.differences.get(self.chosen);
         let Some(estimate) = of_chosen.and_then(|all| all.get(index)).filter(|_| index != self.chosen) else {

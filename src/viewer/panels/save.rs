@@ -26,7 +26,7 @@ pub struct SaveWindow {
 }
 
 impl SaveWindow {
-    /// `size` is that of the view in the window, in pixels.
+    /// `size` is the size of the view in the window, in pixels.
     pub fn new(size: [u32; 2]) -> Self {
         let what = SaveKind::default();
         let path = what.proposal().to_owned();

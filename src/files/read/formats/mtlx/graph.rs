@@ -98,7 +98,7 @@ fn target<'a, 'd>(input: Node<'a, 'd>) -> Option<Node<'a, 'd>> {
     named(node, output.attribute("nodename")?)
 }
 
-/// The picture that a node reads, or that of the input that it passes on.
+/// The picture that a node reads, or the picture of the input that it passes on.
 fn through(node: Node<'_, '_>, way: Way) -> Result<Bound, Obstacle> {
     let kind = node.tag_name().name();
     let value = |name: &str| input(node, name).and_then(|n| n.attribute("value"));
