@@ -11,7 +11,7 @@ mod support;
 use divan::counter::ItemsCount;
 use glam::Vec3;
 use svbrdf::gpu::{
-    DisplayMode, DisplayParams, Encoding, Gpu, Losses, MaterialTextures, ShadeParams, Shaded, Shading,
+    DisplayMode, DisplayParams, Encoding, Gpu, GpuLosses, MaterialTextures, ShadeParams, Shaded, Shading,
 };
 use svbrdf::loss::{Comparison, Request, Sampling};
 use svbrdf::material::Material;
@@ -145,7 +145,7 @@ fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
 #[divan::bench(args = SIDES, sample_count = 10)]
 fn loss(bencher: divan::Bencher<'_, '_>, side: usize) {
     let gpu = support::gpu();
-    let losses = Losses::new(gpu).expect("compiled");
+    let losses = GpuLosses::new(gpu).expect("compiled");
     let (sampling, progress) = (Sampling::default(), Progress::default());
     let scenes = sampling.near + sampling.distant;
     let (ground_truth, prediction) = (support::bumpy(side, side), flipped(side));

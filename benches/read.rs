@@ -18,7 +18,7 @@ use exr::prelude::{
 use image::{DynamicImage, GrayImage, ImageFormat, ImageReader, Limits, RgbImage};
 use rayon::prelude::*;
 use svbrdf::files::read::{ReadOptions, read};
-use svbrdf::files::write::{self, Kind, WriteOptions};
+use svbrdf::files::write::{self, FileKind, WriteOptions};
 use svbrdf::progress::Progress;
 
 /// Seconds that each row takes, at least.
@@ -124,7 +124,7 @@ fn child(work: &str, from: &Path, to: &Path) {
         "recode" => recode(&files(from), to),
         _ => {
             let read = read::<f32>(from, &ReadOptions::AUTO, &Progress::default()).expect("a material");
-            let kind = Kind::new(to, &WriteOptions::default()).expect("a kind");
+            let kind = FileKind::new(to, &WriteOptions::default()).expect("a kind");
             write::write(&read.material, to, kind).expect("written");
         }
     }

@@ -4,7 +4,7 @@ use crate::loss::{Estimate, Outcome};
 
 /// A prediction in its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct Ranked {
     /// The index of its loss in the outcome.
     pub index: usize,
     /// Its loss - that of the best prediction, over the same scenes; `None` for the best one.
@@ -15,7 +15,7 @@ pub struct Place {
 }
 
 /// The predictions of an outcome, smallest loss first. Equal losses keep their order.
-pub fn places(outcome: &Outcome) -> Vec<Place> {
+pub fn places(outcome: &Outcome) -> Vec<Ranked> {
     let loss = |index: usize| &outcome.losses[index];
     let mut order: Vec<usize> = (0..outcome.losses.len()).collect();
     order.sort_by(|&a, &b| loss(a).estimate.mean.total_cmp(&loss(b).estimate.mean));
@@ -26,7 +26,7 @@ pub fn places(outcome: &Outcome) -> Vec<Place> {
             (first, group) = (index, group + 1);
         }
         let to_best = (index != best).then(|| outcome.difference(loss(index), loss(best)));
-        Place { index, to_best, group }
+        Ranked { index, to_best, group }
     };
     order.iter().map(place).collect()
 }

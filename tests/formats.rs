@@ -20,7 +20,7 @@ use svbrdf::error::Error;
 use svbrdf::files::read::{
     Albedo, Certainty, NonFinite, NormalY, Order, Preset, Read, ReadOptions, Roughness, What, read,
 };
-use svbrdf::files::write::{self, Depth, Kind, WriteOptions};
+use svbrdf::files::write::{self, Depth, FileKind, WriteOptions};
 use svbrdf::material::Material;
 use svbrdf::progress::Progress;
 use tempfile::tempdir;
@@ -83,8 +83,8 @@ fn colours(letter: char, value: f64) -> f64 {
     if letter == 'R' { value } else { gamma(value) }
 }
 
-fn kind(path: &Path, depth: Option<Depth>) -> Kind {
-    Kind::new(path, &WriteOptions { depth, ..WriteOptions::default() }).unwrap()
+fn kind(path: &Path, depth: Option<Depth>) -> FileKind {
+    FileKind::new(path, &WriteOptions { depth, ..WriteOptions::default() }).unwrap()
 }
 
 /// Writes one PNG a map under `names`, in the order normal, diffuse, roughness, specular.

@@ -3,7 +3,7 @@
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
-use svbrdf::dataset::{Known, MaterialResult, Pick, PredictionResult, interval_of_mean, summarize};
+use svbrdf::dataset::{KnownLoss, MaterialResult, Pick, PredictionResult, interval_of_mean, summarize};
 use svbrdf::loss::{Comparison, Request};
 use svbrdf::material::Map;
 use svbrdf::model::convention::Convention;
@@ -90,7 +90,7 @@ fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
     let mut predictions: Vec<PredictionResult> = Vec::new();
     for (method, loss) in losses {
         let sample = predictions.iter().filter(|p| p.method == *method).count();
-        let known = |loss| Known { loss, standard_error: 0.01, interval95: [loss - 0.02, loss + 0.02] };
+        let known = |loss| KnownLoss { loss, standard_error: 0.01, interval95: [loss - 0.02, loss + 0.02] };
         let result = loss.map(known).ok_or_else(|| "broken".to_owned());
         predictions.push(PredictionResult {
             method: (*method).to_owned(),

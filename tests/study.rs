@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use svbrdf::error::Error;
 use svbrdf::files::read;
 use svbrdf::files::read::Preset;
-use svbrdf::files::write::{self, Depth, Kind};
+use svbrdf::files::write::{self, Depth, FileKind};
 use svbrdf::loss::{Comparison, Plain, Request, Sampling};
 use svbrdf::material::Material;
 use svbrdf::model::convention::PRINTED;
@@ -94,10 +94,10 @@ fn maps_are_quantized_as_files_hold_them() {
     let folder = tempfile::tempdir().unwrap();
     let [material, prediction] = materials();
     let cases = [
-        ("8.png", Depth::Eight, Kind::Packed { sixteen: false, like: Preset::Deschaintre }),
-        ("16.png", Depth::Sixteen, Kind::Packed { sixteen: true, like: Preset::Deschaintre }),
-        ("half.exr", Depth::Half, Kind::Exr { half: true, preview: false }),
-        ("float.exr", Depth::Float, Kind::Exr { half: false, preview: false }),
+        ("8.png", Depth::Eight, FileKind::Packed { sixteen: false, like: Preset::Deschaintre }),
+        ("16.png", Depth::Sixteen, FileKind::Packed { sixteen: true, like: Preset::Deschaintre }),
+        ("half.exr", Depth::Half, FileKind::Exr { half: true, preview: false }),
+        ("float.exr", Depth::Float, FileKind::Exr { half: false, preview: false }),
     ];
     for (name, depth, kind) in cases {
         let through_file = |material: &Material<f32>| {

@@ -8,8 +8,7 @@ use pyo3::exceptions::{
 };
 use svbrdf::error::Error as CoreError;
 
-// The macro makes public items without comments.
-#[allow(missing_docs)]
+#[allow(missing_docs, reason = "the macro makes public items without comments")]
 mod class {
     pyo3::create_exception!(
         svbrdf,

@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 use svbrdf::loss::{Comparison, Compute, Estimate, Loss, Precision, Request, Sampling};
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::Kind;
-use svbrdf::rank::{self, Place};
+use svbrdf::model::scene::FileKind;
+use svbrdf::rank::{self, Ranked};
 use svbrdf::report::Report;
 
 use crate::errors::exception;
@@ -175,7 +175,7 @@ fn items(report: &Report) -> ReportItems {
         standard_error: estimate.standard_error,
         interval95: interval(&estimate),
     };
-    let of_place = |place: Place| {
+    let of_place = |place: Ranked| {
         let to_best = place
             .to_best
             .map(|estimate| of_difference(&outcome.losses[place.index], &outcome.losses[best], estimate));
@@ -188,8 +188,8 @@ fn items(report: &Report) -> ReportItems {
         precision: report.precision,
         backend: report.backend,
         size: report.size.into(),
-        near: report.count(Kind::Near),
-        distant: report.count(Kind::Distant),
+        near: report.count(FileKind::Near),
+        distant: report.count(FileKind::Distant),
         seed: report.seed(),
         sampler: report.sampler().map(|sampler| sampler.to_string()),
         texels: report.texels().to_string(),

@@ -244,7 +244,7 @@ pub fn write(
 ) -> PyResult<()> {
     let depth = depth.map(str::parse).transpose().map_err(exception)?;
     let like = preset.map(str::parse).transpose().map_err(exception)?;
-    let kind = writing::Kind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
+    let kind = writing::FileKind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
     let material = material.single();
     work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))
 }

@@ -18,7 +18,7 @@ const LONG: Duration = Duration::from_millis(500);
 
 /// The requested device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Choice {
+pub enum Device {
     /// The CPU, which the window uses, too
     #[default]
     Cpu,
@@ -32,11 +32,11 @@ pub enum Choice {
 ///
 /// # Errors
 /// Those of the loss, and [`Error::NoAdapter`] where the GPU is asked for and there is none.
-pub fn run(choice: Choice, comparison: Comparison<'_, f32>, request: &Request) -> Result<Report, Error> {
+pub fn run(choice: Device, comparison: Comparison<'_, f32>, request: &Request) -> Result<Report, Error> {
     let gpu = match (choice, on_all_texels(&comparison, request)?) {
-        (Choice::Cpu, _) | (Choice::Auto, None) => None,
-        (Choice::Gpu, _) => Some(Adapter::start()?),
-        (Choice::Auto, Some(scenes)) => {
+        (Device::Cpu, _) | (Device::Auto, None) => None,
+        (Device::Gpu, _) => Some(Adapter::start()?),
+        (Device::Auto, Some(scenes)) => {
             let (gpu, why) = faster(&comparison, &scenes)?;
             tell(&format!("note: computed on the {}: {why}", if gpu.is_some() { "GPU" } else { "CPU" }));
             gpu
@@ -120,12 +120,12 @@ fn predict(
 
 /// A graphics adapter that is ready to compute losses.
 #[cfg(feature = "gpu")]
-pub struct Adapter(svbrdf::gpu::Losses);
+pub struct Adapter(svbrdf::gpu::GpuLosses);
 
 #[cfg(feature = "gpu")]
 impl Adapter {
     pub fn start() -> Result<Self, Error> {
-        Ok(Self(svbrdf::gpu::Losses::new(&svbrdf::gpu::Gpu::headless()?)?))
+        Ok(Self(svbrdf::gpu::GpuLosses::new(&svbrdf::gpu::Gpu::headless()?)?))
     }
 
     pub fn name(&self) -> &str {

@@ -4,14 +4,15 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 use svbrdf::error::Error;
-use svbrdf::loss::{Estimate, Request};
+use svbrdf::loss::Request;
 use svbrdf::material::{Map, Material};
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene_file;
 use svbrdf::why::{Attribution, MapShare, attribute};
 
 use super::bar::watched;
-use super::report::Format;
+use super::comparison_args::ComparisonArgs;
+use super::report::{EstimateEntry, ReportFormat};
 use super::{exit, loss, materials, table};
 
 /// Prints how much of the rendering loss comes from each map
@@ -34,16 +35,12 @@ pub struct BlameArgs {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["target_error", "seed"])]
     scenes: Option<PathBuf>,
 
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
-
     /// Output format
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ReportFormat,
 
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 /// Prints the attributions to stdout.
@@ -51,25 +48,25 @@ pub struct BlameArgs {
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
 pub fn run(args: &BlameArgs) -> Result<(), Error> {
-    table::check_predictions(&args.materials)?;
+    table::check_predictions(&args.comparison.materials)?;
     let request = match &args.scenes {
         Some(path) => Request::Listed(scene_file::read(path)?),
         None => Request::Accuracy { target: args.target_error, seed: args.seed },
     };
-    let opened = materials::open::<f32>(&args.materials)?;
+    let opened = materials::open::<f32>(&args.comparison.materials)?;
     let one = |prediction: &Material<f32>| {
         watched("rendering", |progress| {
-            attribute(&opened.ground_truth, prediction, &args.convention, &request, progress)
+            attribute(&opened.ground_truth, prediction, &args.comparison.convention, &request, progress)
         })
     };
     let attributions = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     exit::put(&match args.format {
-        Format::Text => {
-            let one = |a| text(a, &opened.ground_truth, &args.convention);
+        ReportFormat::Text => {
+            let one = |a| text(a, &opened.ground_truth, &args.comparison.convention);
             attributions.iter().map(one).collect::<Vec<_>>().join("\n")
         }
-        Format::Json => json(&attributions, &opened.ground_truth, &args.convention)?,
-        Format::Csv => csv(&attributions)?,
+        ReportFormat::Json => json(&attributions, &opened.ground_truth, &args.comparison.convention)?,
+        ReportFormat::Csv => csv(&attributions)?,
     })
 }
 
@@ -126,41 +123,28 @@ fn csv(attributions: &[Attribution]) -> Result<String, Error> {
 }
 
 #[derive(Serialize)]
-struct Object<'a> {
+struct BlameJson<'a> {
     ground_truth: &'a str,
     convention: &'a str,
     epsilon: f64,
-    attributions: Vec<Entry<'a>>,
+    attributions: Vec<BlameEntry<'a>>,
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct BlameEntry<'a> {
     prediction: &'a str,
     scenes: usize,
     seed: Option<u64>,
-    loss: Number,
+    loss: EstimateEntry,
     maps: Vec<Share>,
 }
 
 #[derive(Serialize)]
 struct Share {
     map: Map,
-    shapley: Number,
-    only_wrong: Number,
-    only_right: Number,
-}
-
-#[derive(Serialize)]
-struct Number {
-    mean: f64,
-    standard_error: Option<f64>,
-    interval95: Option<[f64; 2]>,
-}
-
-impl From<&Estimate> for Number {
-    fn from(e: &Estimate) -> Self {
-        Self { mean: e.mean, standard_error: e.standard_error, interval95: e.interval95 }
-    }
+    shapley: EstimateEntry,
+    only_wrong: EstimateEntry,
+    only_right: EstimateEntry,
 }
 
 fn json(
@@ -170,18 +154,18 @@ fn json(
 ) -> Result<String, Error> {
     let share = |s: &MapShare| Share {
         map: s.map,
-        shapley: (&s.shapley).into(),
-        only_wrong: (&s.only_wrong).into(),
-        only_right: (&s.only_right).into(),
+        shapley: s.shapley.into(),
+        only_wrong: s.only_wrong.into(),
+        only_right: s.only_right.into(),
     };
-    let entries = attributions.iter().map(|a| Entry {
+    let entries = attributions.iter().map(|a| BlameEntry {
         prediction: &a.prediction,
         scenes: a.scenes.len(),
         seed: a.sampling.map(|sampling| sampling.seed),
-        loss: (&a.loss).into(),
+        loss: a.loss.into(),
         maps: a.maps.iter().map(share).collect(),
     });
-    table::json(&Object {
+    table::json(&BlameJson {
         ground_truth: ground_truth.name(),
         convention: convention.name,
         epsilon: convention.epsilon,

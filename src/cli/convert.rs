@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use svbrdf::error::Error;
 use svbrdf::files::read::{Binding, Preset};
-use svbrdf::files::write::{self, Depth, Kind, WriteOptions};
+use svbrdf::files::write::{self, Depth, FileKind, WriteOptions};
 use svbrdf::material::Material;
 
 use super::materials::read_one;
@@ -58,7 +58,7 @@ pub struct ConvertArgs {
 /// Those of the reader and of the writer.
 pub fn run(args: &ConvertArgs) -> Result<(), Error> {
     let options = WriteOptions { depth: args.depth, like: args.like, preview: args.preview };
-    let kind = Kind::new(&args.output, &options)?;
+    let kind = FileKind::new(&args.output, &options)?;
     let read = read_one(&args.material, &args.bindings, &args.reading.options())?;
     args.reading.check(&args.material, &read)?;
     let material: Material<f32> = args.reading.noted(read);

@@ -21,7 +21,7 @@ pub struct InfoArgs {
 
     /// Output format: text for people, json for programs
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: InfoFormat,
 
     /// Takes a map from another file, or from a channel or layer of it; may be given several times
     ///
@@ -42,7 +42,7 @@ pub struct InfoArgs {
 }
 
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
+enum InfoFormat {
     #[default]
     Text,
     Json,
@@ -77,8 +77,8 @@ pub fn run(args: &InfoArgs) -> Result<(), Error> {
         notes: &read.notes,
     };
     match args.format {
-        Format::Text => exit::put(&text(&info)),
-        Format::Json => {
+        InfoFormat::Text => exit::put(&text(&info)),
+        InfoFormat::Json => {
             let json = serde_json::to_string_pretty(&info).map_err(|e| exit::unwritable(e.into()))?;
             exit::put(&(json + "\n"))
         }

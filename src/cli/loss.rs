@@ -5,14 +5,14 @@ use std::time::Duration;
 
 use svbrdf::error::Error;
 use svbrdf::loss::{Comparison, Compute, Loss, Precision, Request, Sampling, Texels};
-use svbrdf::model::convention::Convention;
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene_file;
 use svbrdf::report::Report;
 
-use super::backend::{self, Choice};
+use super::backend::{self, Device};
 use super::bar::watched;
-use super::report::{Format, Printed};
+use super::comparison_args::ComparisonArgs;
+use super::report::{Printed, ReportFormat};
 use super::{exit, materials, table};
 
 /// Prints the rendering loss of predictions against a ground truth
@@ -54,10 +54,6 @@ pub struct LossArgs {
         conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes"])]
     time_budget: Option<Duration>,
 
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
-
     /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
     #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
     scenes: Option<PathBuf>,
@@ -68,14 +64,14 @@ pub struct LossArgs {
 
     /// Device that computes the loss
     #[arg(long, value_enum, default_value_t)]
-    backend: Choice,
+    backend: Device,
 
     /// Output format
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ReportFormat,
 
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 /// Prints the losses to stdout.
@@ -84,7 +80,7 @@ pub struct LossArgs {
 /// Where a material or the scenes cannot be read or used; with `--strict` where a target error is not reached, after the
 /// losses are printed.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
-    table::check_predictions(&args.materials)?;
+    table::check_predictions(&args.comparison.materials)?;
     let request = request(args)?;
     check_backend(args, &request)?;
     let report = match args.precision {
@@ -97,7 +93,7 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
     let printed = Printed { missed: missed(&request, &report), report, request, paths: paths(args) };
     exit::put(&args.format.write(&printed).map_err(exit::unwritable)?)?;
     match printed.missed {
-        Some(missed) if args.materials.reading.both.strict => Err(missed),
+        Some(missed) if args.comparison.materials.reading.both.strict => Err(missed),
         Some(missed) => {
             exit::tell(&format!("warning: {missed}"));
             Ok(())
@@ -118,7 +114,7 @@ fn missed(request: &Request, report: &Report) -> Option<Error> {
 
 /// The paths of the ground truth and of the predictions; none of the built-in ones.
 fn paths(args: &LossArgs) -> Vec<String> {
-    let all = args.materials.ground_truth.iter().chain(&args.materials.predictions);
+    let all = args.comparison.materials.ground_truth.iter().chain(&args.comparison.materials.predictions);
     all.map(|path| path.display().to_string()).collect()
 }
 
@@ -127,9 +123,9 @@ fn report<T: Compute>(
     args: &LossArgs,
     run: impl FnOnce(Comparison<'_, T>) -> Result<Report, Error>,
 ) -> Result<Report, Error> {
-    let opened = materials::open::<T>(&args.materials)?;
+    let opened = materials::open::<T>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.convention)?;
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention)?;
     let all_scenes = match chooses_scenes(args) {
         true => None,
         false => Some(watched("rendering", |progress| comparison.over_all_scenes(args.seed, progress))?),
@@ -147,11 +143,11 @@ fn chooses_scenes(args: &LossArgs) -> bool {
 /// A graphics adapter compares all texels, in f32.
 fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
     let problem = match (args.backend, args.precision, request) {
-        (Choice::Cpu | Choice::Auto, ..) => return Ok(()),
-        (Choice::Gpu, Precision::F64, _) => {
+        (Device::Cpu | Device::Auto, ..) => return Ok(()),
+        (Device::Gpu, Precision::F64, _) => {
             "graphics adapters compute in f32; leave out --backend gpu, or --precision f64"
         }
-        (Choice::Gpu, _, Request::Listed(_) | Request::Scenes(Sampling { texels: Texels::All, .. })) => {
+        (Device::Gpu, _, Request::Listed(_) | Request::Scenes(Sampling { texels: Texels::All, .. })) => {
             return Ok(());
         }
         _ => {

@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 use svbrdf::error::Error;
 use svbrdf::image::Image;
 use svbrdf::loss::Comparison;
-use svbrdf::model::convention::Convention;
-use svbrdf::picture::export::{Destination, Format, Provenance, check_place, write_text};
+use svbrdf::picture::export::{Destination, PictureFormat, Provenance, check_place, write_text};
 use svbrdf::why::{self, Hemisphere, Moved};
 
 use super::bar::watched;
-use super::scene_args::SceneArgs;
+use super::comparison_args::ComparisonArgs;
+use super::scene_args::{self, SceneArgs};
 use super::scenes::triple;
 use super::stop::stoppable;
-use super::{exit, materials, render, table};
+use super::{exit, materials, table};
 
 /// Writes the loss over texels, light directions or view directions to a file
 ///
@@ -31,7 +31,7 @@ pub struct MapArgs {
     over: Over,
 
     /// Direction of the view of a map over lights, or of the light of a map over views
-    #[arg(long, value_name = "X,Y,Z", value_parser = render::triple, allow_hyphen_values = true,
+    #[arg(long, value_name = "X,Y,Z", value_parser = scene_args::triple, allow_hyphen_values = true,
         default_value = "0,0,1")]
     fixed: [f64; 3],
 
@@ -42,12 +42,8 @@ pub struct MapArgs {
     #[command(flatten)]
     scenes: SceneArgs,
 
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
-
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -66,11 +62,12 @@ enum Over {
 /// # Errors
 /// Where a material or the scenes cannot be read or used, or the file cannot be written.
 pub fn run(args: &MapArgs) -> Result<(), Error> {
-    table::check_predictions(&args.materials)?;
+    table::check_predictions(&args.comparison.materials)?;
     let output = Output::new(&args.output)?;
-    let opened = materials::open::<f32>(&args.materials)?;
+    let opened = materials::open::<f32>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.convention)?.without_pilot();
+    let comparison =
+        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention)?.without_pilot();
     let map = match args.over {
         Over::Texels => over_texels(args, &comparison)?,
         Over::Lights => over_directions(args, &comparison, Moved::Light)?,
@@ -82,7 +79,7 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
     let entries = [
         ("svbrdf:shows", format!("{}; the last colour is {largest}", map.shows)),
         ("svbrdf:sources", sources.join(" | ")),
-        ("svbrdf:convention", args.convention.name.to_owned()),
+        ("svbrdf:convention", args.comparison.convention.name.to_owned()),
         ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
     ];
     stoppable(|progress| match &output {
@@ -91,12 +88,16 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
         }
         Output::Table(path) => write_text(path, &map.table()?, progress),
     })?;
-    exit::put(&(table::heading(&map.shows, &opened.ground_truth, &args.convention) + "\n" + &map.summary))
+    exit::put(
+        &(table::heading(&map.shows, &opened.ground_truth, &args.comparison.convention)
+            + "\n"
+            + &map.summary),
+    )
 }
 
 /// Where the map goes.
 enum Output<'a> {
-    Picture(Destination<Format>),
+    Picture(Destination<PictureFormat>),
     Table(&'a Path),
 }
 
@@ -106,7 +107,7 @@ impl<'a> Output<'a> {
             check_place(path)?;
             return Ok(Self::Table(path));
         }
-        Destination::<Format>::new(path).map(Self::Picture)
+        Destination::<PictureFormat>::new(path).map(Self::Picture)
     }
 }
 

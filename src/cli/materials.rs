@@ -12,7 +12,7 @@ use svbrdf::samples;
 
 use super::bar::watched;
 use super::exit::tell;
-use super::reading::{Reading, ResizeTo};
+use super::reading::{PairReadingArgs, ResizeTo};
 
 /// Longest side of a material that is resized, as of one that is read.
 const MAX_SIDE: usize = 16_384;
@@ -31,7 +31,7 @@ pub struct MaterialArgs {
     pub predictions: Vec<PathBuf>,
 
     #[command(flatten)]
-    pub reading: Reading,
+    pub reading: PairReadingArgs,
 }
 
 /// The ground truth and its predictions.

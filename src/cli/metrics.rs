@@ -7,7 +7,8 @@ use svbrdf::metrics::{Metric, of_maps, of_renderings};
 use svbrdf::model::convention::Convention;
 
 use super::bar::watched;
-use super::report::Format;
+use super::comparison_args::ComparisonArgs;
+use super::report::ReportFormat;
 use super::scene_args::SceneArgs;
 use super::{exit, materials, table};
 
@@ -20,16 +21,12 @@ pub struct MetricsArgs {
     #[command(flatten)]
     scenes: SceneArgs,
 
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
-
     /// Output format
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ReportFormat,
 
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 /// Prints the metrics to stdout.
@@ -37,26 +34,26 @@ pub struct MetricsArgs {
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
 pub fn run(args: &MetricsArgs) -> Result<(), Error> {
-    table::check_predictions(&args.materials)?;
-    let (sampling, scenes) = args.scenes.scenes(&args.convention)?;
-    let opened = materials::open::<f32>(&args.materials)?;
+    table::check_predictions(&args.comparison.materials)?;
+    let (sampling, scenes) = args.scenes.scenes(&args.comparison.convention)?;
+    let opened = materials::open::<f32>(&args.comparison.materials)?;
     let truth = &opened.ground_truth;
     let one = |prediction: &Material<f32>| -> Result<Vec<Metric>, Error> {
         let renderings = watched("rendering", |progress| {
-            of_renderings(truth, prediction, &scenes, &args.convention, progress)
+            of_renderings(truth, prediction, &scenes, &args.comparison.convention, progress)
         })?;
         Ok([of_maps(truth, prediction)?, renderings].concat())
     };
     let metrics = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     let names: Vec<&str> = opened.predictions.iter().map(Material::name).collect();
     exit::put(&match args.format {
-        Format::Text => {
-            let heading = table::heading("metrics", truth, &args.convention);
+        ReportFormat::Text => {
+            let heading = table::heading("metrics", truth, &args.comparison.convention);
             let rows = rows("metric", &names, &metrics, |value| format!("{value:.6}"));
             format!("{heading}{}\n{}", table::scenes_line(sampling.as_ref(), &scenes), table::aligned(&rows))
         }
-        Format::Json => json(truth.name(), &args.convention, &names, &metrics)?,
-        Format::Csv => table::csv(rows("metric", &names, &metrics, |value| value.to_string()))?,
+        ReportFormat::Json => json(truth.name(), &args.comparison.convention, &names, &metrics)?,
+        ReportFormat::Csv => table::csv(rows("metric", &names, &metrics, |value| value.to_string()))?,
     })
 }
 
@@ -77,14 +74,14 @@ fn rows(
 }
 
 #[derive(Serialize)]
-struct Object<'a> {
+struct MetricsJson<'a> {
     ground_truth: &'a str,
     convention: &'a str,
-    results: Vec<Entry<'a>>,
+    results: Vec<MetricsEntry<'a>>,
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct MetricsEntry<'a> {
     prediction: &'a str,
     /// By name; an infinite PSNR, of equal renderings, is null.
     metrics: serde_json::Map<String, serde_json::Value>,
@@ -101,6 +98,7 @@ fn json(
         ((*name).to_owned(), metrics.iter().map(value).collect())
     };
     let entries: Vec<(String, serde_json::Map<_, _>)> = names.iter().zip(metrics).map(entry).collect();
-    let results = entries.iter().map(|(prediction, metrics)| Entry { prediction, metrics: metrics.clone() });
-    table::json(&Object { ground_truth: truth, convention: convention.name, results: results.collect() })
+    let results =
+        entries.iter().map(|(prediction, metrics)| MetricsEntry { prediction, metrics: metrics.clone() });
+    table::json(&MetricsJson { ground_truth: truth, convention: convention.name, results: results.collect() })
 }

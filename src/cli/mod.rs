@@ -4,6 +4,7 @@ mod advice;
 mod backend;
 mod bar;
 mod blame;
+mod comparison_args;
 mod convert;
 mod exit;
 mod info;
@@ -58,13 +59,13 @@ Exit codes:
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 pub struct Cli {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<Subcommands>,
     #[command(flatten)]
     view: view::ViewArgs,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {
+enum Subcommands {
     /// Opens a ground truth and predictions, or the built-in pair, in the window
     View(view::ViewArgs),
     Loss(loss::LossArgs),
@@ -87,20 +88,20 @@ impl Cli {
     /// # Errors
     /// Those of the subcommand.
     pub fn run(self) -> Result<(), Error> {
-        match self.command.unwrap_or(Command::View(self.view)) {
-            Command::View(args) => view::run(args),
-            Command::Loss(args) => loss::run(&args),
-            Command::Render(args) => render::run(&args),
-            Command::Strip(args) => strip::run(&args),
-            Command::Rank(args) => rank::run(args),
-            Command::Blame(args) => blame::run(&args),
-            Command::Scenes(args) => scenes::run(&args),
-            Command::Worst(args) => worst::run(&args),
-            Command::Map(args) => map::run(&args),
-            Command::Metrics(args) => metrics::run(&args),
-            Command::Study(args) => study::run(&args),
-            Command::Info(args) => info::run(&args),
-            Command::Convert(args) => convert::run(&args),
+        match self.command.unwrap_or(Subcommands::View(self.view)) {
+            Subcommands::View(args) => view::run(args),
+            Subcommands::Loss(args) => loss::run(&args),
+            Subcommands::Render(args) => render::run(&args),
+            Subcommands::Strip(args) => strip::run(&args),
+            Subcommands::Rank(args) => rank::run(args),
+            Subcommands::Blame(args) => blame::run(&args),
+            Subcommands::Scenes(args) => scenes::run(&args),
+            Subcommands::Worst(args) => worst::run(&args),
+            Subcommands::Map(args) => map::run(&args),
+            Subcommands::Metrics(args) => metrics::run(&args),
+            Subcommands::Study(args) => study::run(&args),
+            Subcommands::Info(args) => info::run(&args),
+            Subcommands::Convert(args) => convert::run(&args),
         }
     }
 }

@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use svbrdf::error::Error;
 use svbrdf::files::read::{
-    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset, Read,
-    ReadOptions, Reflectance, Roughness, What, Workflow,
+    Albedo, Assumption, Certainty, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, Read,
+    ReadOptions, Reflectance, Roughness, TileGrid, What, Workflow,
 };
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;
@@ -15,8 +15,8 @@ use super::advice;
 use super::exit::tell;
 
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Reading materials")]
-pub struct Reading {
+#[command(next_help_heading = "PairReadingArgs materials")]
+pub struct PairReadingArgs {
     #[command(flatten)]
     pub both: ReadingArgs,
 
@@ -35,7 +35,7 @@ pub struct Reading {
 
 /// How one material is read. Options that are left out are inferred from the files and reported.
 #[derive(Clone, Copy, Debug, clap::Args)]
-#[command(next_help_heading = "Reading materials")]
+#[command(next_help_heading = "PairReadingArgs materials")]
 pub struct ReadingArgs {
     /// Conventions of a source of materials, for the options that are left out
     #[arg(long, value_name = "NAME", requires = "ground_truth", long_help = preset_help())]
@@ -79,7 +79,7 @@ pub struct ReadingArgs {
 
     /// How a packed image is divided [default: into square tiles]
     #[arg(long, value_name = "COLUMNSxROWS", requires = "ground_truth")]
-    grid: Option<Grid>,
+    grid: Option<TileGrid>,
 
     /// Row 0 of every image is the bottom row: mirrors the maps and the normals in them
     #[arg(long, value_name = "true|false", requires = "ground_truth")]
@@ -152,7 +152,7 @@ fn messages<T>(read: &Read<T>, everything: bool) -> Vec<String> {
     notes.map(advice::with_option).chain(assumptions.map(advice::assumption_with_option)).collect()
 }
 
-impl Reading {
+impl PairReadingArgs {
     pub fn of_ground_truth(&self) -> ReadOptions {
         self.with_albedo(self.gt_albedo)
     }

@@ -7,15 +7,16 @@ use svbrdf::error::Error;
 use svbrdf::image::Image;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
-use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::model::scene::Scene;
 use svbrdf::picture::difference::Difference;
 use svbrdf::picture::export::{Destination, Provenance};
 use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::shown::{Pictures, Shown, ShownDifference};
 
 use super::bar::watched;
+use super::comparison_args::ComparisonArgs;
 use super::materials;
+use super::scene_args::OneSceneArgs;
 use super::stop::stoppable;
 
 /// Renders one material, or several side by side, to a file; or their maps, or differences
@@ -28,23 +29,8 @@ pub struct RenderArgs {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
-    /// Position of the viewer, or its direction with --distant
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
-        default_value = "0,0,2.5")]
-    view: [f64; 3],
-
-    /// Position of the light, or its direction with --distant
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
-        default_value = "0.4,0.5,1.2")]
-    light: [f64; 3],
-
-    /// Places light and viewer infinitely far away
-    #[arg(long)]
-    distant: bool,
-
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
+    #[command(flatten)]
+    scene: OneSceneArgs,
 
     /// Exposure of renderings in a PNG, in stops; an EXR keeps the radiance, and differences have none
     #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
@@ -69,7 +55,7 @@ pub struct RenderArgs {
     gpu: bool,
 
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 /// Renders and writes the file.
@@ -78,10 +64,9 @@ pub struct RenderArgs {
 /// Where the output cannot be written, or a material cannot be read or rendered.
 pub fn run(args: &RenderArgs) -> Result<(), Error> {
     let destination = Destination::new(&args.output)?;
-    let scene = scene(args);
-    scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+    let scene = args.scene.scene()?;
     let shown = shown(args)?;
-    let materials = materials::open::<f32>(&args.materials)?.into_all();
+    let materials = materials::open::<f32>(&args.comparison.materials)?.into_all();
     match materials.as_slice() {
         [_] if shown.difference.is_some() => {
             let problem = "--difference compares predictions with a ground truth; give both";
@@ -94,7 +79,7 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
     }
     check_heights(&materials)?;
     let (values, renderer) = values(args, &materials, &scene)?;
-    let Pictures { images, shown } = shown.of_values(values, &args.convention);
+    let Pictures { images, shown } = shown.of_values(values, &args.comparison.convention);
     let provenance = provenance(args, &materials, shown, scene, renderer);
     stoppable(|progress| destination.write(&images, &provenance, progress))
 }
@@ -145,11 +130,6 @@ impl FromStr for Range {
     }
 }
 
-fn scene(args: &RenderArgs) -> Scene {
-    let kind = if args.distant { Kind::Distant } else { Kind::Near };
-    Scene { kind, view: args.view, light: args.light }
-}
-
 fn provenance(
     args: &RenderArgs,
     materials: &[Material<f32>],
@@ -160,7 +140,7 @@ fn provenance(
     Provenance {
         shown,
         scene,
-        convention: args.convention,
+        convention: args.comparison.convention,
         exposure_ev: args.exposure,
         sources: materials.iter().map(|m| m.name().to_owned()).collect(),
         renderer,
@@ -190,7 +170,9 @@ fn values(
         return panes_of_gpu(args, materials, scene);
     }
     let one = |material| {
-        watched("rendering", |progress| args.show.image(material, scene, &args.convention, progress))
+        watched("rendering", |progress| {
+            args.show.image(material, scene, &args.comparison.convention, progress)
+        })
     };
     let panes = materials.iter().map(one).collect::<Result<_, _>>()?;
     Ok((panes, "CPU, f32".to_owned()))
@@ -205,7 +187,7 @@ fn panes_of_gpu(
     let gpu = svbrdf::gpu::Gpu::headless()?;
     let renderer = gpu.report.to_string();
     super::exit::tell(&format!("note: {renderer}"));
-    let one = |material| gpu.render(material, scene, &args.convention);
+    let one = |material| gpu.render(material, scene, &args.comparison.convention);
     Ok((materials.iter().map(one).collect::<Result<_, _>>()?, renderer))
 }
 
@@ -217,13 +199,6 @@ fn panes_of_gpu(_: &RenderArgs, _: &[Material<f32>], _: &Scene) -> Result<(Vec<I
     })
 }
 
-/// Three numbers with commas between them.
-pub fn triple(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    let expected = || format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`");
-    numbers.ok().and_then(|numbers| numbers.try_into().ok()).ok_or_else(expected)
-}
-
 pub fn stops(text: &str) -> Result<f32, String> {
     let finite = text.parse().ok().filter(|stops: &f32| stops.is_finite());
     finite.ok_or_else(|| format!("expected a number of stops like -1.5, found `{text}`"))
@@ -232,14 +207,6 @@ pub fn stops(text: &str) -> Result<f32, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_triple_is_three_numbers() {
-        assert_eq!(triple("1,-2, 3e-1"), Ok([1.0, -2.0, 0.3]));
-        for wrong in ["1,2", "1,2,3,4", "", "a,b,c", "1,,2"] {
-            assert!(triple(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn stops_are_finite() {

@@ -1,4 +1,4 @@
-//! The scenes that a subcommand compares.
+//! The scenes of a subcommand.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use svbrdf::error::Error;
 use svbrdf::loss::{Request, Sampling, Texels};
 use svbrdf::model::convention::Convention;
 use svbrdf::model::sampler::Sampler;
-use svbrdf::model::scene::Scene;
+use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::model::scene_file;
 
 #[derive(Debug, clap::Args)]
@@ -57,5 +57,55 @@ impl SceneArgs {
         let sampling = Sampling { near, distant, seed, sampler, texels: Texels::All };
         sampling.check()?;
         Ok(Request::Scenes(sampling))
+    }
+}
+
+#[derive(Debug, clap::Args)]
+pub struct OneSceneArgs {
+    /// Position of the viewer, or its direction with --distant
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
+        default_value = "0,0,2.5")]
+    view: [f64; 3],
+
+    /// Position of the light, or its direction with --distant
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
+        default_value = "0.4,0.5,1.2")]
+    light: [f64; 3],
+
+    /// Places light and viewer infinitely far away
+    #[arg(long)]
+    distant: bool,
+}
+
+impl OneSceneArgs {
+    /// The scene.
+    ///
+    /// # Errors
+    /// [`Error::UnusableScene`].
+    pub fn scene(&self) -> Result<Scene, Error> {
+        let kind = if self.distant { Kind::Distant } else { Kind::Near };
+        let scene = Scene { kind, view: self.view, light: self.light };
+        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+        Ok(scene)
+    }
+}
+
+/// Three numbers with commas between them.
+pub fn triple(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let expected = || format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`");
+    numbers.ok().and_then(|numbers| numbers.try_into().ok()).ok_or_else(expected)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_triple_is_three_numbers() {
+        assert_eq!(triple("1,-2, 3e-1"), Ok([1.0, -2.0, 0.3]));
+        for wrong in ["1,2", "1,2,3,4", "", "a,b,c", "1,,2"] {
+            assert!(triple(wrong).is_err(), "{wrong}");
+        }
     }
 }

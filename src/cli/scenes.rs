@@ -9,7 +9,8 @@ use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::why::{Distribution, RankedScene, worst_first};
 
 use super::bar::watched;
-use super::report::Format;
+use super::comparison_args::ComparisonArgs;
+use super::report::ReportFormat;
 use super::scene_args::SceneArgs;
 use super::{exit, materials, table};
 
@@ -26,16 +27,12 @@ pub struct ScenesArgs {
     #[command(flatten)]
     scenes: SceneArgs,
 
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
-
     /// Output format
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ReportFormat,
 
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 /// Prints the scenes to stdout.
@@ -43,18 +40,19 @@ pub struct ScenesArgs {
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
 pub fn run(args: &ScenesArgs) -> Result<(), Error> {
-    table::check_predictions(&args.materials)?;
+    table::check_predictions(&args.comparison.materials)?;
     let request = args.scenes.request()?;
-    let opened = materials::open::<f32>(&args.materials)?;
+    let opened = materials::open::<f32>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.convention)?.without_pilot();
+    let comparison =
+        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention)?.without_pilot();
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let mut ranked = worst_first(&outcome);
     ranked.truncate(args.top);
     exit::put(&match args.format {
-        Format::Text => text(&outcome, &ranked, &opened.ground_truth, &args.convention),
-        Format::Json => json(&outcome, &ranked, &opened.ground_truth, &args.convention)?,
-        Format::Csv => csv(&outcome, &ranked)?,
+        ReportFormat::Text => text(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention),
+        ReportFormat::Json => json(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention)?,
+        ReportFormat::Csv => csv(&outcome, &ranked)?,
     })
 }
 
@@ -117,19 +115,19 @@ fn csv(outcome: &Outcome, ranked: &[RankedScene]) -> Result<String, Error> {
 
 /// A scene file, too.
 #[derive(Serialize)]
-struct Object<'a> {
+struct ScenesJson<'a> {
     ground_truth: &'a str,
     convention: &'a str,
     epsilon: f64,
     seed: Option<u64>,
     /// The number of scenes that these are the worst of.
     of: usize,
-    results: Vec<Entry<'a>>,
+    results: Vec<ScenesEntry<'a>>,
     scenes: Vec<Scene>,
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct ScenesEntry<'a> {
     prediction: &'a str,
     /// Over all scenes.
     loss: f64,
@@ -143,12 +141,12 @@ fn json(
     ground_truth: &Material<f32>,
     convention: &Convention,
 ) -> Result<String, Error> {
-    let entry = |(index, loss): (usize, &svbrdf::loss::Loss)| Entry {
+    let entry = |(index, loss): (usize, &svbrdf::loss::Loss)| ScenesEntry {
         prediction: &outcome.losses[index].prediction,
         loss: loss.estimate.mean,
         losses: ranked.iter().map(|ranked| ranked.losses[index]).collect(),
     };
-    table::json(&Object {
+    table::json(&ScenesJson {
         ground_truth: ground_truth.name(),
         convention: convention.name,
         epsilon: convention.epsilon,

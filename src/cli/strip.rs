@@ -5,8 +5,6 @@ use std::path::PathBuf;
 use svbrdf::error::Error;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
-use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::model::scene_file;
 use svbrdf::picture::export::PngDestination;
 use svbrdf::picture::quantity::Quantity;
@@ -14,8 +12,10 @@ use svbrdf::picture::shown::Shown;
 use svbrdf::picture::strip::{Column, Strip};
 
 use super::bar::watched;
+use super::comparison_args::ComparisonArgs;
 use super::materials;
-use super::render::{Range, difference_of, stops, triple};
+use super::render::{Range, difference_of, stops};
+use super::scene_args::OneSceneArgs;
 use super::stop::stoppable;
 
 /// Writes a labelled figure: a row per material, a column per map, rendering or difference
@@ -41,23 +41,8 @@ pub struct StripArgs {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["view", "light", "distant"])]
     scenes: Option<PathBuf>,
 
-    /// Position of the viewer, or its direction with --distant
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
-        default_value = "0,0,2.5")]
-    view: [f64; 3],
-
-    /// Position of the light, or its direction with --distant
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
-        default_value = "0.4,0.5,1.2")]
-    light: [f64; 3],
-
-    /// Places light and viewer infinitely far away
-    #[arg(long)]
-    distant: bool,
-
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
+    #[command(flatten)]
+    scene: OneSceneArgs,
 
     /// Exposure of renderings in stops
     #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
@@ -69,7 +54,7 @@ pub struct StripArgs {
     range: Option<Range>,
 
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 /// Renders and writes the figure.
@@ -79,11 +64,11 @@ pub struct StripArgs {
 pub fn run(args: &StripArgs) -> Result<(), Error> {
     let destination = PngDestination::new(&args.output)?;
     let columns = columns(args)?;
-    let materials = materials::open::<f32>(&args.materials)?.into_all();
+    let materials = materials::open::<f32>(&args.comparison.materials)?.into_all();
     if let [ground_truth, predictions @ ..] = materials.as_slice() {
         predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
     }
-    let strip = Strip { columns, convention: args.convention, exposure_ev: args.exposure };
+    let strip = Strip { columns, convention: args.comparison.convention, exposure_ev: args.exposure };
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
     let all: Vec<&Material<f32>> = materials.iter().collect();
     let picture = watched("rendering", |progress| strip.picture(&all, &names, progress))?;
@@ -93,14 +78,8 @@ pub fn run(args: &StripArgs) -> Result<(), Error> {
 fn columns(args: &StripArgs) -> Result<Vec<Column>, Error> {
     let scenes = match &args.scenes {
         Some(path) => scene_file::read(path)?,
-        None => {
-            let kind = if args.distant { Kind::Distant } else { Kind::Near };
-            vec![Scene { kind, view: args.view, light: args.light }]
-        }
+        None => vec![args.scene.scene()?],
     };
-    for scene in &scenes {
-        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
-    }
     let mut columns = Vec::new();
     for text in &args.columns {
         let (quantity, difference) = match text.split_once(':') {

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use svbrdf::error::Error;
 use svbrdf::loss::check_same_size;
-use svbrdf::model::convention::Convention;
 use svbrdf::picture::export;
 use svbrdf::study::{self, Pair, Study, plot};
 
 use super::backend::Adapter;
 use super::bar::watched;
+use super::comparison_args::ComparisonArgs;
 use super::stop::stoppable;
 use super::{exit, materials};
 
@@ -28,12 +28,8 @@ pub struct StudyArgs {
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
-
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 /// Measures, prints the summary to stdout and writes the files.
@@ -41,7 +37,7 @@ pub struct StudyArgs {
 /// # Errors
 /// Where a material cannot be read, the two are of different sizes or look the same, or a file cannot be written.
 pub fn run(args: &StudyArgs) -> Result<(), Error> {
-    check_predictions(&args.materials)?;
+    check_predictions(&args.comparison.materials)?;
     let plot = args.plot.as_deref().map(plot::destination).transpose()?;
     args.output.as_deref().map_or(Ok(()), export::check_place)?;
     let study = measured(args)?;
@@ -65,7 +61,7 @@ fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
 }
 
 fn measured(args: &StudyArgs) -> Result<Study, Error> {
-    let opened = materials::open::<f32>(&args.materials)?;
+    let opened = materials::open::<f32>(&args.comparison.materials)?;
     let (ground_truth, prediction) = (&opened.ground_truth, &opened.predictions[0]);
     check_same_size(ground_truth, prediction)?;
     let adapter = match Adapter::start() {
@@ -79,6 +75,6 @@ fn measured(args: &StudyArgs) -> Result<Study, Error> {
         }
     };
     let gpu = adapter.as_ref().map(Adapter::backend);
-    let pair = Pair { ground_truth, prediction, convention: args.convention, gpu };
+    let pair = Pair { ground_truth, prediction, convention: args.comparison.convention, gpu };
     watched("measuring", |progress| study::run(&pair, progress, |_| ()))
 }

@@ -8,7 +8,8 @@ use svbrdf::model::scene::Scene;
 use svbrdf::why::{Worst, worst};
 
 use super::bar::watched;
-use super::report::Format;
+use super::comparison_args::ComparisonArgs;
+use super::report::ReportFormat;
 use super::scenes::{kind_name, triple};
 use super::{exit, materials, table};
 
@@ -22,16 +23,12 @@ pub struct WorstArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
 
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    convention: Convention,
-
     /// Output format
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ReportFormat,
 
     #[command(flatten)]
-    materials: materials::MaterialArgs,
+    comparison: ComparisonArgs,
 }
 
 /// Prints the worst scenes to stdout.
@@ -39,18 +36,18 @@ pub struct WorstArgs {
 /// # Errors
 /// Where a material cannot be read or used.
 pub fn run(args: &WorstArgs) -> Result<(), Error> {
-    table::check_predictions(&args.materials)?;
-    let opened = materials::open::<f32>(&args.materials)?;
+    table::check_predictions(&args.comparison.materials)?;
+    let opened = materials::open::<f32>(&args.comparison.materials)?;
     let one = |prediction: &Material<f32>| {
         watched("searching", |progress| {
-            worst(&opened.ground_truth, prediction, &args.convention, args.seed, progress)
+            worst(&opened.ground_truth, prediction, &args.comparison.convention, args.seed, progress)
         })
     };
     let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     exit::put(&match args.format {
-        Format::Text => text(&found, &opened.ground_truth, &args.convention),
-        Format::Json => json(&found, &opened.ground_truth, &args.convention)?,
-        Format::Csv => csv(&found)?,
+        ReportFormat::Text => text(&found, &opened.ground_truth, &args.comparison.convention),
+        ReportFormat::Json => json(&found, &opened.ground_truth, &args.comparison.convention)?,
+        ReportFormat::Csv => csv(&found)?,
     })
 }
 
@@ -107,16 +104,16 @@ fn csv(found: &[Worst]) -> Result<String, Error> {
 
 /// A scene file, too: scene k is the worst of prediction k.
 #[derive(Serialize)]
-struct Object<'a> {
+struct WorstJson<'a> {
     ground_truth: &'a str,
     convention: &'a str,
     epsilon: f64,
-    results: Vec<Entry<'a>>,
+    results: Vec<WorstEntry<'a>>,
     scenes: Vec<Scene>,
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct WorstEntry<'a> {
     prediction: &'a str,
     worst: f64,
     /// The loss over all scenes.
@@ -126,14 +123,14 @@ struct Entry<'a> {
 }
 
 fn json(found: &[Worst], ground_truth: &Material<f32>, convention: &Convention) -> Result<String, Error> {
-    let results = found.iter().map(|worst| Entry {
+    let results = found.iter().map(|worst| WorstEntry {
         prediction: &worst.prediction,
         worst: worst.loss,
         mean: worst.mean.mean,
         interval95: worst.mean.interval95,
         evaluations: worst.evaluations,
     });
-    table::json(&Object {
+    table::json(&WorstJson {
         ground_truth: ground_truth.name(),
         convention: convention.name,
         epsilon: convention.epsilon,

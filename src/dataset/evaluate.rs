@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-use super::record::{Candidate, Known, MaterialResult, PredictionResult, Settings, Task};
+use super::record::{Candidate, Case, KnownLoss, MaterialResult, PredictionResult, RunSettings};
 use crate::error::Error;
 use crate::loss::{Comparison, Request, check_same_size};
 use crate::material::Material;
@@ -27,8 +27,8 @@ pub enum Side {
 /// # Errors
 /// [`Error::Cancelled`], and those of `done`.
 pub fn evaluate(
-    tasks: &[Task],
-    settings: &Settings,
+    tasks: &[Case],
+    settings: &RunSettings,
     convention: &Convention,
     read: impl Fn(&Path, Side) -> Result<Material<f32>, Error> + Sync,
     progress: &Progress,
@@ -42,8 +42,8 @@ pub fn evaluate(
 }
 
 fn one(
-    task: &Task,
-    settings: &Settings,
+    task: &Case,
+    settings: &RunSettings,
     convention: &Convention,
     read: &impl Fn(&Path, Side) -> Result<Material<f32>, Error>,
     progress: &Progress,
@@ -85,8 +85,8 @@ fn one(
     Ok(MaterialResult { index: task.index, material: task.material.clone(), seed, scenes, predictions })
 }
 
-fn known(estimate: &crate::loss::Estimate) -> Known {
-    Known {
+fn known(estimate: &crate::loss::Estimate) -> KnownLoss {
+    KnownLoss {
         loss: estimate.mean,
         standard_error: estimate.standard_error.unwrap_or(0.0),
         interval95: estimate.interval95.unwrap_or([estimate.mean; 2]),

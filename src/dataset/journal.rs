@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use super::record::{MaterialResult, Settings, Task};
+use super::record::{Case, MaterialResult, RunSettings};
 use crate::error::Error;
 use crate::files::atomic::write_text;
 use crate::progress::Progress;
@@ -25,7 +25,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`Error::Unreadable`], [`Error::Unwritable`]; [`Error::BadJournal`] where the file is of other settings, or is no journal.
-    pub fn open(path: &Path, settings: &Settings) -> Result<(Self, Vec<MaterialResult>), Error> {
+    pub fn open(path: &Path, settings: &RunSettings) -> Result<(Self, Vec<MaterialResult>), Error> {
         let results = if path.exists() {
             let (found, results) = read(path)?;
             if found != *settings {
@@ -55,7 +55,7 @@ impl Journal {
 ///
 /// # Errors
 /// [`Error::Unwritable`].
-pub fn write(path: &Path, settings: &Settings, results: &[MaterialResult]) -> Result<(), Error> {
+pub fn write(path: &Path, settings: &RunSettings, results: &[MaterialResult]) -> Result<(), Error> {
     let mut text = line(path, settings)?;
     for result in results {
         text += &line(path, result)?;
@@ -67,8 +67,8 @@ pub fn write(path: &Path, settings: &Settings, results: &[MaterialResult]) -> Re
 ///
 /// # Errors
 /// [`Error::Unreadable`]; [`Error::BadJournal`] where they are of different settings, or results are missing or not the same.
-pub fn merged(paths: &[PathBuf]) -> Result<(Settings, Vec<MaterialResult>), Error> {
-    let mut common: Option<Settings> = None;
+pub fn merged(paths: &[PathBuf]) -> Result<(RunSettings, Vec<MaterialResult>), Error> {
+    let mut common: Option<RunSettings> = None;
     let mut all: BTreeMap<usize, MaterialResult> = BTreeMap::new();
     let Some(last) = paths.last() else { return Err(bad(Path::new(""), "there is no journal".to_owned())) };
     for path in paths {
@@ -94,12 +94,12 @@ pub fn merged(paths: &[PathBuf]) -> Result<(Settings, Vec<MaterialResult>), Erro
 }
 
 /// The tasks whose results are not there yet.
-pub fn remaining(tasks: &[Task], results: &[MaterialResult]) -> Vec<Task> {
-    let is_done = |task: &&Task| results.iter().any(|result| result.index == task.index);
+pub fn remaining(tasks: &[Case], results: &[MaterialResult]) -> Vec<Case> {
+    let is_done = |task: &&Case| results.iter().any(|result| result.index == task.index);
     tasks.iter().filter(|task| !is_done(task)).cloned().collect()
 }
 
-fn read(path: &Path) -> Result<(Settings, Vec<MaterialResult>), Error> {
+fn read(path: &Path) -> Result<(RunSettings, Vec<MaterialResult>), Error> {
     let text = std::fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
     let complete = text.rfind('\n').map_or("", |end| &text[..end]);
     let mut lines = complete.lines();

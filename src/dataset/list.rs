@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use super::record::{Candidate, Task};
+use super::record::{Candidate, Case};
 use crate::error::Error;
 
 /// Extensions of files that are no materials.
@@ -20,7 +20,7 @@ pub struct Shard {
 
 impl Shard {
     /// The tasks of this part.
-    pub fn part(self, tasks: Vec<Task>) -> Vec<Task> {
+    pub fn part(self, tasks: Vec<Case>) -> Vec<Case> {
         tasks.into_iter().filter(|task| task.index % self.of == self.number - 1).collect()
     }
 }
@@ -49,7 +49,7 @@ impl FromStr for Shard {
 ///
 /// # Errors
 /// [`Error::Unreadable`], and [`Error::NotAMaterial`] where there are no materials.
-pub fn tasks_of_folders(ground_truths: &Path, methods: &[(String, PathBuf)]) -> Result<Vec<Task>, Error> {
+pub fn tasks_of_folders(ground_truths: &Path, methods: &[(String, PathBuf)]) -> Result<Vec<Case>, Error> {
     let truths = entries(ground_truths)?;
     if truths.is_empty() {
         return Err(nothing_in(ground_truths, "materials"));
@@ -66,7 +66,7 @@ pub fn tasks_of_folders(ground_truths: &Path, methods: &[(String, PathBuf)]) -> 
             let candidate = |(sample, path)| Candidate { method: method.clone(), sample, path };
             candidates.extend(paths.into_iter().enumerate().map(candidate));
         }
-        Task { index, material: material.clone(), ground_truth: ground_truth.clone(), candidates }
+        Case { index, material: material.clone(), ground_truth: ground_truth.clone(), candidates }
     };
     Ok(truths.iter().enumerate().map(task).collect())
 }
@@ -117,7 +117,7 @@ fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 ///
 /// # Errors
 /// [`Error::Unreadable`], and [`Error::NotAMaterial`] where a column is missing or there are no rows.
-pub fn tasks_of_table(path: &Path) -> Result<Vec<Task>, Error> {
+pub fn tasks_of_table(path: &Path) -> Result<Vec<Case>, Error> {
     let bad = |problem: csv::Error| Error::unreadable(path, std::io::Error::other(problem));
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(bad)?;
     let heading = reader.headers().map_err(bad)?.clone();
@@ -127,7 +127,7 @@ pub fn tasks_of_table(path: &Path) -> Result<Vec<Task>, Error> {
     };
     let [method, material] = [column("method"), column("material")];
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut tasks: Vec<Task> = Vec::new();
+    let mut tasks: Vec<Case> = Vec::new();
     for row in reader.records() {
         let row = row.map_err(bad)?;
         let cell = |column: usize| row.get(column).unwrap_or_default();
@@ -137,7 +137,7 @@ pub fn tasks_of_table(path: &Path) -> Result<Vec<Task>, Error> {
         if at == tasks.len() {
             let stem = ground_truth.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let material = material.map_or(stem, |column| cell(column).to_owned());
-            tasks.push(Task { index: at, material, ground_truth, candidates: Vec::new() });
+            tasks.push(Case { index: at, material, ground_truth, candidates: Vec::new() });
         }
         let candidates = &mut tasks[at].candidates;
         let sample = candidates.iter().filter(|candidate| candidate.method == method).count();

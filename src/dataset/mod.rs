@@ -1,6 +1,6 @@
 //! Many materials: the losses of several methods over a data set, with intervals over materials.
 //!
-//! A data set is a list of [`Task`]s, one for each material: [`tasks_of_folders`] matches folders by name, [`tasks_of_table`] reads a table of
+//! A data set is a list of [`Case`]s, one for each material: [`tasks_of_folders`] matches folders by name, [`tasks_of_table`] reads a table of
 //! pairs. [`evaluate`] gives a [`MaterialResult`] for each, [`Journal`] keeps them in a file, so that an interrupted run
 //! continues and parts of a run can be joined, and [`summarize`] tells what they say about the methods.
 
@@ -15,5 +15,5 @@ pub use bootstrap::interval_of_mean;
 pub use evaluate::{Side, evaluate};
 pub use journal::{Journal, merged, remaining, write};
 pub use list::{Shard, tasks_of_folders, tasks_of_table};
-pub use record::{Candidate, Known, MaterialResult, PredictionResult, Settings, Task};
-pub use summary::{Difference, MethodSummary, Pick, summarize};
+pub use record::{Candidate, Case, KnownLoss, MaterialResult, PredictionResult, RunSettings};
+pub use summary::{MethodDifference, MethodSummary, Pick, summarize};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// A material: its ground truth, and the predictions of all methods.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Task {
+pub struct Case {
     /// Its place in the whole data set, from 0.
     pub index: usize,
     pub material: String,
@@ -25,7 +25,7 @@ pub struct Candidate {
 
 /// What the results of all materials have in common: results of other settings cannot be joined with them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Settings {
+pub struct RunSettings {
     pub convention: String,
     /// Half of the 95% interval of each loss over scenes, as a share of the loss.
     pub target_error: f64,
@@ -37,9 +37,9 @@ pub struct Settings {
     pub methods: Vec<String>,
 }
 
-impl Settings {
+impl RunSettings {
     /// The settings for `tasks`, which are those of the whole data set.
-    pub fn new(convention: &str, target_error: f64, seed: u64, tasks: &[Task]) -> Self {
+    pub fn new(convention: &str, target_error: f64, seed: u64, tasks: &[Case]) -> Self {
         let mut methods: Vec<String> = Vec::new();
         for candidate in tasks.iter().flat_map(|task| &task.candidates) {
             if !methods.contains(&candidate.method) {
@@ -70,12 +70,12 @@ pub struct PredictionResult {
     pub sample: usize,
     pub path: String,
     /// The loss; what is wrong where there is none.
-    pub result: Result<Known, String>,
+    pub result: Result<KnownLoss, String>,
 }
 
 /// A loss that is known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Known {
+pub struct KnownLoss {
     pub loss: f64,
     /// Due to the sampling of scenes and texels.
     pub standard_error: f64,

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use super::bootstrap::interval_of_mean;
-use super::record::{Known, MaterialResult};
+use super::record::{KnownLoss, MaterialResult};
 use crate::error::Error;
 
 /// The 97.5% quantile of the normal distribution.
@@ -65,12 +65,12 @@ pub struct MethodSummary {
     pub interval95_scenes: [f64; 2],
     /// The mean of this method - the best one over the materials of both, with its interval over materials; `None` for the
     /// best.
-    pub to_best: Option<Difference>,
+    pub to_best: Option<MethodDifference>,
 }
 
 /// A paired difference of two methods.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Difference {
+pub struct MethodDifference {
     pub mean: f64,
     pub interval95_materials: Option<[f64; 2]>,
 }
@@ -87,23 +87,23 @@ impl MethodSummary {
 
 /// The methods, smallest mean loss first; those without any loss come last, with a mean of NaN.
 pub fn summarize(methods: &[String], results: &[MaterialResult], pick: Pick) -> Vec<MethodSummary> {
-    let values: Vec<Vec<Option<Known>>> = methods
+    let values: Vec<Vec<Option<KnownLoss>>> = methods
         .iter()
         .map(|method| results.iter().map(|result| picked(result, method, pick)).collect())
         .collect();
-    let mut summaries: Vec<(MethodSummary, &Vec<Option<Known>>)> =
+    let mut summaries: Vec<(MethodSummary, &Vec<Option<KnownLoss>>)> =
         methods.iter().zip(&values).map(|(method, values)| (of_method(method, values), values)).collect();
     summaries.sort_by(|a, b| a.0.mean.total_cmp(&b.0.mean));
     let best = summaries.first().map(|(_, values)| (*values).clone()).unwrap_or_default();
-    let with_difference = |(place, (summary, values)): (usize, (MethodSummary, &Vec<Option<Known>>))| {
+    let with_difference = |(place, (summary, values)): (usize, (MethodSummary, &Vec<Option<KnownLoss>>))| {
         let to_best = (place > 0).then(|| difference(values, &best));
         MethodSummary { to_best, ..summary }
     };
     summaries.into_iter().enumerate().map(with_difference).collect()
 }
 
-fn of_method(method: &str, values: &[Option<Known>]) -> MethodSummary {
-    let known: Vec<Known> = values.iter().flatten().copied().collect();
+fn of_method(method: &str, values: &[Option<KnownLoss>]) -> MethodSummary {
+    let known: Vec<KnownLoss> = values.iter().flatten().copied().collect();
     let mut losses: Vec<f64> = known.iter().map(|known| known.loss).collect();
     let count = losses.len() as f64;
     let mean = losses.iter().sum::<f64>() / count;
@@ -128,17 +128,17 @@ fn of_method(method: &str, values: &[Option<Known>]) -> MethodSummary {
     }
 }
 
-fn difference(values: &[Option<Known>], best: &[Option<Known>]) -> Difference {
+fn difference(values: &[Option<KnownLoss>], best: &[Option<KnownLoss>]) -> MethodDifference {
     let paired = values.iter().zip(best).filter_map(|(a, b)| Some(a.as_ref()?.loss - b.as_ref()?.loss));
     let differences: Vec<f64> = paired.collect();
     let mean = differences.iter().sum::<f64>() / differences.len() as f64;
-    Difference { mean, interval95_materials: interval_of_mean(&differences) }
+    MethodDifference { mean, interval95_materials: interval_of_mean(&differences) }
 }
 
 /// The loss of a method for a material.
-fn picked(result: &MaterialResult, method: &str, pick: Pick) -> Option<Known> {
+fn picked(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss> {
     let of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
-    let mut known: Vec<Known> = Vec::new();
+    let mut known: Vec<KnownLoss> = Vec::new();
     for prediction in of_method {
         match (&prediction.result, pick) {
             (Ok(loss), _) => known.push(*loss),
@@ -152,9 +152,9 @@ fn picked(result: &MaterialResult, method: &str, pick: Pick) -> Option<Known> {
         Pick::Best => known.into_iter().min_by(|a, b| a.loss.total_cmp(&b.loss)),
         Pick::Mean => {
             let count = known.len() as f64;
-            let mean = |of: fn(&Known) -> f64| known.iter().map(of).sum::<f64>() / count;
+            let mean = |of: fn(&KnownLoss) -> f64| known.iter().map(of).sum::<f64>() / count;
             // All see the same scenes: their errors add up.
-            (count > 0.0).then(|| Known {
+            (count > 0.0).then(|| KnownLoss {
                 loss: mean(|known| known.loss),
                 standard_error: mean(|known| known.standard_error),
                 interval95: [mean(|known| known.interval95[0]), mean(|known| known.interval95[1])],

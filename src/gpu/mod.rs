@@ -5,7 +5,7 @@
 //! texels that are seen, averaged where they are smaller than a pixel, exposed and encoded. So shading is never
 //! computed on filtered maps, and moving the camera costs no shading.
 //!
-//! [`Losses`] is Algorithm 1 in compute shaders, for large jobs on a fast adapter.
+//! [`GpuLosses`] is Algorithm 1 in compute shaders, for large jobs on a fast adapter.
 //!
 //! `shaders/` holds one idea a file; `shaders` says which files make a shader. Bad input and bad hardware never
 //! panic: they are an [`Error::Gpu`](crate::error::Error::Gpu) or wait in [`Gpu::take_fault`].
@@ -36,7 +36,7 @@ pub mod uniforms;
 
 pub use adapter::AdapterReport;
 pub use context::Gpu;
-pub use loss::Losses;
+pub use loss::GpuLosses;
 
 #[cfg(feature = "viewer")]
 pub(crate) use read_back::read_rgba;

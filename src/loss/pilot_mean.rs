@@ -40,8 +40,8 @@ impl Spread {
     /// those of the normal distribution; the degrees of freedom nu come from the variance of the variance,
     /// var(s^2) = (m_4 - s^4) / n = 2 s^4 / nu (Satterthwaite 1946).
     pub fn of_sum(draws: &[Draws]) -> Self {
-        let moments: Vec<Moments> = draws.iter().map(Moments::of).collect();
-        let sum = |of: fn(&Moments) -> f64, power| -> f64 {
+        let moments: Vec<SampleMoments> = draws.iter().map(SampleMoments::of).collect();
+        let sum = |of: fn(&SampleMoments) -> f64, power| -> f64 {
             draws.iter().zip(&moments).map(|(d, m)| (d.count as f64).powi(power) * of(m)).sum()
         };
         let (mean, variance) = (sum(|m| m.mean, 1), sum(|m| m.variance, 1));
@@ -58,7 +58,7 @@ impl Spread {
 }
 
 /// Moments of a sample.
-struct Moments {
+struct SampleMoments {
     mean: f64,
     variance: f64,
     variance_of_variance: f64,
@@ -66,7 +66,7 @@ struct Moments {
     farthest: f64,
 }
 
-impl Moments {
+impl SampleMoments {
     fn of(draws: &Draws) -> Self {
         let count = draws.values.len() as f64;
         let mean = draws.values.iter().sum::<f64>() / count;
@@ -86,7 +86,7 @@ struct Lattice(Vec<Complex>);
 
 impl Lattice {
     /// `moments` are those of `draws`; points are `step` apart.
-    fn of_sum(draws: &[Draws], moments: &[Moments], step: f64) -> Self {
+    fn of_sum(draws: &[Draws], moments: &[SampleMoments], step: f64) -> Self {
         let roots: Vec<Complex> = (0..BINS / 2).map(|k| Complex::root(k, BINS)).collect();
         let mut product = vec![Complex([1.0, 0.0]); BINS];
         for (draws, moments) in draws.iter().zip(moments) {

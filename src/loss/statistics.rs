@@ -82,7 +82,7 @@ impl Estimate {
         let variance: f64 = moments.iter().map(|m| m.variance).sum();
         let standard_error = variance.sqrt();
         let nearly_normal = strata.iter().flat_map(|s| &s.units).all(|unit| unit.len() >= LONG);
-        let part = |m: &Moments| student_quantile(m.freedom).powi(2) * m.variance;
+        let part = |m: &StratumMoments| student_quantile(m.freedom).powi(2) * m.variance;
         let by_stratum: f64 = moments.iter().map(part).sum();
         let reach = if nearly_normal && variance > 0.0 {
             let inverse: f64 = moments.iter().map(|m| m.variance.powi(2) / m.freedom).sum();
@@ -119,7 +119,7 @@ impl Estimate {
 }
 
 /// What a stratum adds to an estimate.
-struct Moments {
+struct StratumMoments {
     mean: f64,
     /// The variance of `mean`, with `freedom` degrees of freedom.
     variance: f64,
@@ -131,7 +131,7 @@ struct Moments {
 impl Stratum {
     /// Units of more scenes count for more: where scenes are independent, the variance is then without bias for units
     /// of any sizes.
-    fn moments(&self) -> Moments {
+    fn moments(&self) -> StratumMoments {
         let count = self.units.iter().map(Vec::len).sum::<usize>() as f64;
         let mean = self.units.iter().flatten().sum::<f64>() / count;
         let units = self.units.len() as f64;
@@ -143,7 +143,7 @@ impl Stratum {
         };
         let sum = |power| self.units.iter().map(|unit| deviation(unit).powi(power)).sum::<f64>();
         let third = if units > 2.0 { sum(3) / (units * freedom * (units - 2.0)) } else { 0.0 };
-        Moments {
+        StratumMoments {
             mean: self.weight * mean,
             variance: self.weight.powi(2) * sum(2) / (units * freedom),
             freedom,

@@ -37,7 +37,7 @@ pub const COUNT: usize = 3;
 
 /// A ground truth and predictions of it, of the same size.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Samples<T> {
+pub struct BuiltIn<T> {
     pub ground_truth: Read<T>,
     pub predictions: Vec<Read<T>>,
 }
@@ -46,7 +46,7 @@ pub struct Samples<T> {
 ///
 /// # Errors
 /// None, unless the build damaged the embedded files.
-pub fn load<T: Real>() -> Result<Samples<T>, Error> {
+pub fn load<T: Real>() -> Result<BuiltIn<T>, Error> {
     let read = |name, bytes| -> Result<Read<T>, Error> {
         let mut read = read_bytes(name, bytes, &STORED)?;
         for known in read.assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
@@ -54,7 +54,7 @@ pub fn load<T: Real>() -> Result<Samples<T>, Error> {
         }
         Ok(read)
     };
-    Ok(Samples {
+    Ok(BuiltIn {
         ground_truth: read("worn tiles", include_bytes!("../../assets/worn_tiles.png"))?,
         predictions: vec![
             read("blurred normals", include_bytes!("../../assets/blurred_normals.png"))?,

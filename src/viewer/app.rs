@@ -20,7 +20,7 @@ use super::message_list::MessageList;
 use super::options::ViewerOptions;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
-use super::scene_loss::SceneLoss;
+use super::scene_loss::SceneLossRun;
 use super::settings::{self, Settings};
 use super::slots::{Slots, Target};
 use super::source::Source;
@@ -49,7 +49,7 @@ pub struct App {
     pub(super) loss: LossRun,
     /// The loss over the few scenes of the papers, beside a more accurate one.
     pub(super) few: LossRun,
-    pub(super) scene_loss: SceneLoss,
+    pub(super) scene_loss: SceneLossRun,
     pub(super) values: ValuesRun,
     pub(super) animation: Animation,
     /// Whether something was dragged since Space was pressed: then Space pans and does not pause.
@@ -105,7 +105,7 @@ impl App {
             history: History::default(),
             loss: LossRun::default(),
             few: LossRun::default(),
-            scene_loss: SceneLoss::default(),
+            scene_loss: SceneLossRun::default(),
             values: ValuesRun::default(),
             animation: Animation::default(),
             space_dragged: false,

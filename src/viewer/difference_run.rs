@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui;
 
+use super::latest::Latest;
 use super::loaded::Loaded;
 use super::slots::Slots;
 use super::state::ViewState;
@@ -18,7 +19,7 @@ use crate::progress::Progress;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]
-struct Key {
+struct DifferenceKey {
     /// Of the materials, the ground truth first.
     ids: Vec<u64>,
     quantity: Quantity,
@@ -30,17 +31,12 @@ struct Key {
 
 /// The statistics of the difference in the panes, and the computation of new ones.
 #[derive(Debug, Default)]
-pub struct DifferenceRun {
-    running: Option<(Key, Task<Distributions>)>,
-    latest: Option<(Key, Distributions)>,
-    /// What could not be computed, which is not tried again.
-    failed: Option<Key>,
-}
+pub struct DifferenceRun(Latest<DifferenceKey, Distributions>);
 
 impl DifferenceRun {
     /// The distributions for the current materials and difference, perhaps of an earlier scene; one for each prediction.
     pub fn distributions(&self, slots: &Slots, state: &ViewState) -> Option<&Distributions> {
-        let (latest, distributions) = self.latest.as_ref()?;
+        let (latest, distributions) = self.0.get()?;
         let now = key(slots, state);
         let same = (&latest.ids, latest.quantity, latest.kind) == (&now.ids, now.quantity, now.kind);
         same.then_some(distributions)
@@ -48,7 +44,7 @@ impl DifferenceRun {
 
     /// Whether the distributions are those of the current scene.
     pub fn is_current(&self, slots: &Slots, state: &ViewState) -> bool {
-        self.latest.as_ref().is_some_and(|(latest, _)| *latest == key(slots, state))
+        self.0.get().is_some_and(|(latest, _)| *latest == key(slots, state))
     }
 
     /// The difference that has the last colour: the range set, or the automatic one.
@@ -58,8 +54,7 @@ impl DifferenceRun {
         set.or_else(auto).unwrap_or_else(|| state.difference_kind().default_range())
     }
 
-    /// Takes over a result, and computes what is needed now, where a difference is `shown`. A computation for an earlier
-    /// scene is completed, so that there are results while the light moves.
+    /// Takes over a result, and computes what is needed now, where a difference is `shown`.
     pub fn follow(
         &mut self,
         ctx: &egui::Context,
@@ -67,34 +62,13 @@ impl DifferenceRun {
         slots: &Slots,
         state: &ViewState,
     ) -> Option<Error> {
-        let mut error = None;
-        if let Some((key, task)) = &self.running
-            && let Some(result) = task.poll(ctx)
-        {
-            match result {
-                Ok(distributions) => self.latest = Some((key.clone(), distributions)),
-                Err(problem) => {
-                    self.failed = Some(key.clone());
-                    error = Some(problem);
-                }
-            }
-            self.running = None;
-        }
-        if !shown || slots.predictions().is_empty() {
-            self.running = None;
-            return error;
-        }
-        let now = key(slots, state);
-        if self.running.is_none() && self.failed.as_ref() != Some(&now) && !self.is_current(slots, state) {
-            let task = start(ctx, slots, state);
-            self.running = Some((now, task));
-        }
-        error
+        let wanted = (shown && !slots.predictions().is_empty()).then(|| key(slots, state));
+        self.0.follow(ctx, wanted, |_| start(ctx, slots, state))
     }
 }
 
-fn key(slots: &Slots, state: &ViewState) -> Key {
-    Key {
+fn key(slots: &Slots, state: &ViewState) -> DifferenceKey {
+    DifferenceKey {
         ids: slots.slots.iter().map(|slot| slot.id).collect(),
         quantity: state.quantity,
         kind: state.difference_kind(),

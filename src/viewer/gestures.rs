@@ -37,7 +37,7 @@ pub enum Gesture {
 
 /// A pane under the mouse.
 #[derive(Clone, Copy, Debug)]
-pub struct Target<'a> {
+pub struct PaneTarget<'a> {
     pub rect: Rect,
     pub camera: &'a Camera,
     pub state: &'a ViewState,
@@ -49,7 +49,7 @@ pub struct Target<'a> {
     pub armed: bool,
 }
 
-impl Target<'_> {
+impl PaneTarget<'_> {
     /// Which gesture a press at `pos` begins.
     fn begin(&self, ui: &egui::Ui, button: PointerButton, pos: Pos2) -> Gesture {
         let (modifiers, space) = ui.input(|i| (i.modifiers, i.key_down(egui::Key::Space)));
@@ -193,7 +193,7 @@ fn orbit(endpoint: Endpoint, sideways: f64, upwards: f64) -> Command {
 pub fn commands(
     ui: &egui::Ui,
     response: &Response,
-    target: &Target<'_>,
+    target: &PaneTarget<'_>,
     current: &mut Option<Gesture>,
 ) -> Vec<Command> {
     let mut commands = Vec::new();

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::gpu::{Blit, Display, DisplayParams, Gpu, ShadeParams, Shaded, Shading, Still};
 
 /// Shaded texels and what they were shaded with.
-struct Target {
+struct ShadedTexels {
     shaded: Shaded,
     drawn: Option<ShadeParams>,
     /// Changes whenever the texels do.
@@ -19,21 +19,21 @@ struct Target {
 
 /// The shaded texels of one material: all of them, and every n-th one while something moves on a slow adapter.
 #[derive(Default)]
-struct Entry {
-    full: Option<Target>,
-    quick: Option<Target>,
+struct ShadedMaterial {
+    full: Option<ShadedTexels>,
+    quick: Option<ShadedTexels>,
     shows_quick: bool,
 }
 
-impl Entry {
-    fn shown(&self) -> Option<&Target> {
+impl ShadedMaterial {
+    fn shown(&self) -> Option<&ShadedTexels> {
         if self.shows_quick { self.quick.as_ref() } else { self.full.as_ref() }
     }
 }
 
 /// What the pixels of a pane depend on.
 #[derive(PartialEq)]
-struct Key {
+struct PaneKey {
     ids: [u64; 2],
     versions: [u64; 2],
     params: DisplayParams,
@@ -47,9 +47,9 @@ pub struct GpuView {
     shading: Shading,
     display: Display,
     blit: Arc<Blit>,
-    shaded: HashMap<u64, Entry>,
+    shaded: HashMap<u64, ShadedMaterial>,
     versions: u64,
-    stills: Vec<Option<(Key, Arc<Still>)>>,
+    stills: Vec<Option<(PaneKey, Arc<Still>)>>,
 }
 
 impl GpuView {
@@ -95,7 +95,7 @@ impl GpuView {
             let size = slot.loaded.material.size();
             let shaded =
                 self.shading.reduced_target(&self.gpu, size, stride).map_err(|error| error.to_string())?;
-            *place = Some(Target { shaded, drawn: None, version: 0 });
+            *place = Some(ShadedTexels { shaded, drawn: None, version: 0 });
         }
         if let Some(target) = place.as_mut().filter(|target| target.drawn != Some(params)) {
             self.shading.draw(&self.gpu, textures, &params, &target.shaded);
@@ -121,11 +121,11 @@ impl GpuView {
         ids: [u64; 2],
         params: DisplayParams,
     ) {
-        let [shown, reference] = ids.map(|id| self.shaded.get(&id).and_then(Entry::shown));
+        let [shown, reference] = ids.map(|id| self.shaded.get(&id).and_then(ShadedMaterial::shown));
         let (Some(shown), Some(reference)) = (shown, reference) else { return };
         let size = (rect.size() * painter.ctx().pixels_per_point()).round().max(egui::Vec2::splat(1.0));
         let size = [size.x as u32, size.y as u32];
-        let key = Key { ids, versions: [shown.version, reference.version], params };
+        let key = PaneKey { ids, versions: [shown.version, reference.version], params };
         if self.stills.len() <= number {
             self.stills.resize_with(number + 1, || None);
         }

@@ -16,7 +16,7 @@ use crate::model::scene::Scene;
 
 /// What the losses depend on.
 #[derive(Clone, Debug, PartialEq)]
-struct Key {
+struct SceneLossKey {
     ids: Vec<u64>,
     scene: Scene,
     convention: &'static str,
@@ -24,9 +24,9 @@ struct Key {
 
 /// The loss of each prediction under the light and view of now.
 #[derive(Debug, Default)]
-pub struct SceneLoss(Latest<Key, Vec<f64>>);
+pub struct SceneLossRun(Latest<SceneLossKey, Vec<f64>>);
 
-impl SceneLoss {
+impl SceneLossRun {
     /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
     pub fn follow(
         &mut self,
@@ -57,7 +57,7 @@ impl SceneLoss {
     }
 }
 
-fn key(slots: &Slots, state: &ViewState) -> Key {
+fn key(slots: &Slots, state: &ViewState) -> SceneLossKey {
     let ids = slots.slots.iter().map(|slot| slot.id).collect();
-    Key { ids, scene: state.scene, convention: state.convention().name }
+    SceneLossKey { ids, scene: state.scene, convention: state.convention().name }
 }

@@ -11,26 +11,26 @@ use crate::model::convention::Convention;
 use crate::study::{self, Pair, Study};
 
 /// What a study depends on: the ids of ground truth and prediction, and the convention.
-type Key = ([u64; 2], &'static str);
+type StudyKey = ([u64; 2], &'static str);
 
 /// The running study, and the results of it or of an earlier one.
 #[derive(Debug, Default)]
 pub struct StudyRun {
-    running: Option<Running>,
+    running: Option<RunningStudy>,
     measured: Option<Measured>,
 }
 
 /// The measurements, complete or so far.
 #[derive(Debug)]
 struct Measured {
-    key: Key,
+    key: StudyKey,
     study: Study,
     complete: bool,
 }
 
 #[derive(Debug)]
-struct Running {
-    key: Key,
+struct RunningStudy {
+    key: StudyKey,
     task: Task<Study>,
     growing: Receiver<Study>,
 }
@@ -88,7 +88,7 @@ impl StudyRun {
                 seen.request_repaint();
             })
         });
-        self.running = Some(Running { key, task, growing });
+        self.running = Some(RunningStudy { key, task, growing });
     }
 
     /// Takes over what has been measured since the last call; returns the error of a failed study.
@@ -117,7 +117,7 @@ impl StudyRun {
     }
 }
 
-fn key(slots: &Slots, prediction: usize, convention: &Convention) -> Option<Key> {
+fn key(slots: &Slots, prediction: usize, convention: &Convention) -> Option<StudyKey> {
     let ids = [slots.ground_truth()?.id, slots.predictions().get(prediction)?.id];
     Some((ids, convention.name))
 }

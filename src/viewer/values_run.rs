@@ -21,7 +21,7 @@ const BINS: usize = 96;
 
 /// What the histograms depend on.
 #[derive(Clone, Debug, PartialEq)]
-struct Key {
+struct ValuesKey {
     ids: Vec<u64>,
     quantity: Quantity,
     /// Of a rendering.
@@ -42,7 +42,7 @@ pub type Values = Vec<Vec<Channel>>;
 
 /// The histograms of the values.
 #[derive(Debug, Default)]
-pub struct ValuesRun(Latest<Key, Values>);
+pub struct ValuesRun(Latest<ValuesKey, Values>);
 
 impl ValuesRun {
     /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
@@ -70,8 +70,8 @@ impl ValuesRun {
     }
 }
 
-fn key(slots: &Slots, state: &ViewState) -> Key {
-    Key {
+fn key(slots: &Slots, state: &ViewState) -> ValuesKey {
+    ValuesKey {
         ids: slots.slots.iter().map(|slot| slot.id).collect(),
         quantity: state.quantity,
         scene: (state.quantity == Quantity::Rendering).then_some(state.scene),

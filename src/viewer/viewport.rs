@@ -5,7 +5,7 @@ use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2, vec2};
 use super::cells::{TITLE, cells, free_cell, pixel_aligned};
 use super::command::Command;
 use super::endpoint::{self, Endpoint};
-use super::gestures::{self, Gesture, Target};
+use super::gestures::{self, Gesture, PaneTarget};
 use super::gpu_view::GpuView;
 use super::handles;
 use super::marks::Placed;
@@ -106,7 +106,7 @@ impl Viewport {
         let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
         self.paint(ui, scenery, gpu, (number, content), rect, camera);
 
-        let target = Target {
+        let target = PaneTarget {
             rect,
             camera: &camera,
             state: scenery.state,

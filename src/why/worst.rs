@@ -42,7 +42,7 @@ pub struct Worst {
 
 /// A point of the unit cube; distant scenes use the first four numbers.
 #[derive(Clone, Copy, Debug)]
-struct Point {
+struct CubePoint {
     kind: Kind,
     at: [f64; 6],
 }
@@ -82,11 +82,11 @@ struct Search<'a, T> {
 
 impl<T: Compute> Search<'_, T> {
     /// The worst of evenly spread scenes, worst first.
-    fn sampled(&self) -> Result<Vec<Point>, Error> {
+    fn sampled(&self) -> Result<Vec<CubePoint>, Error> {
         let kinds = [(Kind::Near, SAMPLED[0]), (Kind::Distant, SAMPLED[1])];
         let spread =
-            |(kind, count): (Kind, usize)| (0..count).map(move |i| Point { kind, at: self.sobol(i, 0) });
-        let points: Vec<Point> = kinds.into_iter().flat_map(spread).map(Point::bounded).collect();
+            |(kind, count): (Kind, usize)| (0..count).map(move |i| CubePoint { kind, at: self.sobol(i, 0) });
+        let points: Vec<CubePoint> = kinds.into_iter().flat_map(spread).map(CubePoint::bounded).collect();
         let losses = self.losses(&SharedTexels::new(&self.comparison, COARSE, 0), &points)?;
         let mut ranked: Vec<_> = points.into_iter().zip(losses).collect();
         ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -94,19 +94,19 @@ impl<T: Compute> Search<'_, T> {
     }
 
     /// Moves each candidate to the worst of scenes around it, which come closer round by round.
-    fn refined(&self, mut candidates: Vec<Point>) -> Result<Vec<Point>, Error> {
+    fn refined(&self, mut candidates: Vec<CubePoint>) -> Result<Vec<CubePoint>, Error> {
         let texels = SharedTexels::new(&self.comparison, FINE, 0);
         for round in 0..ROUNDS {
             let reach = REACH * SHRINK.powi(round as i32);
-            let around = |(number, point): (usize, &Point)| -> Vec<Point> {
+            let around = |(number, point): (usize, &CubePoint)| -> Vec<CubePoint> {
                 let turn = 1 + (round * CANDIDATES + number) as u32;
                 let moved = |i| point.moved(self.sobol(i, turn), reach);
                 [*point].into_iter().chain((0..AROUND).map(moved)).collect()
             };
-            let points: Vec<Point> = candidates.iter().enumerate().flat_map(around).collect();
+            let points: Vec<CubePoint> = candidates.iter().enumerate().flat_map(around).collect();
             let losses = self.losses(&texels, &points)?;
             let groups = points.chunks(1 + AROUND).zip(losses.chunks(1 + AROUND));
-            let best = |(points, losses): (&[Point], &[f64])| {
+            let best = |(points, losses): (&[CubePoint], &[f64])| {
                 points.iter().zip(losses).max_by(|a, b| a.1.total_cmp(b.1)).map(|(point, _)| *point)
             };
             candidates = groups.filter_map(best).collect();
@@ -114,7 +114,7 @@ impl<T: Compute> Search<'_, T> {
         Ok(candidates)
     }
 
-    fn losses(&self, texels: &SharedTexels, points: &[Point]) -> Result<Vec<f64>, Error> {
+    fn losses(&self, texels: &SharedTexels, points: &[CubePoint]) -> Result<Vec<f64>, Error> {
         let convention = self.comparison.convention();
         let scenes: Vec<Scene> = points.iter().map(|point| point.scene(convention)).collect();
         let losses = texels.losses(&self.comparison, &scenes, self.progress)?.remove(0);
@@ -130,7 +130,7 @@ impl<T: Compute> Search<'_, T> {
     }
 }
 
-impl Point {
+impl CubePoint {
     fn scene(&self, convention: &Convention) -> Scene {
         let [a, b, c, d, ..] = self.at;
         match self.kind {

@@ -71,7 +71,7 @@ fn codes_of_research_are_written_as_they_are_read() {
     ] {
         let out = folder.path().join(out);
         let options = WriteOptions { like: Some(like), depth: Some(Depth::Sixteen), preview: false };
-        write::write(&original.material, &out, Kind::new(&out, &options).unwrap()).unwrap();
+        write::write(&original.material, &out, FileKind::new(&out, &options).unwrap()).unwrap();
         let read = open_as(&out, &ReadOptions { preset: Some(like), ..ReadOptions::AUTO });
         assert!(chosen(&read, What::Layout).starts_with(layout), "{like}: {:#?}", read.assumptions);
         assert_same(&read, EIGHT_BITS);
@@ -80,17 +80,20 @@ fn codes_of_research_are_written_as_they_are_read() {
     }
     for (like, out) in [(Preset::Gltf, "x.png"), (Preset::Gao, "x"), (Preset::Gao, "x.exr")] {
         let options = WriteOptions { like: Some(like), ..WriteOptions::default() };
-        assert!(matches!(Kind::new(Path::new(out), &options), Err(Error::UnsupportedOutput { .. })), "{out}");
+        assert!(
+            matches!(FileKind::new(Path::new(out), &options), Err(Error::UnsupportedOutput { .. })),
+            "{out}"
+        );
     }
     let preview = WriteOptions { preview: true, ..WriteOptions::default() };
-    assert!(matches!(Kind::new(Path::new("x.png"), &preview), Err(Error::UnsupportedOutput { .. })));
+    assert!(matches!(FileKind::new(Path::new("x.png"), &preview), Err(Error::UnsupportedOutput { .. })));
     for picture in ["x.jpg", "x.TIF", "x.gltf"] {
         assert!(matches!(
-            Kind::new(Path::new(picture), &WriteOptions::default()),
+            FileKind::new(Path::new(picture), &WriteOptions::default()),
             Err(Error::UnsupportedOutput { .. })
         ));
     }
-    assert!(Kind::new(Path::new("brick.v2"), &WriteOptions::default()).is_ok());
+    assert!(FileKind::new(Path::new("brick.v2"), &WriteOptions::default()).is_ok());
 }
 
 #[test]
@@ -106,7 +109,7 @@ fn a_metallic_folder_says_what_metallic_can_say() {
     let out = tempdir().unwrap();
     let out = out.path().join("out");
     let options = WriteOptions { like: Some(Preset::Gltf), depth: Some(Depth::Sixteen), preview: false };
-    write::write(&original.material, &out, Kind::new(&out, &options).unwrap()).unwrap();
+    write::write(&original.material, &out, FileKind::new(&out, &options).unwrap()).unwrap();
     let again: Read<f32> = read(&out, &ReadOptions::AUTO, &Progress::default()).unwrap();
     assert_eq!(chosen(&again, What::Workflow), "metallic");
     for index in 0..SIDE * SIDE {
@@ -123,7 +126,7 @@ fn a_preview_is_for_other_programs_and_changes_no_map() {
     let original: Read<f32> = read(&path, &ReadOptions::default(), &Progress::default()).unwrap();
     let out = folder.path().join("p.exr");
     let options = WriteOptions { preview: true, depth: Some(Depth::Float), like: None };
-    write::write(&original.material, &out, Kind::new(&out, &options).unwrap()).unwrap();
+    write::write(&original.material, &out, FileKind::new(&out, &options).unwrap()).unwrap();
     let again: Read<f32> = read(&out, &ReadOptions::default(), &Progress::default()).unwrap();
     assert_eq!(again.material.planes(), original.material.planes());
     assert!(again.notes.iter().any(|note| note.to_string().contains("preview")), "{:?}", again.notes);

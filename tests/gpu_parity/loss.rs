@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use svbrdf::error::Error;
-use svbrdf::gpu::Losses;
+use svbrdf::gpu::GpuLosses;
 use svbrdf::loss::{Comparison, Loss, Plain, Request};
 use svbrdf::material::{Material, Planes};
 use svbrdf::model::convention::{self, Convention, GUIDED_2020, PRINTED};
@@ -18,13 +18,13 @@ use crate::support::tolerance::{GPU_LOSS, GPU_LOSS_SCENE};
 
 /// Computes losses on the adapter of the tests.
 struct Computer {
-    losses: &'static Losses,
+    losses: &'static GpuLosses,
 }
 
 impl Computer {
     fn get() -> Self {
-        static LOSSES: OnceLock<Losses> = OnceLock::new();
-        let losses = LOSSES.get_or_init(|| Losses::new(gpu()).expect("the loss compiles"));
+        static LOSSES: OnceLock<GpuLosses> = OnceLock::new();
+        let losses = LOSSES.get_or_init(|| GpuLosses::new(gpu()).expect("the loss compiles"));
         Self { losses }
     }
 

@@ -61,9 +61,8 @@ fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_secon
     assert_eq!(window.state().names(), ["m0", "m1", "m2", "m3"]);
 }
 
-#[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
-fn a_material_whose_file_is_gone_or_broken_is_marked_until_it_is_whole_again() {
+/// A window on the files of a ground truth and one prediction.
+fn window_of_files() -> (tempfile::TempDir, [PathBuf; 2], Window<'static>) {
     let folder = tempfile::tempdir().unwrap();
     let paths = ["gt.png", "p.png"].map(|name| strip(&folder.path().join(name), 1));
     let options = ViewerOptions {
@@ -71,7 +70,14 @@ fn a_material_whose_file_is_gone_or_broken_is_marked_until_it_is_whole_again() {
         predictions: vec![paths[1].clone()],
         ..ViewerOptions::default()
     };
-    let mut window = window(options);
+    let window = window(options);
+    (folder, paths, window)
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_material_whose_file_is_gone_or_broken_is_marked_until_it_is_whole_again() {
+    let (_folder, paths, mut window) = window_of_files();
     apply(&mut window, MaterialsCommand::SetWatch(true));
     window.run_steps(3);
     let whole = std::fs::read(&paths[1]).unwrap();
@@ -89,14 +95,7 @@ fn a_material_whose_file_is_gone_or_broken_is_marked_until_it_is_whole_again() {
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
-    let folder = tempfile::tempdir().unwrap();
-    let paths = ["gt.png", "p.png"].map(|name| strip(&folder.path().join(name), 1));
-    let options = ViewerOptions {
-        ground_truth: Some(paths[0].clone()),
-        predictions: vec![paths[1].clone()],
-        ..ViewerOptions::default()
-    };
-    let mut window = window(options);
+    let (_folder, _, mut window) = window_of_files();
     // Longer than it takes for a state to become one to return to.
     window.run_steps(30);
     apply(&mut window, MaterialsCommand::OpenBuiltIn);

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use svbrdf::dataset::{Pick, Shard};
 use svbrdf::error::Error;
-use svbrdf::model::convention::Convention;
 
-use crate::cli::{loss, materials};
+use crate::cli::comparison_args::ComparisonArgs;
+use crate::cli::loss;
 
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
 ///
@@ -52,16 +52,12 @@ pub struct RankArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
     pub seed: u64,
 
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020
-    #[arg(long, value_name = "NAME", default_value = "printed")]
-    pub convention: Convention,
-
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub format: RankFormat,
 
     #[command(flatten)]
-    pub materials: materials::MaterialArgs,
+    pub comparison: ComparisonArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 use svbrdf::dataset::{
-    self, Journal, MaterialResult, MethodSummary, Pick, Settings, Side, Task, evaluate, summarize,
+    self, Case, Journal, MaterialResult, MethodSummary, Pick, RunSettings, Side, evaluate, summarize,
     tasks_of_folders, tasks_of_table,
 };
 use svbrdf::error::Error;
@@ -26,7 +26,7 @@ pub fn run(args: &RankArgs) -> Result<(), Error> {
     let summaries = summarize(&settings.methods, &results, args.pick);
     exit::put(&match args.format {
         RankFormat::Text => text(&settings, &results, &summaries, args.pick),
-        RankFormat::Json => table::json(&Object::new(&settings, &results, &summaries, args.pick))?,
+        RankFormat::Json => table::json(&DatasetJson::new(&settings, &results, &summaries, args.pick))?,
         RankFormat::Csv => csv(&results)?,
         RankFormat::Latex => latex(&summaries),
     })?;
@@ -35,7 +35,13 @@ pub fn run(args: &RankArgs) -> Result<(), Error> {
 
 /// What stands for GT and PRED.
 fn paths(args: &RankArgs) -> Vec<PathBuf> {
-    args.materials.ground_truth.iter().chain(&args.materials.predictions).cloned().collect()
+    args.comparison
+        .materials
+        .ground_truth
+        .iter()
+        .chain(&args.comparison.materials.predictions)
+        .cloned()
+        .collect()
 }
 
 /// The predictions without a loss: material, method and what is wrong.
@@ -46,13 +52,13 @@ fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &st
     })
 }
 
-fn evaluated(args: &RankArgs) -> Result<(Settings, Vec<MaterialResult>), Error> {
-    if args.materials.reading.resize_to.is_some() {
+fn evaluated(args: &RankArgs) -> Result<(RunSettings, Vec<MaterialResult>), Error> {
+    if args.comparison.materials.reading.resize_to.is_some() {
         let problem = "materials of a data set are not resized; convert them first, or leave out --resize-to";
         return Err(Error::Usage(problem.to_owned()));
     }
     let tasks = tasks(args)?;
-    let settings = Settings::new(args.convention.name, args.target_error, args.seed, &tasks);
+    let settings = RunSettings::new(args.comparison.convention.name, args.target_error, args.seed, &tasks);
     let tasks = args.shard.map_or(tasks.clone(), |shard| shard.part(tasks));
     let (journal, known) = match &args.journal {
         Some(path) => Journal::open(path, &settings).map(|(journal, known)| (Some(journal), known))?,
@@ -60,8 +66,11 @@ fn evaluated(args: &RankArgs) -> Result<(Settings, Vec<MaterialResult>), Error> 
     };
     let remaining = dataset::remaining(&tasks, &known);
     let results = Mutex::new(known);
-    let options = [args.materials.reading.of_ground_truth(), args.materials.reading.of_predictions()];
-    let strict = args.materials.reading.both.strict;
+    let options = [
+        args.comparison.materials.reading.of_ground_truth(),
+        args.comparison.materials.reading.of_predictions(),
+    ];
+    let strict = args.comparison.materials.reading.both.strict;
     let open = |path: &Path, side: Side| -> Result<Material<f32>, Error> {
         let options = &options[usize::from(side == Side::Prediction)];
         let read = read::read(path, options, &Progress::default())?;
@@ -75,7 +84,7 @@ fn evaluated(args: &RankArgs) -> Result<(Settings, Vec<MaterialResult>), Error> 
         journal.as_ref().map_or(Ok(()), |journal| journal.add(result))
     };
     watched("comparing materials", |progress| {
-        evaluate(&remaining, &settings, &args.convention, open, progress, done)
+        evaluate(&remaining, &settings, &args.comparison.convention, open, progress, done)
     })?;
     let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
     results.sort_by_key(|result| result.index);
@@ -85,17 +94,17 @@ fn evaluated(args: &RankArgs) -> Result<(Settings, Vec<MaterialResult>), Error> 
     Ok((settings, results))
 }
 
-fn tasks(args: &RankArgs) -> Result<Vec<Task>, Error> {
-    let Some(ground_truth) = &args.materials.ground_truth else {
+fn tasks(args: &RankArgs) -> Result<Vec<Case>, Error> {
+    let Some(ground_truth) = &args.comparison.materials.ground_truth else {
         return Err(Error::Usage("give a folder of ground truths, or a table of pairs".to_owned()));
     };
     if args.pairs {
-        return match args.materials.predictions.as_slice() {
+        return match args.comparison.materials.predictions.as_slice() {
             [] => tasks_of_table(ground_truth),
             _ => Err(Error::Usage("--pairs takes one CSV table, which names the predictions".to_owned())),
         };
     }
-    let folders = wildcards::expanded(&args.materials.predictions)?;
+    let folders = wildcards::expanded(&args.comparison.materials.predictions)?;
     if folders.is_empty() {
         let problem = format!(
             "there is no method to compare with {}; give one or more folders",
@@ -116,7 +125,12 @@ fn name(folder: &Path) -> String {
         .map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-fn text(settings: &Settings, results: &[MaterialResult], summaries: &[MethodSummary], pick: Pick) -> String {
+fn text(
+    settings: &RunSettings,
+    results: &[MaterialResult],
+    summaries: &[MethodSummary],
+    pick: Pick,
+) -> String {
     let titles = [
         "method",
         "materials",
@@ -149,7 +163,7 @@ fn text(settings: &Settings, results: &[MaterialResult], summaries: &[MethodSumm
             of_difference,
         ]
     }));
-    let Settings { convention, target_error, seed, materials, .. } = settings;
+    let RunSettings { convention, target_error, seed, materials, .. } = settings;
     format!(
         "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {pick}\n\n{}",
         results.len(),
@@ -204,16 +218,16 @@ fn latex(summaries: &[MethodSummary]) -> String {
 }
 
 #[derive(Serialize)]
-struct Object<'a> {
-    settings: &'a Settings,
+struct DatasetJson<'a> {
+    settings: &'a RunSettings,
     pick: String,
     /// Best first.
-    methods: Vec<Entry<'a>>,
+    methods: Vec<MethodEntry<'a>>,
     results: &'a [MaterialResult],
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct MethodEntry<'a> {
     method: &'a str,
     materials: usize,
     failures: usize,
@@ -226,14 +240,14 @@ struct Entry<'a> {
     ties_with_best: bool,
 }
 
-impl<'a> Object<'a> {
+impl<'a> DatasetJson<'a> {
     fn new(
-        settings: &'a Settings,
+        settings: &'a RunSettings,
         results: &'a [MaterialResult],
         summaries: &'a [MethodSummary],
         pick: Pick,
     ) -> Self {
-        let entry = |summary: &'a MethodSummary| Entry {
+        let entry = |summary: &'a MethodSummary| MethodEntry {
             method: &summary.method,
             materials: summary.materials,
             failures: summary.failures,

@@ -2,13 +2,14 @@
 
 use serde::Serialize;
 use svbrdf::error::Error;
-use svbrdf::loss::{Comparison, Estimate, Outcome, Request};
+use svbrdf::loss::{Comparison, Outcome, Request};
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
-use svbrdf::rank::{Place, places};
+use svbrdf::rank::{Ranked, places};
 
 use super::args::{RankArgs, RankFormat, check_limit};
 use crate::cli::bar::watched;
+use crate::cli::report::EstimateEntry;
 use crate::cli::{exit, materials, table, wildcards};
 
 pub fn run(mut args: RankArgs) -> Result<(), Error> {
@@ -17,17 +18,17 @@ pub fn run(mut args: RankArgs) -> Result<(), Error> {
             "--journal keeps the results of a data set; add --dataset or --pairs".to_owned(),
         ));
     }
-    args.materials.predictions = wildcards::expanded(&args.materials.predictions)?;
-    table::check_predictions(&args.materials)?;
-    let opened = materials::open::<f32>(&args.materials)?;
+    args.comparison.materials.predictions = wildcards::expanded(&args.comparison.materials.predictions)?;
+    table::check_predictions(&args.comparison.materials)?;
+    let opened = materials::open::<f32>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.convention)?;
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention)?;
     let request = Request::Accuracy { target: args.target_error, seed: args.seed };
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let places = places(&outcome);
     exit::put(&match args.format {
-        RankFormat::Text => text(&outcome, &places, &opened.ground_truth, &args.convention),
-        RankFormat::Json => json(&outcome, &places, &opened.ground_truth, &args.convention)?,
+        RankFormat::Text => text(&outcome, &places, &opened.ground_truth, &args.comparison.convention),
+        RankFormat::Json => json(&outcome, &places, &opened.ground_truth, &args.comparison.convention)?,
         RankFormat::Csv => csv(&outcome, &places)?,
         RankFormat::Latex => latex(&outcome, &places),
     })?;
@@ -36,7 +37,7 @@ pub fn run(mut args: RankArgs) -> Result<(), Error> {
 
 fn text(
     outcome: &Outcome,
-    places: &[Place],
+    places: &[Ranked],
     ground_truth: &Material<f32>,
     convention: &Convention,
 ) -> String {
@@ -54,7 +55,7 @@ fn text(
     format!("{heading}{scenes}\n{}", table::aligned(&rows))
 }
 
-fn csv(outcome: &Outcome, places: &[Place]) -> Result<String, Error> {
+fn csv(outcome: &Outcome, places: &[Ranked]) -> Result<String, Error> {
     let heading = [
         "place",
         "prediction",
@@ -67,7 +68,7 @@ fn csv(outcome: &Outcome, places: &[Place]) -> Result<String, Error> {
         "to_best_high",
         "group",
     ];
-    let row = |(number, place): (usize, &Place)| {
+    let row = |(number, place): (usize, &Ranked)| {
         let loss = &outcome.losses[place.index];
         let [error, low, high] = table::errors(&loss.estimate);
         let difference = place.to_best.map_or(String::new(), |estimate| estimate.mean.to_string());
@@ -80,8 +81,8 @@ fn csv(outcome: &Outcome, places: &[Place]) -> Result<String, Error> {
     table::csv([heading.map(str::to_owned).to_vec()].into_iter().chain(places.iter().enumerate().map(row)))
 }
 
-fn latex(outcome: &Outcome, places: &[Place]) -> String {
-    let row = |place: &Place| {
+fn latex(outcome: &Outcome, places: &[Ranked]) -> String {
+    let row = |place: &Ranked| {
         let loss = &outcome.losses[place.index];
         let [low, high] = loss.estimate.interval95.unwrap_or([f64::NAN; 2]);
         let mean = table::bold(&format!("{:.4}", loss.estimate.mean), place.group == 1);
@@ -92,51 +93,38 @@ fn latex(outcome: &Outcome, places: &[Place]) -> String {
 }
 
 #[derive(Serialize)]
-struct Object<'a> {
+struct RankingJson<'a> {
     ground_truth: &'a str,
     convention: &'a str,
     epsilon: f64,
     scenes: usize,
     seed: Option<u64>,
     /// Best first.
-    ranking: Vec<Entry<'a>>,
+    ranking: Vec<RankingEntry<'a>>,
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct RankingEntry<'a> {
     prediction: &'a str,
-    loss: Number,
+    loss: EstimateEntry,
     /// The loss - the loss of the best prediction, over the same scenes.
-    to_best: Option<Number>,
+    to_best: Option<EstimateEntry>,
     group: usize,
-}
-
-#[derive(Serialize)]
-struct Number {
-    mean: f64,
-    standard_error: Option<f64>,
-    interval95: Option<[f64; 2]>,
-}
-
-impl From<Estimate> for Number {
-    fn from(e: Estimate) -> Self {
-        Self { mean: e.mean, standard_error: e.standard_error, interval95: e.interval95 }
-    }
 }
 
 fn json(
     outcome: &Outcome,
-    places: &[Place],
+    places: &[Ranked],
     ground_truth: &Material<f32>,
     convention: &Convention,
 ) -> Result<String, Error> {
-    let entry = |place: &Place| Entry {
+    let entry = |place: &Ranked| RankingEntry {
         prediction: &outcome.losses[place.index].prediction,
         loss: outcome.losses[place.index].estimate.into(),
-        to_best: place.to_best.map(Number::from),
+        to_best: place.to_best.map(EstimateEntry::from),
         group: place.group,
     };
-    table::json(&Object {
+    table::json(&RankingJson {
         ground_truth: ground_truth.name(),
         convention: convention.name,
         epsilon: convention.epsilon,

@@ -12,7 +12,7 @@ use super::printed::Printed;
 
 /// A scene file, too: `--scenes` takes it.
 #[derive(Serialize)]
-struct Object<'a> {
+struct LossJson<'a> {
     ground_truth: &'a str,
     ground_truth_path: Option<&'a str>,
     convention: &'a str,
@@ -31,8 +31,8 @@ struct Object<'a> {
     target_error: Option<f64>,
     target_reached: Option<bool>,
     /// The losses over all scenes, to +-1%, where no option chooses scenes.
-    all_scenes: Option<Vec<Entry<'a>>>,
-    results: Vec<Entry<'a>>,
+    all_scenes: Option<Vec<PredictionEntry<'a>>>,
+    results: Vec<PredictionEntry<'a>>,
     differences: Vec<DifferenceEntry<'a>>,
     /// Left out where a goal decides how many there are, which are far too many to read: their numbers, sampler,
     /// texels and seed ask for the same ones.
@@ -46,6 +46,20 @@ enum TexelsEntry {
     Word(Texels),
 }
 
+/// An estimate as JSON.
+#[derive(Serialize)]
+pub struct EstimateEntry {
+    mean: f64,
+    standard_error: Option<f64>,
+    interval95: Option<[f64; 2]>,
+}
+
+impl From<Estimate> for EstimateEntry {
+    fn from(e: Estimate) -> Self {
+        Self { mean: e.mean, standard_error: e.standard_error, interval95: e.interval95 }
+    }
+}
+
 /// The loss of a prediction - the loss of the first one, over the same scenes.
 #[derive(Serialize)]
 struct DifferenceEntry<'a> {
@@ -57,7 +71,7 @@ struct DifferenceEntry<'a> {
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct PredictionEntry<'a> {
     prediction: &'a str,
     path: Option<&'a str>,
     loss: f64,
@@ -71,7 +85,7 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
     let report = &printed.report;
     let all = printed.lists_scenes();
     let predictions = report.outcome.losses.iter().zip(printed.prediction_paths());
-    let object = Object {
+    let object = LossJson {
         ground_truth: &report.ground_truth,
         ground_truth_path: printed.ground_truth_path(),
         convention: report.convention.name,
@@ -115,8 +129,8 @@ fn difference<'a>(report: &'a Report, (loss, e): (&'a Loss, Estimate)) -> Differ
     }
 }
 
-fn entry<'a>(loss: &'a Loss, path: Option<&'a str>, all: bool) -> Entry<'a> {
-    Entry {
+fn entry<'a>(loss: &'a Loss, path: Option<&'a str>, all: bool) -> PredictionEntry<'a> {
+    PredictionEntry {
         prediction: &loss.prediction,
         path,
         loss: loss.estimate.mean,

@@ -6,18 +6,19 @@ mod printed;
 
 use std::io;
 
+pub use json::EstimateEntry;
 pub use printed::Printed;
 
 /// The output format of a report.
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
-pub enum Format {
+pub enum ReportFormat {
     #[default]
     Text,
     Json,
     Csv,
 }
 
-impl Format {
+impl ReportFormat {
     /// The report in this format, complete with its last line break.
     pub fn write(self, printed: &Printed) -> io::Result<String> {
         match self {

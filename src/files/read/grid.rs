@@ -10,12 +10,12 @@ use crate::error::Error;
 /// Columns and rows of equal tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
-pub struct Grid {
+pub struct TileGrid {
     pub columns: usize,
     pub rows: usize,
 }
 
-impl Grid {
+impl TileGrid {
     /// Most columns, and most rows.
     pub const MOST: usize = 64;
 
@@ -37,20 +37,20 @@ impl Grid {
     }
 }
 
-impl fmt::Display for Grid {
+impl fmt::Display for TileGrid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} x {}", self.columns, self.rows)
     }
 }
 
-impl From<Grid> for String {
+impl From<TileGrid> for String {
     /// As on the command line.
-    fn from(Grid { columns, rows }: Grid) -> Self {
+    fn from(TileGrid { columns, rows }: TileGrid) -> Self {
         format!("{columns}x{rows}")
     }
 }
 
-impl TryFrom<String> for Grid {
+impl TryFrom<String> for TileGrid {
     type Error = Error;
 
     fn try_from(text: String) -> Result<Self, Error> {
@@ -58,7 +58,7 @@ impl TryFrom<String> for Grid {
     }
 }
 
-impl FromStr for Grid {
+impl FromStr for TileGrid {
     type Err = Error;
 
     /// `4x1` has 4 columns and one row.

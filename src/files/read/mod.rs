@@ -39,7 +39,7 @@ use std::path::{Path, PathBuf};
 pub use assumption::{Assumption, Certainty, What};
 pub use evidence::Evidence;
 pub use extensions::EXTENSIONS;
-pub use grid::Grid;
+pub use grid::TileGrid;
 pub use interpret::report::MapReport;
 pub use locate::binding::Binding;
 pub use note::{Gray, Note, SpecifiedBy, Subject, Unused};

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 pub use super::choices::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Reflectance, Roughness, Workflow,
 };
-use super::grid::Grid;
+use super::grid::TileGrid;
 use super::order::Order;
 use super::preset::Preset;
 use crate::error::Error;
@@ -36,7 +36,7 @@ pub struct ReadOptions {
     /// Order of the tiles of a packed image.
     pub order: Option<Order>,
     /// How a packed image is divided; needed where its tiles are not square.
-    pub grid: Option<Grid>,
+    pub grid: Option<TileGrid>,
     /// Which of several materials, or rows of a packed image, from 0.
     pub exemplar: Option<usize>,
     /// Whether row 0 is the lowest: then the material is mirrored, normals with it.

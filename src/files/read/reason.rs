@@ -34,7 +34,7 @@ pub enum Reason {
     /// The file declares this colour space.
     ColourSpace {
         space: String,
-        known: Known,
+        known: SpaceKnown,
     },
     /// Colours of 8 or 16 bits are display-encoded unless the evidence, weighed as log odds of linear, says otherwise.
     Weighed {
@@ -131,7 +131,7 @@ pub enum Reason {
 
 /// How well a colour space is known here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Known {
+pub enum SpaceKnown {
     Exactly,
     /// Gamma 2.2 is the nearest encoding that is known.
     Nearly,
@@ -148,7 +148,7 @@ impl Reason {
                 true
             }
             Self::MetallicMap { .. } | Self::SpecularMap | Self::NeitherMap => true,
-            Self::ColourSpace { known, .. } => *known == Known::Exactly,
+            Self::ColourSpace { known, .. } => *known == SpaceKnown::Exactly,
             // A flat map points nowhere.
             Self::Curl(None) => true,
             // A picture that is named after normals holds them in the usual way where their lengths confirm it.

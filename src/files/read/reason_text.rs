@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::choices::{Albedo, NormalY};
-use super::reason::{Known, Reason};
+use super::reason::{Reason, SpaceKnown};
 use super::role::Role;
 
 impl Reason {
@@ -123,9 +123,9 @@ impl fmt::Display for Reason {
             Self::ColourSpace { space, known } => {
                 write!(f, "the file declares {space}")?;
                 f.write_str(match known {
-                    Known::Exactly => "",
-                    Known::Nearly => "; 2.2 is the nearest that is known",
-                    Known::Unknown => ", which is not known here",
+                    SpaceKnown::Exactly => "",
+                    SpaceKnown::Nearly => "; 2.2 is the nearest that is known",
+                    SpaceKnown::Unknown => ", which is not known here",
                 })
             }
             Self::Weighed { evidence, .. } => {

@@ -74,7 +74,7 @@ pub struct WriteOptions {
 
 /// What is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum FileKind {
     /// One layered EXR: signed normals, y up, everything linear.
     Exr { half: bool, preview: bool },
     /// Four tiles in a row, in the order and encoding of a research code that packs maps.
@@ -87,7 +87,7 @@ pub enum Kind {
     Gltf { sixteen: bool },
 }
 
-impl Kind {
+impl FileKind {
     /// By the extension of `path` and what `options` say.
     ///
     /// # Errors
@@ -127,7 +127,7 @@ impl Kind {
 ///
 /// # Errors
 /// [`Error::Unwritable`]; a folder that is there and not empty is not replaced.
-pub fn write(material: &Material<f32>, path: &Path, kind: Kind) -> Result<(), Error> {
+pub fn write(material: &Material<f32>, path: &Path, kind: FileKind) -> Result<(), Error> {
     write_watched(material, path, kind, &Progress::default())
 }
 
@@ -138,7 +138,7 @@ pub fn write(material: &Material<f32>, path: &Path, kind: Kind) -> Result<(), Er
 pub fn write_watched(
     material: &Material<f32>,
     path: &Path,
-    kind: Kind,
+    kind: FileKind,
     progress: &Progress,
 ) -> Result<(), Error> {
     let folder = |files: &[png::Picture<'_>], sixteen| {
@@ -154,14 +154,14 @@ pub fn write_watched(
         })
     };
     match kind {
-        Kind::Exr { half, preview } => {
+        FileKind::Exr { half, preview } => {
             export::replace(path, progress, |file| exr::write(file, material, half, preview))
         }
-        Kind::Packed { sixteen, like } => {
+        FileKind::Packed { sixteen, like } => {
             export::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
         }
-        Kind::Folder { sixteen } => folder(&png::PLAIN, sixteen),
-        Kind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen),
-        Kind::Gltf { sixteen } => folder(&png::GLTF, sixteen),
+        FileKind::Folder { sixteen } => folder(&png::PLAIN, sixteen),
+        FileKind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen),
+        FileKind::Gltf { sixteen } => folder(&png::GLTF, sixteen),
     }
 }

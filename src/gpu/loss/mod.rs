@@ -24,12 +24,12 @@ use crate::progress::Progress;
 ///
 /// On one device, the same bits every time; a relative 1e-5 from f64 at most.
 #[derive(Debug)]
-pub struct Losses {
+pub struct GpuLosses {
     gpu: Gpu,
     passes: Passes,
 }
 
-impl Losses {
+impl GpuLosses {
     /// Compiles the shader.
     ///
     /// # Errors
@@ -44,7 +44,7 @@ impl Losses {
     }
 }
 
-impl Backend<f32> for Losses {
+impl Backend<f32> for GpuLosses {
     fn name(&self) -> &'static str {
         "gpu"
     }

@@ -18,7 +18,7 @@ const ONE: u32 = 0x3f80_0000;
 
 /// Running products, one per lane. Each factor rounds once, so n factors are off by about sqrt(n) 4e-8.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct LogSum<S: Simd> {
+pub(super) struct LogProducts<S: Simd> {
     /// Mantissas in [1, 2) of the products of the larger and of the smaller numbers.
     larger: V<S>,
     smaller: V<S>,
@@ -26,7 +26,7 @@ pub(super) struct LogSum<S: Simd> {
     exponent: Bits<S>,
 }
 
-impl<S: Simd> LogSum<S> {
+impl<S: Simd> LogProducts<S> {
     #[inline(always)]
     pub(super) fn new(simd: S) -> Self {
         let one = V::<S>::splat(simd, 1.0);

@@ -1,6 +1,6 @@
 //! One scene over the tile in cache: all materials are rendered and compared.
 
-use super::compare::LogSum;
+use super::compare::LogProducts;
 use super::inputs::LossInputs;
 use crate::render::simd::geometry::{Geometry, KernelScene, TileGeometry};
 use crate::render::simd::lanes::{Lanes, V};
@@ -47,7 +47,7 @@ impl LossTile {
         params: &ShadingParams,
         scene: &KernelScene,
         distant: Option<Geometry<V<S>>>,
-        sums: &mut [LogSum<S>],
+        sums: &mut [LogProducts<S>],
     ) {
         match distant {
             Some(geometry) => self.add_with(
@@ -78,7 +78,7 @@ impl LossTile {
         simd: S,
         params: &ShadingParams,
         scene: &KernelScene,
-        sums: &mut [LogSum<S>],
+        sums: &mut [LogProducts<S>],
         geometry: impl Fn(&TileGeometry, usize) -> Geometry<V<S>>,
     ) {
         let tile = &self.geometry;

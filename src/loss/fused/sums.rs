@@ -4,7 +4,7 @@ use fearless_simd::{Fallback, Simd};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::compare::LogSum;
+use super::compare::LogProducts;
 use super::inputs::LossInputs;
 use super::pass::LossTile;
 use crate::error::Error;
@@ -63,7 +63,7 @@ impl LossInputs<'_> {
         scenes: &[KernelScene],
         block: usize,
     ) -> Vec<f64> {
-        let mut sums = vec![LogSum::<S>::new(simd); scenes.len() * self.predictions.len()];
+        let mut sums = vec![LogProducts::<S>::new(simd); scenes.len() * self.predictions.len()];
         let distant: Vec<_> = scenes.iter().map(|scene| scene.distant(simd)).collect();
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
@@ -73,7 +73,7 @@ impl LossInputs<'_> {
                 tile.add(simd, &self.params, &scenes[i], distant[i], sums);
             }
         }
-        sums.iter().map(LogSum::total).collect()
+        sums.iter().map(LogProducts::total).collect()
     }
 
     /// Prefetches a part of the tile at `start`. All `parts` calls together prefetch all of it, spread over the scenes.

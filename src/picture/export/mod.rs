@@ -22,14 +22,14 @@ const MID_GRAY: [u8; 3] = [128; 3];
 
 /// The kinds of files that pictures are written into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum PictureFormat {
     /// Linear radiance as 32-bit floats.
     Exr,
     /// Exposed and sRGB-encoded, 8 bits.
     Png,
 }
 
-impl Destination<Format> {
+impl Destination<PictureFormat> {
     /// Checks what can be checked of `path` before there is anything to write.
     ///
     /// # Errors
@@ -37,8 +37,8 @@ impl Destination<Format> {
     /// missing or it is itself a folder.
     pub fn new(path: &Path) -> Result<Self, Error> {
         let format = |extension: &str| match extension {
-            "exr" => Some(Format::Exr),
-            "png" => Some(Format::Png),
+            "exr" => Some(PictureFormat::Exr),
+            "png" => Some(PictureFormat::Png),
             _ => None,
         };
         let known = ".exr (linear floats), .png (8 bits for a screen)";
@@ -86,11 +86,11 @@ impl Destination<Format> {
         progress: &Progress,
     ) -> Result<(), Error> {
         match self.format {
-            Format::Exr => {
+            PictureFormat::Exr => {
                 let picture = side_by_side(panes, [0.0; 3]);
                 self.replace(progress, |file| exr::write(file, picture, entries))
             }
-            Format::Png => {
+            PictureFormat::Png => {
                 let shown: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
                 let picture = side_by_side(&shown, MID_GRAY);
                 self.replace(progress, |file| png::write(file, &picture, entries))

@@ -23,7 +23,7 @@ use crate::viewer::worker::Task;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Key {
+pub struct RegionKey {
     ids: Vec<u64>,
     pub region: Region,
     pub quantity: Quantity,
@@ -42,7 +42,7 @@ pub struct RegionNumbers {
 
 /// The statistics of the rectangle, of every material.
 #[derive(Debug, Default)]
-pub struct RegionRun(Latest<Key, Vec<RegionNumbers>>);
+pub struct RegionRun(Latest<RegionKey, Vec<RegionNumbers>>);
 
 impl RegionRun {
     /// Takes over a result, and computes what is needed now.
@@ -73,8 +73,8 @@ impl RegionRun {
     }
 }
 
-fn key(region: Region, slots: &Slots, state: &ViewState) -> Key {
-    Key {
+fn key(region: Region, slots: &Slots, state: &ViewState) -> RegionKey {
+    RegionKey {
         ids: slots.slots.iter().map(|slot| slot.id).collect(),
         region,
         quantity: state.quantity,

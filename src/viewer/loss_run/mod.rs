@@ -15,7 +15,7 @@ use crate::material::Material;
 use crate::report::Report;
 
 pub use phase::{Asked, Losses};
-use phase::{Key, Phase, Running, Settled, Step, stopped};
+use phase::{LossKey, Phase, RunningLoss, Settled, Step, stopped};
 
 /// Progress and staleness are shown after this time: what takes less would only flicker.
 const SOON: Duration = Duration::from_millis(100);
@@ -25,7 +25,7 @@ const SOON: Duration = Duration::from_millis(100);
 pub struct LossRun {
     phase: Phase,
     /// The losses that are wanted, and since when.
-    wanted: Option<(Key, Instant)>,
+    wanted: Option<(LossKey, Instant)>,
 }
 
 impl Default for LossRun {
@@ -170,7 +170,7 @@ impl LossRun {
     }
 }
 
-fn start(ctx: &egui::Context, slots: &Slots, asked: &Asked) -> Running {
+fn start(ctx: &egui::Context, slots: &Slots, asked: &Asked) -> RunningLoss {
     let key = key(slots, asked);
     let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|s| s.loaded.clone()).collect();
     let names: Vec<String> = slots.slots.iter().map(|s| s.name().to_owned()).collect();
@@ -190,11 +190,11 @@ fn start(ctx: &egui::Context, slots: &Slots, asked: &Asked) -> Running {
         };
         comparison.stream(&request, progress, update).map(|_| ())
     });
-    Running { key, task, latest }
+    RunningLoss { key, task, latest }
 }
 
-fn key(slots: &Slots, asked: &Asked) -> Key {
-    Key { ids: slots.slots.iter().map(|s| s.id).collect(), asked: asked.clone() }
+fn key(slots: &Slots, asked: &Asked) -> LossKey {
+    LossKey { ids: slots.slots.iter().map(|s| s.id).collect(), asked: asked.clone() }
 }
 
 /// For each prediction the differences of all losses from its own.

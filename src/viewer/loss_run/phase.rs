@@ -10,7 +10,7 @@ use crate::viewer::worker::Task;
 
 /// What a loss depends on: the ids of the materials, the ground truth first, and the request.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Key {
+pub struct LossKey {
     pub ids: Vec<u64>,
     pub asked: Asked,
 }
@@ -25,7 +25,7 @@ pub struct Asked {
 /// Losses for a key, complete or so far.
 #[derive(Debug)]
 pub struct Losses {
-    pub key: Key,
+    pub key: LossKey,
     pub report: Report,
     /// `differences[a][b]`: the loss of prediction b minus that of a, on the same scenes.
     pub differences: Vec<Vec<Estimate>>,
@@ -47,8 +47,8 @@ impl Losses {
 
 /// A loss that is being computed. The worker replaces `latest`; the window takes it.
 #[derive(Debug)]
-pub struct Running {
-    pub key: Key,
+pub struct RunningLoss {
+    pub key: LossKey,
     pub task: Task<()>,
     pub latest: Arc<Mutex<Option<Losses>>>,
 }
@@ -77,11 +77,11 @@ pub enum Phase {
     /// No run; the losses of the last one.
     Settled(Settled),
     /// A run without losses yet; the losses of an earlier one.
-    Starting(Running, Settled),
+    Starting(RunningLoss, Settled),
     /// A run with losses so far.
-    Refining(Running, Losses),
+    Refining(RunningLoss, Losses),
     /// No run: this key was cancelled, or failed for this reason. It is not computed again by itself.
-    Stopped { key: Key, problem: Option<String>, settled: Settled },
+    Stopped { key: LossKey, problem: Option<String>, settled: Settled },
 }
 
 /// What the phase and the wanted losses call for.
@@ -96,7 +96,7 @@ pub enum Step {
 impl Phase {
     /// The next step towards the losses of `wanted`; `young` tells whether a run has begun a moment ago. Such a run is left
     /// to give its first losses: otherwise there are none while a slider moves.
-    pub fn step(&self, wanted: &Key, young: bool) -> Step {
+    pub fn step(&self, wanted: &LossKey, young: bool) -> Step {
         let is_finished = |settled: &Settled| matches!(settled, Settled::Finished(l) if l.key == *wanted);
         match self {
             Self::Settled(settled) if is_finished(settled) => Step::Keep,
@@ -128,7 +128,7 @@ impl Phase {
         }
     }
 
-    pub fn run(&self) -> Option<&Running> {
+    pub fn run(&self) -> Option<&RunningLoss> {
         match self {
             Self::Starting(run, _) | Self::Refining(run, _) => Some(run),
             Self::Settled(_) | Self::Stopped { .. } => None,
@@ -154,14 +154,14 @@ mod tests {
     use crate::model::brdf::Texel;
 
     /// What is wanted with this seed.
-    fn key(seed: u64) -> Key {
+    fn key(seed: u64) -> LossKey {
         let request = Request::Scenes(Sampling { near: 1, distant: 0, seed, ..Sampling::default() });
-        Key { ids: vec![1, 2], asked: Asked { request, convention: Convention::default() } }
+        LossKey { ids: vec![1, 2], asked: Asked { request, convention: Convention::default() } }
     }
 
-    fn run(seed: u64) -> Running {
+    fn run(seed: u64) -> RunningLoss {
         let task = Task::start(&egui::Context::default(), |_| Ok(()));
-        Running { key: key(seed), task, latest: Arc::default() }
+        RunningLoss { key: key(seed), task, latest: Arc::default() }
     }
 
     fn losses(seed: u64) -> Losses {

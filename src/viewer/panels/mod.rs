@@ -19,8 +19,8 @@ pub mod why;
 use eframe::egui::{self, DragValue, Response, RichText};
 
 use crate::files::read::{
-    Albedo, Assumption, Certainty, Energy, Grid, NonFinite, NormalEncoding, NormalY, Order, Preset,
-    ReadOptions, Reflectance, Roughness, What, Workflow,
+    Albedo, Assumption, Certainty, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions,
+    Reflectance, Roughness, TileGrid, What, Workflow,
 };
 
 /// A number to drag or type; a double-click resets it to `default`.
@@ -108,14 +108,14 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
 }
 
 /// Columns and rows of tiles of a packed image; 0 of either infers them.
-fn grid(ui: &mut egui::Ui, name: &str, grid: &mut Option<Grid>) {
+fn grid(ui: &mut egui::Ui, name: &str, grid: &mut Option<TileGrid>) {
     let [mut columns, mut rows] = grid.map_or([0, 0], |g| [g.columns, g.rows]);
     let auto = |count: f64, _| if count < 1.0 { "auto".to_owned() } else { format!("{count:.0}") };
     let count = |ui: &mut egui::Ui, what: &str, value: &mut usize| {
         let name = format!("{what} of tiles of {name}");
         let hover = format!("Tile {what} of a packed image; 0 infers them");
         number(ui, &name, value, 0, |drag| {
-            drag.range(0..=Grid::MOST).speed(0.05).prefix(format!("{what} ")).custom_formatter(auto)
+            drag.range(0..=TileGrid::MOST).speed(0.05).prefix(format!("{what} ")).custom_formatter(auto)
         })
         .on_hover_text(hover)
         .changed()
@@ -124,7 +124,7 @@ fn grid(ui: &mut egui::Ui, name: &str, grid: &mut Option<Grid>) {
         // One of them specified alone implies one of the other.
         let was_auto = grid.is_none();
         let least = usize::from(was_auto);
-        let both = Grid { columns: columns.max(least), rows: rows.max(least) };
+        let both = TileGrid { columns: columns.max(least), rows: rows.max(least) };
         *grid = (both.columns > 0 && both.rows > 0).then_some(both);
     }
 }

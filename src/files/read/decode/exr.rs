@@ -20,7 +20,7 @@ use crate::files::read::samples::Samples;
 const SMALL: u64 = 1 << 20;
 
 /// The channels of one layer: name in capitals, samples.
-type Channels = Vec<(String, Samples)>;
+type NamedSamples = Vec<(String, Samples)>;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let invalid = |e: exr::error::Error| match e {
@@ -77,7 +77,7 @@ fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {
         let comments = part.attributes.comments.map(|text| text.to_string()).unwrap_or_default();
         decoded.native |= comments.starts_with(crate::files::write::NATIVE);
         let own = part.attributes.layer_name.map(|name| name.to_string()).unwrap_or_default();
-        let mut named: BTreeMap<String, Channels> = BTreeMap::new();
+        let mut named: BTreeMap<String, NamedSamples> = BTreeMap::new();
         let mut depth = "half";
         for AnyChannel { name, sample_data, .. } in part.channel_data.list {
             let (layer, channel) = split(&own, &name);
@@ -117,7 +117,7 @@ fn samples(samples: FlatSamples) -> (Samples, &'static str) {
 }
 
 /// RGB, XYZ or XY in their order whatever the file's, or a single channel of any name; `None` without any.
-fn raster([width, height]: [usize; 2], depth: &'static str, mut channels: Channels) -> Option<Raster> {
+fn raster([width, height]: [usize; 2], depth: &'static str, mut channels: NamedSamples) -> Option<Raster> {
     let mut take = |names: &[&str]| {
         let place = channels.iter().position(|(name, _)| names.contains(&name.as_str()))?;
         Some(channels.swap_remove(place).1)

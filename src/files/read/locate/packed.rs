@@ -6,7 +6,7 @@ use std::path::Path;
 use super::names::Role;
 use crate::error::Error;
 use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::grid::Grid;
+use crate::files::read::grid::TileGrid;
 use crate::files::read::interpret::detect::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
 use crate::files::read::note::{Note, SpecifiedBy};
 use crate::files::read::options::{Albedo, Energy, NormalY, ReadOptions, Roughness};
@@ -23,8 +23,8 @@ const ROUGHNESS: f32 = 0.5;
 
 /// Where the tiles of one material are: the order, and the number of the first tile.
 #[derive(Clone, Debug)]
-struct Choice {
-    grid: Grid,
+struct Tiling {
+    grid: TileGrid,
     order: Order,
     first: usize,
     why: Reason,
@@ -47,7 +47,7 @@ pub fn unpack(
         .filter(|_| options.order.is_none() && options.grid.is_none());
     let chosen = own.as_ref().map(Own::choice).or_else(|| choose(image, &name, options));
     let refused = || refusal(path, image, options);
-    let Choice { grid, order, first, why, certainty } = chosen.ok_or_else(refused)?;
+    let Tiling { grid, order, first, why, certainty } = chosen.ok_or_else(refused)?;
     if is_stack(grid, order.len()) {
         options.exemplar_of(grid.rows, path)?;
     }
@@ -111,9 +111,9 @@ impl Own {
         (image.width == order.len() * (image.width / order.len())).then_some(own)
     }
 
-    fn choice(&self) -> Choice {
-        let grid = Grid { columns: self.order.len(), rows: 1 };
-        Choice {
+    fn choice(&self) -> Tiling {
+        let grid = TileGrid { columns: self.order.len(), rows: 1 };
+        Tiling {
             grid,
             order: self.order,
             first: 0,
@@ -155,13 +155,13 @@ fn hint(found: &mut StoredMaterial, order: Order, image: &Raster) {
 }
 
 /// Every way to divide the image into square tiles, in the order in which they are tried; or the one that was said.
-fn grids(image: &Raster, options: &ReadOptions) -> Vec<Grid> {
+fn grids(image: &Raster, options: &ReadOptions) -> Vec<TileGrid> {
     if let Some(grid) = options.grid {
         return grid.tile(image.size()).map(|_| grid).into_iter().collect();
     }
     let (w, h) = (image.width, image.height);
     let grid = |columns: usize, rows: usize| {
-        let grid = Grid { columns, rows };
+        let grid = TileGrid { columns, rows };
         grid.tile([w, h]).filter(|tile| tile[0] == tile[1]).map(|_| grid)
     };
     let strip = (w % h == 0).then(|| w / h).filter(|k| (3..=64).contains(k)).and_then(|k| grid(k, 1));
@@ -173,11 +173,11 @@ fn grids(image: &Raster, options: &ReadOptions) -> Vec<Grid> {
     [strip, stack(4), stack(5), upright, grid(2, 2)].into_iter().flatten().collect()
 }
 
-fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
+fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Tiling> {
     let grids = grids(image, options);
     if let Some(order) = options.order {
         if order.len() == 1 && options.grid.is_none() {
-            let grid = Grid { columns: 1, rows: 1 };
+            let grid = TileGrid { columns: 1, rows: 1 };
             return Some(placed(
                 grid,
                 order,
@@ -193,7 +193,7 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
         return Some(choice);
     }
     // In a strip, or in the grid that was said, the usual order; but a picture of normals all over is no strip.
-    let usual = |g: &&Grid| (g.rows == 1 || options.grid.is_some()) && g.count() >= 4;
+    let usual = |g: &&TileGrid| (g.rows == 1 || options.grid.is_some()) && g.count() >= 4;
     let grid = *grids.iter().find(usual)?;
     let scores = scores(image, grid, 0..grid.count());
     if scores.iter().all(|&score| score >= NORMAL_AT_LEAST) {
@@ -211,22 +211,22 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Choice> {
 }
 
 /// Whether every row of `grid` is a material of `count` tiles.
-fn is_stack(grid: Grid, count: usize) -> bool {
+fn is_stack(grid: TileGrid, count: usize) -> bool {
     grid.rows > 1 && grid.columns >= count.max(3)
 }
 
 /// `order` in `grid`: in a strip at its end, after the photos; in a stack in the row that the user chose.
-fn placed(grid: Grid, order: Order, options: &ReadOptions, why: Reason, certainty: Certainty) -> Choice {
+fn placed(grid: TileGrid, order: Order, options: &ReadOptions, why: Reason, certainty: Certainty) -> Tiling {
     let end = if is_stack(grid, order.len()) {
         (options.exemplar.unwrap_or(0).min(grid.rows - 1) + 1) * grid.columns
     } else {
         grid.count()
     };
-    Choice { grid, order, first: end - order.len(), why, certainty }
+    Tiling { grid, order, first: end - order.len(), why, certainty }
 }
 
 /// How much each of the tiles looks like normals, from 0 to 1.
-fn scores(image: &Raster, grid: Grid, tiles: Range<usize>) -> Vec<f64> {
+fn scores(image: &Raster, grid: TileGrid, tiles: Range<usize>) -> Vec<f64> {
     let Some(size) = grid.tile(image.size()) else { return Vec::new() };
     let score = |number: usize| {
         let tile = image.crop(grid.corner(number, size), size);
@@ -238,7 +238,7 @@ fn scores(image: &Raster, grid: Grid, tiles: Range<usize>) -> Vec<f64> {
 
 /// Whether in each row the tile at `place` looks like normals, and most of all tiles: else one picture of normals with
 /// flat and steep parts passes for a stack.
-fn every_row_has_normals(image: &Raster, grid: Grid, place: usize) -> bool {
+fn every_row_has_normals(image: &Raster, grid: TileGrid, place: usize) -> bool {
     (0..grid.rows).all(|row| {
         let start = row * grid.columns;
         let scores = scores(image, grid, start..start + grid.columns);
@@ -247,7 +247,7 @@ fn every_row_has_normals(image: &Raster, grid: Grid, place: usize) -> bool {
 }
 
 /// The order by the one tile that looks like normals; `None` where none or several do.
-fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choice> {
+fn recognized(image: &Raster, grid: TileGrid, options: &ReadOptions) -> Option<Tiling> {
     let (start, count) = if is_stack(grid, 0) {
         (options.exemplar.unwrap_or(0).min(grid.rows - 1) * grid.columns, grid.columns)
     } else {
@@ -274,7 +274,7 @@ fn recognized(image: &Raster, grid: Grid, options: &ReadOptions) -> Option<Choic
         return None;
     }
     let why = Reason::NormalTile { number: place + 1, share: best, next: second };
-    Some(Choice { grid, order, first: start + count - order.len(), why, certainty: Certainty::Likely })
+    Some(Tiling { grid, order, first: start + count - order.len(), why, certainty: Certainty::Likely })
 }
 
 fn refusal(path: &Path, image: &Raster, options: &ReadOptions) -> Error {

@@ -18,8 +18,8 @@ use crate::files::read::pictures::Pictures;
 use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::StoredMaterial;
 use crate::progress::Progress;
-use surface::Surface;
-use textures::Scene;
+use surface::GltfSurface;
+use textures::GltfFile;
 
 /// Reads material number `exemplar` of the file `path`; without one the first that has a texture, else the first.
 ///
@@ -28,7 +28,7 @@ use textures::Scene;
 pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let (document, blob) = document::parse(path, &bytes)?;
-    let scene = Scene { path: path.to_owned(), document, blob };
+    let scene = GltfFile { path: path.to_owned(), document, blob };
     let materials: Vec<_> = scene.document.materials().collect();
     let said = &scene.document.as_json().materials;
     let index = match options.exemplar {
@@ -48,7 +48,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
             remedy: "bake the maps into one arrangement".to_owned(),
         });
     }
-    let surface = Surface::load(&scene, material, progress)?;
+    let surface = GltfSurface::load(&scene, material, progress)?;
     let gloss = material.pbr_specular_glossiness().is_some();
     let mut pictures = Pictures::default();
     let is_linear = surface.put(material, &mut pictures)?;

@@ -4,7 +4,7 @@ use gltf::material::{PbrMetallicRoughness, PbrSpecularGlossiness};
 use gltf::{Material, Texture};
 use rayon::prelude::*;
 
-use super::textures::Scene;
+use super::textures::GltfFile;
 use crate::error::Error;
 use crate::files::read::formats::principled::{Field, reflectance, separated};
 use crate::files::read::formats::scaled_normals::scaled;
@@ -20,8 +20,8 @@ use crate::progress::Progress;
 const USUAL_IOR: f32 = 1.5;
 
 /// The pictures of a material, decoded.
-pub struct Surface<'a> {
-    scene: &'a Scene,
+pub struct GltfSurface<'a> {
+    scene: &'a GltfFile,
     normal: Option<StoredMap>,
     /// Base colour or diffuse.
     colour: Option<StoredMap>,
@@ -32,9 +32,9 @@ pub struct Surface<'a> {
     specular_colour: Option<StoredMap>,
 }
 
-impl<'a> Surface<'a> {
+impl<'a> GltfSurface<'a> {
     /// Decodes all textures at once; each is one step of `progress`.
-    pub fn load(scene: &'a Scene, material: &Material<'_>, progress: &Progress) -> Result<Self, Error> {
+    pub fn load(scene: &'a GltfFile, material: &Material<'_>, progress: &Progress) -> Result<Self, Error> {
         let normal = material.normal_texture().map(|t| t.texture());
         let extension = material.specular();
         let wanted = if let Some(gloss) = material.pbr_specular_glossiness() {

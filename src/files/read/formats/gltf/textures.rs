@@ -20,13 +20,13 @@ use crate::files::read::stored::StoredMap;
 const SOURCES: [&str; 4] = ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];
 
 /// The file and what it brings along.
-pub struct Scene {
+pub struct GltfFile {
     pub path: PathBuf,
     pub document: Document,
     pub blob: Option<Vec<u8>>,
 }
 
-impl Scene {
+impl GltfFile {
     /// The picture of a texture.
     ///
     /// # Errors

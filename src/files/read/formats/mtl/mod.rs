@@ -17,7 +17,7 @@ use crate::files::read::reason::Reason;
 use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::progress::Progress;
-use statement::{BUMPS, Entry, NORMALS, Texture, entries, is_packed, is_picture, listed};
+use statement::{BUMPS, MtlEntry, NORMALS, Texture, entries, is_packed, is_picture, listed};
 
 /// Reads material number `exemplar` of the file `path`.
 ///
@@ -42,7 +42,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
             count: all.len(),
         });
     }
-    let mut reading = Reading {
+    let mut reading = MtlReading {
         path,
         entry,
         ahead: Ahead::of(listed(path, entry), progress)?,
@@ -54,7 +54,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
     };
     let pictures = reading.pictures()?;
     reading.note_unused();
-    let Reading { assumptions, notes, spaces, .. } = reading;
+    let MtlReading { assumptions, notes, spaces, .. } = reading;
     let mut found = pictures.assemble(path, entry.name.clone(), "the statements of the .mtl", options)?;
     found.files.push(path.to_owned());
     found.files.sort();
@@ -87,9 +87,9 @@ fn named_y(file: &Path) -> Inferred<NormalY> {
 }
 
 /// The material `entry` while it is read.
-struct Reading<'a> {
+struct MtlReading<'a> {
     path: &'a Path,
-    entry: &'a Entry,
+    entry: &'a MtlEntry,
     ahead: Ahead,
     of_blender: bool,
     /// Keywords that have been made use of.
@@ -100,7 +100,7 @@ struct Reading<'a> {
     notes: Vec<Note>,
 }
 
-impl<'a> Reading<'a> {
+impl<'a> MtlReading<'a> {
     fn pictures(&mut self) -> Result<Pictures, Error> {
         let mut pictures = Pictures::default();
         let colour = self.colour("map_kd", "kd", Role::Diffuse)?;

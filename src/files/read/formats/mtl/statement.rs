@@ -13,21 +13,21 @@ pub const NORMALS: [&str; 2] = ["norm", "map_kn"];
 pub const BUMPS: [&str; 2] = ["map_bump", "bump"];
 
 /// A material: its statements, each a keyword in lower case and the rest of its line.
-pub struct Entry {
+pub struct MtlEntry {
     pub name: String,
     pub lines: Vec<(String, String)>,
 }
 
 /// The materials of an .mtl.
-pub fn entries(text: &str) -> Vec<Entry> {
-    let mut all: Vec<Entry> = Vec::new();
+pub fn entries(text: &str) -> Vec<MtlEntry> {
+    let mut all: Vec<MtlEntry> = Vec::new();
     for line in text.replace("\\\r\n", " ").replace("\\\n", " ").lines() {
         let line = line.trim();
         let (key, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
         match (key.to_lowercase(), all.last_mut()) {
             (key, _) if key.is_empty() || key.starts_with('#') => {}
             (key, _) if key == "newmtl" => {
-                all.push(Entry { name: rest.trim().to_owned(), lines: Vec::new() })
+                all.push(MtlEntry { name: rest.trim().to_owned(), lines: Vec::new() })
             }
             (key, Some(entry)) => entry.lines.push((key, rest.trim().to_owned())),
             (_, None) => {}
@@ -42,7 +42,7 @@ pub fn is_picture(key: &str) -> bool {
 }
 
 /// Whether specular is occlusion, roughness and metallic: so its name says, or the `bsdf` of nvdiffrec.
-pub fn is_packed(entry: &Entry) -> bool {
+pub fn is_packed(entry: &MtlEntry) -> bool {
     let has = |key: &str| entry.lines.iter().any(|(k, _)| k == key);
     let specular = entry.lines.iter().find(|(key, _)| key == "map_ks");
     let named = |rest: &str| {
@@ -55,7 +55,7 @@ pub fn is_packed(entry: &Entry) -> bool {
 }
 
 /// The pictures that are read of a material, and what they are expected to be.
-pub fn listed(path: &Path, entry: &Entry) -> Vec<(PathBuf, Subject)> {
+pub fn listed(path: &Path, entry: &MtlEntry) -> Vec<(PathBuf, Subject)> {
     let line = |key: &str| entry.lines.iter().find(|(k, _)| k == key).map(|(_, rest)| rest);
     let normal = NORMALS.into_iter().chain(BUMPS).find(|key| line(key).is_some()).unwrap_or_default();
     let specular = if line("map_pm").is_none() { "map_ks" } else { "" };

@@ -18,12 +18,12 @@ use crate::files::read::locate::names::Role;
 use crate::files::read::note::{Note, Subject};
 use crate::files::read::options::{Albedo, NormalY, ReadOptions};
 use crate::files::read::pictures::Pictures;
-use crate::files::read::reason::{Known, Reason};
+use crate::files::read::reason::{Reason, SpaceKnown};
 use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::progress::Progress;
 use graph::{Bound, Obstacle, bound};
-use model::{Input, Model, USD_SPECULAR};
+use model::{Input, SurfaceModel, USD_SPECULAR};
 
 /// The reflectance of a dielectric of the usual refractive index 1.5.
 const USUAL: f32 = 0.04;
@@ -39,16 +39,17 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
         problem: format!("expected MaterialX, found: {e}"),
         remedy: "export it again".to_owned(),
     })?;
-    let surfaces: Vec<_> = document.descendants().filter_map(|node| Some((node, Model::of(node)?))).collect();
+    let surfaces: Vec<_> =
+        document.descendants().filter_map(|node| Some((node, SurfaceModel::of(node)?))).collect();
     let index = options.exemplar_of(surfaces.len(), path)?;
     let &(node, model) = surfaces.get(index).ok_or_else(|| Error::NotAMaterial {
         path: path.to_owned(),
-        expected: format!("one of {}", Model::names()),
+        expected: format!("one of {}", SurfaceModel::names()),
         found: "none of them".to_owned(),
         remedy: "translate the material to one of them".to_owned(),
     })?;
     let files = listed(path, node, model);
-    let surface = Surface { path, node, model, ahead: Ahead::of(files, progress)? };
+    let surface = MtlxSurface { path, node, model, ahead: Ahead::of(files, progress)? };
     let mut pictures = Pictures::default();
     let albedo = surface.put(&mut pictures)?;
     let name = node.attribute("name").unwrap_or("material").to_owned();
@@ -75,7 +76,7 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
 }
 
 /// The pictures that the inputs of a surface lead to, and what they are expected to be.
-fn listed(path: &Path, node: Node<'_, '_>, model: &Model) -> Vec<(PathBuf, Subject)> {
+fn listed(path: &Path, node: Node<'_, '_>, model: &SurfaceModel) -> Vec<(PathBuf, Subject)> {
     let roles = [
         (model.normal, Role::Normal),
         (model.roughness.0, Role::Roughness),
@@ -92,21 +93,21 @@ fn listed(path: &Path, node: Node<'_, '_>, model: &Model) -> Vec<(PathBuf, Subje
 }
 
 /// The surface that is read.
-struct Surface<'a, 'd> {
+struct MtlxSurface<'a, 'd> {
     path: &'a Path,
     node: Node<'a, 'd>,
-    model: &'static Model,
+    model: &'static SurfaceModel,
     ahead: Ahead,
 }
 
 /// An input that has been read.
-struct Loaded {
+struct LoadedInput {
     source: StoredMap,
     /// The colour space that the file says.
     space: Option<String>,
 }
 
-impl Loaded {
+impl LoadedInput {
     /// The colour space: where the file says none, that which its samples have by custom.
     fn albedo(&self) -> Albedo {
         match &self.space {
@@ -125,10 +126,10 @@ impl Loaded {
     }
 }
 
-impl Surface<'_, '_> {
+impl MtlxSurface<'_, '_> {
     /// Reads the inputs; returns what is said about colours.
     fn put(&self, pictures: &mut Pictures) -> Result<Inferred<Albedo>, Error> {
-        let Model { base, metallic, roughness, normal, .. } = *self.model;
+        let SurfaceModel { base, metallic, roughness, normal, .. } = *self.model;
         if let Some(normal) = self.load((normal, 0.0), Role::Normal)? {
             pictures.add(Role::Normal, normal.source);
         }
@@ -209,21 +210,21 @@ impl Surface<'_, '_> {
     }
 
     /// The input, or its value by the specification.
-    fn said(&self, input: Input, role: Role) -> Result<Loaded, Error> {
-        let usual = || Loaded {
+    fn said(&self, input: Input, role: Role) -> Result<LoadedInput, Error> {
+        let usual = || LoadedInput {
             source: StoredMap::constant(self.path, &[input.1]),
             space: Some("lin_rec709".to_owned()),
         };
         Ok(self.load(input, role)?.unwrap_or_else(usual))
     }
 
-    fn load(&self, (name, _): Input, role: Role) -> Result<Option<Loaded>, Error> {
+    fn load(&self, (name, _): Input, role: Role) -> Result<Option<LoadedInput>, Error> {
         Ok(match self.bound(name)? {
             None => None,
             Some(Bound::Values { .. }) if role == Role::Normal => None,
             Some(Bound::Values { values, space }) => {
                 let space = space.or_else(|| Some("lin_rec709".to_owned()));
-                Some(Loaded { source: StoredMap::constant(self.path, &values), space })
+                Some(LoadedInput { source: StoredMap::constant(self.path, &values), space })
             }
             Some(Bound::File { file, space, channel, scale }) => {
                 let file = resolved(self.path, &file);
@@ -231,7 +232,7 @@ impl Surface<'_, '_> {
                 let raster = channel.map_or(whole.clone(), |c| whole.channel(c));
                 let source = StoredMap { raster, file, part: String::new() };
                 let source = if role == Role::Normal { scaled(source, scale.into()) } else { source };
-                Some(Loaded { source, space })
+                Some(LoadedInput { source, space })
             }
         })
     }
@@ -239,13 +240,15 @@ impl Surface<'_, '_> {
 
 fn colour_space(space: &str) -> (Albedo, Reason, Certainty) {
     let (albedo, known, certainty) = match space {
-        "srgb_texture" | "srgb" | "srgb_rec709_scene" => (Albedo::Srgb, Known::Exactly, Certainty::Sure),
+        "srgb_texture" | "srgb" | "srgb_rec709_scene" => (Albedo::Srgb, SpaceKnown::Exactly, Certainty::Sure),
         "lin_rec709" | "lin_rec709_scene" | "none" | "raw" => {
-            (Albedo::Linear, Known::Exactly, Certainty::Sure)
+            (Albedo::Linear, SpaceKnown::Exactly, Certainty::Sure)
         }
-        "gamma22" | "g22_rec709" | "g22_rec709_scene" => (Albedo::Gamma22, Known::Exactly, Certainty::Sure),
-        "gamma18" | "gamma24" => (Albedo::Gamma22, Known::Nearly, Certainty::Unsure),
-        _ => (Albedo::Linear, Known::Unknown, Certainty::Unsure),
+        "gamma22" | "g22_rec709" | "g22_rec709_scene" => {
+            (Albedo::Gamma22, SpaceKnown::Exactly, Certainty::Sure)
+        }
+        "gamma18" | "gamma24" => (Albedo::Gamma22, SpaceKnown::Nearly, Certainty::Unsure),
+        _ => (Albedo::Linear, SpaceKnown::Unknown, Certainty::Unsure),
     };
     (albedo, Reason::ColourSpace { space: space.to_owned(), known }, certainty)
 }

@@ -9,7 +9,7 @@ pub type Input = (&'static str, f32);
 
 /// A surface of MaterialX.
 #[derive(Debug)]
-pub struct Model {
+pub struct SurfaceModel {
     pub tag: &'static str,
     pub base: Input,
     /// A factor on the base colour.
@@ -24,8 +24,8 @@ pub struct Model {
     pub not_modelled: &'static [Input],
 }
 
-const MODELS: [Model; 4] = [
-    Model {
+const MODELS: [SurfaceModel; 4] = [
+    SurfaceModel {
         tag: "standard_surface",
         base: ("base_color", 0.8),
         weight: Some(("base", 1.0)),
@@ -46,7 +46,7 @@ const MODELS: [Model; 4] = [
             ("opacity", 1.0),
         ],
     },
-    Model {
+    SurfaceModel {
         tag: "gltf_pbr",
         base: ("base_color", 1.0),
         weight: None,
@@ -65,7 +65,7 @@ const MODELS: [Model; 4] = [
             ("emissive", 0.0),
         ],
     },
-    Model {
+    SurfaceModel {
         tag: "open_pbr_surface",
         base: ("base_color", 0.8),
         weight: Some(("base_weight", 1.0)),
@@ -86,7 +86,7 @@ const MODELS: [Model; 4] = [
             ("geometry_opacity", 1.0),
         ],
     },
-    Model {
+    SurfaceModel {
         tag: "UsdPreviewSurface",
         base: ("diffuseColor", 0.18),
         weight: None,
@@ -102,10 +102,10 @@ const MODELS: [Model; 4] = [
 /// The specular of `UsdPreviewSurface` in its specular workflow.
 pub const USD_SPECULAR: Input = ("specularColor", 0.0);
 
-impl Model {
+impl SurfaceModel {
     /// The model of a node, if it is a surface that is read.
     pub fn of(node: Node<'_, '_>) -> Option<&'static Self> {
-        const ALL: &[Model] = &MODELS;
+        const ALL: &[SurfaceModel] = &MODELS;
         ALL.iter().find(|model| node.has_tag_name(model.tag))
     }
 
