@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use svbrdf::error::Error;
-use svbrdf::files::write::{self, Depth, Kind, WriteOptions};
+use svbrdf::files::write::{self, Depth, FileKind, WriteOptions};
 use svbrdf::material::{Material, Planes};
 use svbrdf::samples;
 
@@ -29,7 +29,7 @@ fn main() -> ExitCode {
 fn make(out: &Path, side: &str, depth: &str) -> Result<(), Error> {
     let side = side.parse().map_err(|e| Error::Usage(format!("SIDE: {e}")))?;
     let options = WriteOptions { depth: Some(depth.parse::<Depth>()?), ..WriteOptions::default() };
-    write::write(&large(side)?, out, Kind::new(out, &options)?)
+    write::write(&large(side)?, out, FileKind::new(out, &options)?)
 }
 
 /// The sample, repeated to fill a square of `side` texels, under a grain that keeps the files from being small.

@@ -94,11 +94,15 @@ fn of_picture(error: &Error) -> bool {
     }
 }
 
-/// Whether a damaged file that lists textures can cause this error: also, a texture that it names cannot be read.
+/// Whether a damaged file that lists textures can cause this error: also, a texture that it names cannot be read, or is not
+/// the map that it is named as.
 fn of_listing(error: &Error) -> bool {
     match error {
         Error::BadImage { .. } | Error::Unreadable { .. } | Error::MapSizesDiffer { .. } => true,
-        Error::NotAMaterial { path, .. } | Error::NoTextures { path, .. } => named_damaged(path),
+        Error::NotAMaterial { path, .. } => {
+            named_damaged(path) || path.extension().is_some_and(|e| e == "png")
+        }
+        Error::NoTextures { path, .. } => named_damaged(path),
         _ => false,
     }
 }

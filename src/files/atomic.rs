@@ -18,7 +18,7 @@ pub struct Destination<F> {
 }
 
 impl<F> Destination<F> {
-    /// Checks what can be checked of `path` before there is anything to write. `format` is that of an extension in
+    /// Checks what can be checked of `path` before there is anything to write. `format` belongs to an extension in
     /// small letters, `what` says whose extension it is, and `known` which there are.
     pub(crate) fn among(
         path: &Path,

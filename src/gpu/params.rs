@@ -26,7 +26,7 @@ pub struct DisplayParams {
     pub encoding: Encoding,
     /// Stripes pixels of [`Encoding::Radiance`] that are too bright in a channel (magenta) or black (blue).
     pub show_clipping: bool,
-    /// Epsilon of the difference's logarithms: that of the convention.
+    /// Epsilon of the difference's logarithms, from the convention.
     pub epsilon: f32,
     /// Whether the material is repeated 2 x 2 times, shifted by half of itself, in the place of one.
     pub tiled: bool,

@@ -1,7 +1,7 @@
 //! A loss over a given number of scenes, with what the first of them say on the way.
 //!
 //! The i-th scene of a kind depends on the seed and on i alone, and its loss on no other scene. So the scenes done so far
-//! are those that a smaller count would have asked for, and the last result is to the bit that of one go.
+//! are those that a smaller count would have asked for, and the last result has the same bits as a run in one go.
 
 use std::time::{Duration, Instant};
 

@@ -12,7 +12,7 @@ use crate::progress::Progress;
 /// A ground truth, predictions of the same size, and the convention that they are compared by.
 ///
 /// [`Comparison::run`] computes the rendering loss of every prediction over the scenes of a
-/// [`Request`](super::Request). The precision is that of the materials: `f32` is many times faster, `f64` is the
+/// [`Request`](super::Request). The precision is the materials': `f32` is many times faster, `f64` is the
 /// reference.
 ///
 /// ```

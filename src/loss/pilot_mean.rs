@@ -85,14 +85,14 @@ impl SampleMoments {
 struct Lattice(Vec<Complex>);
 
 impl Lattice {
-    /// `moments` are those of `draws`; points are `step` apart.
+    /// `moments` belong to `draws`; points are `step` apart.
     fn of_sum(draws: &[Draws], moments: &[SampleMoments], step: f64) -> Self {
         let roots: Vec<Complex> = (0..BINS / 2).map(|k| Complex::root(k, BINS)).collect();
         let mut product = vec![Complex([1.0, 0.0]); BINS];
         for (draws, moments) in draws.iter().zip(moments) {
             let mut one = vec![Complex::default(); BINS];
             let count = draws.values.len() as f64;
-            // Bessel's correction, as that of the variance.
+            // Bessel's correction, as for the variance.
             let scale = (count / (count - 1.0)).sqrt() / step;
             for value in &draws.values {
                 // Shared between two points, so that the mean stays.
@@ -160,7 +160,7 @@ impl Complex {
     }
 }
 
-/// The discrete Fourier transform in place (Cooley and Tukey 1965); `roots` are half of those of 1.
+/// The discrete Fourier transform in place (Cooley and Tukey 1965); `roots` are half of the roots of 1.
 fn transform(values: &mut [Complex], roots: &[Complex]) {
     let size = values.len();
     let unused_bits = usize::BITS - size.trailing_zeros();

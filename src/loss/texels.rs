@@ -3,7 +3,7 @@
 //! A scene changes the loss far more than a choice of texels does. So each scene is compared on an independent random
 //! subset of the texels, in which every texel is equally likely: the loss in a scene is then known without bias, and its
 //! error is part of how scenes or scramblings differ. The time does not depend on the size of the maps. Where fewer than
-//! half of the texels differ, subsets are of those that do: a subset of all would miss them in most scenes.
+//! half of the texels differ, subsets are taken of these: a subset of all would miss them in most scenes.
 
 use rayon::prelude::*;
 
@@ -57,7 +57,7 @@ pub(super) fn scene_losses<T: Compute>(
     Ok((0..comparison.predictions().len()).map(of_prediction).collect())
 }
 
-/// The index of each scene among those of its kind, after `before` [near-field, distant] ones.
+/// The index of each scene within its kind, after `before` [near-field, distant] ones.
 fn indices(before: [usize; 2], scenes: &[Scene]) -> impl Iterator<Item = usize> {
     let [mut near, mut distant] = before.map(|count| count..);
     scenes.iter().filter_map(move |scene| match scene.kind {

@@ -32,7 +32,7 @@ use resize::Filter;
 
 /// The maps of a material as planes of `width * height` values, row 0 on top.
 ///
-/// What they mean and their ranges are those of [`Texel`].
+/// Meanings and ranges are as in [`Texel`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Planes<T> {
     pub normal: [Vec<T>; 3],

@@ -6,7 +6,7 @@ use crate::loss::check_same_size;
 use crate::material::Material;
 use crate::math::real::Real;
 
-/// The metrics of the maps of `prediction` against those of `ground_truth`, computed in f64.
+/// The metrics of the maps of `prediction` against `ground_truth`, computed in f64.
 ///
 /// # Errors
 /// [`Error::SizesDiffer`].

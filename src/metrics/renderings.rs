@@ -19,7 +19,7 @@ struct Sums {
     count: f64,
 }
 
-/// The metrics of the renderings of `prediction` against those of `ground_truth` under `scenes`, over all texels and RGB.
+/// The metrics of the renderings of `prediction` and `ground_truth` under `scenes`, over all texels and RGB.
 ///
 /// Radiance, with the convention's factor, is clipped to [0, 1] first. A scene is one step of `progress`.
 ///

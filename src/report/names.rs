@@ -2,7 +2,7 @@
 
 use std::path::{Component, Path};
 
-/// The names of materials, told apart: those that are called the same take as many of the last parts of their paths as
+/// The names of materials, told apart: equal names take as many of the last parts of their paths as
 /// that needs. The same path twice has the same name twice.
 pub fn distinct_names(named: &[(&str, &Path)]) -> Vec<String> {
     let one = |&(name, path): &(&str, &Path)| {

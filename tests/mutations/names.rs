@@ -1,6 +1,6 @@
 //! Names of files and options of any letters.
 
-use svbrdf::files::read::{Binding, Grid, Reflectance};
+use svbrdf::files::read::{Binding, Reflectance, TileGrid};
 
 use super::*;
 
@@ -55,7 +55,8 @@ fn options_of_any_letters_never_panic() {
             assert_eq!(order.to_string().parse::<Order>().unwrap(), order);
             understood += 1;
         }
-        understood += usize::from(text.parse::<Grid>().is_ok_and(|grid| grid.columns > 0 && grid.rows > 0));
+        understood +=
+            usize::from(text.parse::<TileGrid>().is_ok_and(|grid| grid.columns > 0 && grid.rows > 0));
         understood +=
             usize::from(text.parse::<Reflectance>().is_ok_and(|f| (0.0..=1.0).contains(&f.value())));
         understood += usize::from(text.parse::<Binding>().is_ok());

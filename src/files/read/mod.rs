@@ -148,7 +148,7 @@ pub fn read_bound<T: Real>(
     read_with(path, &saved, &used, progress)
 }
 
-/// As [`read`], but with exactly these `options`: those of the sidecar file are not used.
+/// As [`read`], but with exactly these `options`: the sidecar file is not used.
 ///
 /// # Errors
 /// As [`read`].

@@ -43,7 +43,7 @@ pub enum Reason {
     },
     /// There are a metallic and a specular map, and no name tells which workflow is meant.
     BothWorkflows,
-    /// The channels of a picture that is named after one gray map differ as those of a packed picture do.
+    /// The channels of a picture that is named after one gray map differ like the channels of a packed picture.
     PackedChannels {
         map: Role,
         file: PathBuf,

@@ -5,7 +5,7 @@ const STEPS: usize = 1 << 12;
 
 /// An encoding, and the integers that stand for values in it.
 ///
-/// The integer of each value is that of `round(top * encoded(value))`; what takes a power is looked up.
+/// The integer of each value is `round(top * encoded(value))`; powers are looked up.
 pub struct Curve {
     encoded: Box<dyn Fn(f64) -> f64 + Sync>,
     top: f64,

@@ -118,7 +118,7 @@ impl GroupLoss<'_> {
     }
 }
 
-/// Adds the sums of blocks, which lie by scene, prediction and block, to those of the predictions.
+/// Adds the sums of blocks, which lie by scene, prediction and block, to the sums of the predictions.
 fn add(sums: &mut [Vec<f64>], scenes: std::ops::Range<usize>, blocks: usize, of_blocks: &[LogSum]) {
     let predictions = sums.len();
     for (scene, of_scene) in scenes.zip(of_blocks.chunks(predictions * blocks)) {

@@ -37,6 +37,8 @@ impl<S: Simd> LogProducts<S> {
     /// of them and a mantissa fits a float.
     #[inline(always)]
     pub(super) fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
+        // In registers: through memory, each product would wait for the store of the one before.
+        let mut products = *self;
         for pair in 0..vectors::<S>() / 2 {
             for i in [2 * pair, 2 * pair + 1] {
                 let load = |radiance: &TileRadiance| radiance.0.each_ref().map(|plane| plane.load(simd, i));
@@ -45,16 +47,18 @@ impl<S: Simd> LogProducts<S> {
                 let smaller: [V<S>; 3] = std::array::from_fn(|c| a[c].min(b[c]));
                 if SAFE {
                     for c in 0..3 {
-                        self.multiply(larger[c], smaller[c]);
-                        self.normalize();
+                        products.multiply(larger[c], smaller[c]);
+                        products.normalize();
                     }
                 } else {
                     // In this order, only one multiplication waits for the vector before.
-                    self.multiply(larger[0] * larger[1] * larger[2], smaller[0] * smaller[1] * smaller[2]);
+                    products
+                        .multiply(larger[0] * larger[1] * larger[2], smaller[0] * smaller[1] * smaller[2]);
                 }
             }
-            self.normalize();
+            products.normalize();
         }
+        *self = products;
     }
 
     #[inline(always)]

@@ -94,7 +94,7 @@ impl KernelScene {
     }
 }
 
-/// A near-field scene in registers. The fields are those of [`KernelScene`].
+/// A near-field scene in registers. The fields are as in [`KernelScene`].
 struct NearScene<F> {
     light: [F; 3],
     view: [F; 3],

@@ -17,7 +17,7 @@ const FAST_LIMIT: f32 = 1_048_576.0;
 /// Largest radiance and largest factor of one, 2^126. The product of two mantissas of such numbers fits a float.
 const LARGEST: f32 = 8.507_059e37;
 
-/// A tile with a smaller GGX width than that of r = 0.01 takes the narrow path.
+/// A tile with a GGX width below 1e-4 (r = 0.01) takes the narrow path.
 ///
 /// The fast path takes what is left of q without its part along n. A normal that is off unit length by 2 u, and 3 u of
 /// rounding in n . q, leave up to 7 u |q| along n, with u = 2^-24. It adds as a square to |n x q|^2 + (a n . q)^2, so D

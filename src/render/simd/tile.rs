@@ -103,7 +103,7 @@ impl MaterialTerms {
             tile.fill(plane, span, 0.0);
         }
         self.a.fill(&planes.roughness, span, 1.0);
-        // Positive floats are ordered as their bits are. A minimum of integers vectorizes, that of floats does not.
+        // Positive floats are ordered as their bits are. A minimum of integers vectorizes, a minimum of floats does not.
         let mut least = 1.0f32.to_bits();
         for (a, other) in self.a.0.iter_mut().zip(&mut self.one_minus_k.0) {
             let rough = a.max(roughness_floor);

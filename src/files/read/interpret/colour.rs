@@ -39,7 +39,7 @@ const METAL: [f64; 2] = [-0.43, 0.4];
 const DARK: f64 = 3.5;
 /// Darker than this, stored or decoded, is black.
 const BLACK: f64 = 0.02;
-/// A stored specular above this one is that of a metal; its diffuse is black or nearly so, which tells nothing.
+/// A stored specular above this value means a metal; its diffuse is black or nearly so, which tells nothing.
 const METAL_AT_LEAST: f64 = 0.3;
 /// Share of the texels that have to be of metal.
 const MOSTLY: f64 = 0.5;

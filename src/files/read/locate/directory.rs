@@ -52,7 +52,7 @@ fn is_junk(name: &str) -> bool {
         || name == "desktop.ini"
 }
 
-/// The file names for a message, no matter how many they are, without those that other programs leave.
+/// The file names for a message, no matter how many they are, without the files that other programs leave.
 pub fn listing(names: &[String]) -> String {
     let names: Vec<&str> = names.iter().map(String::as_str).filter(|name| !is_junk(name)).collect();
     match names.len() {

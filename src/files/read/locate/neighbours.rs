@@ -27,7 +27,7 @@ pub fn of(first: &Path, second: &Path) -> Vec<[Raster; 2]> {
     pairs.par_iter().filter_map(|[a, b]| Some([decoded(a)?, decoded(b)?])).collect()
 }
 
-/// In the folders beside that of `first`, under the same names.
+/// In the folders beside the folder of `first`, under the same names.
 fn beside(first: &Path, second: &Path) -> Option<Vec<[PathBuf; 2]>> {
     let folder = first.parent().filter(|folder| second.parent() == Some(folder))?.canonicalize().ok()?;
     let names = [first.file_name()?, second.file_name()?];

@@ -28,7 +28,7 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), E
     };
     let mut value: Value = serde_json::from_slice(&json).map_err(|e| invalid(&e.to_string()))?;
     let parts = value.as_object_mut().ok_or_else(|| invalid("no object"))?;
-    // Extensions that a file requires are mostly of its meshes, and those of a texture show in the texture.
+    // Extensions that a file requires mostly concern its meshes; extensions of a texture show in the texture.
     parts.retain(|name, _| PARTS.contains(&name.as_str()));
     let root: Root = serde_json::from_value(value).map_err(|e| invalid(&e.to_string()))?;
     // The library panics at images that lead nowhere.

@@ -30,7 +30,7 @@ impl GltfFile {
     /// The picture of a texture.
     ///
     /// # Errors
-    /// As those of the decoders.
+    /// The decoders' errors.
     pub fn picture(&self, texture: &Texture<'_>, what: Subject) -> Result<StoredMap, Error> {
         let (raster, file, part) = match self.image(texture, what)?.source() {
             Image::Uri { uri, .. } if uri.starts_with("data:") => {
@@ -52,7 +52,7 @@ impl GltfFile {
         Ok(StoredMap { raster, file, part })
     }
 
-    /// The image of a texture: that which all programs read, else that of an extension.
+    /// The image of a texture: the one that all programs read, else the one of an extension.
     fn image(&self, texture: &Texture<'_>, what: Subject) -> Result<gltf::Image<'_>, Error> {
         let image = |index: usize| self.document.images().nth(index);
         let of = |name: &str| image(texture.extension_value(name)?.get("source")?.as_u64()?.try_into().ok()?);
