@@ -1,7 +1,7 @@
 //! Numbers as people read them.
 
 /// A time in two digits or three, as people read it.
-pub fn time(seconds: f64) -> String {
+pub(crate) fn time(seconds: f64) -> String {
     match seconds {
         s if s >= 0.9995 => digits(s, "s"),
         s if s >= 0.9995e-3 => digits(s * 1e3, "ms"),
@@ -10,7 +10,7 @@ pub fn time(seconds: f64) -> String {
 }
 
 /// A share in percent, in two digits.
-pub fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     let decimals = if percent > 0.0 { (1.0 - percent.log10().floor()).clamp(0.0, 9.0) as usize } else { 0 };
     let text = format!("{percent:.decimals$}");

@@ -73,7 +73,7 @@ fn over_first(
 fn faster(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Result<(Option<Adapter>, String), Error> {
     let on_cpu = predict(scenes.len(), LONG, timed(over_first(comparison, scenes)))?;
     if on_cpu < SHORT {
-        return Ok((None, format!("about {on_cpu:.1?}, less than starting an adapter takes")));
+        return Ok((None, format!("about {}, less than starting an adapter takes", milliseconds(on_cpu))));
     }
     let gpu = match Adapter::start() {
         Ok(gpu) => gpu,
@@ -84,11 +84,16 @@ fn faster(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Result<(Option<
     let compared = comparison.clone().on(gpu.backend());
     match predict(scenes.len(), long, timed(over_first(&compared, scenes))) {
         Ok(on_gpu) => {
-            let why = format!("measured, about {on_cpu:.1?} on the CPU and {on_gpu:.1?} on {}", gpu.name());
+            let [cpu, adapter] = [on_cpu, on_gpu].map(milliseconds);
+            let why = format!("measured, about {cpu} on the CPU and {adapter} on {}", gpu.name());
             Ok(((on_gpu < on_cpu).then_some(gpu), why))
         }
         Err(problem) => Ok((None, problem.to_string())),
     }
+}
+
+fn milliseconds(time: Duration) -> String {
+    format!("{:.1} ms", 1e3 * time.as_secs_f64())
 }
 
 /// How long `work` takes for a number of scenes.

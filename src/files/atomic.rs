@@ -53,7 +53,7 @@ pub(crate) struct Watched<'a> {
 }
 
 impl<'a> Watched<'a> {
-    pub fn new(file: &'a mut File, progress: &'a Progress) -> Self {
+    pub(crate) fn new(file: &'a mut File, progress: &'a Progress) -> Self {
         Self { file, progress }
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Faults(Arc<Mutex<Option<Error>>>);
 
 impl Faults {
     /// Catches from now on what `device` would panic about, and its loss.
-    pub fn watch(device: &Device) -> Self {
+    pub(super) fn watch(device: &Device) -> Self {
         let faults = Self::default();
         let uncaptured = faults.clone();
         device.on_uncaptured_error(Arc::new(move |error| uncaptured.note(from_wgpu("drawing", &error))));
@@ -26,7 +26,7 @@ impl Faults {
         faults
     }
 
-    pub fn take(&self) -> Option<Error> {
+    pub(super) fn take(&self) -> Option<Error> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 

@@ -53,7 +53,7 @@ impl Shaded {
 /// # Errors
 /// [`Error::Gpu`] where the adapter failed.
 #[cfg(feature = "viewer")]
-pub fn read_rgba(
+pub(crate) fn read_rgba(
     gpu: &Gpu,
     texture: &wgpu::Texture,
     [width, height]: [u32; 2],

@@ -20,7 +20,7 @@ pub(super) struct Differing {
 
 impl Differing {
     /// `None` where half of the texels or more seem to differ.
-    pub fn of<T: Real>(comparison: &Comparison<'_, T>) -> Option<Self> {
+    pub(super) fn of<T: Real>(comparison: &Comparison<'_, T>) -> Option<Self> {
         let [width, height] = comparison.ground_truth().size();
         let all = width * height;
         let differ = |index: &usize| differs(comparison, *index);

@@ -69,7 +69,7 @@ impl Pilot {
     ///
     /// # Errors
     /// [`Error::Cancelled`].
-    pub fn run<T: Compute>(
+    pub(super) fn run<T: Compute>(
         comparison: &Comparison<'_, T>,
         sampling: &Sampling,
         progress: &Progress,
@@ -106,7 +106,7 @@ impl Pilot {
     }
 
     /// The 95% interval of the loss of the prediction with index `p`, whose mean over the scenes is `mean`.
-    pub fn interval_of_loss(&self, p: usize, mean: f64) -> [f64; 2] {
+    pub(super) fn interval_of_loss(&self, p: usize, mean: f64) -> [f64; 2] {
         let Spread { mean: expected, quantiles95: [low, high], .. } = self.losses[p];
         if expected + low > LEAST_RATIO * expected {
             [high, low].map(|quantile| mean / (1.0 + quantile / expected))
@@ -116,7 +116,7 @@ impl Pilot {
     }
 
     /// The 95% interval of the loss with index `a` less that with index `b`, whose mean over the scenes is `mean`.
-    pub fn interval_of_difference(&self, a: usize, b: usize, mean: f64) -> [f64; 2] {
+    pub(super) fn interval_of_difference(&self, a: usize, b: usize, mean: f64) -> [f64; 2] {
         let less = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect();
         let [low, high] =
             self.spread(|units| [0, 1].map(|half| less(&units[a][half], &units[b][half]))).quantiles95;

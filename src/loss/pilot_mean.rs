@@ -39,7 +39,7 @@ impl Spread {
     /// The variance of each sample is only estimated. So the quantiles are as much wider as those of Student's t are than
     /// those of the normal distribution; the degrees of freedom nu come from the variance of the variance,
     /// var(s^2) = (m_4 - s^4) / n = 2 s^4 / nu (Satterthwaite 1946).
-    pub fn of_sum(draws: &[Draws]) -> Self {
+    pub(super) fn of_sum(draws: &[Draws]) -> Self {
         let moments: Vec<SampleMoments> = draws.iter().map(SampleMoments::of).collect();
         let sum = |of: fn(&SampleMoments) -> f64, power| -> f64 {
             draws.iter().zip(&moments).map(|(d, m)| (d.count as f64).powi(power) * of(m)).sum()

@@ -26,7 +26,7 @@ pub(super) enum Subsets {
 }
 
 impl Subsets {
-    pub fn new<T: Compute>(comparison: &Comparison<'_, T>, sampling: &Sampling) -> Self {
+    pub(super) fn new<T: Compute>(comparison: &Comparison<'_, T>, sampling: &Sampling) -> Self {
         let size = comparison.ground_truth().size();
         if sampling.texels.sampled(size).is_some_and(|count| count <= MOST_PER_SCENE) {
             return Self::PerScene;

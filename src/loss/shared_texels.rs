@@ -27,7 +27,11 @@ pub(crate) struct SceneLoss {
 
 impl SharedTexels {
     /// `number` subsets of `count` texels; one of all texels where there are no more.
-    pub fn new<T: Compute>(comparison: &Comparison<'_, T>, [number, count]: [usize; 2], seed: u64) -> Self {
+    pub(crate) fn new<T: Compute>(
+        comparison: &Comparison<'_, T>,
+        [number, count]: [usize; 2],
+        seed: u64,
+    ) -> Self {
         let [width, height] = comparison.ground_truth().size();
         let random = |index, size| Sampler::Random.texels(seed, Kind::Near, index, count, size);
         let few = |texels: &Vec<usize>| texels.len() <= number * count;
@@ -51,7 +55,7 @@ impl SharedTexels {
     ///
     /// # Errors
     /// Those of the backend.
-    pub fn losses<T: Compute>(
+    pub(crate) fn losses<T: Compute>(
         &self,
         comparison: &Comparison<'_, T>,
         scenes: &[Scene],

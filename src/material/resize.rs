@@ -6,7 +6,7 @@ use crate::math::real::Real;
 
 /// In which measure values are averaged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Filter {
+pub(crate) enum Filter {
     /// As they are.
     Value,
     /// Roughness r as alpha^2 = r^4: the variance of slopes adds up.
@@ -14,7 +14,7 @@ pub enum Filter {
 }
 
 /// `plane` of size `from` (width, height) in the size `to`.
-pub fn plane<T: Real>(plane: Vec<T>, from: [usize; 2], to: [usize; 2], filter: Filter) -> Vec<T> {
+pub(crate) fn plane<T: Real>(plane: Vec<T>, from: [usize; 2], to: [usize; 2], filter: Filter) -> Vec<T> {
     if from == to {
         return plane;
     }

@@ -70,21 +70,6 @@ pub fn render_f32(
     simd::render_at(simd::Level::best(), material, scene, convention, progress)
 }
 
-/// |ln(a + epsilon) - ln(b + epsilon)| of every number of two pictures of one size.
-fn log_difference(a: &Image<f32>, b: &Image<f32>, epsilon: f32) -> Image<f32> {
-    let one = |a: f32, b: f32| ((a + epsilon).ln() - (b + epsilon).ln()).abs();
-    let pairs = a.pixels.par_iter().zip(&b.pixels);
-    let pixels = pairs.map(|(a, b)| std::array::from_fn(|c| one(a[c], b[c]))).collect();
-    Image { width: a.width, height: a.height, pixels }
-}
-
-/// |ln(prediction + epsilon) - ln(ground truth + epsilon)|, what the loss is the mean of, of every picture but the first:
-/// that is the ground truth, of the same size.
-pub fn log_differences(pictures: &[Image<f32>], epsilon: f32) -> Vec<Image<f32>> {
-    let Some((ground_truth, predictions)) = pictures.split_first() else { return Vec::new() };
-    predictions.iter().map(|prediction| log_difference(prediction, ground_truth, epsilon)).collect()
-}
-
 /// Renders the texel in column `column` of row `row`.
 #[inline]
 pub fn render_texel<T: Real>(

@@ -28,7 +28,7 @@ const DIELECTRIC: [f64; 3] = [0.04; 3];
 
 /// The surface at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Surface {
+pub(super) struct Surface {
     /// In units of half the width of the picture.
     pub height: f64,
     /// Linear RGB in [0, 1].
@@ -49,7 +49,7 @@ impl Surface {
 }
 
 /// The surface at (x, y).
-pub fn surface(x: f64, y: f64) -> Surface {
+pub(super) fn surface(x: f64, y: f64) -> Surface {
     let (p, q) = (from_star(x, y), from_cross(x, y));
     let edge = star(p, 0.5);
     let mut surface = if edge < 0.0 { star_tile(x, y, p, edge) } else { cross_tile(x, y, q, edge) };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 /// What a decoder returned.
 #[derive(Clone, Debug)]
-pub enum Buffer {
+pub(crate) enum Buffer {
     /// Integers, of which 255 stands for 1.
     Bytes(Arc<Vec<u8>>),
     /// Integers, of which 65535 stands for 1.
@@ -32,7 +32,7 @@ impl From<Vec<f32>> for Buffer {
 }
 
 impl Buffer {
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         match self {
             Self::Bytes(all) => all.len(),
             Self::Words(all) => all.len(),
@@ -41,7 +41,7 @@ impl Buffer {
     }
 
     /// Whether both are one.
-    pub fn is(&self, other: &Self) -> bool {
+    pub(crate) fn is(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Bytes(a), Self::Bytes(b)) => Arc::ptr_eq(a, b),
             (Self::Words(a), Self::Words(b)) => Arc::ptr_eq(a, b),
@@ -53,7 +53,7 @@ impl Buffer {
 
 /// Where the samples of a channel lie in a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct View {
+pub(super) struct View {
     /// The place of sample 0.
     pub first: usize,
     /// From one sample of a row to the next.
@@ -67,11 +67,11 @@ pub struct View {
 
 impl View {
     /// Whether a row follows the one above it like any sample the one before it.
-    pub fn is_whole(&self) -> bool {
+    pub(super) fn is_whole(&self) -> bool {
         self.stride == self.width * self.step
     }
 
-    pub fn place(&self, index: usize) -> usize {
+    pub(super) fn place(&self, index: usize) -> usize {
         if self.is_whole() {
             return self.first + index * self.step;
         }
@@ -85,7 +85,7 @@ impl View {
 
     /// Calls `of` for each run of samples that lie a step apart, of the `count` from number `start` on: with the place
     /// of the first of them, how many there were before, and how many they are.
-    pub fn runs(&self, start: usize, count: usize, mut of: impl FnMut(usize, usize, usize)) {
+    pub(super) fn runs(&self, start: usize, count: usize, mut of: impl FnMut(usize, usize, usize)) {
         let mut done = 0;
         while done < count {
             let index = start + done;
@@ -97,7 +97,7 @@ impl View {
     }
 
     /// Puts `of` the samples from number `start` on into `out`.
-    pub fn zip<S: Copy, U>(&self, all: &[S], start: usize, out: &mut [U], of: impl Fn(S) -> U) {
+    pub(super) fn zip<S: Copy, U>(&self, all: &[S], start: usize, out: &mut [U], of: impl Fn(S) -> U) {
         self.runs(start, out.len(), |from, done, run| {
             let out = out[done..done + run].iter_mut();
             let samples = &all[from..from + (run - 1) * self.step + 1];
@@ -109,7 +109,13 @@ impl View {
     }
 
     /// As [`zip`](Self::zip), of this channel, which is the first of its pixels, and the two that follow.
-    pub fn zip_three<S: Copy, U>(&self, all: &[S], start: usize, out: [&mut [U]; 3], of: impl Fn(S) -> U) {
+    pub(super) fn zip_three<S: Copy, U>(
+        &self,
+        all: &[S],
+        start: usize,
+        out: [&mut [U]; 3],
+        of: impl Fn(S) -> U,
+    ) {
         let [red, green, blue] = out;
         let count = red.len();
         self.runs(start, count, |from, done, run| {

@@ -2,7 +2,7 @@
 
 /// Finite numbers outside [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outside {
+pub(crate) struct Outside {
     pub count: usize,
     /// The least of them, or 0.
     pub low: f64,
@@ -19,13 +19,13 @@ impl Default for Outside {
 impl Outside {
     /// Counts `value` if it is one of them.
     #[must_use]
-    pub fn and(self, value: f64) -> Self {
+    pub(crate) fn and(self, value: f64) -> Self {
         let count = self.count + usize::from(!(0.0..=1.0).contains(&value));
         Self { count, low: self.low.min(value), high: self.high.max(value) }
     }
 
     #[must_use]
-    pub fn merged(self, other: Self) -> Self {
+    pub(crate) fn merged(self, other: Self) -> Self {
         Self {
             count: self.count + other.count,
             low: self.low.min(other.low),

@@ -14,29 +14,29 @@ use crate::error::Error;
 
 /// The pictures of a material by their role.
 #[derive(Debug, Default)]
-pub struct Pictures {
+pub(super) struct Pictures {
     all: Vec<(Role, StoredMap)>,
     extent: [usize; 2],
 }
 
 impl Pictures {
-    pub fn add(&mut self, role: Role, source: StoredMap) {
+    pub(super) fn add(&mut self, role: Role, source: StoredMap) {
         self.all.push((role, source));
     }
 
     /// Records a picture of `size` whose map may be a constant: the material is not smaller.
-    pub fn record_size(&mut self, size: [usize; 2]) {
+    pub(super) fn record_size(&mut self, size: [usize; 2]) {
         if size[0] * size[1] > self.extent[0] * self.extent[1] {
             self.extent = size;
         }
     }
 
-    pub fn has(&self, role: Role) -> bool {
+    pub(super) fn has(&self, role: Role) -> bool {
         self.all.iter().any(|(r, _)| *r == role)
     }
 
     /// Replaces the picture of a role; diffuse and base colour replace each other.
-    pub fn replace(&mut self, role: Role, source: StoredMap) {
+    pub(super) fn replace(&mut self, role: Role, source: StoredMap) {
         let colours = [Role::Base, Role::Diffuse];
         self.all.retain(|(r, _)| *r != role && !(colours.contains(r) && colours.contains(&role)));
         self.all.push((role, source));
@@ -101,7 +101,7 @@ impl Pictures {
     ///
     /// # Errors
     /// [`Error::NotAMaterial`] without a colour or without roughness.
-    pub fn assemble(
+    pub(super) fn assemble(
         mut self,
         path: &Path,
         name: String,

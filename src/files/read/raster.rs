@@ -4,7 +4,7 @@ use super::samples::Samples;
 
 /// A picture: one plane for each channel, row 0 on top. Alpha is kept apart.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Raster {
+pub(crate) struct Raster {
     pub width: usize,
     pub height: usize,
     /// How the file stores a sample, for people: "8-bit", "half".
@@ -17,7 +17,7 @@ pub struct Raster {
 
 impl Raster {
     /// The part of `size` (width, height) whose top left corner is at `corner` (column, row).
-    pub fn crop(&self, corner: [usize; 2], size: [usize; 2]) -> Self {
+    pub(crate) fn crop(&self, corner: [usize; 2], size: [usize; 2]) -> Self {
         let cut = |plane: &Samples| plane.crop(self.width, corner, size);
         Self {
             width: size[0],
@@ -29,27 +29,27 @@ impl Raster {
     }
 
     /// Only channel number `index`.
-    pub fn channel(&self, index: usize) -> Self {
+    pub(crate) fn channel(&self, index: usize) -> Self {
         let channels = self.channels.get(index).or(self.channels.last()).cloned();
         Self { channels: channels.into_iter().collect(), ..self.without_samples() }
     }
 
-    pub fn size(&self) -> [usize; 2] {
+    pub(crate) fn size(&self) -> [usize; 2] {
         [self.width, self.height]
     }
 
     /// The channels at `index`, as many as there are; gray stands for all three.
-    pub fn rgb(&self, index: usize) -> [f64; 3] {
+    pub(crate) fn rgb(&self, index: usize) -> [f64; 3] {
         let last = self.channels.len() - 1;
         [0, 1, 2].map(|c| self.channels[last.min(c)].at(index))
     }
 
-    pub fn is_float(&self) -> bool {
+    pub(crate) fn is_float(&self) -> bool {
         self.channels.iter().any(Samples::is_float)
     }
 
     /// Places all over the picture, about 16,000 at most, evenly.
-    pub fn sampled(&self) -> impl Iterator<Item = usize> + use<> {
+    pub(crate) fn sampled(&self) -> impl Iterator<Item = usize> + use<> {
         const MOST: usize = 1 << 14;
         let count = self.width * self.height;
         // Odd, so that a picture whose width is a power of two is not seen in columns only.
@@ -58,23 +58,28 @@ impl Raster {
     }
 
     /// `plane`, of the same size.
-    pub fn of(&self, plane: Samples) -> Self {
+    pub(crate) fn of(&self, plane: Samples) -> Self {
         Self { channels: vec![plane], ..self.without_samples() }
     }
 
     /// Size and depth alone.
-    pub fn without_samples(&self) -> Self {
+    pub(crate) fn without_samples(&self) -> Self {
         Self { channels: Vec::new(), alpha: None, ..*self }
     }
 
     /// Of 1 to 4 channels; the last of 2 or 4 is alpha, and forgotten where it is opaque everywhere.
-    pub fn with_alpha(width: usize, height: usize, depth: &'static str, mut channels: Vec<Samples>) -> Self {
+    pub(crate) fn with_alpha(
+        width: usize,
+        height: usize,
+        depth: &'static str,
+        mut channels: Vec<Samples>,
+    ) -> Self {
         let alpha = if channels.len().is_multiple_of(2) { channels.pop() } else { None };
         Self { width, height, depth, channels, alpha: alpha.filter(|alpha| !alpha.is_all(1.0)) }
     }
 
     /// Every number of the channels times a factor, one for each; as it is where all are 1.
-    pub fn scaled(self, factors: &[f32]) -> Self {
+    pub(crate) fn scaled(self, factors: &[f32]) -> Self {
         if factors.iter().all(|&factor| factor == 1.0) {
             return self;
         }
@@ -85,7 +90,7 @@ impl Raster {
     }
 
     /// The picture as it is seen whose rows and columns are stored in the TIFF `orientation` (1 to 8).
-    pub fn oriented(self, orientation: u16) -> Self {
+    pub(crate) fn oriented(self, orientation: u16) -> Self {
         let (mirrored, upset) = (matches!(orientation, 2 | 3 | 6 | 7), matches!(orientation, 3 | 4 | 7 | 8));
         let turned = matches!(orientation, 5..=8);
         if !(mirrored || upset || turned) {
@@ -104,7 +109,7 @@ impl Raster {
     }
 
     /// A single texel of the given channels.
-    pub fn constant(depth: &'static str, values: &[f32]) -> Self {
+    pub(crate) fn constant(depth: &'static str, values: &[f32]) -> Self {
         let channels = values.iter().map(|&value| Samples::floats(vec![value])).collect();
         Self { width: 1, height: 1, depth, channels, alpha: None }
     }

@@ -13,7 +13,7 @@ const CHUNK: usize = 1 << 16;
 
 /// One channel of a picture, row 0 on top.
 #[derive(Clone, Debug)]
-pub struct Samples {
+pub(crate) struct Samples {
     buffer: Buffer,
     view: View,
 }
@@ -28,7 +28,7 @@ impl PartialEq for Samples {
 
 impl Samples {
     /// The `count` channels of pixels whose samples lie beside one another.
-    pub fn interleaved(samples: impl Into<Buffer>, count: usize) -> Vec<Self> {
+    pub(crate) fn interleaved(samples: impl Into<Buffer>, count: usize) -> Vec<Self> {
         let buffer = samples.into();
         let texels = buffer.len() / count;
         let channel = |first| {
@@ -39,7 +39,7 @@ impl Samples {
     }
 
     /// The `count` channels that lie one behind another.
-    pub fn planar(samples: impl Into<Buffer>, count: usize) -> Vec<Self> {
+    pub(crate) fn planar(samples: impl Into<Buffer>, count: usize) -> Vec<Self> {
         let buffer = samples.into();
         let texels = buffer.len() / count;
         let channel = |index| {
@@ -50,18 +50,18 @@ impl Samples {
     }
 
     /// A channel of numbers that stand for themselves.
-    pub fn floats(values: Vec<f32>) -> Self {
+    pub(crate) fn floats(values: Vec<f32>) -> Self {
         let count = values.len();
         let view = View { first: 0, step: 1, stride: count, width: count, count };
         Self { buffer: values.into(), view }
     }
 
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.view.count
     }
 
     /// The number that sample `index` stands for: an integer as a fraction of the largest one.
-    pub fn at(&self, index: usize) -> f64 {
+    pub(crate) fn at(&self, index: usize) -> f64 {
         let place = self.view.place(index);
         match &self.buffer {
             Buffer::Bytes(all) => f64::from(all[place]) / 255.0,
@@ -71,7 +71,7 @@ impl Samples {
     }
 
     /// Sample `index` as it is stored, an integer as such.
-    pub fn stored(&self, index: usize) -> f64 {
+    pub(crate) fn stored(&self, index: usize) -> f64 {
         let place = self.view.place(index);
         match &self.buffer {
             Buffer::Bytes(all) => f64::from(all[place]),
@@ -81,7 +81,7 @@ impl Samples {
     }
 
     /// What stands for 1.
-    pub fn top(&self) -> f64 {
+    pub(crate) fn top(&self) -> f64 {
         match &self.buffer {
             Buffer::Bytes(_) => 255.0,
             Buffer::Words(_) => 65_535.0,
@@ -89,17 +89,17 @@ impl Samples {
         }
     }
 
-    pub fn is_float(&self) -> bool {
+    pub(crate) fn is_float(&self) -> bool {
         matches!(self.buffer, Buffer::Floats(_))
     }
 
     /// Whether every sample stands for `value`.
-    pub fn is_all(&self, value: f64) -> bool {
+    pub(crate) fn is_all(&self, value: f64) -> bool {
         self.is_all_stored(value * self.top())
     }
 
     /// Whether all samples are the same.
-    pub fn is_constant(&self) -> bool {
+    pub(crate) fn is_constant(&self) -> bool {
         self.len() == 0 || self.is_all_stored(self.stored(0))
     }
 
@@ -128,7 +128,7 @@ impl Samples {
     }
 
     /// `of` every number, on all cores; each possible integer is computed once.
-    pub fn decoded<T: Real>(&self, of: impl Fn(f64) -> f64 + Sync) -> Vec<T> {
+    pub(crate) fn decoded<T: Real>(&self, of: impl Fn(f64) -> f64 + Sync) -> Vec<T> {
         match &self.buffer {
             Buffer::Bytes(all) => {
                 let table = of_bytes(of);
@@ -150,7 +150,10 @@ impl Samples {
     }
 
     /// As [`decoded`](Self::decoded) of three channels; in one pass where they are those of one picture.
-    pub fn decoded_three<T: Real>(channels: [&Self; 3], of: impl Fn(f64) -> f64 + Sync) -> [Vec<T>; 3] {
+    pub(crate) fn decoded_three<T: Real>(
+        channels: [&Self; 3],
+        of: impl Fn(f64) -> f64 + Sync,
+    ) -> [Vec<T>; 3] {
         if !Self::are_one_picture(channels) {
             return channels.map(|channel| channel.decoded(&of));
         }
@@ -188,7 +191,7 @@ impl Samples {
     }
 
     /// Puts the numbers from sample `start` on into `out`.
-    pub fn read(&self, start: usize, out: &mut [f64]) {
+    pub(crate) fn read(&self, start: usize, out: &mut [f64]) {
         match &self.buffer {
             Buffer::Bytes(all) => self.view.zip(all, start, out, |code| BYTES[usize::from(code)]),
             Buffer::Words(all) => self.view.zip(all, start, out, |code| f64::from(code) / 65_535.0),
@@ -197,7 +200,7 @@ impl Samples {
     }
 
     /// The NaN and infinite samples with their numbers.
-    pub fn not_finite(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
+    pub(crate) fn not_finite(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
         let all = match &self.buffer {
             Buffer::Floats(all) => {
                 self.scanned(all, |chunk| chunk.iter().any(|v| !v.is_finite())).any(|any| any).then_some(all)
@@ -209,7 +212,7 @@ impl Samples {
     }
 
     /// How many finite samples lie outside [0, 1], and the range from the least (or 0) to the largest (or 1).
-    pub fn outside_unit(&self) -> Outside {
+    pub(crate) fn outside_unit(&self) -> Outside {
         match &self.buffer {
             Buffer::Floats(all) => self
                 .scanned(all, |chunk| {
@@ -235,7 +238,7 @@ impl Samples {
     }
 
     /// Puts the samples from number `start` on into `out` as they are stored.
-    pub fn read_stored(&self, start: usize, out: &mut [f32]) {
+    pub(crate) fn read_stored(&self, start: usize, out: &mut [f32]) {
         match &self.buffer {
             Buffer::Bytes(all) => self.view.zip(all, start, out, f32::from),
             Buffer::Words(all) => self.view.zip(all, start, out, f32::from),
@@ -244,7 +247,7 @@ impl Samples {
     }
 
     /// `count` samples, each from the place that `place` returns.
-    pub fn picked(&self, count: usize, place: impl Fn(usize) -> usize) -> Self {
+    pub(crate) fn picked(&self, count: usize, place: impl Fn(usize) -> usize) -> Self {
         fn pick<S: Copy>(all: &[S], places: impl Iterator<Item = usize>) -> Vec<S> {
             places.map(|place| all[place]).collect()
         }
@@ -258,7 +261,7 @@ impl Samples {
     }
 
     /// The part of `size` whose top left corner is at `corner`, of a channel of rows of `width` samples.
-    pub fn crop(&self, width: usize, [left, top]: [usize; 2], [w, h]: [usize; 2]) -> Self {
+    pub(crate) fn crop(&self, width: usize, [left, top]: [usize; 2], [w, h]: [usize; 2]) -> Self {
         let Self { buffer, view } = self;
         let stride = if view.is_whole() { width * view.step } else { view.stride };
         let first = view.place(top * width + left);

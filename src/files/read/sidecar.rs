@@ -217,7 +217,7 @@ fn is_sidecar(path: &Path) -> bool {
 ///
 /// # Errors
 /// [`Error::Unreadable`] without its folder, [`Error::NotAMaterial`] where several files could be meant.
-pub fn material_of(path: &Path) -> Result<PathBuf, Error> {
+pub(super) fn material_of(path: &Path) -> Result<PathBuf, Error> {
     if !is_sidecar(path) {
         return Ok(path.to_owned());
     }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::samples::Samples;
 
 /// The largest difference between the channels of a texel.
-pub fn spread(channels: &[Samples]) -> f64 {
+pub(super) fn spread(channels: &[Samples]) -> f64 {
     const CHUNK: usize = 1 << 16;
     /// Texels that stay in the nearest cache.
     const FEW: usize = 1 << 9;

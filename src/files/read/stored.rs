@@ -14,7 +14,7 @@ use crate::error::Error;
 
 /// A map as stored.
 #[derive(Clone, Debug)]
-pub struct StoredMap {
+pub(crate) struct StoredMap {
     pub raster: Raster,
     pub file: PathBuf,
     /// Layer, channel or tile within the file, for people; may be empty.
@@ -23,19 +23,19 @@ pub struct StoredMap {
 
 impl StoredMap {
     /// The note that a workflow does not use this map.
-    pub fn unused(&self, workflow: Workflow) -> Note {
+    pub(crate) fn unused(&self, workflow: Workflow) -> Note {
         let part = if self.part.is_empty() { String::new() } else { format!(", {}", self.part) };
         Note::Unused { what: format!("{}{part}", self.file.display()), why: Unused::Workflow(workflow) }
     }
 
     /// A map of one value that stands in the file `path`.
-    pub fn constant(path: &Path, values: &[f32]) -> Self {
+    pub(crate) fn constant(path: &Path, values: &[f32]) -> Self {
         let raster = Raster::constant("value", values);
         Self { raster, file: path.to_owned(), part: "value".to_owned() }
     }
 
     /// Colours stored as `space` times linear factors, stored likewise.
-    pub fn times(self, factor: [f32; 3], space: Albedo) -> Self {
+    pub(crate) fn times(self, factor: [f32; 3], space: Albedo) -> Self {
         if factor == [1.0; 3] {
             return self;
         }
@@ -49,7 +49,7 @@ impl StoredMap {
     }
 
     /// Takes the samples out, so that they can be dropped; size and names stay.
-    pub fn take(&mut self) -> Self {
+    pub(crate) fn take(&mut self) -> Self {
         let left = self.raster.without_samples();
         Self {
             raster: std::mem::replace(&mut self.raster, left),
@@ -61,7 +61,7 @@ impl StoredMap {
 
 /// What the files tell about stored values. `None` where they tell nothing.
 #[derive(Clone, Debug, Default)]
-pub struct Inferences {
+pub(crate) struct Inferences {
     pub albedo: Inferred<Albedo>,
     pub specular: Inferred<Albedo>,
     pub roughness: Inferred<Roughness>,
@@ -70,11 +70,11 @@ pub struct Inferences {
 }
 
 /// A choice with its reason and certainty, if there is any.
-pub type Inferred<T> = Option<(T, Reason, Certainty)>;
+pub(super) type Inferred<T> = Option<(T, Reason, Certainty)>;
 
 /// The maps of a material as stored, and what is known about them.
 #[derive(Debug)]
-pub struct StoredMaterial {
+pub(crate) struct StoredMaterial {
     pub name: String,
     /// (width, height) of the largest picture, also of one whose map is a constant.
     pub extent: [usize; 2],
@@ -96,7 +96,7 @@ pub struct StoredMaterial {
 
 impl StoredMaterial {
     /// Replaces the map of a role.
-    pub fn replace(&mut self, role: Role, source: StoredMap) {
+    pub(crate) fn replace(&mut self, role: Role, source: StoredMap) {
         self.files.push(source.file.clone());
         self.files.sort();
         self.files.dedup();
@@ -110,7 +110,7 @@ impl StoredMaterial {
     }
 
     /// Every map with its role.
-    pub fn sources(&self) -> Vec<(Role, &StoredMap)> {
+    pub(crate) fn sources(&self) -> Vec<(Role, &StoredMap)> {
         let colour = if self.metallic.is_some() { Role::Base } else { Role::Diffuse };
         let optional = [
             (Role::Normal, &self.normal),
@@ -127,7 +127,7 @@ impl StoredMaterial {
     ///
     /// # Errors
     /// [`Error::MapSizesDiffer`] where maps have another shape.
-    pub fn common_size(&mut self) -> Result<[usize; 2], Error> {
+    pub(crate) fn common_size(&mut self) -> Result<[usize; 2], Error> {
         let all: Vec<_> = self
             .sources()
             .into_iter()

@@ -6,7 +6,7 @@ const STEPS: usize = 1 << 12;
 /// An encoding, and the integers that stand for values in it.
 ///
 /// The integer of each value is `round(top * encoded(value))`; powers are looked up.
-pub struct Curve {
+pub(super) struct Curve {
     encoded: Box<dyn Fn(f64) -> f64 + Sync>,
     top: f64,
     table: Option<Table>,
@@ -20,12 +20,12 @@ struct Table {
 
 impl Curve {
     /// Of values that are stored as they are, or by an encoding that costs no more than arithmetic.
-    pub fn plain(top: u16, encoded: impl Fn(f64) -> f64 + Sync + 'static) -> Self {
+    pub(super) fn plain(top: u16, encoded: impl Fn(f64) -> f64 + Sync + 'static) -> Self {
         Self { encoded: Box::new(encoded), top: f64::from(top), table: None }
     }
 
     /// Of an `encoded` that rises, with its inverse.
-    pub fn rising(
+    pub(super) fn rising(
         top: u16,
         encoded: impl Fn(f64) -> f64 + Sync + 'static,
         decoded: impl Fn(f64) -> f64,
@@ -45,7 +45,7 @@ impl Curve {
     }
 
     /// The integer of `value`, which lies in [0, 1].
-    pub fn code(&self, value: f64) -> u16 {
+    pub(super) fn code(&self, value: f64) -> u16 {
         match &self.table {
             Some(Table { from, first }) => {
                 let mut code = first[(value * STEPS as f64) as usize];

@@ -5,7 +5,7 @@ const DIELECTRIC: f64 = 0.04;
 
 /// Base colour b and metallic m for diffuse d and specular s, all of [0, 1]: the inverse of d = b (1 - m) and
 /// s = 0.04 (1 - m) + b m, exact for what these made and in the mean of the channels for all else.
-pub fn base_and_metallic(diffuse: [f64; 3], specular: [f64; 3]) -> ([f64; 3], f64) {
+pub(super) fn base_and_metallic(diffuse: [f64; 3], specular: [f64; 3]) -> ([f64; 3], f64) {
     let mean = |rgb: [f64; 3]| rgb.iter().sum::<f64>() / 3.0;
     let left = left(mean(diffuse), mean(specular));
     let base = |c: usize| (diffuse[c] + specular[c] - DIELECTRIC * left).clamp(0.0, 1.0);

@@ -30,7 +30,7 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    pub fn new(gpu: &Gpu) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu) -> Result<Self, Error> {
         scoped(&gpu.device, "compiling the loss", || {
             let storage = |read_only| buffer_type(BufferBindingType::Storage { read_only });
             let uniform = buffer_type(BufferBindingType::Uniform);
@@ -44,7 +44,7 @@ impl Passes {
     }
 
     /// Starts to sum over the band in `buffers`, of `blocks` blocks, for each of `scenes`.
-    pub fn submit(
+    pub(super) fn submit(
         &self,
         gpu: &Gpu,
         buffers: &Buffers,
@@ -78,7 +78,7 @@ pub(super) struct Submitted {
 
 impl Submitted {
     /// The sums of the blocks, by scene, prediction and block, once they are there.
-    pub fn wait(self, gpu: &Gpu) -> Result<Vec<LogSum>, Error> {
+    pub(super) fn wait(self, gpu: &Gpu) -> Result<Vec<LogSum>, Error> {
         let ready = PollType::Wait { submission_index: Some(self.index), timeout: None };
         Ok(bytemuck::pod_collect_to_vec(&read_after(gpu, &self.result, ready)?))
     }
@@ -97,7 +97,7 @@ pub(super) struct Buffers {
 
 impl Buffers {
     /// For a ground truth and predictions, `materials` in all.
-    pub fn new(gpu: &Gpu, passes: &Passes, plan: &Plan, materials: usize) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, passes: &Passes, plan: &Plan, materials: usize) -> Result<Self, Error> {
         let size = counted(gpu, plan.size)?;
         let predictions = materials - 1;
         let sums = plan.scenes_per_step * predictions * plan.blocks() * size_of::<LogSum>();
@@ -116,7 +116,7 @@ impl Buffers {
     }
 
     /// Sends `texels` of the materials, the ground truth first.
-    pub fn upload(
+    pub(super) fn upload(
         &self,
         gpu: &Gpu,
         materials: &[&Material<f32>],

@@ -31,7 +31,7 @@ pub(super) struct Plan {
 
 impl Plan {
     /// For materials of `size`, of which `predictions` are compared; `limit` is the largest binding in bytes.
-    pub fn new(limit: u64, size: [usize; 2], scenes: usize, predictions: usize) -> Self {
+    pub(super) fn new(limit: u64, size: [usize; 2], scenes: usize, predictions: usize) -> Self {
         let materials = predictions + 1;
         let block_bytes = materials * PLANES * size_of::<f32>() * TEXELS_PER_BLOCK;
         let that_fit = usize::try_from(limit).unwrap_or(usize::MAX) / block_bytes;
@@ -46,21 +46,21 @@ impl Plan {
     }
 
     /// The texels of each band.
-    pub fn bands(&self) -> impl Iterator<Item = Range<usize>> {
+    pub(super) fn bands(&self) -> impl Iterator<Item = Range<usize>> {
         pieces(self.size[0] * self.size[1], self.texels_per_band)
     }
 
     /// The scenes of each step of a band.
-    pub fn scenes(&self) -> impl Iterator<Item = Range<usize>> {
+    pub(super) fn scenes(&self) -> impl Iterator<Item = Range<usize>> {
         pieces(self.scenes, self.scenes_per_step)
     }
 
-    pub fn steps(&self) -> u64 {
+    pub(super) fn steps(&self) -> u64 {
         (self.bands().count() * self.scenes().count()) as u64
     }
 
     /// Blocks of the largest band.
-    pub fn blocks(&self) -> usize {
+    pub(super) fn blocks(&self) -> usize {
         self.texels_per_band / TEXELS_PER_BLOCK
     }
 }

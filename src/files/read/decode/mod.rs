@@ -9,7 +9,7 @@ mod head;
 mod known;
 mod ktx2;
 mod numpy;
-pub mod panics;
+pub(super) mod panics;
 mod picture;
 mod place;
 mod tiff;
@@ -21,20 +21,20 @@ use std::path::Path;
 use super::note::{Note, Subject};
 use super::raster::Raster;
 use crate::error::Error;
-pub use place::{Decoded, Layer};
+pub(super) use place::{Decoded, Layer};
 use place::{Place, alone};
 
 /// Decodes the file `path`, which is expected to be `what`.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
-pub fn decode_file(path: &Path, what: Subject) -> Result<Decoded, Error> {
+pub(super) fn decode_file(path: &Path, what: Subject) -> Result<Decoded, Error> {
     let file = File::open(path).map_err(|source| Error::unreadable(path, source))?;
     decode(BufReader::new(file), path, what)
 }
 
 /// As [`decode_file`], from what `reader` gives; `path` is the name for messages.
-pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: Subject) -> Result<Decoded, Error> {
+pub(super) fn decode(mut reader: impl BufRead + Seek, path: &Path, what: Subject) -> Result<Decoded, Error> {
     let place = Place { path, what };
     let head = reader.fill_buf().map_err(|source| Error::unreadable(path, source))?;
     let begins = |magic: &[u8]| head.starts_with(magic);
@@ -59,7 +59,7 @@ pub fn decode(mut reader: impl BufRead + Seek, path: &Path, what: Subject) -> Re
 ///
 /// # Errors
 /// As [`decode_file`]; [`Error::BadImage`] where there are several.
-pub fn decode_one(path: &Path, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
+pub(super) fn decode_one(path: &Path, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
     let Decoded { mut layers, notes, .. } = decode_file(path, what)?;
     match layers.pop() {
         Some(only) if layers.is_empty() => Ok((only.raster, notes)),

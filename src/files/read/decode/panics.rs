@@ -9,7 +9,7 @@ thread_local! {
 }
 
 /// What `work` returns, or an error where it panics, without a word on stderr.
-pub fn caught<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
+pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> std::thread::Result<T> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let usual = panic::take_hook();

@@ -19,7 +19,7 @@ pub(crate) const FORMATS: &str = "PNG, TIFF, JPEG, TGA, BMP, WebP, DDS, KTX2, HD
 
 /// One picture of a file: of a layered file a layer, of an archive an array.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Layer {
+pub(crate) struct Layer {
     /// Empty for the only picture of a file.
     pub name: String,
     pub raster: Raster,
@@ -27,7 +27,7 @@ pub struct Layer {
 
 /// What a file holds.
 #[derive(Debug, Default)]
-pub struct Decoded {
+pub(crate) struct Decoded {
     pub layers: Vec<Layer>,
     /// Whether this program wrote the file: then it means what this program means.
     pub native: bool,
@@ -45,7 +45,7 @@ pub(crate) struct Place<'a> {
 }
 
 impl Place<'_> {
-    pub fn bad(self, problem: impl AsRef<str>, remedy: &str) -> Error {
+    pub(super) fn bad(self, problem: impl AsRef<str>, remedy: &str) -> Error {
         Error::BadImage {
             path: self.path.to_owned(),
             problem: format!("{}: {}", self.what, problem.as_ref()),
@@ -54,12 +54,12 @@ impl Place<'_> {
     }
 
     /// An error of a library that decodes `format`.
-    pub fn invalid(self, format: &str, found: impl std::fmt::Display) -> Error {
+    pub(super) fn invalid(self, format: &str, found: impl std::fmt::Display) -> Error {
         self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
     }
 
     /// Whether the picture is known to hold data, for which colour spaces mean nothing.
-    pub fn is_data(self) -> bool {
+    pub(super) fn is_data(self) -> bool {
         match self.what {
             Subject::Map(role) => {
                 role.packing().is_some() || matches!(role, Role::Normal | Role::Roughness | Role::Metallic)
@@ -68,12 +68,12 @@ impl Place<'_> {
         }
     }
 
-    pub fn truncated(self) -> Error {
+    pub(super) fn truncated(self) -> Error {
         self.bad("expected the whole image, found the end of the file within it", "copy the file again")
     }
 
     /// Refuses sizes before anything is allocated: `bytes` is what all samples take.
-    pub fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<(), Error> {
+    pub(super) fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<(), Error> {
         if width == 0 || height == 0 {
             return Err(
                 self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again")

@@ -14,14 +14,14 @@ use crate::progress::Progress;
 type Wanted = (PathBuf, Subject);
 
 /// Pictures that have been decoded. One that cannot be is decoded again when it is asked for, to say why.
-pub struct Ahead(Vec<(Wanted, (Raster, Vec<Note>))>);
+pub(crate) struct Ahead(Vec<(Wanted, (Raster, Vec<Note>))>);
 
 impl Ahead {
     /// Decodes the `wanted` pictures; each is one step of `progress`.
     ///
     /// # Errors
     /// [`Error::Cancelled`].
-    pub fn of(mut wanted: Vec<Wanted>, progress: &Progress) -> Result<Self, Error> {
+    pub(crate) fn of(mut wanted: Vec<Wanted>, progress: &Progress) -> Result<Self, Error> {
         let mut seen: Vec<Wanted> = Vec::new();
         wanted.retain(|one| {
             let is_new = !seen.contains(one);
@@ -42,7 +42,7 @@ impl Ahead {
     ///
     /// # Errors
     /// As [`decode_one`].
-    pub fn picture(&self, path: &Path, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
+    pub(crate) fn picture(&self, path: &Path, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
         let is_it = |((file, subject), _): &&(Wanted, _)| file == path && *subject == what;
         match self.0.iter().find(is_it) {
             Some((_, decoded)) => Ok(decoded.clone()),

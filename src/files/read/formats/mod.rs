@@ -1,8 +1,8 @@
 //! Files that describe materials and name their textures.
 
-pub mod ahead;
-pub mod gltf;
-pub mod mtl;
-pub mod mtlx;
+pub(super) mod ahead;
+pub(super) mod gltf;
+pub(super) mod mtl;
+pub(super) mod mtlx;
 mod principled;
 mod scaled_normals;

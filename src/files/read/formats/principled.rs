@@ -14,7 +14,7 @@ use crate::material::resize::{self, Filter};
 
 /// An input of a surface, linear: one value, or one for each texel. Of one channel or three.
 #[derive(Clone, Debug)]
-pub struct Field {
+pub(super) struct Field {
     size: [usize; 2],
     planes: Vec<Vec<f32>>,
     /// The file that it comes from.
@@ -22,12 +22,12 @@ pub struct Field {
 }
 
 impl Field {
-    pub fn constant(values: &[f32]) -> Self {
+    pub(super) fn constant(values: &[f32]) -> Self {
         Self { size: [1, 1], planes: values.iter().map(|&v| vec![v]).collect(), whose: String::new() }
     }
 
     /// The channels of a map, as colours stored as `space`.
-    pub fn of(source: &StoredMap, space: Albedo) -> Self {
+    pub(super) fn of(source: &StoredMap, space: Albedo) -> Self {
         let value = |v: f64| linear(if v.is_finite() { v.clamp(0.0, 1.0) } else { 0.0 }, space);
         let planes = source.raster.channels.iter().map(|plane| plane.decoded(value)).collect();
         Self { size: source.raster.size(), planes, whose: source.file.display().to_string() }
@@ -37,7 +37,7 @@ impl Field {
     ///
     /// # Errors
     /// [`Error::MapSizesDiffer`] where the two have different shapes.
-    pub fn times(self, other: Self) -> Result<Self, Error> {
+    pub(super) fn times(self, other: Self) -> Result<Self, Error> {
         let mut both = [self, other];
         let size = common_size(&mut both)?;
         let [a, b] = &both;
@@ -56,13 +56,13 @@ impl Field {
 
     /// With every number at most 1.
     #[must_use]
-    pub fn at_most_one(mut self) -> Self {
+    pub(super) fn at_most_one(mut self) -> Self {
         self.planes.iter_mut().flatten().for_each(|value| *value = value.min(1.0));
         self
     }
 
     /// Whether it is `value` everywhere.
-    pub fn is(&self, value: f32) -> bool {
+    pub(super) fn is(&self, value: f32) -> bool {
         self.size == [1, 1] && self.planes.iter().all(|plane| (plane[0] - value).abs() < 1e-6)
     }
 
@@ -71,7 +71,7 @@ impl Field {
     }
 
     /// As a map that `part` of the file `path` stands for.
-    pub fn into_source(self, path: &Path, part: &str) -> StoredMap {
+    pub(super) fn into_source(self, path: &Path, part: &str) -> StoredMap {
         let [width, height] = self.size;
         let channels = self.planes.into_iter().map(Samples::floats).collect();
         let raster = Raster { width, height, depth: "float", channels, alpha: None };
@@ -102,7 +102,7 @@ fn common_size(fields: &mut [Field]) -> Result<[usize; 2], Error> {
 }
 
 /// Reflectance at normal incidence of a dielectric of the refractive index `ior`; 1 for an index of 0, as glTF has it.
-pub fn reflectance(ior: f32) -> f32 {
+pub(super) fn reflectance(ior: f32) -> f32 {
     ((ior - 1.0) / (ior + 1.0)).powi(2)
 }
 
@@ -111,7 +111,7 @@ pub fn reflectance(ior: f32) -> f32 {
 ///
 /// # Errors
 /// [`Error::MapSizesDiffer`].
-pub fn separated(base: Field, metallic: Field, dielectric: Field) -> Result<[Field; 2], Error> {
+pub(super) fn separated(base: Field, metallic: Field, dielectric: Field) -> Result<[Field; 2], Error> {
     let mut all = [base, metallic, dielectric];
     let size = common_size(&mut all)?;
     let [base, metallic, dielectric] = &all;

@@ -7,7 +7,7 @@ use crate::files::read::samples::Samples;
 use crate::files::read::stored::StoredMap;
 
 /// Normals stored as (n + 1) / 2 with x and y times `scale`, of length 1 again, stored likewise as floats.
-pub fn scaled(source: StoredMap, scale: f64) -> StoredMap {
+pub(super) fn scaled(source: StoredMap, scale: f64) -> StoredMap {
     if scale == 1.0 || source.raster.channels.len() < 3 {
         return source;
     }

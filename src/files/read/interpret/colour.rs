@@ -74,7 +74,7 @@ fn likelihood(value: f64, [mean, spread]: [f64; 2]) -> f64 {
 ///
 /// They differ only where evidence about diffuse alone says so. `roughness` is what the names say of it: glossiness is
 /// how artists name it.
-pub fn weigh(
+pub(crate) fn weigh(
     diffuse: &StoredMap,
     specular: &StoredMap,
     roughness: Option<Roughness>,
@@ -95,7 +95,7 @@ pub fn weigh(
 }
 
 /// The encoding of a colour without specular, by convention; unsure where it is so dark if encoded that it may be linear.
-pub fn alone(colour: &Raster) -> (Albedo, Reason, Certainty) {
+pub(crate) fn alone(colour: &Raster) -> (Albedo, Reason, Certainty) {
     match dark(colour, |_| false).filter(|dark| dark.log_odds() >= DARK) {
         Some(dark) => {
             let evidence = vec![Evidence::Prior, dark];

@@ -7,7 +7,7 @@ use crate::files::read::reason::Reason;
 use crate::files::read::stored::Inferred;
 
 /// What was specified, else what was inferred, else what is `detected`; recorded.
-pub fn decide<T: Copy + Display>(
+pub(crate) fn decide<T: Copy + Display>(
     assumptions: &mut Vec<Assumption>,
     what: What,
     specified: Option<T>,

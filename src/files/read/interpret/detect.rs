@@ -7,10 +7,10 @@ use crate::files::read::raster::Raster;
 /// How far the length of a normal may be from 1 for a pixel to count as one.
 const LENGTH: f64 = 0.12;
 /// Below this share a tile is no normal map.
-pub const NORMAL_AT_LEAST: f64 = 0.6;
+pub(crate) const NORMAL_AT_LEAST: f64 = 0.6;
 
 /// Share of the pixels, in [0, 1], that look like a unit normal stored as (n + 1) / 2 and pointing up.
-pub fn normal_score(raster: &Raster) -> f64 {
+pub(crate) fn normal_score(raster: &Raster) -> f64 {
     if raster.channels.len() < 3 {
         return 0.0;
     }
@@ -18,7 +18,7 @@ pub fn normal_score(raster: &Raster) -> f64 {
 }
 
 /// As [`normal_score`], of normals stored as they are.
-pub fn signed_normal_score(raster: &Raster) -> f64 {
+pub(crate) fn signed_normal_score(raster: &Raster) -> f64 {
     if raster.channels.len() < 3 { 0.0 } else { score_of(raster, |xyz| xyz) }
 }
 
@@ -35,7 +35,7 @@ fn score_of(raster: &Raster, normal: impl Fn([f64; 3]) -> [f64; 3]) -> f64 {
 /// where it points down. `None` for a flat map, and one of fewer than 3 rows or columns.
 ///
 /// `normal` is the vector at an index, y as stored.
-pub fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 3] + Sync) -> Option<f64> {
+pub(crate) fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 3] + Sync) -> Option<f64> {
     const MOST: usize = 256;
     let steps = [width, height].map(|side| (side / MOST).max(1));
     let slopes = |index: usize| {
@@ -65,7 +65,7 @@ pub fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 3] + Sy
 }
 
 /// Median over pixels of the least of red, green and blue: 0.04 in a specular map of dielectrics.
-pub fn specular_median(raster: &Raster) -> f64 {
+pub(crate) fn specular_median(raster: &Raster) -> f64 {
     let least = |index| raster.rgb(index).into_iter().fold(f64::INFINITY, f64::min);
     let mut values: Vec<f64> = raster.sampled().map(least).collect();
     let middle = values.len() / 2;

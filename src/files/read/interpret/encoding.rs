@@ -32,7 +32,7 @@ const ROUNDING: f64 = 2.0 / 255.0;
 /// # Errors
 /// [`Error::NotFinite`] at NaN and infinity, [`Error::MapSizesDiffer`] where maps have another shape,
 /// [`Error::NotAMaterial`] where the normal map is gray.
-pub fn planes<T: Real>(
+pub(crate) fn planes<T: Real>(
     found: &mut StoredMaterial,
     options: &ReadOptions,
 ) -> Result<(Planes<T>, [usize; 2]), Error> {

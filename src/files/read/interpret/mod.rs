@@ -1,11 +1,11 @@
 //! From stored samples to the linear values of a material.
 
-pub mod colour;
-pub mod decide;
-pub mod detect;
-pub mod encoding;
-pub mod normals;
-pub mod report;
-pub mod transfer;
-pub mod values;
-pub mod workflow;
+pub(crate) mod colour;
+pub(crate) mod decide;
+pub(crate) mod detect;
+pub(crate) mod encoding;
+pub(crate) mod normals;
+pub(crate) mod report;
+pub(crate) mod transfer;
+pub(crate) mod values;
+pub(crate) mod workflow;

@@ -34,7 +34,7 @@ const STEEP: f64 = 0.05;
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where the map is gray.
-pub fn planes<T: Real>(
+pub(crate) fn planes<T: Real>(
     source: StoredMap,
     found: &mut StoredMaterial,
     options: &ReadOptions,
@@ -74,7 +74,7 @@ pub fn planes<T: Real>(
 }
 
 /// Normals of a material without a normal map.
-pub fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
+pub(crate) fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
     let missing = Assumption::new(What::Missing, "normal (0, 0, 1)", Reason::NoNormalMap, Certainty::Unsure);
     found.assumptions.push(missing);
     [T::zero(), T::zero(), T::one()].map(|value| vec![value; size[0] * size[1]])

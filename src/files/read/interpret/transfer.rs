@@ -6,7 +6,7 @@ use crate::files::read::options::{Albedo, Roughness};
 const DARK: f64 = 0.01;
 
 /// The reflectance, in [0, 1], that a stored `value` of [0, 1] stands for.
-pub fn linear(value: f64, albedo: Albedo) -> f64 {
+pub(crate) fn linear(value: f64, albedo: Albedo) -> f64 {
     match albedo {
         Albedo::Linear => value,
         Albedo::Srgb if value <= 0.040_45 => value / 12.92,
@@ -17,7 +17,7 @@ pub fn linear(value: f64, albedo: Albedo) -> f64 {
 }
 
 /// What stands for the reflectance `value` of [0, 1]: the inverse of [`linear`].
-pub fn encoded(value: f64, albedo: Albedo) -> f64 {
+pub(crate) fn encoded(value: f64, albedo: Albedo) -> f64 {
     match albedo {
         Albedo::Linear => value,
         Albedo::Srgb if value <= 0.003_130_8 => 12.92 * value,
@@ -28,7 +28,7 @@ pub fn encoded(value: f64, albedo: Albedo) -> f64 {
 }
 
 /// The roughness r that a stored `value` of [0, 1] stands for.
-pub fn roughness(value: f64, code: Roughness) -> f64 {
+pub(crate) fn roughness(value: f64, code: Roughness) -> f64 {
     match code {
         Roughness::R => value,
         Roughness::Gloss => 1.0 - value,
@@ -38,7 +38,7 @@ pub fn roughness(value: f64, code: Roughness) -> f64 {
 }
 
 /// What stands for the roughness `r`: the inverse of [`roughness`].
-pub fn encoded_roughness(r: f64, code: Roughness) -> f64 {
+pub(crate) fn encoded_roughness(r: f64, code: Roughness) -> f64 {
     match code {
         Roughness::R => r,
         Roughness::Gloss => 1.0 - r,

@@ -12,7 +12,7 @@ use crate::files::read::stored::{StoredMap, StoredMaterial};
 ///
 /// # Errors
 /// [`Error::NotFinite`].
-pub fn check(found: &mut StoredMaterial, options: &ReadOptions) -> Result<(), Error> {
+pub(crate) fn check(found: &mut StoredMaterial, options: &ReadOptions) -> Result<(), Error> {
     let mut replaced = Vec::new();
     for (map, source) in found.sources() {
         let count = NotFinite::of(source);
@@ -62,24 +62,24 @@ impl NotFinite {
 }
 
 /// `value`, or `instead` if it is NaN or infinite.
-pub fn finite(value: f64, instead: f64) -> f64 {
+pub(crate) fn finite(value: f64, instead: f64) -> f64 {
     if value.is_finite() { value } else { instead }
 }
 
 /// `value` in [0, 1], or `instead` of NaN and infinity.
-pub fn unit(value: f64, instead: f64) -> f64 {
+pub(crate) fn unit(value: f64, instead: f64) -> f64 {
     finite(value, instead).clamp(0.0, 1.0)
 }
 
 /// Values that lay outside [0, 1], how many for each map, and how far.
 #[derive(Debug, Default)]
-pub struct Clamped {
+pub(crate) struct Clamped {
     maps: Vec<(Role, Outside)>,
 }
 
 impl Clamped {
     /// Adds what lies outside [0, 1] in the map `map`.
-    pub fn add(&mut self, outside: Outside, map: Role) {
+    pub(crate) fn add(&mut self, outside: Outside, map: Role) {
         match self.maps.iter_mut().find(|(role, _)| *role == map) {
             Some((_, sum)) => *sum = sum.merged(outside),
             None if outside.count > 0 => self.maps.push((map, outside)),
@@ -88,7 +88,7 @@ impl Clamped {
     }
 
     /// Records what has been clamped.
-    pub fn record(self, found: &mut StoredMaterial) {
+    pub(crate) fn record(self, found: &mut StoredMaterial) {
         for (map, Outside { count, low, high }) in self.maps {
             let why = Reason::OutsideUnit { map, count, low, high };
             let clamped = Assumption::new(What::Values, "clamped to [0, 1]", why, Certainty::Unsure);

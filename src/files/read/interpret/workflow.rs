@@ -13,7 +13,7 @@ use crate::math::real::Real;
 const MOST_DIELECTRIC: f64 = 0.08;
 
 /// The linear planes of the reflectance.
-pub struct Maps<T> {
+pub(crate) struct Maps<T> {
     /// Diffuse, or the base colour where there is `metallic`.
     pub colour: [Vec<T>; 3],
     pub specular: Option<[Vec<T>; 3]>,
@@ -24,7 +24,7 @@ pub struct Maps<T> {
 
 impl<T: Real> Maps<T> {
     /// Diffuse and specular.
-    pub fn separated(
+    pub(crate) fn separated(
         self,
         size: [usize; 2],
         found: &mut StoredMaterial,
@@ -61,7 +61,7 @@ fn missing_specular(given: Option<Reflectance>) -> Assumption {
 }
 
 /// What a map of the specular level is read as.
-pub fn level_assumed(source: &StoredMap) -> Assumption {
+pub(crate) fn level_assumed(source: &StoredMap) -> Assumption {
     let why = Reason::SpecularLevel { file: source.file.clone() };
     Assumption::new(What::Specular, "0.08 times the level", why, Certainty::Likely)
 }
@@ -88,7 +88,7 @@ fn from_base<T: Real>(
 }
 
 /// d / (1 - s), at most 1, where the renderer that these maps were made for does not scale diffuse by (1 - s).
-pub fn unscale_diffuse<T: Real>(
+pub(crate) fn unscale_diffuse<T: Real>(
     diffuse: &mut [Vec<T>; 3],
     specular: &[Vec<T>; 3],
     found: &mut StoredMaterial,

@@ -11,7 +11,7 @@ const CONSTANT: f64 = 2.0 / 255.0;
 
 /// What the channels of a picture hold that is named after a gray map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Channels {
+pub(crate) enum Channels {
     /// The same, but for noise.
     Gray,
     /// Green roughness and blue metallic, as glTF packs them.
@@ -24,7 +24,7 @@ pub enum Channels {
 
 impl Channels {
     /// By the constancy and the differences of the channels.
-    pub fn of(raster: &Raster) -> Self {
+    pub(crate) fn of(raster: &Raster) -> Self {
         if raster.channels.len() < 3 || !differ(raster) {
             return Self::Gray;
         }
@@ -48,7 +48,7 @@ fn differ(raster: &Raster) -> bool {
 }
 
 /// Whether channel number `channel` is the same everywhere.
-pub fn is_constant(raster: &Raster, channel: usize) -> bool {
+pub(crate) fn is_constant(raster: &Raster, channel: usize) -> bool {
     let values = raster.sampled().map(|index| raster.rgb(index)[channel]);
     let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(v), high.max(v)));
     high - low <= CONSTANT

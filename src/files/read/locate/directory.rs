@@ -10,7 +10,7 @@ use crate::error::Error;
 const MOST_LISTED: usize = 12;
 
 /// The names of the visible folders in `folder`, sorted.
-pub fn folders(folder: &Path) -> Result<Vec<String>, Error> {
+pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, Error> {
     let unreadable = |source| Error::unreadable(folder, source);
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
@@ -28,7 +28,7 @@ pub fn folders(folder: &Path) -> Result<Vec<String>, Error> {
 /// The names of the visible files in `folder` that begin with `prefix` and whose next word begins there, sorted.
 ///
 /// Where there is no such folder, the error names `path`, which the user gave.
-pub fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Error> {
+pub(crate) fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Error> {
     let unreadable = |source| Error::unreadable(if folder.is_dir() { folder } else { path }, source);
     let prefix_words = words(prefix);
     let mut names = Vec::new();
@@ -53,7 +53,7 @@ fn is_junk(name: &str) -> bool {
 }
 
 /// The file names for a message, no matter how many they are, without the files that other programs leave.
-pub fn listing(names: &[String]) -> String {
+pub(crate) fn listing(names: &[String]) -> String {
     let names: Vec<&str> = names.iter().map(String::as_str).filter(|name| !is_junk(name)).collect();
     match names.len() {
         0 => "no files".to_owned(),
@@ -65,7 +65,7 @@ pub fn listing(names: &[String]) -> String {
 }
 
 /// The prefix without separators at its end, or else the name of the folder.
-pub fn material_name(path: &Path, prefix: &str) -> String {
+pub(crate) fn material_name(path: &Path, prefix: &str) -> String {
     let prefix = prefix.trim_end_matches(|c: char| !c.is_alphanumeric());
     if !prefix.is_empty() {
         return prefix.to_owned();

@@ -26,7 +26,7 @@ use crate::progress::Progress;
 ///
 /// # Errors
 /// As `read`.
-pub fn open(
+pub(crate) fn open(
     path: &Path,
     folder: &Path,
     prefix: &str,
@@ -129,7 +129,7 @@ fn open_packed(
 ///
 /// # Errors
 /// As `read`.
-pub fn open_around(
+pub(crate) fn open_around(
     path: &Path,
     bound: Vec<(Role, StoredMap)>,
     options: &ReadOptions,

@@ -15,18 +15,18 @@ const EXTENSIONS: [&str; 13] =
 /// that is there is never replaced by a default.
 const UNREAD: [&str; 10] = ["psd", "avif", "jxl", "heic", "gif", "jp2", "ktx", "basis", "astc", "xcf"];
 /// The word of files that are maps by their numbers alone.
-pub const NUMBERED: &str = "0 to 3";
+pub(crate) const NUMBERED: &str = "0 to 3";
 
 /// A file whose name names a map.
 #[derive(Clone, Debug)]
-pub struct Named {
+pub(crate) struct Named {
     pub file: String,
     pub label: Label,
 }
 
 impl Named {
     /// The higher, the better a source for its map.
-    pub fn rank(&self) -> (u8, Option<usize>) {
+    pub(crate) fn rank(&self) -> (u8, Option<usize>) {
         let extension = extension(&self.file);
         (self.label.rank(), EXTENSIONS.iter().position(|e| *e == extension))
     }
@@ -34,7 +34,7 @@ impl Named {
 
 /// One file for each map.
 #[derive(Debug, Default)]
-pub struct Set {
+pub(crate) struct Set {
     pub files: Vec<Named>,
     /// Other pictures of the normal map, which count where the chosen one is constant.
     pub normals: Vec<Named>,
@@ -50,7 +50,7 @@ type Groups = BTreeMap<Vec<String>, Vec<Named>>;
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where there are several materials, or two files for a map.
-pub fn choose(
+pub(crate) fn choose(
     path: &Path,
     names: &[String],
     wanted: Option<&[String]>,
@@ -101,13 +101,13 @@ pub fn choose(
 }
 
 /// Whether the name of a file is that of a set and nothing more, as `brick.png` beside `brick_n.png`.
-pub fn is_named_as(name: &str, stem: &[String]) -> bool {
+pub(crate) fn is_named_as(name: &str, stem: &[String]) -> bool {
     let own = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
     !stem.is_empty() && words(&own) == stem
 }
 
 /// Whether a file of this name counts as a picture.
-pub fn is_picture(name: &str) -> bool {
+pub(crate) fn is_picture(name: &str) -> bool {
     EXTENSIONS.contains(&extension(name).as_str())
 }
 
@@ -134,7 +134,7 @@ fn shared(stem: &[String]) -> Option<&[String]> {
 }
 
 /// Whether `name` is a map that a material shares whose file names begin with `prefix`.
-pub fn is_shared_with(name: &str, prefix: &str) -> bool {
+pub(crate) fn is_shared_with(name: &str, prefix: &str) -> bool {
     let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
     let label = Label::of(&stem).filter(|_| is_picture(name));
     label.is_some_and(|l| shared(&l.stem).is_some_and(|stem| words(prefix).starts_with(stem)))

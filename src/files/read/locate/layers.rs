@@ -13,12 +13,12 @@ use crate::files::read::storage_convention::StorageConvention;
 use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// Whether the name of a layer names a map.
-pub fn is_named(layer: &Layer) -> bool {
+pub(crate) fn is_named(layer: &Layer) -> bool {
     Label::of(&layer.name).is_some()
 }
 
 /// The name of a layer, for messages.
-pub fn name(layer: &Layer) -> String {
+pub(crate) fn name(layer: &Layer) -> String {
     if layer.name.is_empty() { "one without a name".to_owned() } else { format!("`{}`", layer.name) }
 }
 
@@ -30,7 +30,7 @@ fn unused(layer: &str) -> Note {
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where maps are missing, or one is there twice.
-pub fn assemble(
+pub(crate) fn assemble(
     path: &Path,
     layers: Vec<Layer>,
     native: bool,

@@ -1,13 +1,13 @@
 //! Where the maps of a material are: in files of a folder, tiles of a packed image, layers of one file.
 
-pub mod binding;
-pub mod channels;
-pub mod directory;
-pub mod folder;
-pub mod grouping;
-pub mod layers;
-pub mod names;
-pub mod neighbours;
-pub mod packed;
-pub mod picture;
-pub mod reading;
+pub(super) mod binding;
+pub(super) mod channels;
+pub(super) mod directory;
+pub(super) mod folder;
+pub(super) mod grouping;
+pub(super) mod layers;
+pub(super) mod names;
+pub(super) mod neighbours;
+pub(super) mod packed;
+pub(super) mod picture;
+pub(super) mod reading;

@@ -1,11 +1,11 @@
 //! Which map a file or layer holds, by the words of its name.
 
 use crate::files::read::options::{NormalY, Roughness};
-pub use crate::files::read::role::Role;
+pub(crate) use crate::files::read::role::Role;
 
 /// What a name says.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Label {
+pub(crate) struct Label {
     pub role: Role,
     /// The telling word, in lower case, as in `normalgl`.
     pub word: String,
@@ -16,7 +16,7 @@ pub struct Label {
 
 impl Label {
     /// The last telling word of a name wins: `metal_spec_rough` is a roughness map.
-    pub fn of(name: &str) -> Option<Self> {
+    pub(crate) fn of(name: &str) -> Option<Self> {
         let mut words: Vec<String> =
             words(name).into_iter().filter(|word| !is_size_or_format(word)).collect();
         if let Some(label) = both_of_blender(&words) {
@@ -41,12 +41,12 @@ impl Label {
     }
 
     /// Whether the word is so short that it needs company.
-    pub fn is_short(&self) -> bool {
+    pub(crate) fn is_short(&self) -> bool {
         self.word.len() <= 2
     }
 
     /// What the word says about a roughness map.
-    pub fn roughness(&self) -> Option<Roughness> {
+    pub(crate) fn roughness(&self) -> Option<Roughness> {
         match self.word.as_str() {
             "glossiness" | "gloss" | "glossy" | "smoothness" | "metallicsmoothness" | "maskmap"
             | "specularglossiness" | "specgloss" | "specularsmoothness" => Some(Roughness::Gloss),
@@ -56,7 +56,7 @@ impl Label {
     }
 
     /// Which of several files for one map is the better one: the higher. Y up before y down, gamma before linear.
-    pub fn rank(&self) -> u8 {
+    pub(crate) fn rank(&self) -> u8 {
         match self.normal_y {
             Some(NormalY::Up) => 2,
             Some(NormalY::Down) => 0,
@@ -127,7 +127,7 @@ fn is_size_or_format(word: &str) -> bool {
 
 /// The words of a name, in lower case: it is split where no letter or digit is, and before a capital letter that
 /// follows a small one.
-pub fn words(name: &str) -> Vec<String> {
+pub(crate) fn words(name: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word = String::new();
     let mut after_small = false;

@@ -17,7 +17,7 @@ const MOST: usize = 4;
 const LONGEST: u64 = 16 << 20;
 
 /// The pictures of the neighbours of the material that has the pictures `first` and `second`, decoded.
-pub fn of(first: &Path, second: &Path) -> Vec<[Raster; 2]> {
+pub(crate) fn of(first: &Path, second: &Path) -> Vec<[Raster; 2]> {
     let short = |file: &PathBuf| file.metadata().is_ok_and(|meta| meta.len() <= LONGEST);
     let mut pairs = beside(first, second).unwrap_or_default();
     pairs.extend(within(first, second).unwrap_or_default());

@@ -35,7 +35,7 @@ struct Tiling {
 ///
 /// # Errors
 /// [`Error::NotPacked`] where it does not have the shape of one, or no tile looks like normals in a shape that needs it.
-pub fn unpack(
+pub(crate) fn unpack(
     path: &Path,
     image: &Raster,
     meaning: Option<&str>,

@@ -14,7 +14,7 @@ use crate::progress::Progress;
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
+pub(crate) fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     progress.begin(1);
     let decoded = decode::decode_file(path, Subject::Material)?;
     progress.step()?;
@@ -25,7 +25,11 @@ pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<S
 ///
 /// # Errors
 /// [`Error::NotPacked`], [`Error::NotAMaterial`].
-pub fn assemble(path: &Path, decoded: Decoded, options: &ReadOptions) -> Result<StoredMaterial, Error> {
+pub(crate) fn assemble(
+    path: &Path,
+    decoded: Decoded,
+    options: &ReadOptions,
+) -> Result<StoredMaterial, Error> {
     let Decoded { mut layers, mut notes, native, meaning } = decoded;
     let mut found = match layers.pop() {
         Some(only) if layers.is_empty() && !layers::is_named(&only) => {

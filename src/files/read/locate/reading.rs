@@ -18,12 +18,12 @@ use crate::files::read::stored::StoredMap;
 /// An unlabelled picture is the normal map where this share of its pixels looks like normals.
 const NORMAL_ALL_OVER: f64 = 0.95;
 
-pub fn is_colour(role: Role) -> bool {
+pub(crate) fn is_colour(role: Role) -> bool {
     matches!(role, Role::Base | Role::Diffuse | Role::Specular | Role::SpecularGlossiness)
 }
 
 /// The pictures of a set so far.
-pub struct Reading<'a> {
+pub(crate) struct Reading<'a> {
     folder: &'a Path,
     /// The words of all the names of the set that have roles.
     files: &'a [Named],
@@ -37,7 +37,7 @@ pub struct Reading<'a> {
 }
 
 impl<'a> Reading<'a> {
-    pub fn new(folder: &'a Path, files: &'a [Named]) -> Self {
+    pub(crate) fn new(folder: &'a Path, files: &'a [Named]) -> Self {
         let (pictures, notes, doubts) = (Pictures::default(), Vec::new(), Vec::new());
         Self { folder, files, pictures, notes, doubts, floats: true, is_glossy: false }
     }
@@ -51,7 +51,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Another picture of the normals in place of a constant one.
-    pub fn other_normals<'b>(
+    pub(crate) fn other_normals<'b>(
         &mut self,
         set: &'b Set,
         named: &Named,
@@ -69,7 +69,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Whether another picture of the normals is as good by its name, and not constant.
-    pub fn is_contested(&self, set: &Set, named: &Named) -> bool {
+    pub(crate) fn is_contested(&self, set: &Set, named: &Named) -> bool {
         let is_equal = |other: &&Named| other.rank() == named.rank() && other.file != named.file;
         let is_normal = named.label.role == Role::Normal && !set.normals.iter().any(|n| n.file == named.file);
         let other = set.normals.iter().find(is_equal).filter(|_| is_normal);
@@ -80,7 +80,7 @@ impl<'a> Reading<'a> {
     }
 
     /// Adds the picture that the file `named` holds.
-    pub fn add(&mut self, named: &Named, mut raster: Raster) {
+    pub(crate) fn add(&mut self, named: &Named, mut raster: Raster) {
         let Named { file, label } = named;
         self.notes.push(Note::MapFile { map: label.role, file: file.clone() });
         self.floats &= raster.is_float() || !is_colour(label.role);
@@ -150,7 +150,7 @@ impl<'a> Reading<'a> {
 
     /// Uses a picture whose name names no map where the set lacks normals and it looks like them, or where the set lacks
     /// a colour and it has the name of the set.
-    pub fn rescue(&mut self, file: &str) {
+    pub(crate) fn rescue(&mut self, file: &str) {
         let decoded =
             || decode::decode_one(&self.folder.join(file), Subject::Picture).ok().map(|(raster, _)| raster);
         let of = |raster| StoredMap { raster, file: self.folder.join(file), part: String::new() };

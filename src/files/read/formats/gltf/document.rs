@@ -15,7 +15,7 @@ const PARTS: [&str; 7] = ["asset", "buffers", "bufferViews", "images", "material
 ///
 /// # Errors
 /// [`Error::BadImage`].
-pub fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Error> {
+pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Error> {
     let invalid = |found: &str| bad(path, format!("expected valid glTF, found: {found}"));
     let contradiction = |_| invalid("a contradiction in its lengths");
     let (json, blob) = if bytes.starts_with(b"glTF") {
@@ -40,6 +40,6 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), E
     Ok((document.map_err(|e| invalid(&e.to_string()))?, blob))
 }
 
-pub fn bad(path: &Path, problem: String) -> Error {
+pub(super) fn bad(path: &Path, problem: String) -> Error {
     Error::BadImage { path: path.to_owned(), problem, remedy: "export it again".to_owned() }
 }

@@ -23,7 +23,7 @@ fn json(material: &Material) -> Value {
 }
 
 /// The textures that are read of a material, with where they are.
-pub fn textures(material: &Material) -> Vec<(String, Value)> {
+pub(super) fn textures(material: &Material) -> Vec<(String, Value)> {
     let json = json(material);
     let at = |path: &[&str]| path.iter().try_fold(&json, |value, key| value.get(key)).cloned();
     let gloss = ["extensions", "KHR_materials_pbrSpecularGlossiness"];
@@ -45,7 +45,7 @@ pub fn textures(material: &Material) -> Vec<(String, Value)> {
 }
 
 /// Says which textures are placed otherwise than others: then the maps do not lie over one another.
-pub fn transforms_differ(material: &Material) -> Option<String> {
+pub(super) fn transforms_differ(material: &Material) -> Option<String> {
     let textures = textures(material);
     let (first, others) = textures.split_first()?;
     let other = others.iter().find(|other| transform(&other.1) != transform(&first.1))?;
@@ -67,7 +67,7 @@ fn transform(texture: &Value) -> [f32; 5] {
 }
 
 /// What the material has that changes its look and is not modelled, by name.
-pub fn ignored(material: &Material) -> impl Iterator<Item = String> + use<> {
+pub(super) fn ignored(material: &Material) -> impl Iterator<Item = String> + use<> {
     let json = json(material);
     NOT_MODELLED.into_iter().filter_map(move |(extension, name, factor)| {
         let said = json.get("extensions")?.get(extension)?;

@@ -25,7 +25,7 @@ use textures::GltfFile;
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
+pub(crate) fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let (document, blob) = document::parse(path, &bytes)?;
     let scene = GltfFile { path: path.to_owned(), document, blob };

@@ -20,7 +20,7 @@ use crate::progress::Progress;
 const USUAL_IOR: f32 = 1.5;
 
 /// The pictures of a material, decoded.
-pub struct GltfSurface<'a> {
+pub(super) struct GltfSurface<'a> {
     scene: &'a GltfFile,
     normal: Option<StoredMap>,
     /// Base colour or diffuse.
@@ -34,7 +34,11 @@ pub struct GltfSurface<'a> {
 
 impl<'a> GltfSurface<'a> {
     /// Decodes all textures at once; each is one step of `progress`.
-    pub fn load(scene: &'a GltfFile, material: &Material<'_>, progress: &Progress) -> Result<Self, Error> {
+    pub(super) fn load(
+        scene: &'a GltfFile,
+        material: &Material<'_>,
+        progress: &Progress,
+    ) -> Result<Self, Error> {
         let normal = material.normal_texture().map(|t| t.texture());
         let extension = material.specular();
         let wanted = if let Some(gloss) = material.pbr_specular_glossiness() {
@@ -76,7 +80,7 @@ impl<'a> GltfSurface<'a> {
     }
 
     /// Puts the maps into `pictures`; returns whether colours are linear.
-    pub fn put(mut self, material: &Material<'_>, pictures: &mut Pictures) -> Result<bool, Error> {
+    pub(super) fn put(mut self, material: &Material<'_>, pictures: &mut Pictures) -> Result<bool, Error> {
         let all = [&self.normal, &self.colour, &self.packed, &self.specular, &self.specular_colour];
         all.into_iter().flatten().for_each(|source| pictures.record_size(source.raster.size()));
         if let Some(normal) = self.normal.take() {

@@ -20,7 +20,7 @@ use crate::files::read::stored::StoredMap;
 const SOURCES: [&str; 4] = ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];
 
 /// The file and what it brings along.
-pub struct GltfFile {
+pub(super) struct GltfFile {
     pub path: PathBuf,
     pub document: Document,
     pub blob: Option<Vec<u8>>,
@@ -31,7 +31,7 @@ impl GltfFile {
     ///
     /// # Errors
     /// The decoders' errors.
-    pub fn picture(&self, texture: &Texture<'_>, what: Subject) -> Result<StoredMap, Error> {
+    pub(super) fn picture(&self, texture: &Texture<'_>, what: Subject) -> Result<StoredMap, Error> {
         let (raster, file, part) = match self.image(texture, what)?.source() {
             Image::Uri { uri, .. } if uri.starts_with("data:") => {
                 (self.decoded(&self.data(uri)?, what)?, self.path.clone(), what.to_string())

@@ -23,7 +23,7 @@ use statement::{BUMPS, MtlEntry, NORMALS, Texture, entries, is_packed, is_pictur
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
+pub(crate) fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
     let text = String::from_utf8_lossy(&bytes);
     let all = entries(&text);

@@ -9,17 +9,17 @@ use crate::files::read::note::Subject;
 const PICTURES: [&str; 5] = ["norm", "bump", "disp", "decal", "refl"];
 
 /// Statements for normals, the plainest first; those of `bump` may also hold heights.
-pub const NORMALS: [&str; 2] = ["norm", "map_kn"];
-pub const BUMPS: [&str; 2] = ["map_bump", "bump"];
+pub(super) const NORMALS: [&str; 2] = ["norm", "map_kn"];
+pub(super) const BUMPS: [&str; 2] = ["map_bump", "bump"];
 
 /// A material: its statements, each a keyword in lower case and the rest of its line.
-pub struct MtlEntry {
+pub(super) struct MtlEntry {
     pub name: String,
     pub lines: Vec<(String, String)>,
 }
 
 /// The materials of an .mtl.
-pub fn entries(text: &str) -> Vec<MtlEntry> {
+pub(super) fn entries(text: &str) -> Vec<MtlEntry> {
     let mut all: Vec<MtlEntry> = Vec::new();
     for line in text.replace("\\\r\n", " ").replace("\\\n", " ").lines() {
         let line = line.trim();
@@ -37,12 +37,12 @@ pub fn entries(text: &str) -> Vec<MtlEntry> {
 }
 
 /// Whether a statement of this keyword names a picture.
-pub fn is_picture(key: &str) -> bool {
+pub(super) fn is_picture(key: &str) -> bool {
     key.starts_with("map_") || PICTURES.contains(&key)
 }
 
 /// Whether specular is occlusion, roughness and metallic: so its name says, or the `bsdf` of nvdiffrec.
-pub fn is_packed(entry: &MtlEntry) -> bool {
+pub(super) fn is_packed(entry: &MtlEntry) -> bool {
     let has = |key: &str| entry.lines.iter().any(|(k, _)| k == key);
     let specular = entry.lines.iter().find(|(key, _)| key == "map_ks");
     let named = |rest: &str| {
@@ -55,7 +55,7 @@ pub fn is_packed(entry: &MtlEntry) -> bool {
 }
 
 /// The pictures that are read of a material, and what they are expected to be.
-pub fn listed(path: &Path, entry: &MtlEntry) -> Vec<(PathBuf, Subject)> {
+pub(super) fn listed(path: &Path, entry: &MtlEntry) -> Vec<(PathBuf, Subject)> {
     let line = |key: &str| entry.lines.iter().find(|(k, _)| k == key).map(|(_, rest)| rest);
     let normal = NORMALS.into_iter().chain(BUMPS).find(|key| line(key).is_some()).unwrap_or_default();
     let specular = if line("map_pm").is_none() { "map_ks" } else { "" };
@@ -72,7 +72,7 @@ pub fn listed(path: &Path, entry: &MtlEntry) -> Vec<(PathBuf, Subject)> {
 
 /// What a statement says about a picture.
 #[derive(Debug, Default, PartialEq)]
-pub struct Texture {
+pub(super) struct Texture {
     pub file: String,
     /// The one channel that is wanted; 3 is alpha.
     pub channel: Option<usize>,
@@ -82,7 +82,7 @@ pub struct Texture {
 
 impl Texture {
     /// Options with their values come first; the rest is the name, which may have spaces.
-    pub fn of(mut rest: &str) -> Self {
+    pub(super) fn of(mut rest: &str) -> Self {
         let mut texture = Self::default();
         while let Some((name, values, after)) = option(rest) {
             let numbers: Vec<f32> = values.iter().filter_map(|v| v.parse().ok()).collect();
@@ -109,7 +109,7 @@ impl Texture {
 
     /// The file beside that of the material, or of a path of its own; of a path of another machine the file of the same
     /// name, if that is there.
-    pub fn path(&self, mtl: &Path) -> PathBuf {
+    pub(super) fn path(&self, mtl: &Path) -> PathBuf {
         let folder = mtl.parent().unwrap_or(Path::new(""));
         let slashed = self.file.replace('\\', "/");
         let last = slashed.rsplit('/').next().unwrap_or_default();

@@ -10,7 +10,7 @@ const PASSING: [&str; 9] =
 
 /// What an input is bound to.
 #[derive(Clone, Debug)]
-pub enum Bound {
+pub(super) enum Bound {
     /// A value, and its colour space where the file says it.
     Values { values: Vec<f32>, space: Option<String> },
     /// A picture, its colour space where the file says it, the one channel that is taken of it, and the scale of x
@@ -20,7 +20,7 @@ pub enum Bound {
 
 /// What stands in the way from an input to a picture or a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Obstacle {
+pub(super) enum Obstacle {
     /// A node that computes, by its name and kind.
     Procedural(String),
     /// A name that leads nowhere, or round.
@@ -28,7 +28,7 @@ pub enum Obstacle {
 }
 
 /// The input `name` of `node`.
-pub fn input<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
+pub(super) fn input<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
     let is_named = |n: &Node<'_, '_>| n.attribute("name") == Some(name);
     node.children().filter(|n| n.has_tag_name("input") || n.has_tag_name("parameter")).find(is_named)
 }
@@ -37,7 +37,7 @@ pub fn input<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
 ///
 /// # Errors
 /// [`Obstacle`].
-pub fn bound(node: Node<'_, '_>, name: &str) -> Result<Option<Bound>, Obstacle> {
+pub(super) fn bound(node: Node<'_, '_>, name: &str) -> Result<Option<Bound>, Obstacle> {
     input(node, name)
         .map(|input| follow(input, Way { channel: None, scale: 1.0, depth: DEEPEST }))
         .transpose()

@@ -32,7 +32,7 @@ const USUAL: f32 = 0.04;
 ///
 /// # Errors
 /// As `read`.
-pub fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
+pub(crate) fn open(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
     let text = fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
     let document = Document::parse(&text).map_err(|e| Error::BadImage {
         path: path.to_owned(),

@@ -5,11 +5,11 @@ use roxmltree::Node;
 use super::graph::input;
 
 /// An input and its value where a file does not say it, linear.
-pub type Input = (&'static str, f32);
+pub(super) type Input = (&'static str, f32);
 
 /// A surface of MaterialX.
 #[derive(Debug)]
-pub struct SurfaceModel {
+pub(super) struct SurfaceModel {
     pub tag: &'static str,
     pub base: Input,
     /// A factor on the base colour.
@@ -100,22 +100,22 @@ const MODELS: [SurfaceModel; 4] = [
 ];
 
 /// The specular of `UsdPreviewSurface` in its specular workflow.
-pub const USD_SPECULAR: Input = ("specularColor", 0.0);
+pub(super) const USD_SPECULAR: Input = ("specularColor", 0.0);
 
 impl SurfaceModel {
     /// The model of a node, if it is a surface that is read.
-    pub fn of(node: Node<'_, '_>) -> Option<&'static Self> {
+    pub(super) fn of(node: Node<'_, '_>) -> Option<&'static Self> {
         const ALL: &[SurfaceModel] = &MODELS;
         ALL.iter().find(|model| node.has_tag_name(model.tag))
     }
 
     /// The names of all models, for messages.
-    pub fn names() -> String {
+    pub(super) fn names() -> String {
         MODELS.map(|model| model.tag).join(", ")
     }
 
     /// What `surface` has that changes its look and is not modelled.
-    pub fn ignored(&self, surface: Node<'_, '_>) -> Vec<String> {
+    pub(super) fn ignored(&self, surface: Node<'_, '_>) -> Vec<String> {
         let is_on = |(name, off): &&Input| {
             let Some(input) = input(surface, name) else { return false };
             let values = input.attribute("value").map(|v| v.split(',').map(|v| v.trim().parse::<f32>()));
