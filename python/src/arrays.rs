@@ -5,23 +5,45 @@ use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 
 /// The values of a C-contiguous array.
+///
+/// # Errors
+/// `BufferError` where the array has another type or layout.
 pub fn values<T: Element>(array: &Bound<'_, PyAny>) -> PyResult<Vec<T>> {
     PyBuffer::get(array)?.to_vec(array.py())
 }
 
-/// The planes of a map of three channels, whose values are planes already or RGB by RGB.
-pub fn planes<T: Copy + Default>(values: Vec<T>, is_planar: bool) -> [Vec<T>; 3] {
-    let count = values.len() / 3;
-    if is_planar {
-        let plane = |c: usize| values[c * count..(c + 1) * count].to_vec();
-        return [plane(0), plane(1), plane(2)];
+/// The values of a map of three channels.
+#[derive(Debug)]
+pub enum Channels<T> {
+    /// As the crate has them.
+    Planes([Vec<T>; 3]),
+    /// RGB by RGB.
+    Interleaved(Vec<T>),
+}
+
+impl<T: Element> Channels<T> {
+    /// Those of a C-contiguous array, 3xHxW or HxWx3: one copy.
+    ///
+    /// # Errors
+    /// `BufferError` where the array has another type or layout.
+    pub fn of(array: &Bound<'_, PyAny>, is_planar: bool) -> PyResult<Self> {
+        if !is_planar {
+            return values(array).map(Self::Interleaved);
+        }
+        let plane = |channel: usize| array.get_item(channel).and_then(|plane| values(&plane));
+        Ok(Self::Planes([plane(0)?, plane(1)?, plane(2)?]))
     }
-    let mut planes: [Vec<T>; 3] = std::array::from_fn(|_| vec![T::default(); count]);
-    let [a, b, c] = &mut planes;
-    for (((rgb, a), b), c) in values.as_chunks().0.iter().zip(a).zip(b).zip(c) {
-        [*a, *b, *c] = *rgb;
+
+    /// The planes: another copy of values that are interleaved.
+    pub fn planes(self) -> [Vec<T>; 3] {
+        match self {
+            Self::Planes(planes) => planes,
+            Self::Interleaved(values) => {
+                let values = values.as_chunks::<3>().0;
+                std::array::from_fn(|channel| values.iter().map(|rgb| rgb[channel]).collect())
+            }
+        }
     }
-    planes
 }
 
 /// A number as the bytes of an array.

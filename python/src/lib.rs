@@ -5,10 +5,12 @@
 
 mod arrays;
 mod blame;
+mod dataset;
 mod errors;
 mod loss;
 mod material;
 mod model;
+mod session;
 mod work;
 
 use pyo3::prelude::*;
@@ -28,5 +30,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(model::read_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(loss::loss, module)?)?;
     module.add_function(wrap_pyfunction!(blame::blame, module)?)?;
+    module.add_function(wrap_pyfunction!(dataset::rank_dataset, module)?)?;
+    module.add_function(wrap_pyfunction!(session::session, module)?)?;
     Ok(())
 }

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use svbrdf::loss::{Comparison, Compute, Estimate, Loss, Precision, Request, Sampling};
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::FileKind;
+use svbrdf::model::scene::Kind;
 use svbrdf::rank::{self, Ranked};
 use svbrdf::report::Report;
 
@@ -188,8 +188,8 @@ fn items(report: &Report) -> ReportItems {
         precision: report.precision,
         backend: report.backend,
         size: report.size.into(),
-        near: report.count(FileKind::Near),
-        distant: report.count(FileKind::Distant),
+        near: report.count(Kind::Near),
+        distant: report.count(Kind::Distant),
         seed: report.seed(),
         sampler: report.sampler().map(|sampler| sampler.to_string()),
         texels: report.texels().to_string(),

@@ -17,7 +17,7 @@ use svbrdf::math::real::Real;
 use svbrdf::progress::Progress;
 use svbrdf::{render as renderer, report, samples};
 
-use crate::arrays::{self, Bytes};
+use crate::arrays::{self, Bytes, Channels};
 use crate::errors::exception;
 use crate::model::SceneTuple;
 use crate::work;
@@ -52,14 +52,15 @@ pub struct Arrays<'py> {
 
 impl Arrays<'_> {
     fn material<T: Element + Real>(&self, py: Python<'_>) -> PyResult<Material<T>> {
-        let maps = [&self.normal, &self.diffuse, &self.specular].map(arrays::values::<T>);
-        let [normal, diffuse, specular] = maps;
-        let maps = [normal?, diffuse?, specular?];
+        let [of_normal, of_diffuse, of_specular] = self.planar;
+        let normal = Channels::<T>::of(&self.normal, of_normal)?;
+        let diffuse = Channels::of(&self.diffuse, of_diffuse)?;
+        let specular = Channels::of(&self.specular, of_specular)?;
         let roughness = arrays::values(&self.roughness)?;
-        let (name, [width, height], mut planar) = (&self.name, self.size, self.planar.into_iter());
+        let (name, [width, height]) = (&self.name, self.size);
         work::at_once(py, move || {
-            let [normal, diffuse, specular] =
-                maps.map(|values| arrays::planes(values, planar.next().unwrap_or_default()));
+            let (normal, (diffuse, specular)) =
+                rayon::join(|| normal.planes(), || rayon::join(|| diffuse.planes(), || specular.planes()));
             Material::new(name, width, height, Planes { normal, diffuse, specular, roughness })
         })
     }
@@ -159,6 +160,8 @@ pub struct Found {
     /// About what, the choice, why, how certain.
     assumptions: Vec<[String; 4]>,
     files: Vec<PathBuf>,
+    /// The read options, with those of the sidecar file, as JSON.
+    options: String,
 }
 
 /// Reads a material; `options` are those of a sidecar file, as JSON.
@@ -171,20 +174,27 @@ pub fn read(
     strict: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Found> {
-    let parsed = serde_json::from_str::<ReadOptions>(options);
-    let options = &parsed.map_err(|e| crate::errors::Error::new_err(e.to_string()))?;
+    let options = &read_options(options)?;
     match Precision::from_str(precision).map_err(exception)? {
         Precision::F32 => {
             let read =
                 work::run(py, progress, |progress| read_checked::<f32>(&path, options, strict, progress))?;
-            Ok(found(read, single))
+            found(read, single)
         }
         Precision::F64 => {
             let read =
                 work::run(py, progress, |progress| read_checked::<f64>(&path, options, strict, progress))?;
-            Ok(found(read, double))
+            found(read, double)
         }
     }
+}
+
+/// The read options of a sidecar file's JSON.
+///
+/// # Errors
+/// Where an option has no such value.
+pub fn read_options(json: &str) -> PyResult<ReadOptions> {
+    serde_json::from_str(json).map_err(|e| crate::errors::Error::new_err(e.to_string()))
 }
 
 fn read_checked<T: Real>(
@@ -200,7 +210,7 @@ fn read_checked<T: Real>(
     Ok(read)
 }
 
-fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>) -> CoreMaterial) -> Found {
+fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>) -> CoreMaterial) -> PyResult<Found> {
     let certainty = |certainty| match certainty {
         Certainty::Unsure => "unsure",
         Certainty::Likely => "likely",
@@ -210,12 +220,14 @@ fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>) -> CoreMaterial) -
     let assumptions = read.assumptions.iter();
     let assumptions = assumptions
         .map(|a| [a.what.name(), &a.chosen, &a.why.to_string(), certainty(a.certainty)].map(str::to_owned));
-    Found {
+    let options = serde_json::to_string(&read.options);
+    Ok(Found {
         assumptions: assumptions.collect(),
         notes: read.notes.iter().map(ToString::to_string).collect(),
         files: read.files,
+        options: options.map_err(|e| crate::errors::Error::new_err(e.to_string()))?,
         material: material(read.material),
-    }
+    })
 }
 
 /// The built-in ground truth, then the predictions of it.

@@ -3,9 +3,12 @@
 import doctest
 import importlib
 import pkgutil
+import subprocess
+import sys
 import tomllib
 from importlib.metadata import version
 from importlib.resources import files
+from pathlib import Path
 
 import pytest
 import svbrdf
@@ -17,6 +20,42 @@ MODULES = [module.name for module in pkgutil.iter_modules(svbrdf.__path__) if mo
 def test_the_version_is_that_of_the_crate() -> None:
     crate = tomllib.loads((REPOSITORY / "Cargo.toml").read_text())["package"]["version"]
     assert svbrdf.__version__ == version("svbrdf") == crate
+
+
+def test_the_wheel_is_built_from_the_versions_of_the_program() -> None:
+    """After a change of the root's lock file: cp Cargo.lock python/; cargo fetch --manifest-path python/Cargo.toml."""
+
+    def locked(folder: Path) -> set[tuple[str, str, str]]:
+        packages = tomllib.loads((folder / "Cargo.lock").read_text())["package"]
+        return {(p["name"], p["version"], p.get("checksum", "")) for p in packages}
+
+    only_wheel = {name for name, _, _ in locked(REPOSITORY / "python") - locked(REPOSITORY)}
+    own = {"svbrdf-python", "target-lexicon"}
+    assert {name for name in only_wheel if not name.startswith("pyo3")} == own
+
+
+def test_libraries_are_optimized_as_those_of_the_program() -> None:
+    def levels(folder: Path) -> dict[str, object]:
+        profile = tomllib.loads((folder / "Cargo.toml").read_text())["profile"]["release"]
+        return {name: table["opt-level"] for name, table in profile["package"].items()}
+
+    assert levels(REPOSITORY / "python") == {**levels(REPOSITORY), "svbrdf": 3}
+
+
+def test_the_example_evaluates_a_folder(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    ground_truth, *predictions = svbrdf.built_in()
+    (tmp_path / "predictions").mkdir()
+    svbrdf.write(ground_truth, tmp_path / "gt.exr", depth="float")
+    for number, prediction in enumerate(predictions):
+        svbrdf.write(prediction, tmp_path / "predictions" / f"p{number}.exr", depth="float")
+    example = REPOSITORY / "python" / "examples" / "evaluate_folder.py"
+    command = [sys.executable, str(example), "gt.exr", "predictions", "--target-error", "0.05"]
+    ended = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
+    expected = svbrdf.loss(ground_truth, predictions, target_error=0.05)
+    for result in expected.results:
+        assert f"{result.loss:.6f}" in ended.stdout
+    assert (tmp_path / "losses.png").read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("name", ["", *MODULES])

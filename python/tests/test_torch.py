@@ -1,6 +1,7 @@
 """The rendering loss in PyTorch against the core."""
 
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +10,11 @@ import pytest
 import svbrdf
 from conftest import golden_materials, maps
 
-torch = pytest.importorskip("torch", reason="PyTorch is not installed")
-import svbrdf.torch as sv  # noqa: E402
+if os.environ.get("SVBRDF_NEEDS_TORCH"):
+    import torch
+else:
+    torch = pytest.importorskip("torch", reason="PyTorch is not installed")
+import svbrdf.torch as sv
 
 # Threads that wait for each other take long where other programs run.
 torch.set_num_threads(1)
@@ -51,7 +55,7 @@ def point(row: dict[str, Any], dtype: Any) -> Any:
 def test_golden_points_are_met(points: list[dict[str, Any]], key: str, convention: str, precision: str) -> None:
     """Within 1e-12 and 1e-5, times the condition number of the point where it is above 100."""
     unit = {"f64": 2.0**-53, "f32": 2.0**-24}[precision]
-    checked, worst = 0, 0.0
+    checked, worst, of_well_conditioned = 0, 0.0, 0.0
     for row in points:
         given, scene = point(row, DTYPES[precision])
         got = sv.render(given, scene, svbrdf.CONVENTIONS[convention]).double().flatten().numpy()
@@ -72,6 +76,9 @@ def test_golden_points_are_met(points: list[dict[str, Any]], key: str, conventio
         assert (error <= bound).all(), (row["id"], row["cat"], error, bound)
         checked += 1
         worst = max(worst, error.max() / bound)
+        if (kappa or 1) <= 100:
+            of_well_conditioned = max(of_well_conditioned, error.max())
+    print(f"\ngolden points, {convention}, {precision}: {of_well_conditioned:.1e}")
     assert checked > 100
     assert worst > 0
 
@@ -88,6 +95,7 @@ def test_the_loss_is_that_of_the_core_for_the_same_seed(precision: Any, conventi
         expected = svbrdf.loss(*small, seed=3, sampler=sampler, convention=convention, precision="f64").loss
         given = [converted(tensors(m), DTYPES[precision]) for m in small]
         got = sv.RenderingLoss(convention=convention, sampler=sampler)(given[1], given[0], seed=3).item()
+        print(f"\nloss of seed 3, {convention}, {sampler}, {precision}: {abs(got / expected - 1):.1e}")
         assert got == pytest.approx(expected, rel=BOUNDS[precision])
         assert sv.RenderingLoss(convention=convention)(given[1], given[0], seed=4).item() != pytest.approx(expected)
 
@@ -108,6 +116,7 @@ def test_the_golden_losses_are_met(golden: Path, precision: Any) -> None:
             core = svbrdf.loss(*materials, scenes=scenes, convention=name, precision="f64").loss
             worst = max(worst, abs(got - core) / core)
             assert got == pytest.approx(expected["loss"], rel=max(1e-9, BOUNDS[precision]))
+    print(f"\ngolden losses, {precision}: {worst:.1e}")
     assert 0 < worst < BOUNDS[precision]
 
 

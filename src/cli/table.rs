@@ -3,6 +3,7 @@
 use std::io;
 
 use svbrdf::error::Error;
+use svbrdf::files::session::Session;
 use svbrdf::loss::{Estimate, Sampling, Texels};
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
@@ -78,16 +79,15 @@ pub fn errors(estimate: &Estimate) -> [String; 3] {
     [estimate.standard_error, low, high].map(|value| value.map_or(String::new(), |value| value.to_string()))
 }
 
-/// Refuses a ground truth without predictions.
+/// Refuses a ground truth without predictions. A session file has its own.
 ///
 /// # Errors
 /// [`Error::Usage`].
 pub fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
     match &materials.ground_truth {
-        Some(path) if materials.predictions.is_empty() => Err(Error::Usage(format!(
-            "there is no prediction to compare with {}; give one or more after it",
-            path.display()
-        ))),
+        Some(path) if materials.predictions.is_empty() && !Session::is_named(path) => Err(Error::Usage(
+            format!("there is no prediction to compare with {}; give one or more after it", path.display()),
+        )),
         _ => Ok(()),
     }
 }

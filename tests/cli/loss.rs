@@ -220,3 +220,27 @@ fn the_header_says_which_texels_are_compared() {
         assert!(stderr.contains("leave out --backend gpu"), "{stderr}");
     }
 }
+
+#[test]
+fn a_session_file_stands_for_its_materials() {
+    let folder = folder();
+    let name = "a.svbrdf-session.json";
+    let session = json!({
+        "svbrdf-session": 1,
+        "materials": [{"path": "gt.png"}, {"path": "a.png"}, {"path": "b.png", "read": {"roughness": "gloss"}}],
+        "scene": {"kind": "near", "view": [0, 0, 2.5], "light": [0.4, 0.5, 1.2]},
+        "convention": "printed",
+    });
+    std::fs::write(folder.path().join(name), session.to_string()).unwrap();
+    let losses = |args: &str| -> Vec<f64> {
+        let json = losses_as_json(folder.path(), args);
+        json["results"].as_array().unwrap().iter().map(|result| result["loss"].as_f64().unwrap()).collect()
+    };
+    let [as_found, of_session] = ["gt.png a.png b.png", name].map(losses);
+    assert_eq!(of_session.len(), 2);
+    assert_eq!(of_session[0], as_found[0]);
+    assert_ne!(of_session[1], as_found[1], "its options are not used");
+    let stderr = fail(folder.path(), &format!("loss {name} a.png"), 64);
+    assert!(stderr.contains("names its predictions itself"), "{stderr}");
+    assert!(succeed(folder.path(), &format!("blame {name} --format csv")).lines().count() > 2);
+}

@@ -16,6 +16,7 @@ The numbers are those of the command line `svbrdf loss`, bit for bit. `svbrdf.to
 
 from ._blame import Attribution, Estimate, MapShare, blame
 from ._core import Error, __version__
+from ._dataset import DatasetLoss, DatasetReport, MethodSummary, rank_dataset
 from ._loss import Difference, Loss, LossReport, Place, loss, rank
 from ._material import Assumption, AssumptionWarning, Material, built_in, read, write
 from ._scenes import CONVENTIONS, Convention, Scene, read_scenes, render, sample_scenes
@@ -27,6 +28,8 @@ __all__ = [
     "AssumptionWarning",
     "Attribution",
     "Convention",
+    "DatasetLoss",
+    "DatasetReport",
     "Difference",
     "Error",
     "Estimate",
@@ -34,6 +37,7 @@ __all__ = [
     "LossReport",
     "MapShare",
     "Material",
+    "MethodSummary",
     "Place",
     "Scene",
     "__version__",
@@ -41,6 +45,7 @@ __all__ = [
     "built_in",
     "loss",
     "rank",
+    "rank_dataset",
     "read",
     "read_scenes",
     "render",

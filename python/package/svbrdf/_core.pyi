@@ -29,6 +29,7 @@ class Found(TypedDict):
     notes: list[str]
     assumptions: list[list[str]]
     files: list[Any]
+    options: str
 
 def read(path: str | PathLike[str], options: str, precision: str, strict: bool, progress: Report) -> Found: ...
 def write(
@@ -46,3 +47,10 @@ def blame(
 def loss(
     ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
 ) -> dict[str, Any]: ...
+def rank_dataset(asked: Mapping[str, Any], progress: Report) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]: ...
+def session(
+    path: str | PathLike[str],
+    materials: Sequence[tuple[str | PathLike[str], str | None]],
+    scene: SceneTuple,
+    convention: str,
+) -> str: ...

@@ -88,12 +88,13 @@ class Material:
         """What reading it noticed."""
         self.assumptions: tuple[Assumption, ...] = ()
         """What reading it assumed."""
+        self._options: str | None = None
 
     @classmethod
     def _of(cls, core: _core.CoreMaterial) -> "Material":
         material = cls.__new__(cls)
         material._core, material._is_named = core, True
-        material.path, material.notes, material.assumptions = None, (), ()
+        material.path, material.notes, material.assumptions, material._options = None, (), (), None
         return material
 
     @property
@@ -210,6 +211,7 @@ def read(
         found = _core.read(path, json.dumps(options), precision, strict, report)
     material = Material._of(found["material"])
     material.path = os.fspath(path)
+    material._options = found["options"]
     material.notes = tuple(found["notes"])
     material.assumptions = tuple(Assumption(*fields) for fields in found["assumptions"])
     for unsure in (a for a in material.assumptions if a.certainty == "unsure"):

@@ -1,0 +1,160 @@
+"""Methods over a data set of materials."""
+
+import json
+import math
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from . import _core
+from ._loss import check_goals
+from ._material import Source
+from ._progress import Report, reported
+
+
+@dataclass(frozen=True)
+class MethodSummary:
+    """A method over the materials that it has a loss of."""
+
+    method: str
+    materials: int
+    """The number of materials with a loss."""
+    failures: int
+    """The number of materials without one."""
+    mean: float
+    median: float
+    interval95_materials: tuple[float, float] | None
+    """The 95% interval of the mean over all materials like these; None for fewer than 3."""
+    interval95_scenes: tuple[float, float]
+    """The 95% interval of the mean over these materials, due to the sampling of scenes alone."""
+    to_best: float | None
+    """The mean difference to the best method over the materials of both; None for the best."""
+    to_best_interval95_materials: tuple[float, float] | None
+    ties_with_best: bool
+    """Whether the materials cannot separate it from the best."""
+
+
+@dataclass(frozen=True)
+class DatasetLoss:
+    """The loss of one prediction of a data set."""
+
+    material: str
+    method: str
+    sample: int
+    """Which of the predictions of the method for this material, from 0."""
+    path: str
+    seed: int
+    """Names the scenes of this material."""
+    scenes: int
+    """Their number."""
+    loss: float | None
+    """None where `error` says why."""
+    standard_error: float | None
+    interval95: tuple[float, float] | None
+    error: str | None
+
+
+@dataclass(frozen=True, repr=False)
+class DatasetReport:
+    """The losses of methods over a data set."""
+
+    convention: str
+    target_error: float
+    seed: int
+    pick: str
+    methods: tuple[MethodSummary, ...]
+    """Smallest mean loss first."""
+    results: tuple[DatasetLoss, ...]
+    """Every prediction, in the order of the materials."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """The report as numbers, words, lists and dictionaries."""
+        return asdict(self)
+
+    def __repr__(self) -> str:
+        width = max(len(summary.method) for summary in self.methods)
+        rows = [f"{'method':{width}}  materials  failed  mean loss    median    95% over materials"]
+        for summary in self.methods:
+            low, high = summary.interval95_materials or (math.nan, math.nan)
+            rows.append(
+                f"{summary.method:{width}}  {summary.materials:9}  {summary.failures:6}  {summary.mean:9.6f}  "
+                f"{summary.median:8.6f}  {low:.6f} to {high:.6f}"
+            )
+        return "\n".join(rows)
+
+
+def rank_dataset(
+    ground_truths: Source,
+    methods: Source | Sequence[Source] | Mapping[str, Source],
+    *,
+    target_error: float = 0.01,
+    seed: int = 0,
+    convention: str = "printed",
+    pick: Literal["fixed", "mean", "best"] = "fixed",
+    strict: bool = False,
+    read_ground_truth: Mapping[str, Any] | None = None,
+    read_predictions: Mapping[str, Any] | None = None,
+    progress: bool | Report = False,
+) -> DatasetReport:
+    """Compares methods over a data set: `svbrdf rank --dataset`, with the same numbers.
+
+    Materials of the same name in the folders belong together. `name_0`, `name_1` and so on in the folder of a method
+    are several predictions of one material. A file that cannot be read is a result with its error, and not fatal.
+    Materials are compared in parallel. To continue interrupted runs, use the command line (`--journal`).
+
+    Args:
+        ground_truths: The folder of the ground truths.
+        methods: The folder of each method, or folders by the name of the method.
+        target_error: As many scenes for each material as this relative error of every loss needs at 95% confidence.
+        seed: Names the sampled scenes, together with the place of the material.
+        convention: A name of `svbrdf.CONVENTIONS`.
+        pick: Which of several predictions counts: the first, the mean of their losses, or the best.
+        strict: Whether guesses in reading are errors.
+        read_ground_truth: Options of `svbrdf.read` for the ground truths, such as `{"albedo": "srgb"}`.
+        read_predictions: The same for the predictions.
+        progress: True for a bar of tqdm, or a function of (materials done, materials in all).
+
+    Raises:
+        OSError: A folder cannot be read.
+        svbrdf.Error: A folder has no materials, or an option has no such value.
+    """
+    check_goals(target_error, None, None)
+    asked = {
+        "ground_truths": ground_truths,
+        "methods": _named(methods),
+        "target_error": target_error,
+        "seed": seed,
+        "convention": convention,
+        "pick": pick,
+        "strict": strict,
+        "read": [_options(given) for given in (read_ground_truth, read_predictions)],
+    }
+    with reported("comparing materials", progress) as report:
+        summaries, results = _core.rank_dataset(asked, report)
+    return DatasetReport(
+        convention=convention,
+        target_error=target_error,
+        seed=seed,
+        pick=pick,
+        methods=tuple(MethodSummary(**items) for items in summaries),
+        results=tuple(DatasetLoss(**items) for items in results),
+    )
+
+
+def _named(methods: Source | Sequence[Source] | Mapping[str, Source]) -> list[tuple[str, str]]:
+    if isinstance(methods, Mapping):
+        named = [(name, os.fspath(folder)) for name, folder in methods.items()]
+    else:
+        folders = [methods] if isinstance(methods, str | os.PathLike) else list(methods)
+        paths = [os.fspath(folder) for folder in folders]
+        names = _core.distinct_names([(Path(path).name or path, path) for path in paths])
+        named = list(zip(names, paths, strict=True))
+    if not named:
+        raise ValueError("methods: expected at least one folder, found none")
+    return named
+
+
+def _options(given: Mapping[str, Any] | None) -> str:
+    return json.dumps({name.replace("_", "-"): value for name, value in (given or {}).items()})
