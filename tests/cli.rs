@@ -4,6 +4,7 @@ mod backend;
 mod ends;
 mod loss;
 mod materials;
+mod metrics;
 mod notes;
 mod pictures;
 mod rank;

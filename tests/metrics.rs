@@ -53,13 +53,19 @@ fn metrics_of_maps_have_their_closed_forms() {
 #[test]
 fn equal_materials_differ_by_nothing() {
     let truth = samples::load::<f32>().unwrap().ground_truth.material;
-    assert!(of_maps(&truth, &truth).unwrap().iter().all(|metric| metric.value == 0.0));
+    for metric in of_maps(&truth, &truth).unwrap() {
+        let expected = if metric.name.starts_with("ssim") { 1.0 } else { 0.0 };
+        assert!((metric.value - expected).abs() < 1e-14, "{}: {}", metric.name, metric.value);
+    }
     let scenes = Sampler::Random.scenes(0, 2, 1, &Convention::default());
     let renderings =
         of_renderings(&truth, &truth, &scenes, &Convention::default(), &Progress::default()).unwrap();
     for metric in renderings {
-        let expected = if metric.name.starts_with("psnr") { f64::INFINITY } else { 0.0 };
-        assert_eq!(metric.value, expected, "{}", metric.name);
+        match metric.name {
+            name if name.starts_with("psnr") => assert_eq!(metric.value, f64::INFINITY, "{name}"),
+            name if name.starts_with("ssim") => assert!((metric.value - 1.0).abs() < 1e-14, "{name}"),
+            name => assert_eq!(metric.value, 0.0, "{name}"),
+        }
     }
 }
 
@@ -81,4 +87,144 @@ fn renderings_of_diffuse_materials_have_their_closed_form() {
     let expected = 0.6 / std::f64::consts::PI;
     assert!((linear / expected - 1.0).abs() < 1e-3, "{linear}, not {expected}");
     assert!((psnr + 20.0 * linear.log10()).abs() < 1e-12);
+}
+
+/// The material of the references below: 24 x 17 texels, or 8 x 8, of values that NumPy computes the same.
+fn pattern(size: [usize; 2], of: impl Fn(usize, usize, usize) -> f64) -> [Vec<f64>; 3] {
+    let [width, height] = size;
+    std::array::from_fn(|c| (0..width * height).map(|i| of(i % width, i / width, c)).collect())
+}
+
+/// scikit-image 0.26:
+///
+/// ```python
+/// y, x, c = np.mgrid[0:17, 0:24, 0:3]
+/// a = ((7 * x + 13 * y + 29 * c) % 64) / 63
+/// b = 0.8 * a + 0.2 * ((x * x + 3 * y + c) % 50) / 49
+/// window = {"gaussian_weights": True, "sigma": 1.5, "use_sample_covariance": False, "data_range": 1.0}
+/// structural_similarity(srgb(a), srgb(b), **window, channel_axis=2)  # 0.9093539401489618
+/// structural_similarity(a[..., 0], b[..., 0], **window)  # 0.9469866473748026
+/// ```
+#[test]
+fn ssim_is_that_of_scikit_image() {
+    let size = [24, 17];
+    let a = pattern(size, |x, y, c| ((7 * x + 13 * y + 29 * c) % 64) as f64 / 63.0);
+    let b = pattern(size, |x, y, c| {
+        0.8 * (((7 * x + 13 * y + 29 * c) % 64) as f64 / 63.0)
+            + 0.2 * ((x * x + 3 * y + c) % 50) as f64 / 49.0
+    });
+    let material = |maps: &[Vec<f64>; 3], [width, height]: [usize; 2]| {
+        let count = width * height;
+        let cut = |plane: &Vec<f64>| plane[..count].to_vec();
+        let planes = Planes {
+            normal: [vec![0.0; count], vec![0.0; count], vec![1.0; count]],
+            diffuse: maps.each_ref().map(cut),
+            specular: maps.each_ref().map(cut),
+            roughness: cut(&maps[0]),
+        };
+        Material::new("pattern", width, height, planes).unwrap()
+    };
+    let got = of_maps(&material(&a, size), &material(&b, size)).unwrap();
+    assert_is(&got, "ssim11_gaussian_diffuse_srgb", 0.909_353_940_148_961_8);
+    assert_is(&got, "ssim11_gaussian_specular_srgb", 0.909_353_940_148_961_8);
+    assert_is(&got, "ssim11_gaussian_roughness", 0.946_986_647_374_802_6);
+    assert_is(&got, "ssim11_gaussian_normal_stored", 1.0);
+    // Smaller than a window.
+    let small = of_maps(&material(&a, [24, 10]), &material(&b, [24, 10])).unwrap();
+    assert!(small.iter().all(|metric| !metric.name.starts_with("ssim")));
+}
+
+/// The functions of the released code (JAX in double precision, NumPy and SciPy):
+///
+/// ```python
+/// y, x, c = np.mgrid[0:8, 0:8, 0:3]
+/// def maps(k):
+///     d = ((7 * x + 13 * y + 29 * c + 5 * k) % 64) / 63
+///     s = ((11 * x + 5 * y + 17 * c + 3 * k) % 32) / 31
+///     r = ((3 * x + 7 * y + 11 * k) % 16)[..., :1] / 15
+///     n = [((5 * x + 3 * y + k) % 9) / 16 + 0.25, ((2 * x + 7 * y + 3 * k) % 9) / 16 + 0.25, 0.75 + ((x + y + k) % 5) / 16]
+///     return np.concatenate([d, s, r, np.stack([m[..., 0] for m in n], axis=-1)], axis=2)
+/// rmse_error(maps(0), maps(1))
+/// flash = [nprast_flash_rerender(maps(k), distance=2.41)[0] for k in (0, 1)]
+/// np.mean(np.abs(flash[0] - flash[1]))
+/// angles = Sobol(d=2, scramble=True, seed=51234).random_base2(7)
+/// dome = nprast_dome_render_multi(maps(0), angles, camera_distance=2.41, light_distance=2.41)[0]
+/// ```
+mod matfusion {
+    use super::*;
+    use svbrdf::metrics::{matfusion_renderings, of_matfusion};
+
+    const SIZE: [usize; 2] = [8, 8];
+    /// Diffuse, specular, roughness, normals.
+    const RMSE: [f64; 4] = [
+        0.272_628_000_592_343_8,
+        0.251_943_537_932_472_87,
+        0.501_109_879_279_096_9,
+        0.199_435_645_818_185_32,
+    ];
+    const RERENDER: f64 = 0.220_927_547_403_911_3;
+    /// The means of some of the renderings.
+    const MEANS: [(usize, f64); 4] = [
+        (0, 0.201_574_259_161_037_88),
+        (1, 0.444_481_285_468_639_74),
+        (64, 0.196_954_951_956_184_76),
+        (127, 0.459_838_438_992_077_94),
+    ];
+    /// Rendering, row, column, RGB.
+    const TEXELS: [(usize, usize, usize, [f64; 3]); 4] = [
+        (0, 0, 0, [8.763_523_484_455_186e-16, 4.603_709_139_040_979e-9, 9.206_412_866_173_793e-9]),
+        (1, 3, 5, [0.119_939_775_576_610_67, 0.467_585_940_747_47, 0.050_354_538_291_662_23]),
+        (64, 2, 6, [0.007_393_958_862_594_018, 0.061_000_141_411_059_944, 0.114_606_315_287_696_5]),
+        (127, 7, 2, [1.0, 0.296_927_739_467_788_3, 1.0]),
+    ];
+
+    fn planes(k: usize) -> Planes<f64> {
+        let normal = pattern(SIZE, |x, y, c| {
+            let stored = match c {
+                0 => ((5 * x + 3 * y + k) % 9) as f64 / 16.0 + 0.25,
+                1 => ((2 * x + 7 * y + 3 * k) % 9) as f64 / 16.0 + 0.25,
+                _ => 0.75 + ((x + y + k) % 5) as f64 / 16.0,
+            };
+            2.0 * stored - 1.0
+        });
+        let [roughness, ..] = pattern(SIZE, |x, y, _| ((3 * x + 7 * y + 11 * k) % 16) as f64 / 15.0);
+        Planes {
+            normal,
+            diffuse: pattern(SIZE, |x, y, c| ((7 * x + 13 * y + 29 * c + 5 * k) % 64) as f64 / 63.0),
+            specular: pattern(SIZE, |x, y, c| ((11 * x + 5 * y + 17 * c + 3 * k) % 32) as f64 / 31.0),
+            roughness,
+        }
+    }
+
+    #[test]
+    fn the_numbers_are_those_of_the_released_script() {
+        let got = of_matfusion(&planes(0), &planes(1), SIZE, &Progress::default()).unwrap();
+        assert_is(&got, "matfusion_rmse_diffuse", RMSE[0]);
+        assert_is(&got, "matfusion_rmse_specular", RMSE[1]);
+        assert_is(&got, "matfusion_rmse_roughness", RMSE[2]);
+        assert_is(&got, "matfusion_rmse_normals", RMSE[3]);
+        assert_is(&got, "matfusion_l1_rerender", RERENDER);
+        // Normalized normals have another error: those as stored are meant.
+        let unit = |k| Material::new("unit", 8, 8, planes(k)).unwrap();
+        let normalized =
+            of_matfusion(unit(0).planes(), unit(1).planes(), SIZE, &Progress::default()).unwrap();
+        assert!((normalized[3].value - RMSE[3]).abs() > 1e-3);
+    }
+
+    #[test]
+    fn the_renderings_are_those_of_the_released_script() {
+        let got = matfusion_renderings(&planes(0), SIZE, &Progress::default()).unwrap();
+        assert_eq!(got.len(), 128);
+        for (index, expected) in MEANS {
+            let values = got[index].pixels.as_flattened();
+            let mean = values.iter().map(|&x| f64::from(x)).sum::<f64>() / values.len() as f64;
+            assert!((mean - expected).abs() < 1e-7, "{index}: {mean}, not {expected}");
+        }
+        for (index, row, column, expected) in TEXELS {
+            let rgb = got[index].pixels[8 * row + column].map(f64::from);
+            for (got, expected) in rgb.into_iter().zip(expected) {
+                assert!((got - expected).abs() < 1e-7, "{index}: {rgb:?}");
+            }
+        }
+    }
 }

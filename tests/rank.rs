@@ -1,9 +1,13 @@
 //! Many predictions, many materials: places, groups, and intervals over materials.
 
+use std::collections::BTreeMap;
+
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
-use svbrdf::dataset::{KnownLoss, MaterialResult, Pick, PredictionResult, interval_of_mean, summarize};
+use svbrdf::dataset::{
+    KnownLoss, MaterialResult, Pick, PredictionResult, interval_of_mean, summarize, summarize_metrics,
+};
 use svbrdf::loss::{Comparison, Request};
 use svbrdf::material::Map;
 use svbrdf::model::convention::Convention;
@@ -91,12 +95,15 @@ fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
     for (method, loss) in losses {
         let sample = predictions.iter().filter(|p| p.method == *method).count();
         let known = |loss| KnownLoss { loss, standard_error: 0.01, interval95: [loss - 0.02, loss + 0.02] };
+        let metrics: BTreeMap<String, f64> =
+            loss.map(|loss| ("rmse_roughness".to_owned(), 10.0 * loss)).into_iter().collect();
         let result = loss.map(known).ok_or_else(|| "broken".to_owned());
         predictions.push(PredictionResult {
             method: (*method).to_owned(),
             sample,
             path: String::new(),
             result,
+            metrics: metrics.clone(),
         });
     }
     MaterialResult { index, material: format!("m{index}"), seed: 0, scenes: 9, predictions }
@@ -140,4 +147,29 @@ fn of_several_samples_the_pick_counts() {
     assert!(of(Pick::Fixed)[1].is_nan(), "the first one of b is broken");
     assert_eq!(of(Pick::Best), [0.1, 0.4]);
     assert!((of(Pick::Mean)[0] - 0.2).abs() < 1e-15);
+}
+
+#[test]
+fn metrics_over_materials_follow_the_pick_of_the_losses() {
+    let methods = |i: usize| {
+        let base = 0.1 + 0.1 * i as f64;
+        result(
+            i,
+            &[("a", Some(base + 0.02)), ("a", Some(base)), ("b", (i > 1).then_some(base)), ("b", Some(0.3))],
+        )
+    };
+    let results: Vec<MaterialResult> = (0..5).map(methods).collect();
+    let mean = |method: &str, pick| summarize_metrics(method, &results, pick)["rmse_roughness"];
+    for (pick, expected) in [(Pick::Fixed, 3.2), (Pick::Best, 3.0), (Pick::Mean, 3.1)] {
+        let got = mean("a", pick);
+        assert!(
+            (got.mean - expected).abs() < 1e-12 && (got.median - expected).abs() < 1e-12,
+            "{pick}: {got:?}"
+        );
+        let [low, high] = got.interval95_materials.unwrap();
+        assert!(low < expected && expected < high);
+    }
+    // Two materials without a first prediction do not count.
+    assert!((mean("b", Pick::Fixed).mean - 4.0).abs() < 1e-12);
+    assert!(summarize_metrics("c", &results, Pick::Mean).is_empty());
 }

@@ -1,5 +1,6 @@
 //! The losses of all predictions of all materials.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -8,6 +9,7 @@ use super::record::{Candidate, Case, KnownLoss, MaterialResult, PredictionResult
 use crate::error::Error;
 use crate::loss::{Comparison, Request, check_same_size};
 use crate::material::Material;
+use crate::metrics::of_maps;
 use crate::model::convention::Convention;
 use crate::progress::Progress;
 
@@ -68,6 +70,10 @@ fn one(
     };
     let mut losses = outcome.iter().flat_map(|outcome| &outcome.losses);
     let refusal = truth.as_ref().err().map(|problem| format!("ground truth: {problem}"));
+    let measured = |read: &Result<Material<f32>, Error>| match (&truth, read) {
+        (Ok(truth), Ok(prediction)) if settings.metrics => metrics(truth, prediction),
+        _ => BTreeMap::new(),
+    };
     let prediction = |(candidate, read): (&Candidate, &Result<_, Error>)| {
         let known = match (read, &refusal) {
             (_, Some(refusal)) => Err(refusal.clone()),
@@ -78,11 +84,23 @@ fn one(
         };
         let Candidate { method, sample, path } = candidate;
         let path = path.display().to_string();
-        PredictionResult { method: method.clone(), sample: *sample, path, result: known }
+        PredictionResult {
+            method: method.clone(),
+            sample: *sample,
+            path,
+            result: known,
+            metrics: measured(read),
+        }
     };
     let predictions = task.candidates.iter().zip(&results).map(prediction).collect();
     let scenes = outcome.as_ref().map_or(0, |outcome| outcome.scenes.len());
     Ok(MaterialResult { index: task.index, material: task.material.clone(), seed, scenes, predictions })
+}
+
+/// The metrics of the maps of materials of one size.
+fn metrics(truth: &Material<f32>, prediction: &Material<f32>) -> BTreeMap<String, f64> {
+    let metrics = of_maps(truth, prediction).unwrap_or_default();
+    metrics.into_iter().map(|metric| (metric.name.to_owned(), metric.value)).collect()
 }
 
 fn known(estimate: &crate::loss::Estimate) -> KnownLoss {

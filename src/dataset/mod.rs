@@ -8,6 +8,7 @@ mod bootstrap;
 mod evaluate;
 mod journal;
 mod list;
+mod metric_summary;
 mod record;
 mod summary;
 
@@ -15,5 +16,6 @@ pub use bootstrap::interval_of_mean;
 pub use evaluate::{Side, evaluate};
 pub use journal::{Journal, merged, remaining, write};
 pub use list::{Shard, tasks_of_folders, tasks_of_table};
+pub use metric_summary::{MetricSummary, summarize_metrics};
 pub use record::{Candidate, Case, KnownLoss, MaterialResult, PredictionResult, RunSettings};
 pub use summary::{MethodDifference, MethodSummary, Pick, summarize};

@@ -1,5 +1,6 @@
 //! What is compared, and what comes of it.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
@@ -35,6 +36,9 @@ pub struct RunSettings {
     pub materials: Vec<String>,
     /// In order.
     pub methods: Vec<String>,
+    /// Whether results have metrics of the maps.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub metrics: bool,
 }
 
 impl RunSettings {
@@ -47,7 +51,13 @@ impl RunSettings {
             }
         }
         let materials = tasks.iter().map(|task| task.material.clone()).collect();
-        Self { convention: convention.to_owned(), target_error, seed, materials, methods }
+        Self { convention: convention.to_owned(), target_error, seed, materials, methods, metrics: false }
+    }
+
+    /// The same settings, with metrics of the maps or without.
+    #[must_use]
+    pub fn with_metrics(self, metrics: bool) -> Self {
+        Self { metrics, ..self }
     }
 }
 
@@ -71,6 +81,9 @@ pub struct PredictionResult {
     pub path: String,
     /// The loss; what is wrong where there is none.
     pub result: Result<KnownLoss, String>,
+    /// The metrics of its maps by name, where they were asked for.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub metrics: BTreeMap<String, f64>,
 }
 
 /// A loss that is known.

@@ -109,13 +109,7 @@ fn of_method(method: &str, values: &[Option<KnownLoss>]) -> MethodSummary {
     let mean = losses.iter().sum::<f64>() / count;
     let reach = Z * known.iter().map(|known| known.standard_error.powi(2)).sum::<f64>().sqrt() / count;
     let interval95_materials = interval_of_mean(&losses);
-    losses.sort_by(f64::total_cmp);
-    let middle = losses.len() / 2;
-    let median = match losses.len() {
-        0 => f64::NAN,
-        count if count % 2 == 1 => losses[middle],
-        _ => 0.5 * (losses[middle - 1] + losses[middle]),
-    };
+    let median = median(&mut losses);
     MethodSummary {
         method: method.to_owned(),
         materials: losses.len(),
@@ -125,6 +119,17 @@ fn of_method(method: &str, values: &[Option<KnownLoss>]) -> MethodSummary {
         interval95_materials,
         interval95_scenes: [mean - reach, mean + reach],
         to_best: None,
+    }
+}
+
+/// The median, which sorts the values; NaN without any.
+pub(super) fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() {
+        0 => f64::NAN,
+        count if count % 2 == 1 => values[middle],
+        _ => 0.5 * (values[middle - 1] + values[middle]),
     }
 }
 

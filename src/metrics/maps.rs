@@ -1,12 +1,13 @@
 //! Metrics of the four maps, texel by texel.
 
 use super::Metric;
+use super::ssim::ssim11;
 use crate::error::Error;
 use crate::loss::check_same_size;
 use crate::material::Material;
 use crate::math::real::Real;
 
-/// The metrics of the maps of `prediction` against `ground_truth`, computed in f64.
+/// The metrics of the maps of `prediction` against `ground_truth`, computed in f64; SSIM from 11 x 11 texels on.
 ///
 /// # Errors
 /// [`Error::SizesDiffer`].
@@ -18,11 +19,11 @@ pub fn of_maps<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) ->
     let normal = pairs(&truth.normal, &predicted.normal);
     let roughness = pairs(std::slice::from_ref(&truth.roughness), std::slice::from_ref(&predicted.roughness));
     let angles = angles(ground_truth, prediction);
-    let stored = mapped(&normal, |n| 0.5 * (n + 1.0));
+    let stored = stored(&normal);
     let alpha = mapped(&roughness, |r| r * r);
     let [diffuse_srgb, specular_srgb] = [&diffuse, &specular].map(|pairs| mapped(pairs, srgb));
     let metric = |name, value| Metric { name, value };
-    Ok(vec![
+    let mut metrics = vec![
         metric("angle_normal_mean_degrees", angles.iter().sum::<f64>() / angles.len() as f64),
         metric("angle_normal_median_degrees", quantile(&angles, 0.5)),
         metric("angle_normal_p95_degrees", quantile(&angles, 0.95)),
@@ -42,17 +43,33 @@ pub fn of_maps<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) ->
         metric("rmse_roughness", rmse(&roughness)),
         metric("l1_roughness", l1(&roughness)),
         metric("rmse_roughness_alpha", rmse(&alpha)),
-    ])
+    ];
+    let similarities = [
+        ("ssim11_gaussian_normal_stored", &stored),
+        ("ssim11_gaussian_diffuse_srgb", &diffuse_srgb),
+        ("ssim11_gaussian_specular_srgb", &specular_srgb),
+        ("ssim11_gaussian_roughness", &roughness),
+    ];
+    let size = ground_truth.size();
+    metrics.extend(
+        similarities.into_iter().filter_map(|(name, pairs)| Some(metric(name, ssim11(pairs, size)?))),
+    );
+    Ok(metrics)
 }
 
 /// All (ground truth, prediction) of the channels of a map.
-fn pairs<T: Real>(truth: &[Vec<T>], predicted: &[Vec<T>]) -> Vec<[f64; 2]> {
+pub(super) fn pairs<T: Real>(truth: &[Vec<T>], predicted: &[Vec<T>]) -> Vec<[f64; 2]> {
     let channels = truth.iter().flatten().zip(predicted.iter().flatten());
     channels.map(|(a, b)| [a.f64(), b.f64()]).collect()
 }
 
 fn mapped(pairs: &[[f64; 2]], encode: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     pairs.iter().map(|pair| pair.map(&encode)).collect()
+}
+
+/// Components of normals as (n + 1) / 2.
+pub(super) fn stored(pairs: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    mapped(pairs, |n| 0.5 * (n + 1.0))
 }
 
 /// The prediction times the one factor for all channels that brings it closest (least squares).
@@ -63,7 +80,7 @@ fn scaled(pairs: &[[f64; 2]]) -> Vec<[f64; 2]> {
     pairs.iter().map(|[a, b]| [*a, factor * b]).collect()
 }
 
-fn rmse(pairs: &[[f64; 2]]) -> f64 {
+pub(super) fn rmse(pairs: &[[f64; 2]]) -> f64 {
     (pairs.iter().map(|[a, b]| (a - b).powi(2)).sum::<f64>() / pairs.len() as f64).sqrt()
 }
 

@@ -1,9 +1,13 @@
 //! Differences of maps and of renderings beside the loss, each with its convention in its name: `docs/metrics.md` defines them.
 
+mod dome_points;
 mod maps;
+mod matfusion;
 mod renderings;
+mod ssim;
 
 pub use maps::of_maps;
+pub use matfusion::{matfusion_renderings, of_matfusion};
 pub use renderings::of_renderings;
 
 /// A number and what it is.

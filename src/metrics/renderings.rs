@@ -1,8 +1,12 @@
 //! Metrics of renderings over scenes.
 
+use rayon::prelude::*;
+
 use super::Metric;
 use super::maps::srgb;
+use super::ssim::ssim11;
 use crate::error::Error;
+use crate::image::Image;
 use crate::loss::check_same_size;
 use crate::material::Material;
 use crate::model::convention::Convention;
@@ -10,13 +14,13 @@ use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render;
 
-/// Squared differences of all scenes, in three encodings.
+/// Of one scene or the sum over several: mean squared differences in three encodings, and the SSIM where there is one.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+struct Means {
     linear: f64,
     srgb: f64,
     gamma: f64,
-    count: f64,
+    similarity: Option<f64>,
 }
 
 /// The metrics of the renderings of `prediction` and `ground_truth` under `scenes`, over all texels and RGB.
@@ -34,29 +38,46 @@ pub fn of_renderings(
 ) -> Result<Vec<Metric>, Error> {
     check_same_size(ground_truth, prediction)?;
     progress.begin(scenes.len() as u64);
-    let mut sums = Sums::default();
-    for scene in scenes {
+    let one = |scene: &Scene| -> Result<Means, Error> {
         let render = |material| render::render_f32(material, scene, convention, &progress.part());
-        let [truth, predicted] = [render(ground_truth)?, render(prediction)?];
-        let values = truth.pixels.as_flattened().iter().zip(predicted.pixels.as_flattened());
-        for (a, b) in values {
-            let [a, b] = [a, b].map(|value| f64::from(*value).clamp(0.0, 1.0));
-            sums.linear += (a - b).powi(2);
-            sums.srgb += (srgb(a) - srgb(b)).powi(2);
-            sums.gamma += (a.powf(1.0 / 2.2) - b.powf(1.0 / 2.2)).powi(2);
-            sums.count += 1.0;
-        }
-        progress.step()?;
-    }
-    let [linear, srgb, gamma] = [sums.linear, sums.srgb, sums.gamma].map(|sum| (sum / sums.count).sqrt());
+        let means = means(&render(ground_truth)?, &render(prediction)?);
+        progress.step().map(|()| means)
+    };
+    // Summed in the order of the scenes: the result does not depend on the number of threads.
+    let of_scenes: Vec<Means> = scenes.par_iter().map(one).collect::<Result<_, _>>()?;
+    let mean = |of: fn(&Means) -> f64| of_scenes.iter().map(of).sum::<f64>() / of_scenes.len() as f64;
+    let [linear, srgb, gamma] = [mean(|m| m.linear), mean(|m| m.srgb), mean(|m| m.gamma)].map(f64::sqrt);
     let metric = |name, value| Metric { name, value };
     // Of a peak of 1.
     let psnr = |rmse: f64| -20.0 * rmse.log10();
-    Ok(vec![
+    let mut metrics = vec![
         metric("rmse_rendering_clipped_linear", linear),
         metric("rmse_rendering_clipped_srgb", srgb),
         metric("rmse_rendering_clipped_gamma2.2", gamma),
         metric("psnr_rendering_clipped_linear", psnr(linear)),
         metric("psnr_rendering_clipped_srgb", psnr(srgb)),
-    ])
+    ];
+    if of_scenes.iter().all(|means| means.similarity.is_some()) {
+        let similarity = mean(|means| means.similarity.unwrap_or_default());
+        metrics.push(metric("ssim11_gaussian_rendering_clipped_srgb", similarity));
+    }
+    Ok(metrics)
+}
+
+fn means(truth: &Image<f32>, predicted: &Image<f32>) -> Means {
+    let count = truth.pixels.len();
+    let mut means = Means::default();
+    let mut encoded = vec![[0.0; 2]; 3 * count];
+    for (index, (a, b)) in truth.pixels.iter().zip(&predicted.pixels).enumerate() {
+        for c in 0..3 {
+            let [a, b] = [a[c], b[c]].map(|value| f64::from(value).clamp(0.0, 1.0));
+            let pair = [srgb(a), srgb(b)];
+            encoded[c * count + index] = pair;
+            means.linear += (a - b).powi(2);
+            means.srgb += (pair[0] - pair[1]).powi(2);
+            means.gamma += (a.powf(1.0 / 2.2) - b.powf(1.0 / 2.2)).powi(2);
+        }
+    }
+    let [linear, srgb, gamma] = [means.linear, means.srgb, means.gamma].map(|sum| sum / encoded.len() as f64);
+    Means { linear, srgb, gamma, similarity: ssim11(&encoded, [truth.width, truth.height]) }
 }

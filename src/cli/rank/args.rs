@@ -40,6 +40,10 @@ pub struct RankArgs {
     #[arg(long, value_name = "fixed|mean|best", default_value = "fixed")]
     pub pick: Pick,
 
+    /// Adds the metrics of the maps of a data set: RMSE, L1, angles and SSIM of each material, and their means
+    #[arg(long)]
+    pub metrics: bool,
+
     /// Fails with exit code 1, after the result is printed, if a mean loss is larger than this
     #[arg(long, value_name = "LOSS", allow_hyphen_values = true)]
     pub fail_above: Option<f64>,

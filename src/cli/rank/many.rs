@@ -1,5 +1,6 @@
 //! Methods over many materials.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -14,6 +15,7 @@ use svbrdf::material::Material;
 use svbrdf::progress::Progress;
 
 use super::args::{RankArgs, RankFormat, check_limit};
+use super::metric_columns::{self, MetricEntry};
 use crate::cli::bar::watched;
 use crate::cli::{exit, table, wildcards};
 
@@ -25,7 +27,10 @@ pub fn run(args: &RankArgs) -> Result<(), Error> {
     }
     let summaries = summarize(&settings.methods, &results, args.pick);
     exit::put(&match args.format {
-        RankFormat::Text => text(&settings, &results, &summaries, args.pick),
+        RankFormat::Text => {
+            let table = text(&settings, &results, &summaries, args.pick);
+            table + &metric_columns::text(&summaries, &results, args.pick)
+        }
         RankFormat::Json => table::json(&DatasetJson::new(&settings, &results, &summaries, args.pick))?,
         RankFormat::Csv => csv(&results)?,
         RankFormat::Latex => latex(&summaries),
@@ -58,7 +63,8 @@ fn evaluated(args: &RankArgs) -> Result<(RunSettings, Vec<MaterialResult>), Erro
         return Err(Error::Usage(problem.to_owned()));
     }
     let tasks = tasks(args)?;
-    let settings = RunSettings::new(args.comparison.convention.name, args.target_error, args.seed, &tasks);
+    let settings = RunSettings::new(args.comparison.convention.name, args.target_error, args.seed, &tasks)
+        .with_metrics(args.metrics);
     let tasks = args.shard.map_or(tasks.clone(), |shard| shard.part(tasks));
     let (journal, known) = match &args.journal {
         Some(path) => Journal::open(path, &settings).map(|(journal, known)| (Some(journal), known))?,
@@ -175,6 +181,7 @@ fn text(
 
 /// A row for each prediction.
 fn csv(results: &[MaterialResult]) -> Result<String, Error> {
+    let columns = metric_columns::names(results);
     let heading = [
         "material",
         "method",
@@ -198,10 +205,13 @@ fn csv(results: &[MaterialResult]) -> Result<String, Error> {
             let start = [result.material.clone(), prediction.method.clone(), prediction.sample.to_string()];
             let scenes = [result.seed.to_string(), result.scenes.to_string()];
             let problem = prediction.result.as_ref().err().cloned().unwrap_or_default();
-            start.into_iter().chain(numbers).chain(scenes).chain([prediction.path.clone(), problem]).collect()
+            let end = [prediction.path.clone(), problem];
+            let metrics = metric_columns::values(&columns, prediction);
+            start.into_iter().chain(numbers).chain(scenes).chain(end).chain(metrics).collect()
         })
     });
-    table::csv([heading.map(str::to_owned).to_vec()].into_iter().chain(rows))
+    let heading = heading.into_iter().chain(columns.iter().copied()).map(str::to_owned).collect();
+    table::csv([heading].into_iter().chain(rows))
 }
 
 fn latex(summaries: &[MethodSummary]) -> String {
@@ -238,6 +248,9 @@ struct MethodEntry<'a> {
     to_best: Option<f64>,
     to_best_interval95_materials: Option<[f64; 2]>,
     ties_with_best: bool,
+    /// Of the maps, by name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    metrics: BTreeMap<String, MetricEntry>,
 }
 
 impl<'a> DatasetJson<'a> {
@@ -260,6 +273,7 @@ impl<'a> DatasetJson<'a> {
                 .to_best
                 .and_then(|difference| difference.interval95_materials),
             ties_with_best: summary.ties_with_best(),
+            metrics: metric_columns::entries(&summary.method, results, pick),
         };
         Self { settings, pick: pick.to_string(), methods: summaries.iter().map(entry).collect(), results }
     }

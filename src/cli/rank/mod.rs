@@ -2,6 +2,7 @@
 
 mod args;
 mod many;
+mod metric_columns;
 mod one;
 
 use svbrdf::error::Error;

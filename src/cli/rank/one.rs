@@ -13,6 +13,12 @@ use crate::cli::report::EstimateEntry;
 use crate::cli::{exit, materials, table, wildcards};
 
 pub fn run(mut args: RankArgs) -> Result<(), Error> {
+    if args.metrics {
+        return Err(Error::Usage(
+            "--metrics adds the metrics of a data set; `svbrdf metrics` prints those of predictions of one material"
+                .to_owned(),
+        ));
+    }
     if args.journal.is_some() {
         return Err(Error::Usage(
             "--journal keeps the results of a data set; add --dataset or --pairs".to_owned(),

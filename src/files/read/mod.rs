@@ -54,7 +54,7 @@ pub use sidecar::Sidecar;
 pub use storage_convention::StorageConvention;
 
 use crate::error::Error;
-use crate::material::Material;
+use crate::material::{Material, Planes};
 use crate::math::real::Real;
 use crate::progress::Progress;
 use extensions::LISTING;
@@ -158,17 +158,27 @@ pub fn read_as<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress)
     read_with(path, &saved, &used, progress)
 }
 
+/// The planes of a material and their (width, height), as [`read`], but with the lengths that normals are stored with.
+///
+/// # Errors
+/// As [`read`]. Values are not checked as those of a [`Material`] are.
+pub fn read_unnormalized<T: Real>(
+    path: &Path,
+    options: &ReadOptions,
+    progress: &Progress,
+) -> Result<(Planes<T>, [usize; 2]), Error> {
+    let saved = Sidecar::load(path)?;
+    let used = saved.clone().overridden_by(options, &[]);
+    encoding::planes(&mut located(path, &saved, &used, progress)?, &used.options.with_preset())
+}
+
 fn read_with<T: Real>(
     path: &Path,
     saved: &Sidecar,
     used: &Sidecar,
     progress: &Progress,
 ) -> Result<Read<T>, Error> {
-    let options = &used.options.with_preset();
-    let remaining = used.bindings.iter().filter(|binding| saved.bindings.contains(binding));
-    Sidecar { bindings: remaining.cloned().collect(), ..Sidecar::default() }.check_maps(path)?;
-    let bound = used.bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
-    let mut read = finish(find(&sidecar::material_of(path)?, bound, options, progress)?, options)?;
+    let mut read = finish(located(path, saved, used, progress)?, &used.options.with_preset())?;
     (read.options, read.saved) = (used.options, saved.options);
     if *saved != Sidecar::default() {
         let file = Sidecar::path_for(path);
@@ -176,6 +186,19 @@ fn read_with<T: Real>(
         read.files.push(file);
     }
     Ok(read)
+}
+
+/// What is stored at `path`, with the maps that `used` binds.
+fn located(
+    path: &Path,
+    saved: &Sidecar,
+    used: &Sidecar,
+    progress: &Progress,
+) -> Result<StoredMaterial, Error> {
+    let remaining = used.bindings.iter().filter(|binding| saved.bindings.contains(binding));
+    Sidecar { bindings: remaining.cloned().collect(), ..Sidecar::default() }.check_maps(path)?;
+    let bound = used.bindings.iter().map(Binding::load).collect::<Result<_, _>>()?;
+    find(&sidecar::material_of(path)?, bound, &used.options.with_preset(), progress)
 }
 
 /// Reads a packed or layered image from memory; `name` is the name of the material.

@@ -1,6 +1,7 @@
 //! Renderings as files: floats into EXR, what a screen shows into PNG, either with where it comes from.
 
 mod exr;
+mod npy;
 mod png;
 mod provenance;
 
@@ -8,6 +9,7 @@ use std::path::Path;
 
 pub use crate::files::atomic::{Destination, check_place, write_text};
 pub(crate) use crate::files::atomic::{Watched, check, folder_of, replace};
+pub use npy::write_npy;
 pub use provenance::{Entries, Provenance};
 
 use super::colour_map::heat;

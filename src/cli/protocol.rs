@@ -1,0 +1,145 @@
+//! `svbrdf metrics --protocol`: published evaluations, as their released code computes them.
+
+use std::path::{Path, PathBuf};
+
+use svbrdf::error::Error;
+use svbrdf::files::read::{self, Energy, ReadOptions};
+use svbrdf::files::session::Session;
+use svbrdf::loss::check_same_size;
+use svbrdf::material::{Material, Planes};
+use svbrdf::metrics::{Metric, matfusion_renderings, of_matfusion};
+use svbrdf::picture::export::write_npy;
+use svbrdf::progress::Progress;
+
+use super::bar::watched;
+use super::comparison_args::ComparisonArgs;
+use super::metric_table::{MetricsHeading, json, rows};
+use super::report::ReportFormat;
+use super::{exit, materials, table};
+
+#[derive(Debug, clap::Args)]
+pub struct ProtocolArgs {
+    /// Computes what the released code of a publication computes, without neural networks
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["near", "distant", "seed", "sampler", "scenes", "convention"])]
+    protocol: Option<Protocol>,
+
+    /// Writes the renderings of the protocol, a file of NumPy for each material, into a folder: for LPIPS and the like
+    #[arg(long, value_name = "FOLDER", requires = "protocol")]
+    renderings: Option<PathBuf>,
+}
+
+impl ProtocolArgs {
+    pub fn is_given(&self) -> bool {
+        self.protocol.is_some()
+    }
+}
+
+/// A published evaluation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Protocol {
+    /// Sartor and Peers 2023, score.py: RMSE of the four maps, L1 of a rendering with the flash at the camera
+    Matfusion,
+}
+
+/// A material of the protocol.
+struct ProtocolMaterial {
+    name: String,
+    /// With normals as stored.
+    planes: Planes<f64>,
+    size: [usize; 2],
+}
+
+/// Prints the metrics of the protocol to stdout.
+///
+/// # Errors
+/// Where a material cannot be read or used, or renderings cannot be written.
+pub fn run(args: &ProtocolArgs, comparison: &ComparisonArgs, format: ReportFormat) -> Result<(), Error> {
+    let all = opened(comparison)?;
+    let Some((truth, predictions)) = all.split_first() else {
+        return Err(Error::Internal("there is no ground truth".to_owned()));
+    };
+    if let Some(folder) = &args.renderings {
+        write_renderings(folder, &all)?;
+    }
+    let of = |prediction: &ProtocolMaterial| {
+        watched("rendering", |progress| of_matfusion(&truth.planes, &prediction.planes, truth.size, progress))
+    };
+    let metrics: Vec<Vec<Metric>> = predictions.iter().map(of).collect::<Result<_, _>>()?;
+    let names: Vec<&str> = predictions.iter().map(|prediction| prediction.name.as_str()).collect();
+    exit::put(&match format {
+        ReportFormat::Text => {
+            let [width, height] = truth.size;
+            let heading =
+                format!("metrics of MatFusion's score.py against {}, {width} x {height} texels", truth.name);
+            let rows = rows(&names, &metrics, |value| format!("{value:.6}"));
+            format!("{heading}\n\n{}", table::aligned(&rows))
+        }
+        ReportFormat::Json => {
+            let ground_truth = &truth.name;
+            json(
+                &MetricsHeading { ground_truth, convention: None, protocol: Some("matfusion") },
+                &names,
+                &metrics,
+            )?
+        }
+        ReportFormat::Csv => table::csv(rows(&names, &metrics, |value| value.to_string()))?,
+    })
+}
+
+/// The ground truth, then the predictions, of one size.
+fn opened(comparison: &ComparisonArgs) -> Result<Vec<ProtocolMaterial>, Error> {
+    let args = &comparison.materials;
+    if args.reading.resize_to.is_some() {
+        return Err(Error::Usage(
+            "a protocol compares materials as they are; leave out --resize-to".to_owned(),
+        ));
+    }
+    if args.ground_truth.as_deref().is_some_and(Session::is_named) {
+        return Err(Error::Usage(
+            "a protocol takes the files of materials; name them instead of a session".to_owned(),
+        ));
+    }
+    let materials: Vec<Material<f64>> = materials::open(args)?.into_all();
+    for prediction in &materials[1..] {
+        check_same_size(&materials[0], prediction)?;
+    }
+    let paths = args.ground_truth.iter().chain(&args.predictions);
+    let mut paths = paths.map(PathBuf::as_path);
+    // Diffuse as stored, whatever renderer it was made for.
+    let as_stored =
+        |options: ReadOptions| ReadOptions { energy: options.energy.or(Some(Energy::Scaled)), ..options };
+    let [first, others] = [args.reading.of_ground_truth(), args.reading.of_predictions()].map(as_stored);
+    let stored = |(index, material): (usize, Material<f64>)| -> Result<ProtocolMaterial, Error> {
+        let (name, size) = (material.name().to_owned(), material.size());
+        let options = if index == 0 { &first } else { &others };
+        let planes = match paths.next() {
+            Some(path) => read::read_unnormalized(path, options, &Progress::default())?.0,
+            None => material.planes().clone(),
+        };
+        Ok(ProtocolMaterial { name, planes, size })
+    };
+    materials.into_iter().enumerate().map(stored).collect()
+}
+
+/// Writes the renderings of every material; the folder is made.
+fn write_renderings(folder: &Path, materials: &[ProtocolMaterial]) -> Result<(), Error> {
+    let remedy = "check that the folder above it is there and writable";
+    std::fs::create_dir_all(folder).map_err(|source| Error::Unwritable {
+        path: folder.to_owned(),
+        source,
+        remedy,
+    })?;
+    for (index, material) in materials.iter().enumerate() {
+        let name: String = material
+            .name
+            .chars()
+            .map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' })
+            .collect();
+        let path = folder.join(format!("{index}_{name}.npy"));
+        watched(&format!("writing {}", path.display()), |progress| {
+            let renderings = matfusion_renderings(&material.planes, material.size, progress)?;
+            write_npy(&path, &renderings, &progress.part())
+        })?;
+    }
+    Ok(())
+}

@@ -1,0 +1,65 @@
+//! Metrics of the maps of a data set beside the losses.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use svbrdf::dataset::{
+    MaterialResult, MethodSummary, MetricSummary, Pick, PredictionResult, summarize_metrics,
+};
+
+use crate::cli::table;
+
+/// The names of the metrics that results have.
+pub fn names(results: &[MaterialResult]) -> Vec<&str> {
+    let first = results.iter().flat_map(|result| &result.predictions).find(|p| !p.metrics.is_empty());
+    first.into_iter().flat_map(|prediction| prediction.metrics.keys()).map(String::as_str).collect()
+}
+
+/// The metrics of a prediction as cells, empty where there are none.
+pub fn values<'a>(names: &'a [&str], prediction: &'a PredictionResult) -> impl Iterator<Item = String> + 'a {
+    names.iter().map(|name| prediction.metrics.get(*name).map_or(String::new(), f64::to_string))
+}
+
+/// A table of the means over materials with their intervals, a column for each method; empty without metrics.
+pub fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
+    let names = names(results);
+    if names.is_empty() {
+        return String::new();
+    }
+    let columns: Vec<_> =
+        methods.iter().map(|summary| summarize_metrics(&summary.method, results, pick)).collect();
+    let mut heading = vec!["metric, mean over materials".to_owned()];
+    heading.extend(methods.iter().flat_map(|summary| [summary.method.clone(), "95%".to_owned()]));
+    let row = |name: &str| {
+        let cells = columns.iter().flat_map(|metrics| cells(metrics.get(name)));
+        [name.to_owned()].into_iter().chain(cells).collect()
+    };
+    let rows: Vec<Vec<String>> = [heading].into_iter().chain(names.iter().map(|name| row(name))).collect();
+    format!("\n{}", table::aligned(&rows))
+}
+
+fn cells(metric: Option<&MetricSummary>) -> [String; 2] {
+    let mean = metric.map_or("unknown".to_owned(), |metric| format!("{:.6}", metric.mean));
+    let interval = metric.and_then(|metric| metric.interval95_materials);
+    let interval = interval.map_or("unknown".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
+    [mean, interval]
+}
+
+/// A metric of a method as JSON.
+#[derive(Serialize)]
+pub struct MetricEntry {
+    mean: f64,
+    median: f64,
+    interval95_materials: Option<[f64; 2]>,
+}
+
+/// The metrics of a method by name.
+pub fn entries(method: &str, results: &[MaterialResult], pick: Pick) -> BTreeMap<String, MetricEntry> {
+    let entry = |MetricSummary { mean, median, interval95_materials }| MetricEntry {
+        mean,
+        median,
+        interval95_materials,
+    };
+    let metrics = summarize_metrics(method, results, pick);
+    metrics.into_iter().map(|(name, metric)| (name, entry(metric))).collect()
+}

@@ -1,0 +1,117 @@
+//! Metrics of maps, over data sets, and of published evaluations.
+
+use std::fs;
+use std::path::Path;
+
+use image::{Rgb, RgbImage};
+use serde_json::Value;
+
+use super::{fail, folder, succeed, write_material};
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+/// A packed strip of four tiles of one colour each: normal | diffuse | roughness | specular.
+fn write_tiles(path: &Path, tiles: [[u8; 3]; 4]) {
+    RgbImage::from_fn(4 * 12, 12, |x, _| Rgb(tiles[x as usize / 12])).save(path).unwrap();
+}
+
+#[test]
+fn the_protocol_of_matfusion_compares_values_as_stored() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str| folder.path().join(name);
+    // Normals that are not of unit length.
+    let truth = [[128, 140, 250], [200, 100, 50], [100; 3], [12, 20, 30]];
+    let prediction = [[140, 120, 240], [180, 130, 60], [120; 3], [30, 25, 10]];
+    write_tiles(&of("gt.png"), truth);
+    write_tiles(&of("a.png"), prediction);
+    let args = "metrics --protocol matfusion gt.png a.png --order ndrs --albedo gamma2.2 --normal-y up --roughness r";
+    let found = json(&succeed(folder.path(), &format!("{args} --format json")));
+    assert_eq!(found["protocol"], "matfusion");
+    let rmse = |map: usize, decode: fn(f64) -> f64| {
+        let value = |x: u8| decode(f64::from(x) / 255.0);
+        let squares = (0..3).map(|c| (value(truth[map][c]) - value(prediction[map][c])).powi(2));
+        (squares.sum::<f64>() / 3.0).sqrt()
+    };
+    let gamma = |x: f64| x.powf(2.2);
+    for (name, expected) in [
+        ("matfusion_rmse_normals", rmse(0, |x| x)),
+        ("matfusion_rmse_diffuse", rmse(1, gamma)),
+        ("matfusion_rmse_roughness", rmse(2, |x| x)),
+        ("matfusion_rmse_specular", rmse(3, gamma)),
+    ] {
+        let got = found["results"][0]["metrics"][name].as_f64().unwrap();
+        assert!((got - expected).abs() < 1e-12, "{name}: {got}, not {expected}");
+    }
+    assert!(succeed(folder.path(), args).contains("matfusion_l1_rerender"));
+    // A preset that says for which renderer diffuse was made does not change it here.
+    let preset = json(&succeed(folder.path(), &format!("{args} --preset matfusion --format json")));
+    assert_eq!(preset["results"], found["results"]);
+
+    succeed(folder.path(), &format!("{args} --renderings out"));
+    for name in ["0_gt.npy", "1_a.npy"] {
+        let bytes = fs::read(of("out").join(name)).unwrap();
+        assert!(bytes.starts_with(b"\x93NUMPY"));
+        let array = npyz::NpyFile::new(bytes.as_slice()).unwrap();
+        assert_eq!(array.shape(), [128, 12, 12, 3]);
+        let values: Vec<f32> = array.into_vec().unwrap();
+        assert!(values.iter().all(|x| (0.0..=1.0).contains(x)) && values.iter().any(|&x| x > 0.1));
+    }
+}
+
+#[test]
+fn what_a_protocol_cannot_do_is_refused() {
+    let folder = folder();
+    for (args, code, problem) in [
+        ("metrics --protocol matfusion gt.png big.png", 1, "sizes differ"),
+        ("metrics --protocol matfusion gt.png a.png --near 3", 64, "cannot be used with"),
+        ("metrics --protocol matfusion gt.png a.png --resize-to gt", 64, "leave out --resize-to"),
+        ("metrics gt.png a.png --renderings out", 64, "--protocol"),
+        ("metrics --protocol other gt.png a.png", 64, "matfusion"),
+        ("rank gt.png a.png --metrics", 64, "svbrdf metrics"),
+    ] {
+        let stderr = fail(folder.path(), args, code);
+        assert!(stderr.contains(problem), "{args}: {stderr}");
+    }
+}
+
+#[test]
+fn a_ranking_of_a_data_set_has_metrics_of_the_maps() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        for i in 0..6_u8 {
+            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
+        }
+    }
+    fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();
+    let rank = "rank --dataset gt ours theirs --target-error 5% --metrics --roughness r";
+    let found = json(&succeed(folder.path(), &format!("{rank} --format json")));
+    for (method, expected) in [(0, 8.0), (1, 40.0)] {
+        let metrics = &found["methods"][method]["metrics"];
+        for statistic in ["mean", "median"] {
+            let got = metrics["rmse_roughness"][statistic].as_f64().unwrap();
+            assert!((got - expected / 255.0).abs() < 1e-7, "{statistic}: {got}");
+        }
+        assert_eq!(metrics["angle_normal_mean_degrees"]["mean"], 0.0);
+    }
+    let table = succeed(folder.path(), rank);
+    assert!(table.contains("metric, mean over materials") && table.contains("rmse_roughness"), "{table}");
+    let rows = succeed(folder.path(), &format!("{rank} --format csv"));
+    let mut rows = csv::Reader::from_reader(rows.as_bytes());
+    let column = rows.headers().unwrap().iter().position(|name| name == "l1_roughness").unwrap();
+    let cells: Vec<_> = rows.records().map(|row| row.unwrap()[column].to_owned()).collect();
+    assert_eq!(cells.len(), 12);
+    assert_eq!(cells.iter().filter(|cell| cell.is_empty()).count(), 1);
+
+    // Metrics are kept in journals, and are one of the settings.
+    let whole = succeed(folder.path(), &format!("{rank} --format json --journal run.jsonl"));
+    let journal = fs::read_to_string(folder.path().join("run.jsonl")).unwrap();
+    let cut: String = journal.lines().take(3).map(|line| format!("{line}\n")).collect();
+    fs::write(folder.path().join("run.jsonl"), cut).unwrap();
+    assert_eq!(succeed(folder.path(), &format!("{rank} --format json --journal run.jsonl")), whole);
+    let without = rank.replace(" --metrics", "");
+    assert!(fail(folder.path(), &format!("{without} --journal run.jsonl"), 1).contains("other settings"));
+    assert!(!succeed(folder.path(), &without).contains("rmse"));
+}
