@@ -7,6 +7,8 @@ const DIFFERENCE_ABSOLUTE = 3u;
 const DIFFERENCE_SIGNED = 4u;
 const DIFFERENCE_RELATIVE = 5u;
 const DIFFERENCE_ANGLE = 6u;
+// The picture holds the difference of each channel already; unsigned.
+const DIFFERENCE_COMPUTED = 7u;
 
 fn mean(rgb: vec3f) -> f32 {
     return (rgb.r + rgb.g + rgb.b) / 3.0;

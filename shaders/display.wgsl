@@ -35,6 +35,9 @@ fn load(place: vec2i, from_reference: bool) -> vec3f {
     if params.difference == DIFFERENCE_NONE {
         return value;
     }
+    if params.difference == DIFFERENCE_COMPUTED {
+        return vec3f(mean(value));
+    }
     return vec3f(difference(params.difference, textureLoad(reference, place, 0).rgb, value, params.epsilon));
 }
 

@@ -53,6 +53,8 @@ pub struct DisplayedDifference {
     pub kind: Difference,
     /// The difference that has the last colour; positive.
     pub range: f32,
+    /// Whether the first picture holds the difference of each channel already.
+    pub is_computed: bool,
 }
 
 /// How numbers become colours of the screen.

@@ -9,10 +9,11 @@ use wgpu::{
 use super::fault::scoped;
 use super::params::ShadeParams;
 use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
-use super::textures::extent;
+use super::textures::{descriptor, extent, write};
 use super::uniforms::ShadingUniforms;
 use super::{Gpu, MaterialTextures, shaders};
 use crate::error::Error;
+use crate::image::Image;
 
 /// The largest 16-bit float.
 const LARGEST_F16: f32 = 65504.0;
@@ -34,6 +35,24 @@ pub struct Shaded {
 }
 
 impl Shaded {
+    /// Numbers that were computed elsewhere, for pass 2.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where the picture is too large for the adapter or for its memory.
+    pub fn of_image(gpu: &Gpu, image: &Image<f32>) -> Result<Self, Error> {
+        let size = [image.width, image.height];
+        let extent = extent(gpu, size)?;
+        scoped(&gpu.device, "uploading a picture", || {
+            let texture = gpu.device.create_texture(&descriptor("picture", extent));
+            write(gpu, &texture, size, |index| {
+                let [r, g, b] = image.pixels[index];
+                [r, g, b, 0.0]
+            });
+            let view = texture.create_view(&Default::default());
+            Self { texture, view, size, stride: 1 }
+        })
+    }
+
     /// (width, height) of the material in texels.
     pub fn size(&self) -> [usize; 2] {
         self.size

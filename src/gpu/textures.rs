@@ -54,7 +54,7 @@ pub(super) fn extent(gpu: &Gpu, size: [usize; 2]) -> Result<Extent3d, Error> {
     }
 }
 
-fn descriptor(label: &'static str, size: Extent3d) -> TextureDescriptor<'static> {
+pub(super) fn descriptor(label: &'static str, size: Extent3d) -> TextureDescriptor<'static> {
     TextureDescriptor {
         label: Some(label),
         size,
@@ -68,7 +68,12 @@ fn descriptor(label: &'static str, size: Extent3d) -> TextureDescriptor<'static>
 }
 
 /// Sends the texels band by band.
-fn write(gpu: &Gpu, texture: &Texture, [width, height]: [usize; 2], texel: impl Fn(usize) -> [f32; 4]) {
+pub(super) fn write(
+    gpu: &Gpu,
+    texture: &Texture,
+    [width, height]: [usize; 2],
+    texel: impl Fn(usize) -> [f32; 4],
+) {
     let rows_per_band = (BAND_BYTES / (width * TEXEL_BYTES)).max(1);
     for top in (0..height).step_by(rows_per_band) {
         let rows = rows_per_band.min(height - top);

@@ -202,6 +202,7 @@ impl DisplayUniforms {
         };
         let difference = match p.difference.map(|difference| difference.kind) {
             None => 0,
+            _ if p.difference.is_some_and(|difference| difference.is_computed) => 7,
             Some(Difference::Log) => 1,
             Some(Difference::SignedLog) => 2,
             Some(Difference::Absolute) => 3,

@@ -1,13 +1,13 @@
 //! Materials with some maps of one material and the other maps of another.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Material, Planes};
 use crate::error::Error;
 use crate::math::real::Real;
 
 /// One of the four maps of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Map {
     Normal,

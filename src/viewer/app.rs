@@ -7,8 +7,9 @@ use eframe::egui;
 
 use super::animation::Animation;
 use super::browse::Browsed;
-use super::command::{Command, InspectCommand, LossCommand, MaterialsCommand, WindowCommand};
+use super::command::{Command, MaterialsCommand};
 use super::difference_run::DifferenceRun;
+use super::error_map_run::ErrorMapRun;
 use super::gpu_view::GpuView;
 use super::history::History;
 use super::inspect::{Inspect, RegionRun};
@@ -17,12 +18,13 @@ use super::loss_run::Asked;
 use super::loss_run::LossRun;
 use super::message::Message;
 use super::message_list::MessageList;
+use super::mixture::MixtureRun;
 use super::options::ViewerOptions;
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
 use super::scene_loss::SceneLossRun;
 use super::settings::{self, Settings};
-use super::slots::{Slots, Target};
+use super::slots::{Slot, Slots, Target};
 use super::source::Source;
 use super::state::ViewState;
 use super::stop::Stop;
@@ -30,8 +32,9 @@ use super::study::StudyRun;
 use super::values_run::ValuesRun;
 use super::viewport::Viewport;
 use super::watch::Watch;
+use super::why::Why;
 use super::worker::Task;
-use super::{keys, sight, theme};
+use super::{sight, theme};
 use crate::files::read::ReadOptions;
 
 /// Width of a window, in points, below which the side panel is hidden until it is asked for.
@@ -45,6 +48,9 @@ pub struct App {
     /// The settings as last stored.
     stored: Settings,
     pub(super) slots: Slots,
+    /// What the panes show: the materials, with a mixture in the place of the chosen prediction where one is shown.
+    pub(super) seen: Vec<Slot>,
+    pub(super) mixture: MixtureRun,
     pub(super) history: History,
     pub(super) loss: LossRun,
     /// The loss over the few scenes of the papers, beside a more accurate one.
@@ -55,7 +61,9 @@ pub struct App {
     /// Whether something was dragged since Space was pressed: then Space pans and does not pause.
     pub(super) space_dragged: bool,
     pub(super) study: StudyRun,
+    pub(super) why: Why,
     pub(super) difference: DifferenceRun,
+    pub(super) error_map: ErrorMapRun,
     pub(super) study_window: bool,
     pub(super) inspect: Inspect,
     pub(super) region: RegionRun,
@@ -102,6 +110,8 @@ impl App {
             stored: settings.clone(),
             settings,
             slots: Slots::default(),
+            seen: Vec::new(),
+            mixture: MixtureRun::default(),
             history: History::default(),
             loss: LossRun::default(),
             few: LossRun::default(),
@@ -110,7 +120,9 @@ impl App {
             animation: Animation::default(),
             space_dragged: false,
             study: StudyRun::default(),
+            why: Why::default(),
             difference: DifferenceRun::default(),
+            error_map: ErrorMapRun::default(),
             study_window: false,
             inspect: Inspect::default(),
             region: RegionRun::default(),
@@ -198,24 +210,6 @@ impl App {
         self.loss.follow(ctx, &self.slots, &self.asked(), auto);
         self.loss.poll(ctx);
         self.follow_shown(ctx);
-    }
-
-    fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
-        let escape: Command = match (self.help, &self.open_window, &self.save_window) {
-            (true, _, _) => WindowCommand::ShowHelp(false).into(),
-            (_, Some(_), _) => WindowCommand::ShowOpen(false).into(),
-            (_, _, Some(_)) => WindowCommand::ShowSave(false).into(),
-            _ if self.study_window => LossCommand::ShowStudy(false).into(),
-            _ if self.inspect.armed => InspectCommand::Arm(false).into(),
-            _ if self.inspect.region.is_some() => InspectCommand::SetRegion(None).into(),
-            _ => LossCommand::Cancel.into(),
-        };
-        let now = keys::Context {
-            enter_is_free: ctx.memory(|m| m.focused()).is_none(),
-            escape: &escape,
-            difference: self.state.difference,
-        };
-        keys::commands(ctx, now)
     }
 
     /// Pans back a material that would be lost from sight.

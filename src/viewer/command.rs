@@ -12,11 +12,14 @@ use super::save_kind::SaveKind;
 use super::settings::Tab;
 use super::source::Source;
 use super::state::Layout;
+use super::why::WhySection;
 use crate::files::read::ReadOptions;
 use crate::loss::Sampling;
+use crate::material::Map;
 use crate::model::scene::{Kind, Scene};
 use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
+use crate::why::Moved;
 
 /// One act. Nothing else changes the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +30,7 @@ pub enum Command {
     Loss(LossCommand),
     Window(WindowCommand),
     Inspect(InspectCommand),
+    Why(WhyCommand),
 }
 
 /// Files and materials.
@@ -109,6 +113,8 @@ pub enum DisplayCommand {
     ShowDifference(bool),
     /// Chooses a difference of the quantity.
     SetDifference(Difference),
+    /// Chooses the error map as the difference of renderings.
+    ChooseErrorMap,
     /// Sets the difference that has the last colour; `None` makes it automatic.
     SetRange(Option<f64>),
     SetLayout(Layout),
@@ -125,6 +131,10 @@ pub enum DisplayCommand {
     ToggleFalseColour,
     SetWipe(f32),
     ChoosePrediction(usize),
+    /// Shows the chosen prediction with this map alone wrong, or right; `None` shows the prediction itself.
+    Isolate(Option<Map>),
+    /// Whether the isolated map is the only right one, and not the only wrong one.
+    SetOnlyRight(bool),
     /// Chooses the prediction this many places on, around the end.
     StepPrediction(isize),
     /// Ground truth and chosen prediction change places.
@@ -204,6 +214,26 @@ pub enum InspectCommand {
     SetRegion(Option<Region>),
     /// Puts the numbers of the pins on the clipboard as CSV.
     CopyPins,
+}
+
+/// The questions of the tab *Why*.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WhyCommand {
+    /// Unfolds or folds a section.
+    ShowSection(WhySection, bool),
+    /// Lists this many scenes, the worst first.
+    ListScenes(usize),
+    /// Chooses what moves over the hemisphere.
+    SetMoved(Moved),
+    /// Searches the worst scene of the chosen prediction, and shows it.
+    FindWorst,
+    CancelSearch,
+}
+
+impl From<WhyCommand> for Command {
+    fn from(command: WhyCommand) -> Self {
+        Self::Why(command)
+    }
 }
 
 impl From<InspectCommand> for Command {

@@ -6,7 +6,7 @@ use eframe::egui;
 
 use super::latest::Latest;
 use super::loaded::Loaded;
-use super::slots::Slots;
+use super::slot::Slot;
 use super::state::ViewState;
 use super::worker::Task;
 use crate::error::Error;
@@ -35,7 +35,7 @@ pub struct DifferenceRun(Latest<DifferenceKey, Distributions>);
 
 impl DifferenceRun {
     /// The distributions for the current materials and difference, perhaps of an earlier scene; one for each prediction.
-    pub fn distributions(&self, slots: &Slots, state: &ViewState) -> Option<&Distributions> {
+    pub fn distributions(&self, slots: &[Slot], state: &ViewState) -> Option<&Distributions> {
         let (latest, distributions) = self.0.get()?;
         let now = key(slots, state);
         let same = (&latest.ids, latest.quantity, latest.kind) == (&now.ids, now.quantity, now.kind);
@@ -43,15 +43,8 @@ impl DifferenceRun {
     }
 
     /// Whether the distributions are those of the current scene.
-    pub fn is_current(&self, slots: &Slots, state: &ViewState) -> bool {
+    pub fn is_current(&self, slots: &[Slot], state: &ViewState) -> bool {
         self.0.get().is_some_and(|(latest, _)| *latest == key(slots, state))
-    }
-
-    /// The difference that has the last colour: the range set, or the automatic one.
-    pub fn range(&self, slots: &Slots, state: &ViewState) -> f64 {
-        let auto = || self.distributions(slots, state).map(|distributions| distributions.auto_range);
-        let set = state.differences.range(state.quantity);
-        set.or_else(auto).unwrap_or_else(|| state.difference_kind().default_range())
     }
 
     /// Takes over a result, and computes what is needed now, where a difference is `shown`.
@@ -59,17 +52,17 @@ impl DifferenceRun {
         &mut self,
         ctx: &egui::Context,
         shown: bool,
-        slots: &Slots,
+        slots: &[Slot],
         state: &ViewState,
     ) -> Option<Error> {
-        let wanted = (shown && !slots.predictions().is_empty()).then(|| key(slots, state));
+        let wanted = (shown && slots.len() > 1).then(|| key(slots, state));
         self.0.follow(ctx, wanted, |_| start(ctx, slots, state))
     }
 }
 
-fn key(slots: &Slots, state: &ViewState) -> DifferenceKey {
+fn key(slots: &[Slot], state: &ViewState) -> DifferenceKey {
     DifferenceKey {
-        ids: slots.slots.iter().map(|slot| slot.id).collect(),
+        ids: slots.iter().map(|slot| slot.id).collect(),
         quantity: state.quantity,
         kind: state.difference_kind(),
         scene: (state.quantity == Quantity::Rendering).then_some(state.scene),
@@ -77,8 +70,8 @@ fn key(slots: &Slots, state: &ViewState) -> DifferenceKey {
     }
 }
 
-fn start(ctx: &egui::Context, slots: &Slots, state: &ViewState) -> Task<Distributions> {
-    let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|slot| slot.loaded.clone()).collect();
+fn start(ctx: &egui::Context, slots: &[Slot], state: &ViewState) -> Task<Distributions> {
+    let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
     let (quantity, kind) = (state.quantity, state.difference_kind());
     let (scene, convention) = (state.scene, state.convention());
     Task::start(ctx, move |progress| distributions(&materials, quantity, kind, &scene, &convention, progress))

@@ -17,6 +17,7 @@ use super::panels::values::ValueStrip;
 use super::panels::why::WhyPanel;
 use super::panes::Scenery;
 use super::settings::Tab;
+use super::why::ComparedPair;
 use crate::files::read::Certainty;
 
 /// Least width of the side panel, in points: its contents do not fit into less.
@@ -87,7 +88,8 @@ impl App {
         let grid = self.slots.ground_truth().map(|slot| slot.loaded.material.grid());
         let bar = StatusBar {
             state: &self.state,
-            slots: &self.slots.slots,
+            slots: &self.seen,
+            error_maps: self.error_maps().map(AsRef::as_ref),
             texel: hovered.and_then(|hovered| self.state.texel_at(grid?, hovered.point)),
             hovered: hovered.map(|hovered| hovered.slot),
             magnification: grid.map_or(1.0, |grid| self.viewport.magnification(grid, &self.state)),
@@ -99,10 +101,10 @@ impl App {
     }
 
     fn drawer(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let numbers = |region| self.region.get(region, &self.slots, &self.state);
+        let numbers = |region| self.region.get(region, &self.seen, &self.state);
         let drawer = Drawer {
             inspect: &self.inspect,
-            slots: &self.slots.slots,
+            slots: &self.seen,
             state: &self.state,
             region: self.inspect.region.and_then(numbers),
         };
@@ -173,23 +175,28 @@ impl App {
 
     fn why_tab(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let why = WhyPanel {
+            state: &self.state,
             losses: self.scene_loss.get(&self.slots, &self.state),
             names: self.slots.predictions().iter().map(|slot| slot.name()).collect(),
-            chosen: self.state.prediction,
-            difference: self.state.difference,
+            pair: ComparedPair::of(&self.slots.slots, &self.state),
+            why: &self.why,
+            sections: self.settings.why,
+            sampling: self.settings.loss.listed_scenes(),
         };
         why.ui(ui)
     }
 
     fn legend(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let distributions = self.distributions();
         let strip = LegendStrip {
             quantity: self.state.quantity,
             kind: self.state.difference_kind(),
+            error_map: self.state.is_error_map().then(|| self.error_map_summary()),
             set_range: self.state.differences.range(self.state.quantity),
-            range: self.difference.range(&self.slots, &self.state),
-            distributions: self.difference.distributions(&self.slots, &self.state),
-            current: self.difference.is_current(&self.slots, &self.state),
-            names: self.slots.predictions().iter().map(|slot| slot.name()).collect(),
+            range: self.range(),
+            distributions: distributions.map(|(distributions, _)| distributions),
+            current: distributions.is_some_and(|(_, current)| current),
+            names: self.seen.iter().skip(1).map(|slot| slot.name()).collect(),
             chosen: self.state.prediction,
         };
         strip.ui(ui)
@@ -198,8 +205,8 @@ impl App {
     fn values(&self, ui: &mut egui::Ui) {
         let strip = ValueStrip {
             quantity: self.state.quantity,
-            values: self.values.get(&self.slots, &self.state),
-            names: self.slots.slots.iter().map(|slot| slot.name()).collect(),
+            values: self.values.get(&self.seen, &self.state),
+            names: self.seen.iter().map(|slot| slot.name()).collect(),
             chosen: self.state.prediction + 1,
         };
         strip.ui(ui);
@@ -207,8 +214,9 @@ impl App {
 
     fn panes(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
         let peek = ui.input(|i| i.key_down(egui::Key::G)) && !ui.ctx().text_edit_focused();
+        let error_maps = self.error_maps().cloned();
         let scenery = Scenery {
-            slots: &self.slots.slots,
+            slots: &self.seen,
             state: &self.state,
             dark: self.settings.dark,
             highlight_follows: self.settings.highlight_follows,
@@ -216,7 +224,8 @@ impl App {
             peek,
             swapped: self.swapped,
             reading: !self.slots.openings.is_empty(),
-            range: self.difference.range(&self.slots, &self.state),
+            range: self.range(),
+            error_maps: error_maps.as_deref(),
             inspect: &self.inspect,
         };
         self.viewport.ui(ui, &scenery, self.gpu.as_mut())

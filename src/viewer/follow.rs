@@ -3,29 +3,57 @@
 use eframe::egui;
 
 use super::app::App;
-use super::command::{Command, SceneCommand};
+use super::command::{
+    Command, DisplayCommand, InspectCommand, LossCommand, SceneCommand, WhyCommand, WindowCommand,
+};
+use super::keys;
 use super::loss_run::{Asked, LossRun};
 use super::message::Message;
 use super::settings::Tab;
+use super::why::WhyAsked;
 
 impl App {
     /// Takes over the results of what is shown beside the loss, and computes what is needed now.
     pub(super) fn follow_shown(&mut self, ctx: &egui::Context) {
         self.follow_few_scenes(ctx);
+        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+        let error = self.mixture.follow(ctx, gpu, &mut self.slots, &self.state);
+        self.report(error.map(Message::Failed));
+        self.seen = self.mixture.seen(&self.slots.slots, &self.state);
         let why = self.settings.tab == Tab::Why && *self.side_panel(ctx);
+        self.follow_why(ctx, why);
         let error = self.scene_loss.follow(ctx, why, &self.slots, &self.state);
         self.report(error.map(Message::Failed));
         let shown = self.settings.histograms && !self.state.difference;
-        let error = self.values.follow(ctx, shown, &self.slots, &self.state);
+        let error = self.values.follow(ctx, shown, &self.seen, &self.state);
         self.report(error.map(Message::Failed));
         let shown = self.state.difference || self.viewport.shows_extra;
-        let error = self.difference.follow(ctx, shown, &self.slots, &self.state);
+        let averages = shown && self.state.is_error_map();
+        let error = self.difference.follow(ctx, shown && !averages, &self.seen, &self.state);
+        self.report(error.map(Message::Failed));
+        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+        let sampling = self.settings.loss.listed_scenes();
+        let error = self.error_map.follow(ctx, gpu, averages, (&self.seen, &self.state), sampling);
         self.report(error.map(Message::Failed));
         if let Some(slot) = self.slots.ground_truth() {
             self.inspect.keep_within(slot.loaded.material.size());
         }
-        let error = self.region.follow(ctx, self.inspect.region, &self.slots, &self.state);
+        let error = self.region.follow(ctx, self.inspect.region, &self.seen, &self.state);
         self.report(error.map(Message::Failed));
+    }
+
+    /// The work of the tab *Why*, where it is shown. The search for the worst scene goes on in other tabs, too.
+    fn follow_why(&mut self, ctx: &egui::Context, shown: bool) {
+        let asked = WhyAsked { sections: self.settings.why, sampling: self.settings.loss.listed_scenes() };
+        // Materials that arrive one by one would be looked at in vain.
+        let shown = shown && !self.slots.expects_more();
+        let errors = self.why.follow(ctx, shown, &self.slots.slots, &self.state, asked);
+        self.report(errors.into_iter().map(Message::Failed));
+        match self.why.poll_search(ctx, &self.slots.slots, &self.state) {
+            Some(Ok(worst)) => self.state.scene = worst.scene,
+            Some(Err(error)) => self.report([Message::Failed(error)]),
+            None => {}
+        }
     }
 
     /// Computes the loss over the few scenes of the papers, where the loss is another one and is done.
@@ -40,6 +68,27 @@ impl App {
         let done = !self.loss.is_running() && self.loss.losses().is_some();
         self.few.follow(ctx, &self.slots, &asked, self.settings.auto_loss && done);
         self.few.poll(ctx);
+    }
+
+    /// The commands of the keys.
+    pub(super) fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
+        let escape: Command = match (self.help, &self.open_window, &self.save_window) {
+            (true, _, _) => WindowCommand::ShowHelp(false).into(),
+            (_, Some(_), _) => WindowCommand::ShowOpen(false).into(),
+            (_, _, Some(_)) => WindowCommand::ShowSave(false).into(),
+            _ if self.study_window => LossCommand::ShowStudy(false).into(),
+            _ if self.inspect.armed => InspectCommand::Arm(false).into(),
+            _ if self.inspect.region.is_some() => InspectCommand::SetRegion(None).into(),
+            _ if self.why.search.busy().is_some() => WhyCommand::CancelSearch.into(),
+            _ if self.state.isolated.is_some() => DisplayCommand::Isolate(None).into(),
+            _ => LossCommand::Cancel.into(),
+        };
+        let now = keys::Context {
+            enter_is_free: ctx.memory(|m| m.focused()).is_none(),
+            escape: &escape,
+            difference: self.state.difference,
+        };
+        keys::commands(ctx, now)
     }
 
     /// Space, pressed and released without a drag, pauses what moves by itself.

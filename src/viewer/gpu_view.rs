@@ -48,6 +48,8 @@ pub struct GpuView {
     display: Display,
     blit: Arc<Blit>,
     shaded: HashMap<u64, ShadedMaterial>,
+    /// Differences that were computed elsewhere, of materials by their ids, each with its version.
+    given: HashMap<u64, (Arc<Shaded>, u64)>,
     versions: u64,
     stills: Vec<Option<(PaneKey, Arc<Still>)>>,
 }
@@ -67,6 +69,7 @@ impl GpuView {
             display,
             blit,
             shaded: HashMap::new(),
+            given: HashMap::new(),
             versions: 0,
             stills: Vec::new(),
         })
@@ -105,13 +108,23 @@ impl GpuView {
         Ok(())
     }
 
+    /// Takes the differences of the material `id`, for panes whose difference is computed elsewhere.
+    pub fn give(&mut self, id: u64, differences: &Arc<Shaded>) {
+        if self.given.get(&id).is_some_and(|(given, _)| Arc::ptr_eq(given, differences)) {
+            return;
+        }
+        self.versions += 1;
+        self.given.insert(id, (differences.clone(), self.versions));
+    }
+
     /// Frees the shaded pictures of closed materials, and the pixels of all but the first `panes` panes.
     pub fn keep_only(&mut self, slots: &[Slot], panes: usize) {
         self.shaded.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
+        self.given.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
         self.stills.truncate(panes);
     }
 
-    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded. The pixels of pane
+    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded, or `shown` given. The pixels of pane
     /// `number` are drawn anew only where they change.
     pub fn paint(
         &mut self,
@@ -121,11 +134,17 @@ impl GpuView {
         ids: [u64; 2],
         params: DisplayParams,
     ) {
-        let [shown, reference] = ids.map(|id| self.shaded.get(&id).and_then(ShadedMaterial::shown));
-        let (Some(shown), Some(reference)) = (shown, reference) else { return };
+        let shaded = |id: u64| {
+            let shown = self.shaded.get(&id).and_then(ShadedMaterial::shown)?;
+            Some((&shown.shaded, shown.version))
+        };
+        let given = |id: u64| self.given.get(&id).map(|(given, version)| (given.as_ref(), *version));
+        let is_given = params.difference.is_some_and(|difference| difference.is_computed);
+        let shown = if is_given { given(ids[0]) } else { shaded(ids[0]) };
+        let (Some(shown), Some(reference)) = (shown, shaded(ids[1])) else { return };
         let size = (rect.size() * painter.ctx().pixels_per_point()).round().max(egui::Vec2::splat(1.0));
         let size = [size.x as u32, size.y as u32];
-        let key = PaneKey { ids, versions: [shown.version, reference.version], params };
+        let key = PaneKey { ids, versions: [shown.1, reference.1], params };
         if self.stills.len() <= number {
             self.stills.resize_with(number + 1, || None);
         }
@@ -136,7 +155,7 @@ impl GpuView {
             old => {
                 let still =
                     old.map_or_else(|| Arc::new(self.blit.still(&self.gpu, size)), |(_, still)| still);
-                let pane = self.display.pane(&self.gpu, &shown.shaded, &reference.shaded);
+                let pane = self.display.pane(&self.gpu, shown.0, reference.0);
                 pane.write(&self.gpu.queue, &params);
                 still.draw(&self.gpu, &self.display, &pane);
                 still

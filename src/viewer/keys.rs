@@ -36,7 +36,7 @@ pub const HELP: &[(&str, &str)] = &[
     ("V", "false colours for roughness, on / off"),
     ("L", "mark clipped pixels, on / off"),
     ("Enter", "compute the loss"),
-    ("Esc", "close a dialog, or cancel the loss"),
+    ("Esc", "close a dialog, cancel a search or the loss, or show the whole prediction again"),
     ("B", "side panel, on / off"),
     ("Ctrl + O / Ctrl + Shift + O", "open materials or a session / reopen the last materials"),
     ("Ctrl + S / Ctrl + Shift + C", "save view, renderings, strip or session / copy the view as a picture"),

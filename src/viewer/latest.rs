@@ -27,6 +27,23 @@ impl<K: Clone + PartialEq, R: Send + 'static> Latest<K, R> {
         self.latest.as_ref().map(|(key, result)| (key, result))
     }
 
+    /// The work that is going on.
+    pub fn running(&self) -> Option<&Task<R>> {
+        self.running.as_ref().map(|(_, task)| task)
+    }
+
+    /// Cancels the work, and keeps the latest result.
+    pub fn rest(&mut self) {
+        self.running = None;
+    }
+
+    /// Cancels the work for another key than `wanted`: slow work for what has changed is not worth its end.
+    pub fn drop_other(&mut self, wanted: &K) {
+        if self.running.as_ref().is_some_and(|(key, _)| key != wanted) {
+            self.running = None;
+        }
+    }
+
     /// Takes over a result, and starts the work on `wanted` if it is another one; without `wanted`, all is dropped.
     pub fn follow(
         &mut self,

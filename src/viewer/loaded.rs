@@ -42,6 +42,25 @@ impl Loaded {
         }
     }
 
+    /// This material with other maps, which no file holds.
+    pub(super) fn with_material(&self, material: Material<f32>, gpu: Option<&Gpu>) -> Self {
+        let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &material).map_err(|e| e.to_string()));
+        let Self { origin, asked, read, kept, fit, .. } = self;
+        Self {
+            origin: origin.clone(),
+            asked: *asked,
+            read: *read,
+            kept: *kept,
+            fit: *fit,
+            material,
+            notes: Vec::new(),
+            assumptions: Vec::new(),
+            maps: Vec::new(),
+            files: Vec::new(),
+            textures,
+        }
+    }
+
     /// What it takes to open it again.
     pub(super) fn source(&self) -> Source {
         let chosen = matches!(self.origin, Origin::Path(_)) && self.read != self.asked.over(self.kept);

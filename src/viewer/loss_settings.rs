@@ -59,6 +59,22 @@ impl LossSettings {
         }
     }
 
+    /// The scenes that are listed one by one, on all texels: those of the loss where it has few, otherwise 128 near-field and
+    /// 64 distant ones of its seed.
+    pub fn listed_scenes(&self) -> Sampling {
+        /// Most scenes that are listed.
+        const MOST: usize = 1000;
+        let few = self.sampling().filter(|sampling| (1..=MOST).contains(&(sampling.near + sampling.distant)));
+        let default = Sampling {
+            near: 128,
+            distant: 64,
+            seed: self.seed,
+            sampler: Sampler::Sobol,
+            texels: Texels::All,
+        };
+        Sampling { texels: Texels::All, ..few.unwrap_or(default) }
+    }
+
     /// The 6 near-field and 3 distant random scenes of the papers, of this seed.
     pub fn few_scenes(&self) -> Request {
         Request::Scenes(Sampling { seed: self.seed, ..Sampling::default() })

@@ -34,12 +34,14 @@ pub(crate) mod message;
 #[cfg(feature = "testing")]
 pub mod message;
 mod message_list;
+mod mixture;
 mod names;
 #[cfg(feature = "testing")]
 mod observe;
 mod opening;
 mod options;
 mod pace;
+mod pane_text;
 mod panels;
 mod panes;
 mod polling;
@@ -48,6 +50,7 @@ mod difference_run;
 mod differences;
 mod draw;
 mod endpoint;
+mod error_map_run;
 mod readout;
 mod save;
 #[cfg(not(feature = "testing"))]
@@ -57,6 +60,7 @@ pub mod save_kind;
 mod scene_loss;
 mod session;
 mod settings;
+mod shown_difference;
 mod sight;
 mod slot;
 mod slots;
@@ -76,6 +80,7 @@ mod title;
 mod values_run;
 mod viewport;
 mod watch;
+mod why;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod worker;
 #[cfg(feature = "testing")]

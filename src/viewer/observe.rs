@@ -6,6 +6,8 @@ use crate::loss::Loss;
 use crate::material::Material;
 use crate::picture::statistics::Statistics;
 use crate::study::Study;
+use crate::viewer::why::ComparedPair;
+use crate::why::{Attribution, Hemisphere, RankedScene, Worst};
 
 impl App {
     /// The losses of the predictions, once they are complete for the current materials and settings.
@@ -22,14 +24,54 @@ impl App {
 
     /// The statistics of each prediction's difference in the panes, once they are those of the current scene.
     pub fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {
-        let distributions = self.difference.distributions(&self.slots, &self.state)?;
-        let current = self.difference.is_current(&self.slots, &self.state);
+        let (distributions, current) = self.distributions()?;
         current.then_some(distributions.statistics.as_slice())
     }
 
     /// The difference that has the last colour.
     pub fn difference_range(&self) -> f64 {
-        self.difference.range(&self.slots, &self.state)
+        self.range()
+    }
+
+    /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.
+    pub fn seen(&self) -> Vec<(&str, &Material<f32>)> {
+        self.seen.iter().map(|slot| (slot.name(), &slot.loaded.material)).collect()
+    }
+
+    /// The latest losses of the predictions in one scene, and whether it is the current one.
+    pub fn scene_losses(&self) -> Option<(&[f64], bool)> {
+        self.scene_loss.get(&self.slots, &self.state)
+    }
+
+    fn pair(&self) -> Option<ComparedPair> {
+        ComparedPair::of(&self.slots.slots, &self.state)
+    }
+
+    /// The attribution of the chosen prediction.
+    pub fn attribution(&self) -> Option<&Attribution> {
+        self.why.attribution.get(&self.pair()?, self.settings.loss.seed).map(|done| &done.attribution)
+    }
+
+    /// The listed scenes of the chosen prediction, and the pixels of their thumbnails.
+    pub fn listed_scenes(&self) -> Option<(&[RankedScene], &[Vec<f32>])> {
+        let (list, thumbnails) = self.why.scenes.get(&self.pair()?, self.settings.loss.listed_scenes())?;
+        Some((&list.ranked, &thumbnails?.pixels))
+    }
+
+    /// The map over directions that is shown for the current scene, and the same before it is final.
+    pub fn direction_map(&self) -> Option<&Hemisphere> {
+        let (map, current) = self.why.directions.get(&self.pair()?, self.why.moved, &self.state.scene)?;
+        current.then_some(&map.map)
+    }
+
+    /// The worst scene that was found for the chosen prediction.
+    pub fn worst(&self) -> Option<&Worst> {
+        self.why.search.found(&self.pair()?)
+    }
+
+    /// Whether the worst scene is being searched.
+    pub fn is_searching(&self) -> bool {
+        self.why.search.busy().is_some()
     }
 
     /// The names of the materials, the ground truth first.

@@ -1,5 +1,6 @@
 //! Which panes there are, and what each shows.
 
+use super::error_map_run::ErrorMaps;
 use super::inspect::Inspect;
 use super::slot::Slot;
 use super::state::{Layout, ViewState};
@@ -24,6 +25,8 @@ pub struct Scenery<'a> {
     pub reading: bool,
     /// The difference that has the last colour.
     pub range: f64,
+    /// Where the difference is the error map, the maps once they are there.
+    pub error_maps: Option<&'a ErrorMaps>,
     /// Pins and rectangle.
     pub inspect: &'a Inspect,
 }

@@ -1,5 +1,6 @@
 //! Numbers of texels as text, in columns that do not move.
 
+use super::error_map_run::ErrorMaps;
 use super::slot::Slot;
 use super::state::ViewState;
 use crate::picture::difference::Difference;
@@ -21,14 +22,21 @@ pub fn fixed(value: f64) -> String {
     format!("{value:>WIDTH$.digits$}")
 }
 
+/// What the numbers of texels are read from.
+#[derive(Clone, Copy, Debug)]
+pub struct Readout<'a> {
+    pub slots: &'a [Slot],
+    pub state: &'a ViewState,
+    /// Where the difference is the error map, the maps once they are there.
+    pub error_maps: Option<&'a ErrorMaps>,
+}
+
 /// The numbers of a slot's pane at a texel: its value, or its difference from the ground truth where the panes show that.
-pub fn shown(
-    slots: &[Slot],
-    state: &ViewState,
-    index: usize,
-    difference: bool,
-    texel: [usize; 2],
-) -> Vec<f64> {
+pub fn shown(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2]) -> Vec<f64> {
+    let Readout { slots, state, error_maps } = read;
+    if difference && index > 0 && state.is_error_map() {
+        return vec![error_maps.map_or(f64::NAN, |maps| maps.at(index, texel))];
+    }
     let convention = state.convention();
     let value =
         |index: usize| state.quantity.at(&slots[index].loaded.material, &state.scene, &convention, texel);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use eframe::egui;
 
 use super::loaded::Loaded;
-use super::slots::Slots;
+use super::slot::Slot;
 use super::state::ViewState;
 use super::worker::Task;
 use crate::files::atomic::Destination;
@@ -18,14 +18,14 @@ use crate::picture::shown::{Pictures, Shown, ShownDifference};
 use crate::picture::strip::{Column, Strip};
 
 /// What the panes show; `range` is the difference that has the last colour.
-pub fn shown(slots: &Slots, state: &ViewState, range: f64) -> Shown {
+pub fn shown(slots: &[Slot], state: &ViewState, range: f64) -> Shown {
     let difference = ShownDifference { kind: state.difference_kind(), range: Some(range) };
-    let compares = state.difference && !slots.predictions().is_empty();
+    let compares = state.difference && slots.len() > 1;
     Shown { quantity: state.quantity, difference: compares.then_some(difference) }
 }
 
 /// Where a picture of the materials comes from.
-pub fn provenance(slots: &Slots, state: &ViewState, shown: Shown) -> Provenance {
+pub fn provenance(slots: &[Slot], state: &ViewState, shown: Shown) -> Provenance {
     Provenance {
         shown,
         scene: state.scene,
@@ -36,18 +36,18 @@ pub fn provenance(slots: &Slots, state: &ViewState, shown: Shown) -> Provenance 
     }
 }
 
-fn names(slots: &Slots) -> Vec<String> {
-    slots.slots.iter().map(|slot| slot.name().to_owned()).collect()
+fn names(slots: &[Slot]) -> Vec<String> {
+    slots.iter().map(|slot| slot.name().to_owned()).collect()
 }
 
-fn materials(slots: &Slots) -> Vec<Arc<Loaded>> {
-    slots.slots.iter().map(|slot| slot.loaded.clone()).collect()
+fn materials(slots: &[Slot]) -> Vec<Arc<Loaded>> {
+    slots.iter().map(|slot| slot.loaded.clone()).collect()
 }
 
 /// Starts to write what `shown` says of all materials, side by side, to `path`.
 pub fn renderings(
     ctx: &egui::Context,
-    slots: &Slots,
+    slots: &[Slot],
     state: &ViewState,
     shown: Shown,
     path: PathBuf,
@@ -65,15 +65,16 @@ pub fn renderings(
 }
 
 /// Starts to write the figure of all materials to `path`.
-pub fn strip(ctx: &egui::Context, slots: &Slots, state: &ViewState, path: PathBuf) -> Task<PathBuf> {
+pub fn strip(ctx: &egui::Context, slots: &[Slot], state: &ViewState, path: PathBuf) -> Task<PathBuf> {
     let (all, names) = (materials(slots), names(slots));
     let value = |quantity| Shown { quantity, difference: None };
     let maps = [Quantity::Normal, Quantity::Diffuse, Quantity::Roughness, Quantity::Specular];
     let kind = state.differences.kind(Quantity::Rendering);
-    let range = state.differences.range(Quantity::Rendering);
+    let set = || state.differences.range(Quantity::Rendering);
+    let range = if state.differences.is_error_map(Quantity::Rendering) { None } else { set() };
     let difference = Some(ShownDifference { kind, range });
     let mut shown: Vec<Shown> = maps.into_iter().chain([Quantity::Rendering]).map(value).collect();
-    if !slots.predictions().is_empty() {
+    if slots.len() > 1 {
         shown.push(Shown { quantity: Quantity::Rendering, difference });
     }
     let columns = shown.into_iter().map(|shown| Column { shown, scene: state.scene }).collect();

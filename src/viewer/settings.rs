@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::loss_settings::LossSettings;
+use super::why::WhySections;
 use crate::files::session::Session;
 
 /// The key of the settings in the storage.
@@ -51,6 +52,8 @@ pub struct Settings {
     pub tab: Tab,
     /// Whether the prediction with the least loss comes first in the panel.
     pub sort_losses: bool,
+    /// The unfolded sections of the tab *Why*.
+    pub why: WhySections,
     /// Whether the loss is computed again after every change.
     pub auto_loss: bool,
     pub loss: LossSettings,
@@ -73,6 +76,7 @@ impl Default for Settings {
             histograms: false,
             tab: Tab::Loss,
             sort_losses: true,
+            why: WhySections::default(),
             auto_loss: true,
             loss: LossSettings::default(),
             watch: false,

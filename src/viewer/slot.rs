@@ -23,6 +23,11 @@ impl Slot {
         Self { id, loaded: Arc::new(loaded), problem: None, name }
     }
 
+    /// A material made of others, with this name.
+    pub(super) fn named(id: u64, loaded: Arc<Loaded>, problem: Option<String>, name: String) -> Self {
+        Self { id, loaded, problem, name }
+    }
+
     pub fn name(&self) -> &str {
         &self.name
     }

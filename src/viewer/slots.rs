@@ -193,7 +193,8 @@ impl Slots {
         self.slots[index] = new;
     }
 
-    fn new_id(&mut self) -> u64 {
+    /// A number that no material has had.
+    pub(super) fn new_id(&mut self) -> u64 {
         self.next_id += 1;
         self.next_id
     }

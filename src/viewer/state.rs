@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::differences::Differences;
-use crate::material::Grid;
+use crate::material::{Grid, Map};
 use crate::model::convention::{self, Convention};
 use crate::model::scene::{Kind, Scene};
 use crate::picture::camera::Camera;
@@ -84,6 +84,10 @@ pub struct ViewState {
     pub convention: String,
     /// The chosen prediction: its index among the predictions.
     pub prediction: usize,
+    /// The map that is shown as the only wrong one, or the only right one, of the chosen prediction.
+    pub isolated: Option<Map>,
+    /// Whether [`ViewState::isolated`] is the only right one, and not the only wrong one.
+    pub only_right: bool,
 }
 
 impl Default for ViewState {
@@ -104,6 +108,8 @@ impl Default for ViewState {
             pan: [0.0, 0.0],
             convention: convention::PRINTED.name.to_owned(),
             prediction: 0,
+            isolated: None,
+            only_right: false,
         }
     }
 }
@@ -117,6 +123,16 @@ impl ViewState {
     /// The chosen difference of the quantity.
     pub fn difference_kind(&self) -> Difference {
         self.differences.kind(self.quantity)
+    }
+
+    /// Whether differences are those of the error map, which averages over scenes.
+    pub fn is_error_map(&self) -> bool {
+        self.differences.is_error_map(self.quantity)
+    }
+
+    /// The name of the chosen difference.
+    pub fn difference_name(&self) -> &'static str {
+        if self.is_error_map() { "error map" } else { self.difference_kind().name() }
     }
 
     /// The camera that fits the material into a pane of `aspect` = width / height, before zoom and pan.
@@ -145,6 +161,8 @@ impl ViewState {
             tiled: self.tiled,
             false_colour: self.false_colour,
             prediction: self.prediction,
+            isolated: self.isolated,
+            only_right: self.only_right,
             ..Self::default()
         }
     }

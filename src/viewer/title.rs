@@ -8,9 +8,12 @@ use super::state::Layout;
 use super::theme;
 use crate::gpu::DisplayMode;
 
+/// Width of the button that shows all maps again, in points.
+const BACK: f32 = 96.0;
+
 /// The title of a pane. A click on the title of a prediction chooses the prediction.
 pub fn title_bar(
-    ui: &egui::Ui,
+    ui: &mut egui::Ui,
     scenery: &Scenery<'_>,
     number: usize,
     content: Content,
@@ -18,7 +21,7 @@ pub fn title_bar(
 ) -> Option<Command> {
     let prediction = content.slot.checked_sub(1);
     let chosen = content.slot == scenery.chosen() && content.slot != 0;
-    let difference = scenery.state.difference_kind().name();
+    let difference = scenery.state.difference_name();
     let text = match content.mode {
         DisplayMode::Value if content.difference => {
             format!("{}: {difference}", scenery.title(content.slot))
@@ -33,17 +36,26 @@ pub fn title_bar(
     };
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
+    let mixed = chosen && scenery.state.isolated.is_some();
+    let back = Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()).shrink(2.0);
     let painter = ui.painter_at(rect);
     let colour = if content.slot == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
+    let width = rect.width() - 16.0 - if mixed { BACK } else { 0.0 };
     let font = FontId::proportional(13.5);
     let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
-        .into_galley(ui, Some(egui::TextWrapMode::Truncate), rect.width() - 16.0, font);
+        .into_galley(ui, Some(egui::TextWrapMode::Truncate), width, font);
     let elided = galley.elided;
     let at = rect.left_center() + vec2(8.0, -galley.size().y * 0.5);
     painter.galley(at, galley, colour);
     if chosen && scenery.state.layout == Layout::SideBySide && scenery.slots.len() > 2 {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
         painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
+    }
+    if mixed {
+        let button = ui.put(back, egui::Button::new(egui::RichText::new("Show all maps").small()));
+        if button.on_hover_text("Show the prediction itself again (Esc)").clicked() {
+            return Some(DisplayCommand::Isolate(None).into());
+        }
     }
     let response = if elided { response.on_hover_text(text) } else { response };
     prediction.filter(|_| response.clicked()).map(|index| DisplayCommand::ChoosePrediction(index).into())

@@ -6,7 +6,7 @@ use eframe::egui;
 
 use super::latest::Latest;
 use super::loaded::Loaded;
-use super::slots::Slots;
+use super::slot::Slot;
 use super::state::ViewState;
 use super::worker::Task;
 use crate::error::Error;
@@ -50,29 +50,29 @@ impl ValuesRun {
         &mut self,
         ctx: &egui::Context,
         shown: bool,
-        slots: &Slots,
+        slots: &[Slot],
         state: &ViewState,
     ) -> Option<Error> {
-        let wanted = (shown && slots.ground_truth().is_some()).then(|| key(slots, state));
+        let wanted = (shown && !slots.is_empty()).then(|| key(slots, state));
         let (scene, convention) = (state.scene, state.convention());
         self.0.follow(ctx, wanted, |key| {
-            let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|slot| slot.loaded.clone()).collect();
+            let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
             let quantity = key.quantity;
             Task::start(ctx, move |progress| values(&materials, quantity, &scene, &convention, progress))
         })
     }
 
     /// The latest histograms of these materials and this quantity, and whether they are those of now.
-    pub fn get(&self, slots: &Slots, state: &ViewState) -> Option<(&Values, bool)> {
+    pub fn get(&self, slots: &[Slot], state: &ViewState) -> Option<(&Values, bool)> {
         let (of, values) = self.0.get()?;
         let now = key(slots, state);
         (of.ids == now.ids && of.quantity == now.quantity).then_some((values, *of == now))
     }
 }
 
-fn key(slots: &Slots, state: &ViewState) -> ValuesKey {
+fn key(slots: &[Slot], state: &ViewState) -> ValuesKey {
     ValuesKey {
-        ids: slots.slots.iter().map(|slot| slot.id).collect(),
+        ids: slots.iter().map(|slot| slot.id).collect(),
         quantity: state.quantity,
         scene: (state.quantity == Quantity::Rendering).then_some(state.scene),
         convention: state.convention().name,

@@ -1,6 +1,6 @@
 //! The panes, drawn, and what the mouse does in them.
 
-use eframe::egui::{self, Align2, FontId, Rect, Sense, Vec2, vec2};
+use eframe::egui::{self, Rect, Sense, Vec2};
 
 use super::cells::{TITLE, cells, free_cell, pixel_aligned};
 use super::command::Command;
@@ -10,8 +10,9 @@ use super::gpu_view::GpuView;
 use super::handles;
 use super::marks::Placed;
 use super::pace::{Pace, REST};
+use super::pane_text::{note, paint_hint};
 use super::panes::{Content, Hovered, Scenery};
-use super::readout;
+use super::readout::{self, Readout};
 use super::sight;
 use super::state::{Projection, ViewState};
 use super::theme;
@@ -135,9 +136,11 @@ impl Viewport {
             camera,
             exposure_ev: state.exposure_ev,
             mode: content.mode,
-            difference: content
-                .difference
-                .then(|| DisplayedDifference { kind: state.difference_kind(), range: scenery.range as f32 }),
+            difference: content.difference.then(|| DisplayedDifference {
+                kind: state.difference_kind(),
+                range: scenery.range as f32,
+                is_computed: state.is_error_map(),
+            }),
             encoding: state.quantity.into(),
             show_clipping: state.show_clipping,
             epsilon: state.convention().epsilon as f32,
@@ -146,6 +149,14 @@ impl Viewport {
             background: [background[0], background[1], background[2]],
         };
         let ids = [content.slot, content.reference].map(|i| scenery.slots[i].id);
+        if content.difference && state.is_error_map() {
+            let Some(map) = scenery.error_maps.and_then(|maps| maps.shaded(content.slot)) else {
+                painter.rect_filled(rect, 0.0, theme::surround(scenery.dark));
+                paint_hint(&painter, rect, "Averaging over the scenes of the loss...");
+                return;
+            };
+            gpu.give(ids[0], map);
+        }
         gpu.paint(&painter, rect, number, ids, params);
         self.paint_marks(&painter, scenery, content, rect, &camera);
         if state.quantity == Quantity::Rendering {
@@ -166,7 +177,8 @@ impl Viewport {
         let params = ShadeParams { scene: state.scene, convention, quantity: state.quantity };
         let (now, seconds) = ui.input(|i| (i.time, i.unstable_dt));
         let in_part = self.pace.frame(params, now, seconds);
-        let stride = if in_part {
+        // An error map is never reduced, nor is what a wipe shows beside it.
+        let stride = if in_part && !state.is_error_map() {
             ui.ctx().request_repaint_after_secs(REST as f32 + 0.01);
             let grid = scenery.slots[0].loaded.material.grid();
             let pixels_per_texel = self.magnification(grid, state);
@@ -203,7 +215,8 @@ impl Viewport {
         if state.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (slot, difference) = (content.slot, content.difference);
             placed.paint_numbers(painter, |texel| {
-                readout::shown(scenery.slots, state, slot, difference, texel)
+                let error_maps = scenery.error_maps;
+                readout::shown(Readout { slots: scenery.slots, state, error_maps }, slot, difference, texel)
             });
         }
         placed.paint_inspected(painter, scenery.inspect);
@@ -278,25 +291,4 @@ fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &V
     {
         handles::paint_sun(painter, at, outside);
     }
-}
-
-/// A text at the bottom of a pane.
-fn paint_hint(painter: &egui::Painter, rect: Rect, text: &str) {
-    let (font, ink) = (FontId::proportional(13.0), egui::Color32::from_gray(235));
-    let galley = painter.layout(text.to_owned(), font, ink, (rect.width() - 24.0).max(40.0));
-    let place = Align2::CENTER_BOTTOM.anchor_size(rect.center_bottom() - vec2(0.0, 10.0), galley.size());
-    painter.rect_filled(place.expand2(vec2(8.0, 4.0)), 4.0, egui::Color32::from_black_alpha(170));
-    painter.galley(place.min, galley, ink);
-}
-
-/// A text in the middle of an empty area.
-fn note(ui: &egui::Ui, area: Rect, text: &str) {
-    let galley = ui.painter().layout(
-        text.to_owned(),
-        FontId::proportional(15.0),
-        egui::Color32::from_gray(235),
-        area.width() * 0.8,
-    );
-    let rect = Align2::CENTER_CENTER.anchor_size(area.center(), galley.size());
-    ui.painter().galley(rect.min, galley, egui::Color32::from_gray(235));
 }

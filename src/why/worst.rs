@@ -25,6 +25,10 @@ const TAIL: f64 = 0.005;
 /// Subsets of texels, and the texels of each: while sampling, and while refining.
 const COARSE: [usize; 2] = [1, 256];
 const FINE: [usize; 2] = [1, 1024];
+/// Scenes between two steps of progress.
+const AT_A_TIME: usize = 512;
+/// Scenes whose losses are computed.
+const EVALUATIONS: usize = SAMPLED[0] + SAMPLED[1] + CANDIDATES * (1 + ROUNDS * (1 + AROUND));
 
 /// The worst scene that was found.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +54,7 @@ struct CubePoint {
 /// The scene, among those that the loss samples, in which the loss of `prediction` is largest.
 ///
 /// The search is deterministic; `seed` names the scenes that it starts from. It may miss a maximum that is narrower than the gaps
-/// between these.
+/// between these. A step of `progress` is a scene.
 ///
 /// # Errors
 /// [`Error::SizesDiffer`], [`Error::Cancelled`].
@@ -62,16 +66,17 @@ pub fn worst<T: Compute>(
     progress: &Progress,
 ) -> Result<Worst, Error> {
     let comparison = Comparison::new(ground_truth, &[prediction], *convention)?;
-    let mean = comparison.over_all_scenes(seed, progress)?.losses.remove(0).estimate;
+    progress.begin(EVALUATIONS as u64);
+    let mean = comparison.over_all_scenes(seed, &progress.part())?.losses.remove(0).estimate;
     let search = Search { comparison, seed: seed as u32 ^ (seed >> 32) as u32, progress };
     let points = search.refined(search.sampled()?)?;
     let scenes: Vec<Scene> = points.iter().map(|point| point.scene(convention)).collect();
-    let losses = T::cpu().scene_losses(&search.comparison, &scenes, None, progress)?.remove(0);
+    let losses = T::cpu().scene_losses(&search.comparison, &scenes, None, &progress.part())?.remove(0);
     let best = scenes.into_iter().zip(losses).max_by(|a, b| a.1.total_cmp(&b.1));
     let (scene, loss) =
         best.ok_or_else(|| Error::Internal("the search for the worst scene is empty".to_owned()))?;
-    let evaluations = SAMPLED[0] + SAMPLED[1] + CANDIDATES * (1 + ROUNDS * (1 + AROUND));
-    Ok(Worst { prediction: prediction.name().to_owned(), scene, loss, mean, evaluations })
+    progress.advance(CANDIDATES as u64)?;
+    Ok(Worst { prediction: prediction.name().to_owned(), scene, loss, mean, evaluations: EVALUATIONS })
 }
 
 struct Search<'a, T> {
@@ -117,7 +122,11 @@ impl<T: Compute> Search<'_, T> {
     fn losses(&self, texels: &SharedTexels, points: &[CubePoint]) -> Result<Vec<f64>, Error> {
         let convention = self.comparison.convention();
         let scenes: Vec<Scene> = points.iter().map(|point| point.scene(convention)).collect();
-        let losses = texels.losses(&self.comparison, &scenes, self.progress)?.remove(0);
+        let mut losses = Vec::new();
+        for some in scenes.chunks(AT_A_TIME) {
+            losses.extend(texels.losses(&self.comparison, some, &self.progress.part())?.remove(0));
+            self.progress.advance(some.len() as u64)?;
+        }
         Ok(losses.into_iter().map(|scene| scene.loss).collect())
     }
 

@@ -14,6 +14,7 @@ mod saving;
 mod study;
 mod texels;
 mod view;
+mod why;
 
 #[path = "../support/gpu.rs"]
 #[allow(dead_code, reason = "the tests of the core use the rest")]

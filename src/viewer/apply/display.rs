@@ -25,6 +25,7 @@ impl App {
             DisplayCommand::CycleQuantity(by) => state.quantity = cycled(&Quantity::ALL, state.quantity, by),
             DisplayCommand::ShowDifference(on) => state.difference = on,
             DisplayCommand::SetDifference(kind) => state.differences.choose(state.quantity, kind),
+            DisplayCommand::ChooseErrorMap => state.differences.choose_error_map(),
             DisplayCommand::SetRange(range) => state.differences.set_range(state.quantity, range),
             DisplayCommand::SetLayout(layout) => state.layout = layout,
             DisplayCommand::CycleLayout => state.layout = cycled(&Layout::ALL, state.layout, 1),
@@ -48,6 +49,8 @@ impl App {
                     state.prediction = index;
                 }
             }
+            DisplayCommand::Isolate(map) => state.isolated = map,
+            DisplayCommand::SetOnlyRight(on) => state.only_right = on,
             DisplayCommand::StepPrediction(by) => {
                 let count = self.slots.predictions().len().max(1) as isize;
                 state.prediction = (state.prediction as isize + by).rem_euclid(count) as usize;

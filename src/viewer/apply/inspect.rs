@@ -27,10 +27,10 @@ impl App {
 
     /// The numbers of every pin in every material, as CSV.
     pub(in crate::viewer) fn pins_csv(&self) -> String {
-        let names: Vec<&str> = self.slots.slots.iter().map(|slot| slot.name()).collect();
+        let names: Vec<&str> = self.seen.iter().map(|slot| slot.name()).collect();
         let convention = self.state.convention();
         inspect::csv(self.inspect.pins.iter().map(|pin| {
-            let materials = self.slots.slots.iter().map(|slot| &slot.loaded.material);
+            let materials = self.seen.iter().map(|slot| &slot.loaded.material);
             let rows = inspect::rows(materials, *pin, &self.state.scene, &convention);
             (*pin, names.iter().copied().zip(rows).collect())
         }))

@@ -6,6 +6,7 @@ mod materials;
 mod saving;
 mod scene;
 mod undo;
+mod why;
 
 use eframe::egui;
 
@@ -25,6 +26,7 @@ impl App {
             Command::Loss(command) => self.apply_to_loss(ctx, command),
             Command::Window(command) => self.apply_to_window(ctx, command),
             Command::Inspect(command) => self.apply_to_inspect(ctx, command),
+            Command::Why(command) => self.apply_to_why(ctx, command),
         }
         ctx.request_repaint();
     }

@@ -23,16 +23,24 @@ impl App {
         path: PathBuf,
         size: [u32; 2],
     ) {
-        let range = self.difference.range(&self.slots, &self.state);
-        let shown = save::shown(&self.slots, &self.state, range);
+        let range = self.range();
+        let shown = save::shown(&self.seen, &self.state, range);
         let task = match what {
-            SaveKind::Renderings => save::renderings(ctx, &self.slots, &self.state, shown, path),
-            SaveKind::Strip => save::strip(ctx, &self.slots, &self.state, path),
+            SaveKind::Renderings if self.state.difference && self.state.is_error_map() => {
+                self.save_error_maps(ctx, path)
+            }
+            SaveKind::Renderings => save::renderings(ctx, &self.seen, &self.state, shown, path),
+            SaveKind::Strip => save::strip(ctx, &self.seen, &self.state, path),
             SaveKind::Session => self.save_session(ctx, path),
             SaveKind::View => match self.picture(ctx, size) {
                 Ok(picture) => {
-                    let mut entries = save::provenance(&self.slots, &self.state, shown).entries();
+                    let mut entries = save::provenance(&self.seen, &self.state, shown).entries();
                     entries.extend(self.view_entries());
+                    if let Some(text) = self.error_map_text()
+                        && let Some(entry) = entries.iter_mut().find(|(key, _)| *key == "svbrdf:shows")
+                    {
+                        entry.1 = text;
+                    }
                     save::view(ctx, picture, entries, path)
                 }
                 Err(error) => Task::start(ctx, |_| Err(error)),

@@ -17,7 +17,7 @@ use crate::picture::statistics::Statistics;
 use crate::render::render_texel;
 use crate::viewer::latest::Latest;
 use crate::viewer::loaded::Loaded;
-use crate::viewer::slots::Slots;
+use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
 use crate::viewer::worker::Task;
 
@@ -50,13 +50,13 @@ impl RegionRun {
         &mut self,
         ctx: &egui::Context,
         region: Option<Region>,
-        slots: &Slots,
+        slots: &[Slot],
         state: &ViewState,
     ) -> Option<Error> {
-        let wanted = region.filter(|_| !slots.slots.is_empty()).map(|region| key(region, slots, state));
+        let wanted = region.filter(|_| !slots.is_empty()).map(|region| key(region, slots, state));
         let convention = state.convention();
         self.0.follow(ctx, wanted, |key| {
-            let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|slot| slot.loaded.clone()).collect();
+            let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
             let (region, quantity, scene) = (key.region, key.quantity, key.scene);
             Task::start(ctx, move |_| {
                 let materials = materials.iter().map(|loaded| &loaded.material);
@@ -66,16 +66,16 @@ impl RegionRun {
     }
 
     /// The latest numbers, and whether they are those of now.
-    pub fn get(&self, region: Region, slots: &Slots, state: &ViewState) -> Option<(&[RegionNumbers], bool)> {
+    pub fn get(&self, region: Region, slots: &[Slot], state: &ViewState) -> Option<(&[RegionNumbers], bool)> {
         let (of, numbers) = self.0.get()?;
         let now = key(region, slots, state);
         (of.ids == now.ids && of.quantity == now.quantity).then_some((numbers.as_slice(), *of == now))
     }
 }
 
-fn key(region: Region, slots: &Slots, state: &ViewState) -> RegionKey {
+fn key(region: Region, slots: &[Slot], state: &ViewState) -> RegionKey {
     RegionKey {
-        ids: slots.slots.iter().map(|slot| slot.id).collect(),
+        ids: slots.iter().map(|slot| slot.id).collect(),
         region,
         quantity: state.quantity,
         scene: state.scene,

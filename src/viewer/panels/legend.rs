@@ -9,8 +9,11 @@ use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 use crate::picture::statistics::{Distributions, Histogram, Statistics};
 use crate::viewer::command::{Command, DisplayCommand};
+use crate::viewer::error_map_run::ErrorMapSummary;
 use crate::viewer::theme;
 
+/// The error map in the drop-down of differences.
+const ERROR_MAP: &str = "error map (all scenes)";
 /// Height of the histograms and of the colour bar below them, in points.
 const HISTOGRAM: f32 = 54.0;
 const BAR: f32 = 12.0;
@@ -29,6 +32,8 @@ const AXIS: f64 = 1.5;
 pub struct LegendStrip<'a> {
     pub quantity: Quantity,
     pub kind: Difference,
+    /// Where the difference is the error map, its scenes.
+    pub error_map: Option<ErrorMapSummary>,
     /// The range that is set; `None` where it is automatic.
     pub set_range: Option<f64>,
     /// The difference that has the last colour.
@@ -60,10 +65,18 @@ impl LegendStrip<'_> {
 
     fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let combo = egui::ComboBox::from_id_salt("difference").width(CONTROLS - 16.0);
-        let combo = combo.selected_text(self.kind.name()).show_ui(ui, |ui| {
+        let combo = combo.selected_text(self.error_map.map_or(self.kind.name(), |_| ERROR_MAP)).show_ui(ui, |ui| {
             for &kind in Difference::all(self.quantity) {
-                if ui.selectable_label(kind == self.kind, kind.name()).clicked() {
+                let chosen = self.error_map.is_none() && kind == self.kind;
+                if ui.selectable_label(chosen, kind.name()).clicked() {
                     commands.push(DisplayCommand::SetDifference(kind).into());
+                }
+            }
+            if self.quantity == Quantity::Rendering {
+                let label = ui.selectable_label(self.error_map.is_some(), ERROR_MAP);
+                let hover = "The log difference of each texel, averaged over the scenes of the loss: its mean is the loss";
+                if label.on_hover_text(hover).clicked() {
+                    commands.push(DisplayCommand::ChooseErrorMap.into());
                 }
             }
         });
@@ -88,7 +101,11 @@ impl LegendStrip<'_> {
                 commands.push(DisplayCommand::SetRange(set).into());
             }
         });
-        ui.label(RichText::new(self.kind.unit()).small().weak());
+        let unit = match &self.error_map {
+            Some(summary) => format!("mean {} of {} scenes", self.kind.unit(), summary.scenes),
+            None => self.kind.unit().to_owned(),
+        };
+        ui.label(RichText::new(unit).small().weak());
     }
 
     /// The low and high end of the axis.
@@ -168,16 +185,27 @@ impl LegendStrip<'_> {
     /// A row of numbers for each prediction.
     fn statistics(&self, ui: &mut egui::Ui) {
         let Some(distributions) = self.distributions else {
-            ui.weak("Computing statistics...");
+            match &self.error_map {
+                Some(ErrorMapSummary { progress: Some(fraction), scenes }) => {
+                    let text = format!("{:.0}% of {scenes} scenes", 100.0 * fraction);
+                    ui.add(egui::ProgressBar::new(*fraction).text(text).desired_width(STATISTICS * 0.6));
+                }
+                _ => {
+                    ui.weak("Computing statistics...");
+                }
+            }
             return;
         };
         if !self.current {
             ui.set_opacity(0.5);
         }
-        let mean = if self.kind == Difference::Log && self.quantity == Quantity::Rendering {
-            ("mean = loss", "Mean over the texels: the rendering loss of this scene")
-        } else {
-            ("mean", "Mean over the texels")
+        let loss = match self.error_map {
+            Some(_) => "Mean over the texels: the rendering loss over these scenes",
+            None => "Mean over the texels: the rendering loss of this scene",
+        };
+        let mean = match self.kind == Difference::Log && self.quantity == Quantity::Rendering {
+            true => ("mean = loss", loss),
+            false => ("mean", "Mean over the texels"),
         };
         let heads = [mean, ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
         egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {

@@ -167,7 +167,7 @@ impl Results<'_> {
 }
 
 /// An estimate as a person reads it: its mean in significant digits only, and its 95% interval with one digit more.
-fn significant(estimate: &Estimate) -> [String; 2] {
+pub(super) fn significant(estimate: &Estimate) -> [String; 2] {
     let Estimate { mean, interval95, .. } = *estimate;
     let Some([low, high]) = interval95 else { return [format!("{mean:.2}"), "[unknown]".to_owned()] };
     let half = 0.5 * (high - low);

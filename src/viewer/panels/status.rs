@@ -4,7 +4,8 @@ use eframe::egui::{self, RichText};
 
 use crate::gpu::AdapterReport;
 use crate::viewer::command::{Command, InspectCommand};
-use crate::viewer::readout;
+use crate::viewer::error_map_run::ErrorMaps;
+use crate::viewer::readout::{self, Readout};
 use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
 use crate::viewer::theme;
@@ -21,6 +22,8 @@ const PLACE: usize = 9;
 pub struct StatusBar<'a> {
     pub state: &'a ViewState,
     pub slots: &'a [Slot],
+    /// Where the difference is the error map, the maps once they are there.
+    pub error_maps: Option<&'a ErrorMaps>,
     /// The texel under the pointer.
     pub texel: Option<[usize; 2]>,
     /// The slot of the pane under the pointer.
@@ -117,8 +120,9 @@ impl StatusBar<'_> {
     /// The numbers of slot `index` at the texel, always of the same width.
     fn numbers(&self, index: usize) -> String {
         let unit = readout::unit(self.state, index);
+        let read = Readout { slots: self.slots, state: self.state, error_maps: self.error_maps };
         let numbers: Vec<String> = match self.texel {
-            Some(texel) => readout::shown(self.slots, self.state, index, self.state.difference, texel)
+            Some(texel) => readout::shown(read, index, self.state.difference, texel)
                 .into_iter()
                 .map(readout::fixed)
                 .collect(),

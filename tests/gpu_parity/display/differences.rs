@@ -22,7 +22,7 @@ fn differences_of(kind: Difference, quantity: Quantity, pair: &[Material<f32>; 2
 }
 
 /// Their colours.
-fn colours_of(values: &[f32], DisplayedDifference { kind, range }: DisplayedDifference) -> Vec<[u8; 3]> {
+fn colours_of(values: &[f32], DisplayedDifference { kind, range, .. }: DisplayedDifference) -> Vec<[u8; 3]> {
     let map = if kind.is_signed() { diverging } else { heat };
     values.iter().map(|value| levels(map(value / range).map(f64::from))).collect()
 }
@@ -43,7 +43,7 @@ fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
         for &kind in Difference::all(quantity) {
             let values = differences_of(kind, quantity, &pair);
             let largest = values.iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
-            let difference = DisplayedDifference { kind, range: 0.9 * largest };
+            let difference = DisplayedDifference { kind, range: 0.9 * largest, is_computed: false };
             let drawn = |reference: &Shaded| {
                 let params = params(whole([8, 8]), quantity);
                 let params = DisplayParams { difference: Some(difference), exposure_ev: 3.0, ..params };

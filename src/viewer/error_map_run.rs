@@ -1,0 +1,132 @@
+//! The error maps: the log difference of each texel, averaged over the scenes of the loss, on a worker.
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+use super::latest::Latest;
+use super::loaded::Loaded;
+use super::slot::Slot;
+use super::state::ViewState;
+use super::worker::Task;
+use crate::error::Error;
+use crate::gpu::{Gpu, Shaded};
+use crate::image::Image;
+use crate::loss::{Comparison, Sampling};
+use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::picture::statistics::Distributions;
+use crate::progress::Progress;
+use crate::why::error_maps;
+
+/// What error maps depend on.
+#[derive(Clone, Debug, PartialEq)]
+struct ErrorMapKey {
+    /// Of the materials, the ground truth first.
+    ids: Vec<u64>,
+    sampling: Sampling,
+    convention: &'static str,
+}
+
+/// The error maps of all predictions.
+#[derive(Debug)]
+pub struct ErrorMaps {
+    /// Of each prediction.
+    pub images: Vec<Image<f32>>,
+    /// Where there is an adapter.
+    shaded: Vec<Arc<Shaded>>,
+    pub distributions: Distributions,
+}
+
+/// What the legend says of error maps besides their statistics.
+#[derive(Clone, Copy, Debug)]
+pub struct ErrorMapSummary {
+    /// Number of scenes.
+    pub scenes: usize,
+    /// The share of the scenes that is done, while they are rendered.
+    pub progress: Option<f32>,
+}
+
+/// The error maps of what the panes show.
+#[derive(Debug, Default)]
+pub struct ErrorMapRun(Latest<ErrorMapKey, Arc<ErrorMaps>>);
+
+impl ErrorMapRun {
+    /// Takes over a result, and computes what is wanted now; where none is `shown`, the latest is kept.
+    pub fn follow(
+        &mut self,
+        ctx: &egui::Context,
+        gpu: Option<&Gpu>,
+        shown: bool,
+        (slots, state): (&[Slot], &ViewState),
+        sampling: Sampling,
+    ) -> Option<Error> {
+        if !shown || slots.len() < 2 {
+            self.0.rest();
+            return None;
+        }
+        let wanted = key(slots, state, sampling);
+        self.0.drop_other(&wanted);
+        let convention = state.convention();
+        self.0.follow(ctx, Some(wanted), |_| {
+            let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
+            let gpu = gpu.cloned();
+            Task::start(ctx, move |progress| {
+                maps(&materials, &sampling, &convention, gpu.as_ref(), progress).map(Arc::new)
+            })
+        })
+    }
+
+    /// The error maps of now, once they are there.
+    pub fn get(&self, slots: &[Slot], state: &ViewState, sampling: Sampling) -> Option<&Arc<ErrorMaps>> {
+        let (of, maps) = self.0.get()?;
+        (*of == key(slots, state, sampling)).then_some(maps)
+    }
+
+    /// The share of the scenes that is done, while they are rendered.
+    pub fn progress(&self) -> Option<f32> {
+        self.0.running().map(Task::fraction)
+    }
+}
+
+impl ErrorMaps {
+    /// The map of slot `slot` on the adapter.
+    pub fn shaded(&self, slot: usize) -> Option<&Arc<Shaded>> {
+        self.shaded.get(slot.checked_sub(1)?)
+    }
+
+    /// The value of the map of slot `slot` at the texel (column, row): the mean over RGB.
+    pub fn at(&self, slot: usize, [column, row]: [usize; 2]) -> f64 {
+        let image = slot.checked_sub(1).and_then(|index| self.images.get(index));
+        image.map_or(f64::NAN, |image| f64::from(mean(&image.pixels[row * image.width + column])))
+    }
+}
+
+fn mean(rgb: &[f32; 3]) -> f32 {
+    rgb.iter().sum::<f32>() / 3.0
+}
+
+fn key(slots: &[Slot], state: &ViewState, sampling: Sampling) -> ErrorMapKey {
+    let ids = slots.iter().map(|slot| slot.id).collect();
+    ErrorMapKey { ids, sampling, convention: state.convention().name }
+}
+
+fn maps(
+    materials: &[Arc<Loaded>],
+    sampling: &Sampling,
+    convention: &Convention,
+    gpu: Option<&Gpu>,
+    progress: &Progress,
+) -> Result<ErrorMaps, Error> {
+    let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| &loaded.material).collect();
+    let comparison = Comparison::new(materials[0], &materials[1..], *convention)?;
+    let images = error_maps(&comparison, &sampling.scenes(convention)?, progress)?;
+    let values: Vec<Vec<f32>> = images.iter().map(|image| image.pixels.iter().map(mean).collect()).collect();
+    let distributions = Distributions::of(&values, false);
+    let upload = |gpu: &Gpu| {
+        let one = |image| Shaded::of_image(gpu, image).map(Arc::new);
+        images.iter().map(one).collect::<Result<Vec<_>, Error>>()
+    };
+    let shaded = gpu.map(upload).transpose()?.unwrap_or_default();
+    Ok(ErrorMaps { images, shaded, distributions })
+}

@@ -1,0 +1,139 @@
+//! Where and by what the chosen prediction is wrong: the work behind the tab *Why*.
+
+mod attribution;
+mod directions;
+mod pair;
+mod scenes;
+mod search;
+mod texture;
+mod thumbnails;
+
+use eframe::egui;
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+use crate::loss::Sampling;
+use crate::viewer::slot::Slot;
+use crate::viewer::state::ViewState;
+use crate::why::{Moved, Worst};
+
+pub use attribution::{Attributed, AttributionRun};
+pub use directions::{DirectionMap, DirectionsRun};
+pub use pair::ComparedPair;
+pub use scenes::{SceneList, ScenesRun};
+pub use search::SearchRun;
+pub use thumbnails::{MOST as MOST_THUMBNAILS, Thumbnails};
+
+/// Scenes in the panel until more are asked for.
+const FEW: usize = 10;
+
+/// A section of the tab that can be folded; what is folded is not computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhySection {
+    /// How much of the loss comes from each map.
+    Maps,
+    /// Which scenes the loss comes from.
+    Scenes,
+    /// The loss over the directions of light or view.
+    Directions,
+}
+
+/// Which sections are unfolded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct WhySections {
+    maps: bool,
+    scenes: bool,
+    directions: bool,
+}
+
+impl Default for WhySections {
+    fn default() -> Self {
+        Self { maps: true, scenes: true, directions: true }
+    }
+}
+
+impl WhySections {
+    pub fn is_open(self, section: WhySection) -> bool {
+        match section {
+            WhySection::Maps => self.maps,
+            WhySection::Scenes => self.scenes,
+            WhySection::Directions => self.directions,
+        }
+    }
+
+    pub fn open(&mut self, section: WhySection, on: bool) {
+        match section {
+            WhySection::Maps => self.maps = on,
+            WhySection::Scenes => self.scenes = on,
+            WhySection::Directions => self.directions = on,
+        }
+    }
+}
+
+/// What the computations depend on besides the pair and the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WhyAsked {
+    pub sections: WhySections,
+    /// The scenes that are listed.
+    pub sampling: Sampling,
+}
+
+/// The computations, and what of them is shown.
+#[derive(Debug)]
+pub struct Why {
+    pub attribution: AttributionRun,
+    pub scenes: ScenesRun,
+    pub directions: DirectionsRun,
+    pub search: SearchRun,
+    /// What moves over the hemisphere.
+    pub moved: Moved,
+    /// Number of listed scenes.
+    pub listed: usize,
+}
+
+impl Default for Why {
+    fn default() -> Self {
+        Self {
+            attribution: AttributionRun::default(),
+            scenes: ScenesRun::default(),
+            directions: DirectionsRun::default(),
+            search: SearchRun::default(),
+            moved: Moved::Light,
+            listed: FEW,
+        }
+    }
+}
+
+impl Why {
+    /// Takes over results, and computes what is wanted now; nothing new where the tab is not `shown`.
+    pub fn follow(
+        &mut self,
+        ctx: &egui::Context,
+        shown: bool,
+        slots: &[Slot],
+        state: &ViewState,
+        asked: WhyAsked,
+    ) -> Vec<Error> {
+        let pair = ComparedPair::of(slots, state);
+        let pair = pair.as_ref();
+        let shown = |section| shown && asked.sections.is_open(section);
+        let seed = asked.sampling.seed;
+        let errors = [
+            self.attribution.follow(ctx, shown(WhySection::Maps), pair, seed),
+            self.scenes.follow(ctx, shown(WhySection::Scenes), pair, asked.sampling),
+            self.directions.follow(ctx, shown(WhySection::Directions), pair, self.moved, &state.scene),
+        ];
+        errors.into_iter().flatten().collect()
+    }
+
+    /// Takes over the result of the search for the worst scene, once.
+    pub fn poll_search(
+        &mut self,
+        ctx: &egui::Context,
+        slots: &[Slot],
+        state: &ViewState,
+    ) -> Option<Result<Worst, Error>> {
+        self.search.poll(ctx, ComparedPair::of(slots, state).as_ref())
+    }
+}

@@ -1,0 +1,127 @@
+//! The scenes of the loss of the chosen prediction, worst first, computed on a worker.
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+use super::pair::{ComparedPair, PairKey};
+use super::thumbnails::{self, Thumbnails};
+use crate::error::Error;
+use crate::loss::{Request, Sampling};
+use crate::picture::statistics::Histogram;
+use crate::viewer::latest::Latest;
+use crate::viewer::worker::Task;
+use crate::why::{Distribution, RankedScene, worst_first};
+
+/// Bins of the histogram of the losses of scenes.
+const BINS: usize = 40;
+
+/// What a list of scenes depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ScenesKey {
+    pair: PairKey,
+    sampling: Sampling,
+}
+
+/// The scenes of a loss.
+#[derive(Clone, Debug)]
+pub struct SceneList {
+    pub sampling: Sampling,
+    /// Worst first.
+    pub ranked: Vec<RankedScene>,
+    /// The mean of their losses.
+    pub mean: f64,
+    /// `None` without scenes.
+    pub distribution: Option<Distribution>,
+    pub histogram: Histogram,
+}
+
+/// The scenes of the chosen prediction, and their thumbnails.
+#[derive(Debug, Default)]
+pub struct ScenesRun {
+    list: Latest<ScenesKey, Arc<SceneList>>,
+    thumbnails: Latest<ScenesKey, Thumbnails>,
+}
+
+impl ScenesRun {
+    /// Takes over results, and computes what is wanted now; where nothing is `shown`, the latest results are kept.
+    pub fn follow(
+        &mut self,
+        ctx: &egui::Context,
+        shown: bool,
+        pair: Option<&ComparedPair>,
+        sampling: Sampling,
+    ) -> Option<Error> {
+        let Some(pair) = pair.filter(|_| shown) else {
+            self.list.rest();
+            self.thumbnails.rest();
+            return None;
+        };
+        let wanted = ScenesKey { pair: pair.key, sampling };
+        self.list.drop_other(&wanted);
+        let mut error = self.list.follow(ctx, Some(wanted), |_| {
+            let pair = pair.clone();
+            Task::start(ctx, move |progress| {
+                let outcome = pair.comparison()?.run(&Request::Scenes(sampling), progress)?;
+                Ok(Arc::new(SceneList::new(sampling, worst_first(&outcome))))
+            })
+        });
+        self.thumbnails.drop_other(&wanted);
+        if let Some((of, list)) = self.list.get()
+            && *of == wanted
+        {
+            let of_thumbnails = self.thumbnails.follow(ctx, Some(wanted), |_| {
+                let (pair, list, with) = (pair.clone(), list.clone(), ctx.clone());
+                Task::start(ctx, move |progress| thumbnails::make(&with, &pair, &list.ranked, progress))
+            });
+            error = error.or(of_thumbnails);
+        }
+        error
+    }
+
+    /// The scenes of this pair, and their thumbnails once they are made.
+    pub fn get(&self, pair: &ComparedPair, sampling: Sampling) -> Option<(&SceneList, Option<&Thumbnails>)> {
+        let wanted = ScenesKey { pair: pair.key, sampling };
+        let (_, list) = self.list.get().filter(|(of, _)| **of == wanted)?;
+        let thumbnails = self.thumbnails.get().filter(|(of, _)| **of == wanted);
+        Some((list, thumbnails.map(|(_, thumbnails)| thumbnails)))
+    }
+
+    /// The share of the work that is done, while it goes on.
+    pub fn busy(&self) -> Option<f32> {
+        self.list.running().map(Task::fraction)
+    }
+}
+
+impl SceneList {
+    fn new(sampling: Sampling, ranked: Vec<RankedScene>) -> Self {
+        let losses: Vec<f64> = ranked.iter().map(|scene| scene.losses[0]).collect();
+        let largest = losses.first().copied().filter(|largest| *largest > 0.0).unwrap_or(1.0);
+        let values: Vec<f32> = losses.iter().map(|loss| *loss as f32).collect();
+        // The largest loss rounds up or down to its f32: the axis ends at that.
+        let axis = [0.0, f64::from(largest as f32)];
+        let histogram = Histogram::of(&values, axis, BINS);
+        let mean = losses.iter().sum::<f64>() / losses.len().max(1) as f64;
+        Self { sampling, ranked, mean, distribution: Distribution::of(&losses), histogram }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewer::state::ViewState;
+
+    #[test]
+    fn every_scene_is_in_a_bin_and_the_worst_in_the_last() {
+        let scene = ViewState::default().scene;
+        let one = |(index, loss): (usize, &f64)| RankedScene { index, scene, losses: vec![*loss] };
+        for losses in [vec![0.9, 0.3, 0.1, 0.0], vec![0.0, 0.0], vec![1e-30]] {
+            let list = SceneList::new(Sampling::default(), losses.iter().enumerate().map(one).collect());
+            let Histogram { counts, below, above, .. } = &list.histogram;
+            assert_eq!(counts.iter().sum::<u64>(), losses.len() as u64, "{losses:?}");
+            assert_eq!((*below, *above), (0, 0));
+            assert!(losses[0] == 0.0 || counts.last() == Some(&1), "{losses:?}");
+            assert!((list.mean - losses.iter().sum::<f64>() / losses.len() as f64).abs() < 1e-15);
+        }
+    }
+}

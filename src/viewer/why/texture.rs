@@ -1,0 +1,29 @@
+//! A picture in a panel.
+
+use eframe::egui;
+
+/// A texture of the window, freed with its last owner.
+#[derive(Clone)]
+pub struct PanelTexture(egui::TextureHandle);
+
+impl PanelTexture {
+    /// Loads a picture. Workers may do so, too.
+    pub fn new(
+        ctx: &egui::Context,
+        name: &str,
+        picture: egui::ColorImage,
+        options: egui::TextureOptions,
+    ) -> Self {
+        Self(ctx.load_texture(name, picture, options))
+    }
+
+    pub fn id(&self) -> egui::TextureId {
+        self.0.id()
+    }
+}
+
+impl std::fmt::Debug for PanelTexture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("PanelTexture").field(&self.0.id()).finish()
+    }
+}

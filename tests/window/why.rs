@@ -1,0 +1,106 @@
+//! The tab *Why*: maps, scenes, directions, and the loss while the light moves.
+
+mod directions;
+mod error_map;
+mod maps;
+mod scenes;
+
+use svbrdf::loss::Comparison;
+use svbrdf::material::Material;
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::scene::Scene;
+use svbrdf::progress::Progress;
+use svbrdf::samples;
+
+use super::*;
+
+/// The built-in pair with the tab open, in a window that shows all of it.
+fn opened<'a>() -> Window<'a> {
+    let mut window = built_in();
+    window.set_size(vec2(1200.0, 1800.0));
+    window.run_steps(4);
+    tab(&mut window, "Why");
+    window
+}
+
+/// The built-in materials, the ground truth first.
+fn materials() -> Vec<Material<f32>> {
+    let samples = samples::load::<f32>().unwrap();
+    [samples.ground_truth].into_iter().chain(samples.predictions).map(|read| read.material).collect()
+}
+
+/// The loss of a prediction in one scene, over all texels.
+fn loss_in(scene: Scene, prediction: usize) -> f64 {
+    let materials = materials();
+    let comparison = Comparison::new(&materials[0], &[&materials[prediction]], PRINTED).unwrap();
+    let request = svbrdf::loss::Request::Listed(vec![scene]);
+    comparison.run(&request, &Progress::default()).unwrap().losses[0].estimate.mean
+}
+
+fn wait_for_scene_losses(window: &mut Window<'_>) -> Vec<f64> {
+    wait(window, "the losses in this scene", |app| app.scene_losses().is_some_and(|(_, current)| current));
+    window.state().scene_losses().unwrap().0.to_vec()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
+    let mut window = opened();
+    let before = wait_for_scene_losses(&mut window);
+    assert_eq!(before, [1, 2].map(|prediction| loss_in(window.state().state.scene, prediction)));
+    let rect = pane(&window, GROUND_TRUTH);
+    let at = |share: f32| rect.min + rect.size() * vec2(0.2 + 0.6 * share, 0.4);
+    let button = |pos, pressed| egui::Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers: egui::Modifiers::NONE,
+    };
+    window.event(egui::Event::PointerMoved(at(0.0)));
+    window.event(button(at(0.0), true));
+    let mut seen = vec![before];
+    for step in 0..2000 {
+        window.event(egui::Event::PointerMoved(at((step % 500) as f32 / 500.0)));
+        window.step();
+        let latest = window.state().scene_losses().map(|(losses, _)| losses.to_vec());
+        seen.extend(latest.filter(|latest| seen.last() != Some(latest)));
+        if seen.len() > 10 {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    assert!(seen.len() > 10, "{} losses were seen with the button down", seen.len());
+    window.event(button(at(0.5), false));
+    window.run_steps(2);
+    let after = wait_for_scene_losses(&mut window);
+    assert_eq!(after[0], loss_in(window.state().state.scene, 1));
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_folded_section_and_a_hidden_tab_compute_nothing() {
+    let mut window = built_in();
+    window.set_size(vec2(1200.0, 1800.0));
+    let nothing = |window: &Window<'_>| {
+        let app = window.state();
+        app.attribution().is_none() && app.listed_scenes().is_none() && app.direction_map().is_none()
+    };
+    let rest = |window: &mut Window<'_>| {
+        for _ in 0..60 {
+            window.step();
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+    };
+    rest(&mut window);
+    assert!(nothing(&window), "the tab of the loss is open");
+    tab(&mut window, "Why");
+    window.get_by_label("Which map").click();
+    window.run_steps(4);
+    wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
+    wait(&mut window, "the directions", |app| app.direction_map().is_some());
+    rest(&mut window);
+    assert!(window.state().attribution().is_none(), "its section is folded");
+    window.get_by_label("Which map").click();
+    window.run_steps(4);
+    wait(&mut window, "the attribution", |app| app.attribution().is_some());
+}

@@ -1,0 +1,83 @@
+//! The map over the directions of light and view.
+
+use svbrdf::model::scene::Kind;
+use svbrdf::why::{Hemisphere, Moved, hemisphere};
+
+use super::*;
+
+fn expected(prediction: usize, moved: Moved, fixed: [f64; 3]) -> Hemisphere {
+    let materials = materials();
+    let comparison = Comparison::new(&materials[0], &[&materials[prediction]], PRINTED).unwrap();
+    hemisphere(&comparison, moved, fixed, 64, &Progress::default(), |_| ()).unwrap()
+}
+
+/// Whether they are the same; NaN is NaN.
+fn is_same(a: &Hemisphere, b: &Hemisphere) -> bool {
+    let bits = |map: &Hemisphere| -> Vec<u64> {
+        map.losses.iter().chain(&map.standard_errors).flatten().map(|v| v.to_bits()).collect()
+    };
+    a.directions == b.directions && bits(a) == bits(b)
+}
+
+fn wait_for_map(window: &mut Window<'_>) -> Hemisphere {
+    wait(window, "the finest map", |app| app.direction_map().is_some_and(|map| map.side == 64));
+    window.state().direction_map().unwrap().clone()
+}
+
+fn unit(p: [f64; 3]) -> [f64; 3] {
+    let length = p.iter().map(|c| c * c).sum::<f64>().sqrt();
+    p.map(|c| c / length)
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_map_is_that_of_the_core_over_lights_and_over_views() {
+    let mut window = opened();
+    let over_lights = wait_for_map(&mut window);
+    assert!(is_same(&over_lights, &expected(1, Moved::Light, [0.0, 0.0, 1.0])));
+    window.get_by_label("Over views").click();
+    window.run_steps(3);
+    let over_views = wait_for_map(&mut window);
+    let fixed = unit(window.state().state.scene.light);
+    assert!(is_same(&over_views, &expected(1, Moved::View, fixed)));
+    assert!(!is_same(&over_views, &over_lights), "a planted fault");
+    press(&mut window, egui::Key::Num2);
+    assert!(is_same(&wait_for_map(&mut window), &expected(2, Moved::View, fixed)));
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of_the_map() {
+    let mut window = opened();
+    let map = wait_for_map(&mut window);
+    let before = window.state().state.scene;
+    let rect = window.get_by_label("Loss over light directions").rect();
+    // To the right of the middle and above it.
+    for (x, y) in [(0.5, 0.3), (-0.6, -0.2)] {
+        let at = rect.center() + vec2(x, -y) * rect.width() / 2.0;
+        let button = |pressed| egui::Event::PointerButton {
+            pos: at,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: egui::Modifiers::NONE,
+        };
+        for event in [egui::Event::PointerMoved(at), button(true), button(false)] {
+            window.event(event);
+            window.run_steps(2);
+        }
+        let scene = window.state().state.scene;
+        let [light_x, light_y, light_z] = unit(scene.light);
+        assert_eq!((scene.kind, scene.view), (Kind::Distant, before.view));
+        let off = (light_x - f64::from(x)).abs().max((light_y - f64::from(y)).abs());
+        assert!(off < 0.02 && light_z > 0.0, "{scene:?}");
+        let [column, row] = map.cell([light_x, light_y, light_z]).unwrap();
+        let cell = row * map.side + column;
+        let (read, error) = (map.losses[0][cell], map.standard_errors[0][cell]);
+        window.get_by_label_contains(&format!(": {read:.4} +- {error:.4}"));
+        let here = wait_for_scene_losses(&mut window)[0];
+        // The middle of the cell is up to 0.02 away; 4 standard errors.
+        assert!((here - read).abs() < 4.0 * error + 0.05 * read, "{here}, on the map {read} +- {error}");
+    }
+    // The map of the lights does not depend on the light.
+    assert!(is_same(&wait_for_map(&mut window), &map));
+}

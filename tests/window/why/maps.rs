@@ -1,0 +1,146 @@
+//! Which map the loss comes from, and one map alone in the panes.
+
+use svbrdf::loss::Request;
+use svbrdf::material::Map;
+use svbrdf::model::convention::{self, Convention};
+use svbrdf::why::{Attribution, attribute};
+
+use super::*;
+
+fn expected(prediction: usize, convention: &Convention) -> Attribution {
+    let materials = materials();
+    let request = Request::Accuracy { target: 0.01, seed: 0 };
+    attribute(&materials[0], &materials[prediction], convention, &request, &Progress::default()).unwrap()
+}
+
+fn wait_for_attribution(window: &mut Window<'_>) -> Attribution {
+    wait(window, "the attribution", |app| app.attribution().is_some());
+    window.state().attribution().unwrap().clone()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_convention() {
+    let mut window = opened();
+    let first = expected(1, &convention::PRINTED);
+    assert_eq!(wait_for_attribution(&mut window), first);
+    for label in ["normal: 81.0%", "diffuse: 19.0%", "specular: 0.0%", "roughness: 0.0%"] {
+        window.get_by_label(&format!("{label} of the loss"));
+    }
+    press(&mut window, egui::Key::Num2);
+    assert!(window.state().attribution().is_none(), "that of another prediction is none of this one");
+    let second = expected(2, &convention::PRINTED);
+    assert_eq!(wait_for_attribution(&mut window), second);
+    assert_ne!(first, second, "a planted fault");
+    window.get_by_label("roughness: 60.6% of the loss");
+    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Convention").click();
+    window.run_steps(4);
+    window.get_by_label("guided-2020").click();
+    window.run_steps(4);
+    assert_eq!(wait_for_attribution(&mut window), expected(2, &"guided-2020".parse().unwrap()));
+}
+
+/// Clicks on a map once its share is known.
+fn isolate(window: &mut Window<'_>, map: &str) {
+    wait_for_attribution(window);
+    window.get_by_label_contains(&format!("{map}: ")).click();
+    window.run_steps(3);
+}
+
+/// Waits until the pane of this prediction has this title.
+fn wait_for_pane(window: &mut Window<'_>, name: &str) -> egui::Rect {
+    wait(window, name, |app| app.seen().iter().any(|(seen, _)| *seen == name));
+    pane(window, &format!("1  {name}"))
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
+    let mut window = opened();
+    let materials = materials();
+    let whole = pane(&window, "1  blurred normals");
+    let whole = pixels(&mut window, whole);
+    let rect = pane(&window, "1  blurred normals");
+    window.key_down(egui::Key::G);
+    window.run_steps(3);
+    let ground_truth = pixels(&mut window, rect);
+    window.key_up(egui::Key::G);
+    window.run_steps(3);
+    assert!(whole != ground_truth);
+
+    // Its roughness is that of the ground truth: alone wrong it changes nothing, alone right neither.
+    isolate(&mut window, "roughness");
+    let rect = wait_for_pane(&mut window, "blurred normals, only its roughness wrong");
+    window.get_by_label("Title 1  blurred normals, only its roughness wrong");
+    assert!(pixels(&mut window, rect) == ground_truth, "the pane shows the ground truth");
+    window.get_by_label("only it right").click();
+    let rect = wait_for_pane(&mut window, "blurred normals, only its roughness right");
+    assert!(pixels(&mut window, rect) == whole, "the pane shows the prediction");
+
+    isolate(&mut window, "normal");
+    let rect = wait_for_pane(&mut window, "blurred normals, only its normal right");
+    let seen = pixels(&mut window, rect);
+    assert!(seen != whole && seen != ground_truth);
+    let expected = materials[1].with_maps_of(&materials[0], |map| map == Map::Normal).unwrap();
+    let app = window.state();
+    assert_eq!(*app.seen()[1].1, expected);
+    assert_ne!(expected, materials[1].with_maps_of(&materials[0], |map| map != Map::Normal).unwrap());
+    assert_eq!(*app.seen()[0].1, materials[0]);
+    assert_eq!(app.names()[1], "blurred normals", "the material itself is unchanged");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn every_way_back_shows_the_prediction_itself() {
+    let mut window = opened();
+    let name = "blurred normals, only its normal wrong";
+    let ways: [fn(&mut Window<'_>); 4] = [
+        |window| isolate(window, "normal"),
+        |window| press(window, egui::Key::Escape),
+        |window| {
+            let button = window.get_all_by_label("Show all maps").next().unwrap();
+            button.click();
+            window.run_steps(3);
+        },
+        |window| {
+            // Longer than it takes to become a moment to return to.
+            window.run_steps(30);
+            window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+            window.run_steps(3);
+        },
+    ];
+    for back in ways {
+        window.run_steps(30);
+        isolate(&mut window, "normal");
+        wait_for_pane(&mut window, name);
+        assert_eq!(window.state().state.isolated, Some(Map::Normal));
+        back(&mut window);
+        assert_eq!(window.state().state.isolated, None);
+        window.get_by_label("Pane 1  blurred normals");
+        assert!(window.query_by_label("Show all maps").is_none());
+    }
+    window.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
+    window.run_steps(3);
+    wait_for_pane(&mut window, name);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
+    let mut window = opened();
+    press(&mut window, egui::Key::D);
+    isolate(&mut window, "diffuse");
+    wait_for_pane(&mut window, "blurred normals, only its diffuse wrong");
+    wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
+    let scene = window.state().state.scene;
+    let materials = materials();
+    let mixture = materials[0].with_maps_of(&materials[1], |map| map == Map::Diffuse).unwrap();
+    let comparison = Comparison::new(&materials[0], &[&mixture], PRINTED).unwrap();
+    let request = Request::Listed(vec![scene]);
+    let expected = comparison.run(&request, &Progress::default()).unwrap().losses[0].estimate.mean;
+    let got = window.state().difference_statistics().unwrap()[0].unwrap().mean;
+    assert!((got / expected - 1.0).abs() < 1e-5, "{got}, expected {expected}");
+    assert!((got / loss_in(scene, 1) - 1.0).abs() > 0.1, "that of the prediction is another");
+    // The losses of the tab stay those of the predictions.
+    assert_eq!(wait_for_scene_losses(&mut window)[0], loss_in(scene, 1));
+}

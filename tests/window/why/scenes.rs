@@ -1,0 +1,125 @@
+//! The scenes of the loss, worst first, and the search for the worst of all.
+
+use svbrdf::loss::{Request, Sampling, Texels};
+use svbrdf::model::sampler::Sampler;
+use svbrdf::why::{RankedScene, worst, worst_first};
+
+use super::*;
+
+const SAMPLING: Sampling =
+    Sampling { near: 128, distant: 64, seed: 0, sampler: Sampler::Sobol, texels: Texels::All };
+
+fn expected(prediction: usize, sampling: Sampling) -> Vec<RankedScene> {
+    let materials = materials();
+    let comparison = Comparison::new(&materials[0], &[&materials[prediction]], PRINTED).unwrap();
+    worst_first(&comparison.run(&Request::Scenes(sampling), &Progress::default()).unwrap())
+}
+
+fn wait_for_scenes(window: &mut Window<'_>) -> Vec<RankedScene> {
+    wait(window, "the scenes", |app| app.listed_scenes().is_some());
+    window.state().listed_scenes().unwrap().0.to_vec()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_listed_scenes_are_those_of_the_core_and_a_click_loads_one() {
+    let mut window = opened();
+    let listed = wait_for_scenes(&mut window);
+    assert_eq!(listed, expected(1, SAMPLING));
+    assert!(listed.is_sorted_by(|a, b| a.losses[0] >= b.losses[0]) && listed.len() == 192);
+    let before = window.state().state.scene;
+    window.get_by_label(&format!("Scene 2: {:.4}", listed[1].losses[0])).click();
+    window.run_steps(3);
+    assert_eq!(window.state().state.scene, listed[1].scene);
+    let here = wait_for_scene_losses(&mut window)[0];
+    assert!((here / listed[1].losses[0] - 1.0).abs() < 1e-6, "{here}, listed {}", listed[1].losses[0]);
+    window.run_steps(30);
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+    window.run_steps(3);
+    assert_eq!(window.state().state.scene, before);
+    press(&mut window, egui::Key::Num2);
+    assert_eq!(wait_for_scenes(&mut window), expected(2, SAMPLING));
+    assert_ne!(expected(2, SAMPLING), listed, "a planted fault");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_thumbnail_has_the_mean_of_its_scene() {
+    let mut window = opened();
+    let listed = wait_for_scenes(&mut window);
+    let (_, thumbnails) = window.state().listed_scenes().unwrap();
+    assert_eq!(thumbnails.len(), 96);
+    let mean = |pixels: &[f32]| pixels.iter().map(|v| f64::from(*v)).sum::<f64>() / pixels.len() as f64;
+    for (rank, pixels) in thumbnails.iter().enumerate() {
+        let loss = listed[rank].losses[0];
+        // 256 texels are 5 or 6 for each of the 48 pixels along a side.
+        assert!((mean(pixels) / loss - 1.0).abs() < 0.02, "{rank}: {}, expected {loss}", mean(pixels));
+    }
+    assert!((mean(&thumbnails[0]) / listed[20].losses[0] - 1.0).abs() > 0.02, "a planted fault");
+    window.get_by_label("More scenes").click();
+    window.run_steps(3);
+    window.get_by_label(&format!("Scene 30: {:.4}", listed[29].losses[0]));
+    assert!(window.query_by_label_contains("Scene 31: ").is_none());
+    window.get_by_label("Fewer scenes").click();
+    window.run_steps(3);
+    assert!(window.query_by_label_contains("Scene 11: ").is_none());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_loss_over_few_scenes_lists_just_these() {
+    let mut window = by_scenes();
+    window.set_size(vec2(1200.0, 1800.0));
+    window.run_steps(3);
+    tab(&mut window, "Why");
+    let listed = wait_for_scenes(&mut window);
+    assert_eq!(listed, expected(1, Sampling::default()));
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    let mean = listed.iter().map(|scene| scene.losses[0]).sum::<f64>() / 9.0;
+    let loss = window.state().losses().unwrap()[0].estimate.mean;
+    assert!((mean / loss - 1.0).abs() < 1e-12, "{mean} and {loss}");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_search_finds_the_scene_of_the_core_and_shows_it() {
+    let mut window = opened();
+    window.get_by_label("Find worst scene").click();
+    window.run_steps(2);
+    wait(&mut window, "the worst scene", |app| app.worst().is_some());
+    let materials = materials();
+    let expected = worst(&materials[0], &materials[1], &PRINTED, 0, &Progress::default()).unwrap();
+    assert_eq!(window.state().worst(), Some(&expected));
+    assert_eq!(window.state().state.scene, expected.scene);
+    window.get_by_label_contains("12688 scenes tried");
+    let times = expected.loss / expected.mean.mean;
+    window.get_by_label(&format!("{:.4}, {times:.1} x the mean", expected.loss));
+    let here = wait_for_scene_losses(&mut window)[0];
+    assert!((here / expected.loss - 1.0).abs() < 1e-6, "{here}, found {}", expected.loss);
+    // That of one prediction is not that of another.
+    press(&mut window, egui::Key::Num2);
+    assert_eq!(window.state().worst(), None);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_cancelled_search_leaves_the_scene() {
+    let mut window = opened();
+    let before = window.state().state.scene;
+    for cancel in [
+        |window: &mut Window<'_>| press(window, egui::Key::Escape),
+        |window: &mut Window<'_>| {
+            window.get_by_label("Cancel search").click();
+            window.run_steps(3);
+        },
+    ] {
+        window.get_by_label("Find worst scene").click();
+        window.run_steps(2);
+        assert!(window.state().is_searching());
+        cancel(&mut window);
+        assert!(!window.state().is_searching());
+        window.run_steps(10);
+        assert_eq!((window.state().worst(), window.state().state.scene), (None, before));
+        assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+    }
+}
