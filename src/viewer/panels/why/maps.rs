@@ -13,7 +13,7 @@ use crate::why::MapShare;
 
 /// Height of a row, and widths of its name and of its numbers, in points.
 const ROW: f32 = 20.0;
-const NAME: f32 = 66.0;
+const NAME: f32 = 74.0;
 const NUMBERS: f32 = 108.0;
 
 impl WhyPanel<'_> {
