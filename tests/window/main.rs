@@ -11,6 +11,7 @@ mod loss_panel;
 mod panels;
 mod reading;
 mod saving;
+mod screenshots;
 mod study;
 mod texels;
 mod view;

@@ -59,9 +59,11 @@ fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
     window.event(egui::Event::PointerMoved(at(0.0)));
     window.event(button(at(0.0), true));
     let mut seen = vec![before];
+    let (start, mut frames) = (std::time::Instant::now(), 0);
     for step in 0..2000 {
         window.event(egui::Event::PointerMoved(at((step % 500) as f32 / 500.0)));
         window.step();
+        frames += 1;
         let latest = window.state().scene_losses().map(|(losses, _)| losses.to_vec());
         seen.extend(latest.filter(|latest| seen.last() != Some(latest)));
         if seen.len() > 10 {
@@ -69,6 +71,7 @@ fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
         }
         std::thread::sleep(std::time::Duration::from_millis(2));
     }
+    println!("{} losses in {frames} frames, {:?}", seen.len() - 1, start.elapsed());
     assert!(seen.len() > 10, "{} losses were seen with the button down", seen.len());
     window.event(button(at(0.5), false));
     window.run_steps(2);

@@ -5,11 +5,11 @@ mod directions;
 mod pair;
 mod scenes;
 mod search;
+mod sections;
 mod texture;
 mod thumbnails;
 
 use eframe::egui;
-use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 use crate::loss::Sampling;
@@ -22,54 +22,11 @@ pub use directions::{DirectionMap, DirectionsRun};
 pub use pair::ComparedPair;
 pub use scenes::{SceneList, ScenesRun};
 pub use search::SearchRun;
+pub use sections::{WhySection, WhySections};
 pub use thumbnails::{MOST as MOST_THUMBNAILS, Thumbnails};
 
 /// Scenes in the panel until more are asked for.
 const FEW: usize = 10;
-
-/// A section of the tab that can be folded; what is folded is not computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WhySection {
-    /// How much of the loss comes from each map.
-    Maps,
-    /// Which scenes the loss comes from.
-    Scenes,
-    /// The loss over the directions of light or view.
-    Directions,
-}
-
-/// Which sections are unfolded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct WhySections {
-    maps: bool,
-    scenes: bool,
-    directions: bool,
-}
-
-impl Default for WhySections {
-    fn default() -> Self {
-        Self { maps: true, scenes: true, directions: true }
-    }
-}
-
-impl WhySections {
-    pub fn is_open(self, section: WhySection) -> bool {
-        match section {
-            WhySection::Maps => self.maps,
-            WhySection::Scenes => self.scenes,
-            WhySection::Directions => self.directions,
-        }
-    }
-
-    pub fn open(&mut self, section: WhySection, on: bool) {
-        match section {
-            WhySection::Maps => self.maps = on,
-            WhySection::Scenes => self.scenes = on,
-            WhySection::Directions => self.directions = on,
-        }
-    }
-}
 
 /// What the computations depend on besides the pair and the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]

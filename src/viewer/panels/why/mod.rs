@@ -62,7 +62,7 @@ impl WhyPanel<'_> {
             (WhySection::Scenes, "Which scenes", "The scenes of the loss, worst first"),
             (
                 WhySection::Directions,
-                "Which light",
+                "Which light or view",
                 "The loss over the directions of a distant light or view",
             ),
         ] {
@@ -113,7 +113,8 @@ impl WhyPanel<'_> {
             let shown = difference && self.state.is_error_map();
             let hover = "Where on the material the loss comes from: the log difference of each texel, averaged over the \
                          scenes of the loss";
-            if ui.selectable_label(shown, "Error map").on_hover_text(hover).clicked() && !shown {
+            let button = ui.add(egui::Button::new("Error map").selected(shown));
+            if button.on_hover_text(hover).clicked() && !shown {
                 let rendering = DisplayCommand::SetQuantity(Quantity::Rendering);
                 let on = DisplayCommand::ShowDifference(true);
                 commands.extend([rendering, DisplayCommand::ChooseErrorMap, on].map(Command::from));

@@ -212,10 +212,12 @@ fn thumbnail(
         }
     }
     let visuals = ui.visuals();
-    let outline = match () {
-        () if current => Some(Stroke::new(2.0, theme::accent(visuals))),
-        () if response.hovered() || response.has_focus() => Some(Stroke::new(1.5, visuals.text_color())),
-        () => None,
+    let outline = if current {
+        Some(Stroke::new(2.0, theme::accent(visuals)))
+    } else if response.hovered() || response.has_focus() {
+        Some(Stroke::new(1.5, visuals.text_color()))
+    } else {
+        None
     };
     if let Some(stroke) = outline {
         painter.rect_stroke(square, 1.0, stroke, egui::StrokeKind::Outside);
