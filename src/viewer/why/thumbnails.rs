@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::material::{Material, Planes};
 use crate::model::scene::Scene;
 use crate::picture::colour_map::difference_to_display;
+use crate::picture::difference::Difference;
 use crate::progress::Progress;
 use crate::render;
 use crate::why::RankedScene;
@@ -87,9 +88,8 @@ fn log_differences(
     progress: &Progress,
 ) -> Result<Vec<f32>, Error> {
     let render = |material| render::render_f32(material, scene, &pair.convention, &progress.part());
-    let pictures = [render(&materials[0])?, render(&materials[1])?];
-    let difference = render::log_differences(&pictures, pair.convention.epsilon as f32).remove(0);
-    Ok(difference.pixels.iter().map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect())
+    let [ground_truth, prediction] = [render(&materials[0])?, render(&materials[1])?];
+    Ok(Difference::Log.of_images(&ground_truth, &prediction, pair.convention.epsilon))
 }
 
 /// Every n-th texel of a large material along both sides, so that fewer than [`LARGE`] are left; a smaller material itself.
