@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+
 use super::*;
 
 /// Size of a picture, in pixels.
@@ -35,7 +37,9 @@ fn write(window: &mut Window<'_>, name: &str) {
         }
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets").join(name);
-    image::DynamicImage::from(picture).to_rgb8().save(path).unwrap();
+    let file = std::io::BufWriter::new(std::fs::File::create(path).unwrap());
+    let encoder = PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive);
+    image::DynamicImage::from(picture).to_rgb8().write_with_encoder(encoder).unwrap();
 }
 
 #[test]
