@@ -21,7 +21,7 @@ impl WhyPanel<'_> {
         let attributed = self.why.attribution.get(pair, self.sampling.seed);
         let axis = attributed.map_or([0.0, 1.0], axis);
         for map in Map::ALL {
-            let row = Row { map, attributed, axis, chosen: self.state.prediction };
+            let row = MapRow { map, attributed, axis, chosen: self.state.prediction };
             let isolated = self.state.isolated == Some(map);
             if row.ui(ui, isolated, self.state.only_right).clicked() {
                 commands.push(DisplayCommand::Isolate((!isolated).then_some(map)).into());
@@ -79,7 +79,7 @@ impl WhyPanel<'_> {
 }
 
 /// One map.
-struct Row<'a> {
+struct MapRow<'a> {
     map: Map,
     attributed: Option<&'a Attributed>,
     /// The values at both ends of the bars.
@@ -88,7 +88,7 @@ struct Row<'a> {
     chosen: usize,
 }
 
-impl Row<'_> {
+impl MapRow<'_> {
     fn ui(&self, ui: &mut egui::Ui, isolated: bool, only_right: bool) -> egui::Response {
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
         let share = self.attributed.map(|attributed| attributed.attribution.of(self.map));
