@@ -13,7 +13,7 @@ use super::report::ReportFormat;
 use super::scenes::{kind_name, triple};
 use super::{exit, materials, table};
 
-/// Searches the scene with the largest loss, for each prediction
+/// Searches for the scene with the largest loss of each prediction
 ///
 /// Samples 6,144 of the scenes that the loss is over, then refines the 16 worst. The search compares up to 1,024 texels; the
 /// printed loss is over all. The JSON is a scene file that `--scenes` takes. Without GT and PRED: the built-in materials.
