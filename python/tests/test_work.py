@@ -14,8 +14,11 @@ import svbrdf
 
 
 def test_ctrl_c_ends_a_long_loss() -> None:
+    # Where the tests run in the background, the signal is ignored until a handler is set.
     code = """
+        import signal
         import svbrdf
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         ground_truth, prediction, _ = svbrdf.built_in()
         print("started", flush=True)
         try:
@@ -30,7 +33,7 @@ def test_ctrl_c_ends_a_long_loss() -> None:
         time.sleep(0.3)
         process.send_signal(signal.SIGINT)
         assert process.stdout.readline() == "interrupted\n"
-        assert process.wait() == 0
+        assert process.wait(60) == 0
 
 
 def test_progress_is_reported_and_what_it_raises_ends_the_work() -> None:
