@@ -9,6 +9,7 @@ mod notes;
 mod pictures;
 mod rank;
 mod scenes;
+mod session;
 mod sidecar;
 mod stopped;
 mod study;

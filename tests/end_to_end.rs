@@ -1,5 +1,8 @@
 //! The real program in a real window on a display without a screen (Xvfb), with a simulated mouse and keyboard.
 
+mod dialogs;
+mod sessions;
+
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -50,6 +53,37 @@ impl Desktop {
             .env_remove("XDG_DATA_HOME")
             .stdin(Stdio::null());
         command
+    }
+
+    /// Starts `svbrdf` on these arguments in the folder, and waits for the materials to be drawn.
+    fn open(&self, arguments: &[&str]) -> Running {
+        // Signals that the tests' own parent ignores are not ignored.
+        let mut command = self.command("env");
+        let log = std::fs::File::create(self.folder.path().join("log")).unwrap();
+        command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_svbrdf")]).args(arguments);
+        command.current_dir(self.folder.path()).stdout(Stdio::null()).stderr(log);
+        let program = command.spawn().map(Running).unwrap();
+        // An empty screen has one colour, the window without materials a few hundred.
+        self.wait("the materials to be drawn", |p| colours(p) > 3000);
+        self.xdotool("search --sync --name svbrdf windowfocus");
+        self.wait_until_still();
+        program
+    }
+
+    /// Opens a dialog by its key, and waits until it is there.
+    fn dialog(&self, key: &str) {
+        let before = self.wait_until_still();
+        self.xdotool(&format!("key {key}"));
+        self.wait("the dialog", |picture| changed(picture, &before) > 20_000);
+        self.wait_until_still();
+    }
+
+    /// Presses keys, each in a frame of its own: the focus moves once a frame.
+    fn keys(&self, keys: &[&str]) {
+        for key in keys {
+            self.xdotool(&format!("key {key}"));
+            self.wait_until_still();
+        }
     }
 
     fn xdotool(&self, arguments: &str) {

@@ -56,16 +56,16 @@ pub fn run(args: &BlameArgs) -> Result<(), Error> {
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let one = |prediction: &Material<f32>| {
         watched("rendering", |progress| {
-            attribute(&opened.ground_truth, prediction, &args.comparison.convention, &request, progress)
+            attribute(&opened.ground_truth, prediction, &args.comparison.convention(), &request, progress)
         })
     };
     let attributions = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     exit::put(&match args.format {
         ReportFormat::Text => {
-            let one = |a| text(a, &opened.ground_truth, &args.comparison.convention);
+            let one = |a| text(a, &opened.ground_truth, &args.comparison.convention());
             attributions.iter().map(one).collect::<Vec<_>>().join("\n")
         }
-        ReportFormat::Json => json(&attributions, &opened.ground_truth, &args.comparison.convention)?,
+        ReportFormat::Json => json(&attributions, &opened.ground_truth, &args.comparison.convention())?,
         ReportFormat::Csv => csv(&attributions)?,
     })
 }

@@ -13,6 +13,7 @@ use super::backend::{self, Device};
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
 use super::report::{Printed, ReportFormat};
+use super::session::SessionSettings;
 use super::{exit, materials, table};
 
 /// Prints the rendering loss of predictions against a ground truth
@@ -20,7 +21,8 @@ use super::{exit, materials, table};
 /// Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the mean over scenes,
 /// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
 /// texels; it is unknown with a single scene of a kind. Without options that choose scenes: the loss over all
-/// scenes to +-1%, and that of the 6 + 3 scenes of the papers. Without GT and PRED: the built-in materials.
+/// scenes to +-1%, and that of the 6 + 3 scenes of the papers; of a session, what its window asked for. Without GT and PRED:
+/// the built-in materials.
 #[derive(Debug, clap::Args)]
 pub struct LossArgs {
     /// Number of near-field scenes [default: 6]
@@ -31,9 +33,9 @@ pub struct LossArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     distant: Option<usize>,
 
-    /// Seed of the sampled scenes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
-    seed: u64,
+    /// Seed of the sampled scenes [default: 0, or that of the session]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    seed: Option<u64>,
 
     /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: random]
     #[arg(long, value_name = "random|sobol")]
@@ -81,11 +83,15 @@ pub struct LossArgs {
 /// losses are printed.
 pub fn run(args: &LossArgs) -> Result<(), Error> {
     table::check_predictions(&args.comparison.materials)?;
-    let request = request(args)?;
+    let saved = saved_request(args)?;
+    let is_chosen = saved.is_some() || chooses_scenes(args);
+    let request = saved.map_or_else(|| request(args), Ok)?;
     check_backend(args, &request)?;
     let report = match args.precision {
-        Precision::F32 => report(args, |comparison| backend::run(args.backend, comparison, &request))?,
-        Precision::F64 => report(args, |comparison: Comparison<'_, f64>| {
+        Precision::F32 => {
+            report(args, is_chosen, |comparison| backend::run(args.backend, comparison, &request))?
+        }
+        Precision::F64 => report(args, is_chosen, |comparison: Comparison<'_, f64>| {
             let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
             Ok(Report::new(&comparison, outcome))
         })?,
@@ -118,17 +124,26 @@ fn paths(args: &LossArgs) -> Vec<String> {
     all.map(|path| path.display().to_string()).collect()
 }
 
-/// Opens the materials in precision `T` and computes the losses with `run`.
+/// What the session asks for, unless an option chooses the scenes.
+fn saved_request(args: &LossArgs) -> Result<Option<Request>, Error> {
+    let saved = SessionSettings::of(&args.comparison.materials)?;
+    Ok(saved.filter(|_| !chooses_scenes(args)).and_then(|saved| saved.request(args.seed)))
+}
+
+/// Opens the materials in precision `T` and computes the losses with `run`. Where scenes are not chosen, the losses over all
+/// scenes stand beside them.
 fn report<T: Compute>(
     args: &LossArgs,
+    is_chosen: bool,
     run: impl FnOnce(Comparison<'_, T>) -> Result<Report, Error>,
 ) -> Result<Report, Error> {
     let opened = materials::open::<T>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention)?;
-    let all_scenes = match chooses_scenes(args) {
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?;
+    let seed = args.seed.unwrap_or(0);
+    let all_scenes = match is_chosen {
         true => None,
-        false => Some(watched("rendering", |progress| comparison.over_all_scenes(args.seed, progress))?),
+        false => Some(watched("rendering", |progress| comparison.over_all_scenes(seed, progress))?),
     };
     Ok(Report { all_scenes, ..run(comparison)? })
 }
@@ -160,7 +175,8 @@ fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
 
 /// The request that the options make.
 fn request(args: &LossArgs) -> Result<Request, Error> {
-    let LossArgs { near, distant, seed, sampler, texels, .. } = *args;
+    let LossArgs { near, distant, sampler, texels, .. } = *args;
+    let seed = args.seed.unwrap_or(0);
     let usual = Sampling::default();
     let sampling = Sampling {
         near: near.unwrap_or(usual.near),

@@ -67,7 +67,7 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let comparison =
-        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention)?.without_pilot();
+        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?.without_pilot();
     let map = match args.over {
         Over::Texels => over_texels(args, &comparison)?,
         Over::Lights => over_directions(args, &comparison, Moved::Light)?,
@@ -79,7 +79,7 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
     let entries = [
         ("svbrdf:shows", format!("{}; the last colour is {largest}", map.shows)),
         ("svbrdf:sources", sources.join(" | ")),
-        ("svbrdf:convention", args.comparison.convention.name.to_owned()),
+        ("svbrdf:convention", args.comparison.convention().name.to_owned()),
         ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
     ];
     stoppable(|progress| match &output {
@@ -89,7 +89,7 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
         Output::Table(path) => write_text(path, &map.table()?, progress),
     })?;
     exit::put(
-        &(table::heading(&map.shows, &opened.ground_truth, &args.comparison.convention)
+        &(table::heading(&map.shows, &opened.ground_truth, &args.comparison.convention())
             + "\n"
             + &map.summary),
     )

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use svbrdf::error::Error;
 use svbrdf::files::read::{self, Binding, Read, ReadOptions};
-use svbrdf::files::session::Session;
+use svbrdf::files::session::{Session, SessionMaterial};
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;
 use svbrdf::report::distinct_names;
@@ -93,8 +93,8 @@ fn open_session<T: Real>(args: &MaterialArgs, path: &Path) -> Result<Opened<T>, 
     if !args.predictions.is_empty() {
         return Err(Error::Usage("a session names its predictions itself; give it alone".to_owned()));
     }
-    let mut materials: Vec<Material<T>> = Vec::new();
-    for entry in Session::read(path)?.materials {
+    let entries = Session::read(path)?.materials;
+    let one = |entry: &SessionMaterial| -> Result<Read<T>, Error> {
         let read = match (&entry.path, entry.built_in) {
             (Some(path), _) => {
                 let text = format!("reading {}", path.display());
@@ -103,7 +103,16 @@ fn open_session<T: Real>(args: &MaterialArgs, path: &Path) -> Result<Opened<T>, 
             (None, number) => built_in(number.unwrap_or(0))?,
         };
         args.reading.both.check(path, &read)?;
-        let material = args.reading.both.noted(read);
+        Ok(read)
+    };
+    let all = entries.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    let paths = entries.iter().map(|entry| entry.path.as_deref().unwrap_or(Path::new("")));
+    let named: Vec<_> = all.iter().map(|read| read.material.name()).zip(paths).collect();
+    let names = distinct_names(&named);
+    let mut materials: Vec<Material<T>> = Vec::new();
+    for ((read, name), entry) in all.into_iter().zip(names).zip(&entries) {
+        let material = read.material.renamed(name);
+        let material = args.reading.both.noted(Read { material, ..read });
         let size = materials.first().map_or_else(|| material.size(), Material::size);
         materials.push(if entry.fit { material.resized(size)? } else { material });
     }

@@ -42,12 +42,12 @@ pub fn run(args: &MetricsArgs) -> Result<(), Error> {
     if args.protocol.is_given() {
         return protocol::run(&args.protocol, &args.comparison, args.format);
     }
-    let (sampling, scenes) = args.scenes.scenes(&args.comparison.convention)?;
+    let (sampling, scenes) = args.scenes.scenes(&args.comparison.convention())?;
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let truth = &opened.ground_truth;
     let one = |prediction: &Material<f32>| -> Result<Vec<Metric>, Error> {
         let renderings = watched("rendering", |progress| {
-            of_renderings(truth, prediction, &scenes, &args.comparison.convention, progress)
+            of_renderings(truth, prediction, &scenes, &args.comparison.convention(), progress)
         })?;
         Ok([of_maps(truth, prediction)?, renderings].concat())
     };
@@ -55,12 +55,12 @@ pub fn run(args: &MetricsArgs) -> Result<(), Error> {
     let names: Vec<&str> = opened.predictions.iter().map(Material::name).collect();
     exit::put(&match args.format {
         ReportFormat::Text => {
-            let heading = table::heading("metrics", truth, &args.comparison.convention);
+            let heading = table::heading("metrics", truth, &args.comparison.convention());
             let rows = rows(&names, &metrics, |value| format!("{value:.6}"));
             format!("{heading}{}\n{}", table::scenes_line(sampling.as_ref(), &scenes), table::aligned(&rows))
         }
         ReportFormat::Json => {
-            let convention = args.comparison.convention.name;
+            let convention = args.comparison.convention().name;
             json(
                 &MetricsHeading { ground_truth: truth.name(), convention: Some(convention), protocol: None },
                 &names,

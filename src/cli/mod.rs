@@ -20,6 +20,7 @@ mod render;
 mod report;
 mod scene_args;
 mod scenes;
+mod session;
 mod stop;
 mod strip;
 mod study;

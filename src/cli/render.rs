@@ -17,6 +17,7 @@ use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
 use super::materials;
 use super::scene_args::OneSceneArgs;
+use super::session::SessionSettings;
 use super::stop::stoppable;
 
 /// Renders one material, or several side by side, to a file; or their maps, or differences
@@ -32,13 +33,15 @@ pub struct RenderArgs {
     #[command(flatten)]
     scene: OneSceneArgs,
 
-    /// Exposure of renderings in a PNG, in stops; an EXR keeps the radiance, and differences have none
-    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
-    exposure: f32,
+    /// Exposure of renderings in a PNG, in stops; an EXR keeps the radiance, and differences have none [default: 0, or that
+    /// of the session]
+    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true)]
+    exposure: Option<f32>,
 
-    /// What is written: rendering, normal, diffuse, specular or roughness
-    #[arg(long, value_name = "QUANTITY", default_value = "rendering")]
-    show: Quantity,
+    /// What is written: rendering, normal, diffuse, specular or roughness [default: rendering; of a session what its window
+    /// showed, value or difference]
+    #[arg(long, value_name = "QUANTITY")]
+    show: Option<Quantity>,
 
     /// Writes the difference of each prediction from GT, in a PNG as colours: log, signed-log, absolute, signed or relative;
     /// of normals angle [default: log, of normals angle, of other maps absolute]
@@ -64,8 +67,9 @@ pub struct RenderArgs {
 /// Where the output cannot be written, or a material cannot be read or rendered.
 pub fn run(args: &RenderArgs) -> Result<(), Error> {
     let destination = Destination::new(&args.output)?;
-    let scene = args.scene.scene()?;
-    let shown = shown(args)?;
+    let saved = SessionSettings::of(&args.comparison.materials)?;
+    let scene = args.scene.scene(saved.as_ref().map(|saved| saved.scene))?;
+    let shown = shown(args, saved.as_ref())?;
     let materials = materials::open::<f32>(&args.comparison.materials)?.into_all();
     match materials.as_slice() {
         [_] if shown.difference.is_some() => {
@@ -78,17 +82,28 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
         _ => {}
     }
     check_heights(&materials)?;
-    let (values, renderer) = values(args, &materials, &scene)?;
-    let Pictures { images, shown } = shown.of_values(values, &args.comparison.convention);
-    let provenance = provenance(args, &materials, shown, scene, renderer);
+    let (values, renderer) = values(args, shown.quantity, &materials, &scene)?;
+    let Pictures { images, shown } = shown.of_values(values, &args.comparison.convention());
+    let exposure_ev = args.exposure.or(saved.map(|saved| saved.exposure_ev)).unwrap_or(0.0);
+    let provenance = Provenance {
+        shown,
+        scene,
+        convention: args.comparison.convention(),
+        exposure_ev,
+        sources: materials.iter().map(|m| m.name().to_owned()).collect(),
+        renderer,
+    };
     stoppable(|progress| destination.write(&images, &provenance, progress))
 }
 
-/// What is written.
-fn shown(args: &RenderArgs) -> Result<Shown, Error> {
-    let Some(kind) = &args.difference else { return Ok(Shown { quantity: args.show, difference: None }) };
-    let difference = difference_of(args.show, kind, args.range)?;
-    Ok(Shown { quantity: args.show, difference: Some(difference) })
+/// What is written: what the session shows, unless an option says otherwise.
+fn shown(args: &RenderArgs, saved: Option<&SessionSettings>) -> Result<Shown, Error> {
+    if let (Some(saved), None, None) = (saved, args.show, &args.difference) {
+        return Ok(saved.shown());
+    }
+    let quantity = args.show.unwrap_or_default();
+    let difference = args.difference.as_ref().map(|kind| difference_of(quantity, kind, args.range));
+    Ok(Shown { quantity, difference: difference.transpose()? })
 }
 
 /// The difference of this name, or the default one of `quantity`.
@@ -130,23 +145,6 @@ impl FromStr for Range {
     }
 }
 
-fn provenance(
-    args: &RenderArgs,
-    materials: &[Material<f32>],
-    shown: Shown,
-    scene: Scene,
-    renderer: String,
-) -> Provenance {
-    Provenance {
-        shown,
-        scene,
-        convention: args.comparison.convention,
-        exposure_ev: args.exposure,
-        sources: materials.iter().map(|m| m.name().to_owned()).collect(),
-        renderer,
-    }
-}
-
 /// Materials stand side by side only where they are equally high.
 fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
     let different = |pair: &&[Material<f32>]| pair[0].height() != pair[1].height();
@@ -163,15 +161,16 @@ fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
 /// The renderings or maps, and the name of the device that rendered them.
 fn values(
     args: &RenderArgs,
+    quantity: Quantity,
     materials: &[Material<f32>],
     scene: &Scene,
 ) -> Result<(Vec<Image<f32>>, String), Error> {
-    if args.gpu && args.show == Quantity::Rendering {
+    if args.gpu && quantity == Quantity::Rendering {
         return panes_of_gpu(args, materials, scene);
     }
     let one = |material| {
         watched("rendering", |progress| {
-            args.show.image(material, scene, &args.comparison.convention, progress)
+            quantity.image(material, scene, &args.comparison.convention(), progress)
         })
     };
     let panes = materials.iter().map(one).collect::<Result<_, _>>()?;
@@ -187,7 +186,7 @@ fn panes_of_gpu(
     let gpu = svbrdf::gpu::Gpu::headless()?;
     let renderer = gpu.report.to_string();
     super::exit::tell(&format!("note: {renderer}"));
-    let one = |material| gpu.render(material, scene, &args.comparison.convention);
+    let one = |material| gpu.render(material, scene, &args.comparison.convention());
     Ok((materials.iter().map(one).collect::<Result<_, _>>()?, renderer))
 }
 

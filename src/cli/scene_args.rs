@@ -62,15 +62,13 @@ impl SceneArgs {
 
 #[derive(Debug, clap::Args)]
 pub struct OneSceneArgs {
-    /// Position of the viewer, or its direction with --distant
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
-        default_value = "0,0,2.5")]
-    view: [f64; 3],
+    /// Position of the viewer, or its direction with --distant [default: 0,0,2.5, or that of the session]
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
+    view: Option<[f64; 3]>,
 
-    /// Position of the light, or its direction with --distant
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true,
-        default_value = "0.4,0.5,1.2")]
-    light: [f64; 3],
+    /// Position of the light, or its direction with --distant [default: 0.4,0.5,1.2, or that of the session]
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
+    light: Option<[f64; 3]>,
 
     /// Places light and viewer infinitely far away
     #[arg(long)]
@@ -78,13 +76,16 @@ pub struct OneSceneArgs {
 }
 
 impl OneSceneArgs {
-    /// The scene.
+    /// The scene; `saved` is that of a session.
     ///
     /// # Errors
     /// [`Error::UnusableScene`].
-    pub fn scene(&self) -> Result<Scene, Error> {
-        let kind = if self.distant { Kind::Distant } else { Kind::Near };
-        let scene = Scene { kind, view: self.view, light: self.light };
+    pub fn scene(&self, saved: Option<Scene>) -> Result<Scene, Error> {
+        let usual = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
+        let usual = saved.unwrap_or(usual);
+        let kind = if self.distant { Kind::Distant } else { usual.kind };
+        let (view, light) = (self.view.unwrap_or(usual.view), self.light.unwrap_or(usual.light));
+        let scene = Scene { kind, view, light };
         scene.check().map_err(|problem| Error::UnusableScene { problem })?;
         Ok(scene)
     }

@@ -45,13 +45,13 @@ pub fn run(args: &ScenesArgs) -> Result<(), Error> {
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let comparison =
-        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention)?.without_pilot();
+        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?.without_pilot();
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let mut ranked = worst_first(&outcome);
     ranked.truncate(args.top);
     exit::put(&match args.format {
-        ReportFormat::Text => text(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention),
-        ReportFormat::Json => json(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention)?,
+        ReportFormat::Text => text(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention()),
+        ReportFormat::Json => json(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention())?,
         ReportFormat::Csv => csv(&outcome, &ranked)?,
     })
 }

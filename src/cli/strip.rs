@@ -16,6 +16,7 @@ use super::comparison_args::ComparisonArgs;
 use super::materials;
 use super::render::{Range, difference_of, stops};
 use super::scene_args::OneSceneArgs;
+use super::session::SessionSettings;
 use super::stop::stoppable;
 
 /// Writes a labelled figure: a row per material, a column per map, rendering or difference
@@ -28,7 +29,7 @@ pub struct StripArgs {
     output: PathBuf,
 
     /// Columns: rendering, normal, diffuse, specular, roughness; with a colon and a kind, or a colon alone, differences:
-    /// rendering:log, normal:
+    /// rendering:log, normal:; of a session, the difference that was chosen in its window
     #[arg(
         long,
         value_name = "COLUMN,...",
@@ -44,9 +45,9 @@ pub struct StripArgs {
     #[command(flatten)]
     scene: OneSceneArgs,
 
-    /// Exposure of renderings in stops
-    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value = "0")]
-    exposure: f32,
+    /// Exposure of renderings in stops [default: 0, or that of the session]
+    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true)]
+    exposure: Option<f32>,
 
     /// The difference with the last colour: a number, or auto for the 99th percentile of the largest in a column
     /// [default: 2 for logarithms, 45 degrees, else 1]
@@ -63,22 +64,24 @@ pub struct StripArgs {
 /// Where the output cannot be written, or a material cannot be read or rendered.
 pub fn run(args: &StripArgs) -> Result<(), Error> {
     let destination = PngDestination::new(&args.output)?;
-    let columns = columns(args)?;
+    let saved = SessionSettings::of(&args.comparison.materials)?;
+    let columns = columns(args, saved.as_ref())?;
     let materials = materials::open::<f32>(&args.comparison.materials)?.into_all();
     if let [ground_truth, predictions @ ..] = materials.as_slice() {
         predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
     }
-    let strip = Strip { columns, convention: args.comparison.convention, exposure_ev: args.exposure };
+    let exposure_ev = args.exposure.or(saved.map(|saved| saved.exposure_ev)).unwrap_or(0.0);
+    let strip = Strip { columns, convention: args.comparison.convention(), exposure_ev };
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
     let all: Vec<&Material<f32>> = materials.iter().collect();
     let picture = watched("rendering", |progress| strip.picture(&all, &names, progress))?;
     stoppable(|progress| destination.write(&picture, &strip.entries(&names), progress))
 }
 
-fn columns(args: &StripArgs) -> Result<Vec<Column>, Error> {
+fn columns(args: &StripArgs, saved: Option<&SessionSettings>) -> Result<Vec<Column>, Error> {
     let scenes = match &args.scenes {
         Some(path) => scene_file::read(path)?,
-        None => vec![args.scene.scene()?],
+        None => vec![args.scene.scene(saved.map(|saved| saved.scene))?],
     };
     let mut columns = Vec::new();
     for text in &args.columns {
@@ -87,7 +90,10 @@ fn columns(args: &StripArgs) -> Result<Vec<Column>, Error> {
             None => (text.as_str(), None),
         };
         let quantity: Quantity = quantity.trim().parse()?;
-        let difference = difference.map(|kind| difference_of(quantity, kind, args.range)).transpose()?;
+        let difference = match (difference, saved) {
+            (Some(""), Some(saved)) if args.range.is_none() => Some(saved.difference(quantity)),
+            _ => difference.map(|kind| difference_of(quantity, kind, args.range)).transpose()?,
+        };
         let count = if quantity == Quantity::Rendering { scenes.len() } else { 1 };
         let shown = Shown { quantity, difference };
         columns.extend(scenes.iter().take(count).map(|scene| Column { shown, scene: *scene }));

@@ -75,6 +75,6 @@ fn measured(args: &StudyArgs) -> Result<Study, Error> {
         }
     };
     let gpu = adapter.as_ref().map(Adapter::backend);
-    let pair = Pair { ground_truth, prediction, convention: args.comparison.convention, gpu };
+    let pair = Pair { ground_truth, prediction, convention: args.comparison.convention(), gpu };
     watched("measuring", |progress| study::run(&pair, progress, |_| ()))
 }

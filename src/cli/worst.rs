@@ -40,13 +40,13 @@ pub fn run(args: &WorstArgs) -> Result<(), Error> {
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let one = |prediction: &Material<f32>| {
         watched("searching", |progress| {
-            worst(&opened.ground_truth, prediction, &args.comparison.convention, args.seed, progress)
+            worst(&opened.ground_truth, prediction, &args.comparison.convention(), args.seed, progress)
         })
     };
     let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     exit::put(&match args.format {
-        ReportFormat::Text => text(&found, &opened.ground_truth, &args.comparison.convention),
-        ReportFormat::Json => json(&found, &opened.ground_truth, &args.comparison.convention)?,
+        ReportFormat::Text => text(&found, &opened.ground_truth, &args.comparison.convention()),
+        ReportFormat::Json => json(&found, &opened.ground_truth, &args.comparison.convention())?,
         ReportFormat::Csv => csv(&found)?,
     })
 }

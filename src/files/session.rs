@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -53,6 +54,16 @@ pub struct SessionMaterial {
 }
 
 impl Session {
+    /// The key of the window's display among [`Session::window`].
+    pub const VIEW: &str = "view";
+    /// The key of its loss settings, a [`crate::loss::LossSettings`].
+    pub const LOSS: &str = "loss";
+
+    /// What the window saved under this key; `None` where there is nothing, or an older or newer program saved it otherwise.
+    pub fn window_part<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
+        serde_json::from_value(self.window.get(key)?.clone()).ok()
+    }
+
     /// Whether `path` is named like a session file.
     pub fn is_named(path: &Path) -> bool {
         path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ENDING))

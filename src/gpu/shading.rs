@@ -116,6 +116,19 @@ impl Shading {
     ///
     /// A failure waits in [`Gpu::take_fault`].
     pub fn draw(&self, gpu: &Gpu, textures: &MaterialTextures, params: &ShadeParams, target: &Shaded) {
+        self.draw_part(gpu, textures, params, target, None);
+    }
+
+    /// As [`Shading::draw`], but only the texels of `part` = (left, top, width, height), which lies within the target; the
+    /// others stay as they are.
+    pub fn draw_part(
+        &self,
+        gpu: &Gpu,
+        textures: &MaterialTextures,
+        params: &ShadeParams,
+        target: &Shaded,
+        part: Option<[u32; 4]>,
+    ) {
         let largest = match gpu.report.shading_format {
             TextureFormat::Rgba16Float => LARGEST_F16,
             _ => f32::MAX,
@@ -127,6 +140,7 @@ impl Shading {
         let [a, b, c] = maps;
         let group = bind(&gpu.device, &self.layout, &[buffer.as_entire_binding(), a, b, c]);
 
+        let load = part.map_or(LoadOp::Clear(wgpu::Color::BLACK), |_| LoadOp::Load);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("shading"),
@@ -134,10 +148,13 @@ impl Shading {
                 view: &target.view,
                 resolve_target: None,
                 depth_slice: None,
-                ops: Operations { load: LoadOp::Clear(wgpu::Color::BLACK), store: StoreOp::Store },
+                ops: Operations { load, store: StoreOp::Store },
             })],
             ..RenderPassDescriptor::default()
         });
+        if let Some([left, top, width, height]) = part {
+            pass.set_scissor_rect(left, top, width, height);
+        }
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);

@@ -10,6 +10,7 @@ pub(crate) mod colour_map;
 #[cfg(feature = "testing")]
 pub mod colour_map;
 pub mod difference;
+pub mod differences;
 pub mod export;
 pub mod quantity;
 pub mod shown;

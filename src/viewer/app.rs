@@ -84,6 +84,8 @@ pub struct App {
     pub(super) stop: Stop,
     /// Size of the panes and the legend, in pixels.
     pub(super) picture_size: [u32; 2],
+    /// Share of the window between its bars that the drawer takes.
+    pub(super) drawer_share: f32,
     /// The time of the last frame, in seconds.
     now: f64,
     pub(super) frame_ms: f32,
@@ -140,6 +142,7 @@ impl App {
             messages,
             stop: Stop::default(),
             picture_size: [1, 1],
+            drawer_share: 0.0,
             now: 0.0,
             frame_ms: 0.0,
         };

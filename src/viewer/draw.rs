@@ -34,6 +34,7 @@ impl App {
         let mut commands = Vec::new();
         bare(egui::Panel::top("top"), ui).show(ui, |ui| commands.extend(self.top(ui)));
         bare(egui::Panel::bottom("status"), ui).show(ui, |ui| commands.extend(self.status(ui)));
+        let below_bar = ui.available_height();
         if !self.inspect.is_empty() && self.slots.ground_truth().is_some() {
             bare(egui::Panel::bottom("drawer"), ui)
                 .resizable(false)
@@ -49,6 +50,7 @@ impl App {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
         let area = ui.available_rect_before_wrap();
+        self.drawer_share = 1.0 - area.height() / below_bar.max(1.0);
         self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
         commands.extend(self.content(ui));
         commands.extend(panels::messages::ui(ui.ctx(), area, &self.messages));
@@ -59,13 +61,15 @@ impl App {
     /// The panes and the legend: what a picture of the view has.
     pub(super) fn content(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
+        // A saved picture has the arrangement of the window, also at another size.
+        let undivided = ui.available_height() / (1.0 - self.drawer_share).max(0.1);
         if self.state.difference && !self.slots.predictions().is_empty() {
             bare(egui::Panel::bottom("legend"), ui).show(ui, |ui| commands.extend(self.legend(ui)));
         }
         if self.settings.histograms && !self.state.difference && self.slots.ground_truth().is_some() {
             bare(egui::Panel::bottom("values"), ui).show(ui, |ui| self.values(ui));
         }
-        egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui)));
+        egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui, undivided)));
         commands
     }
 
@@ -212,7 +216,7 @@ impl App {
         strip.ui(ui);
     }
 
-    fn panes(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
+    fn panes(&mut self, ui: &mut egui::Ui, undivided: f32) -> Vec<Command> {
         let peek = ui.input(|i| i.key_down(egui::Key::G)) && !ui.ctx().text_edit_focused();
         let error_maps = self.error_maps().cloned();
         let scenery = Scenery {
@@ -227,6 +231,7 @@ impl App {
             range: self.range(),
             error_maps: error_maps.as_deref(),
             inspect: &self.inspect,
+            undivided,
         };
         self.viewport.ui(ui, &scenery, self.gpu.as_mut())
     }

@@ -5,14 +5,26 @@ use std::sync::Arc;
 
 use eframe::{egui, egui_wgpu, wgpu};
 
+use super::inspect::Region;
 use super::slot::Slot;
 use crate::error::Error;
 use crate::gpu::{Blit, Display, DisplayParams, Gpu, ShadeParams, Shaded, Shading, Still};
 
+/// How much of a material is shaded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShadedPart {
+    Whole,
+    /// Every n-th texel along both axes.
+    EveryNth(usize),
+    /// The texels that are seen.
+    Visible(Region),
+}
+
 /// Shaded texels and what they were shaded with.
 struct ShadedTexels {
     shaded: Shaded,
-    drawn: Option<ShadeParams>,
+    /// With a region, only its texels.
+    drawn: Option<(ShadeParams, Option<Region>)>,
     /// Changes whenever the texels do.
     version: u64,
 }
@@ -75,24 +87,25 @@ impl GpuView {
         })
     }
 
-    /// Shades every `stride`-th texel of the material of `slot`, unless it has been shaded with these parameters; all texels
-    /// where that has been done before.
+    /// Shades a part of the material of `slot`, unless it or all texels have been shaded with these parameters.
     ///
     /// # Errors
     /// A text for the pane, where the adapter cannot hold the material.
-    pub fn shade(&mut self, slot: &Slot, params: ShadeParams, stride: usize) -> Result<(), String> {
+    pub fn shade(&mut self, slot: &Slot, params: ShadeParams, part: ShadedPart) -> Result<(), String> {
         let textures = match &slot.loaded.textures {
             Some(Ok(textures)) => textures,
             Some(Err(problem)) => return Err(problem.clone()),
             None => return Err("This material has no textures: reload it".to_owned()),
         };
         let entry = self.shaded.entry(slot.id).or_default();
-        let is_whole = entry.full.as_ref().is_some_and(|full| full.drawn == Some(params));
-        entry.shows_quick = stride > 1 && !is_whole;
-        let (place, stride) = match entry.shows_quick {
-            true => (&mut entry.quick, stride),
-            false => (&mut entry.full, 1),
+        let whole = Some((params, None));
+        let is_whole = entry.full.as_ref().is_some_and(|full| full.drawn == whole);
+        let (place, stride, asked) = match part {
+            ShadedPart::EveryNth(stride) if !is_whole => (&mut entry.quick, stride, whole),
+            ShadedPart::Visible(region) if !is_whole => (&mut entry.full, 1, Some((params, Some(region)))),
+            _ => (&mut entry.full, 1, whole),
         };
+        entry.shows_quick = stride > 1;
         let fits = place.as_ref().is_some_and(|target| target.shaded.stride() == stride);
         if !fits {
             let size = slot.loaded.material.size();
@@ -100,10 +113,11 @@ impl GpuView {
                 self.shading.reduced_target(&self.gpu, size, stride).map_err(|error| error.to_string())?;
             *place = Some(ShadedTexels { shaded, drawn: None, version: 0 });
         }
-        if let Some(target) = place.as_mut().filter(|target| target.drawn != Some(params)) {
-            self.shading.draw(&self.gpu, textures, &params, &target.shaded);
+        if let Some(target) = place.as_mut().filter(|target| target.drawn != asked) {
+            let region = asked.and_then(|(_, region)| region).map(Region::rectangle);
+            self.shading.draw_part(&self.gpu, textures, &params, &target.shaded, region);
             self.versions += 1;
-            (target.drawn, target.version) = (Some(params), self.versions);
+            (target.drawn, target.version) = (asked, self.versions);
         }
         Ok(())
     }

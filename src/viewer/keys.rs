@@ -67,9 +67,12 @@ pub fn commands(ctx: &egui::Context, now: Context<'_>) -> Vec<Command> {
     if ctx.text_edit_focused() {
         return Vec::new();
     }
+    // An open menu or drop-down takes Esc for itself.
+    let is_taken = |key| key == Key::Escape && egui::Popup::is_any_open(ctx);
+    let table: Vec<_> = table(now).into_iter().filter(|(_, key, _)| !is_taken(*key)).collect();
     let mut commands = ctx.input_mut(|input| {
         let mut found = Vec::new();
-        for (modifiers, key, command) in table(now) {
+        for (modifiers, key, command) in table {
             let presses = input.count_and_consume_key(modifiers, key);
             found.extend(std::iter::repeat_n(command, presses));
         }

@@ -8,6 +8,7 @@ pub(crate) mod app;
 #[cfg(feature = "testing")]
 pub mod app;
 mod apply;
+mod assumed;
 mod browse;
 mod cells;
 #[cfg(not(feature = "testing"))]
@@ -27,7 +28,6 @@ pub mod keys;
 mod latest;
 mod loaded;
 mod loss_run;
-mod loss_settings;
 mod marks;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod message;
@@ -47,7 +47,6 @@ mod panes;
 mod polling;
 
 mod difference_run;
-mod differences;
 mod draw;
 mod endpoint;
 mod error_map_run;
@@ -79,6 +78,7 @@ mod theme;
 mod title;
 mod values_run;
 mod viewport;
+mod visible;
 mod watch;
 mod why;
 #[cfg(not(feature = "testing"))]

@@ -29,6 +29,8 @@ pub struct Scenery<'a> {
     pub error_maps: Option<&'a ErrorMaps>,
     /// Pins and rectangle.
     pub inspect: &'a Inspect,
+    /// Height of the panes with the drawer and the legend closed, in points.
+    pub undivided: f32,
 }
 
 /// The content of a pane: the slot it shows, the slot that is compared with, and how.
@@ -84,13 +86,14 @@ impl Scenery<'_> {
         }
     }
 
-    /// What fills an empty place beside the panes: the difference of the chosen prediction, where panes show values.
+    /// What fills an empty place beside the panes: of the chosen prediction, the difference where the others show values,
+    /// and the value where they show differences.
     pub(super) fn extra(&self) -> Option<Content> {
-        let shows_values = !self.state.difference && !self.peek && !self.swapped;
+        let is_plain = !self.peek && !self.swapped;
         let grid = self.state.layout == Layout::SideBySide && self.slots.len() > 2;
-        let content =
-            Content { slot: self.chosen(), reference: 0, mode: DisplayMode::Value, difference: true };
-        (shows_values && grid).then_some(content)
+        let difference = !self.state.difference;
+        let content = Content { slot: self.chosen(), reference: 0, mode: DisplayMode::Value, difference };
+        (is_plain && grid).then_some(content)
     }
 
     pub(super) fn camera(&self, grid: Grid, aspect: f32) -> Camera {

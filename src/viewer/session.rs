@@ -2,7 +2,6 @@
 
 use eframe::egui;
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use super::app::App;
@@ -11,9 +10,7 @@ use super::state::ViewState;
 use crate::files::read::ReadOptions;
 use crate::files::session::{Session, SessionMaterial};
 
-/// The keys of the window's part, and of what is in the session itself.
-const VIEW: &str = "view";
-const LOSS: &str = "loss";
+/// The fields of the view that are in the session itself.
 const ELSEWHERE: [&str; 3] = ["scene", "convention", "exposure_ev"];
 
 impl App {
@@ -36,18 +33,19 @@ impl App {
         if let Some(view) = view.as_object_mut() {
             ELSEWHERE.iter().for_each(|key| drop(view.remove(*key)));
         }
-        session.window =
-            Map::from_iter([(VIEW.to_owned(), view), (LOSS.to_owned(), value(&self.settings.loss))]);
+        session.window = Map::from_iter([
+            (Session::VIEW.to_owned(), view),
+            (Session::LOSS.to_owned(), value(&self.settings.loss)),
+        ]);
         session
     }
 
     /// Opens the materials of a session, and shows them as it does.
     pub(super) fn open_session(&mut self, ctx: &egui::Context, session: &Session) {
-        let part = |key| session.window.get(key).cloned();
-        let view: ViewState = part(VIEW).and_then(from_value).unwrap_or_default();
+        let view: ViewState = session.window_part(Session::VIEW).unwrap_or_default();
         let (convention, exposure_ev) = (session.convention.clone(), session.exposure);
         self.state = ViewState { scene: session.scene, convention, exposure_ev, ..view };
-        if let Some(loss) = part(LOSS).and_then(from_value) {
+        if let Some(loss) = session.window_part(Session::LOSS) {
             self.settings.loss = loss;
         }
         let sources: Vec<_> = session.materials.iter().filter_map(source).collect();
@@ -74,9 +72,4 @@ fn source(material: &SessionMaterial) -> Option<Source> {
 
 fn value(of: &impl Serialize) -> Value {
     serde_json::to_value(of).unwrap_or_default()
-}
-
-/// What an older or newer program has saved otherwise is left at its default.
-fn from_value<T: DeserializeOwned>(value: Value) -> Option<T> {
-    serde_json::from_value(value).ok()
 }

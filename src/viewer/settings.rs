@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::loss_settings::LossSettings;
 use super::why::WhySections;
 use crate::files::session::Session;
+use crate::loss::LossSettings;
 
 /// The key of the settings in the storage.
 pub const KEY: &str = "settings";

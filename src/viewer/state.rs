@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::differences::Differences;
 use crate::material::{Grid, Map};
 use crate::model::convention::{self, Convention};
 use crate::model::scene::{Kind, Scene};
 use crate::picture::camera::Camera;
 use crate::picture::difference::Difference;
+use crate::picture::differences::Differences;
 use crate::picture::quantity::Quantity;
 
 /// How the panes are arranged.

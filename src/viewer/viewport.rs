@@ -6,7 +6,7 @@ use super::cells::{TITLE, cells, free_cell, pixel_aligned};
 use super::command::Command;
 use super::endpoint::{self, Endpoint};
 use super::gestures::{self, Gesture, PaneTarget};
-use super::gpu_view::GpuView;
+use super::gpu_view::{GpuView, ShadedPart};
 use super::handles;
 use super::marks::Placed;
 use super::pace::{Pace, REST};
@@ -17,6 +17,7 @@ use super::sight;
 use super::state::{Projection, ViewState};
 use super::theme;
 use super::title::title_bar;
+use super::visible::shaded_part;
 use crate::gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 use crate::material::Grid;
 use crate::picture::camera::Camera;
@@ -31,7 +32,7 @@ pub struct Viewport {
     /// The texel that was under the pointer last.
     pub last_texel: Option<[usize; 2]>,
     pace: Pace,
-    /// Whether the difference of the chosen prediction fills an empty place.
+    /// Whether the difference or the value of the chosen prediction fills an empty place.
     pub shows_extra: bool,
     /// Size of a pane in physical pixels.
     pane_pixels: Vec2,
@@ -66,7 +67,7 @@ impl Viewport {
         }
         let contents = scenery.contents();
         let grid = scenery.slots[0].loaded.material.grid();
-        let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
+        let cells = cells(area, scenery.undivided, contents.len(), grid, ui.pixels_per_point());
         let free = free_cell(area, &cells);
         let mut panes: Vec<(Content, Rect)> = contents.into_iter().zip(cells).collect();
         let extra = scenery.extra().zip(free);
@@ -99,10 +100,12 @@ impl Viewport {
         self.pane_pixels = rect.size() * ui.pixels_per_point();
 
         let response = ui.interact(rect, ui.scope_id().with(("pane", number)), Sense::drag());
-        let label = match content.difference && !scenery.state.difference {
-            true => format!("Difference pane {}", scenery.title(content.slot)),
-            false => format!("Pane {}", scenery.title(content.slot)),
+        let kind = match (number < scenery.contents().len(), content.difference) {
+            (true, _) => "Pane",
+            (false, true) => "Difference pane",
+            (false, false) => "Value pane",
         };
+        let label = format!("{kind} {}", scenery.title(content.slot));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
         self.paint(ui, scenery, gpu, (number, content), rect, camera);
@@ -170,27 +173,25 @@ impl Viewport {
         }
     }
 
-    /// Shades every material in a pane; while something moves on a slow adapter, about one texel a pixel.
+    /// Shades every material in a pane; while something moves on a slow adapter, only what the screen needs.
     fn shade(&mut self, ui: &egui::Ui, gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
         let state = scenery.state;
         let convention = state.convention();
         let params = ShadeParams { scene: state.scene, convention, quantity: state.quantity };
         let (now, seconds) = ui.input(|i| (i.time, i.unstable_dt));
-        let in_part = self.pace.frame(params, now, seconds);
-        // An error map is never reduced, nor is what a wipe shows beside it.
-        let stride = if in_part && !state.is_error_map() {
+        // An error map is never shaded in part, nor is what a wipe shows beside it.
+        let part = if self.pace.frame(params, now, seconds) && !state.is_error_map() {
             ui.ctx().request_repaint_after_secs(REST as f32 + 0.01);
             let grid = scenery.slots[0].loaded.material.grid();
-            let pixels_per_texel = self.magnification(grid, state);
-            (pixels_per_texel.recip() as usize).clamp(1, 64)
+            shaded_part(state, grid, self.aspect(), self.magnification(grid, state))
         } else {
-            1
+            ShadedPart::Whole
         };
         let contents = scenery.contents();
         gpu.keep_only(scenery.slots, contents.len() + 1);
         for content in contents {
             for index in [content.slot, content.reference] {
-                gpu.shade(&scenery.slots[index], params, stride)?;
+                gpu.shade(&scenery.slots[index], params, part)?;
             }
         }
         Ok(())

@@ -217,7 +217,8 @@ fn a_strip_has_a_column_for_each_scene_and_says_what_it_shows() {
     succeed(folder.path(), "strip gt.png a.png -o one.png --columns normal,rendering");
     let width = |name: &str| image::open(folder.path().join(name)).unwrap().width() as usize;
     let side = image::open(folder.path().join("gt.png")).unwrap().height() as usize;
-    assert_eq!(width("two.png"), width("one.png") + side + GAP);
+    // A column of a small material is as wide as its texts.
+    assert!(width("two.png") >= width("one.png") + side + GAP);
     let bytes = std::fs::read(folder.path().join("two.png")).unwrap();
     for text in ["distant light 0.500, 0.500, 0.700", "svbrdf:columns"] {
         assert!(bytes.windows(text.len()).any(|window| window == text.as_bytes()), "{text}");

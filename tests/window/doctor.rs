@@ -20,6 +20,15 @@ fn two_strips() -> (tempfile::TempDir, [PathBuf; 2]) {
     (folder, paths)
 }
 
+/// Unfolds the drop-downs of every material.
+fn change(window: &mut Window<'_>) {
+    let count = window.query_all_by_label("Change...").count();
+    for index in 0..count {
+        window.query_all_by_label("Change...").nth(index).unwrap().click();
+        window.run_steps(12);
+    }
+}
+
 /// A window on both, high enough for all panels, once their loss is there.
 fn on_two_strips<'a>([truth, guess]: [PathBuf; 2]) -> Window<'a> {
     let options =
@@ -28,6 +37,7 @@ fn on_two_strips<'a>([truth, guess]: [PathBuf; 2]) -> Window<'a> {
     tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
     wait(&mut window, "the loss", |app| app.losses().is_some());
+    change(&mut window);
     window
 }
 
@@ -74,7 +84,7 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
     assert_eq!(material(window.state(), 0), materials[0]);
     assert!(loss(&mut window) > 0.1);
-    window.get_by_label("albedo: srgb: as specified");
+    window.get_by_label("Diffuse: srgb: as specified");
     let after = panes.map(|rect| pixels(&mut window, rect));
     assert!(before[0] == after[0], "the pane of the ground truth stays");
     assert!(before[1] != after[1], "the pane of the prediction changes");
@@ -129,6 +139,7 @@ fn a_click_on_another_workflow_changes_the_material() {
     tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
     window.run_steps(3);
+    change(&mut window);
     let name = window.state().names()[0].clone();
     let diffuse = |app: &App| app.materials().next().unwrap().planes().diffuse[0][0];
     assert!(diffuse(window.state()) > 0.4);
@@ -157,6 +168,7 @@ fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
     tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
     window.run_steps(3);
+    change(&mut window);
     assert_eq!(material(window.state(), 0).size(), [16, 16]);
     let enter = |window: &mut Window<'_>, name: &str, text: &str| {
         window.get_by_role_and_label(Role::SpinButton, name).click();
@@ -204,7 +216,7 @@ fn what_is_chosen_is_kept_with_the_material_by_a_click() {
         serde_json::from_str::<serde_json::Value>(&text).unwrap(),
         serde_json::json!({"roughness": "gloss"})
     );
-    window.get_by_label("roughness: gloss: as saved in guess.svbrdf.json");
+    window.get_by_label("Roughness: gloss: as saved in guess.svbrdf.json");
     assert!(window.query_by_label("Save assumptions of guess").is_none(), "it is kept");
 
     // A new window opens it so; a drop-down wins over it, also over what it says.

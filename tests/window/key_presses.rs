@@ -81,3 +81,20 @@ fn letters_typed_into_a_field_are_no_commands() {
     press(&mut window, egui::Key::M);
     assert_eq!(window.state().state, before);
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn escape_closes_an_open_drop_down_and_nothing_else() {
+    let mut window = built_in();
+    let (ctx, command) = (window.ctx.clone(), svbrdf::viewer::command::LossCommand::ShowStudy(true));
+    window.state_mut().apply(&ctx, command.into());
+    window.run_steps(3);
+    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Show").click();
+    window.run_steps(4);
+    window.get_by_label("roughness");
+    press(&mut window, egui::Key::Escape);
+    assert!(window.query_by_label("roughness").is_none(), "the drop-down is closed");
+    window.get_by_label("Cancel study");
+    press(&mut window, egui::Key::Escape);
+    assert!(window.query_by_label("Cancel study").is_none(), "then the study");
+}

@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod bar;
 mod differences;
 mod doctor;
 mod files;
+mod files_tab;
 mod gestures;
 mod key_presses;
 mod loss_panel;

@@ -63,7 +63,7 @@ fn evaluated(args: &RankArgs) -> Result<(RunSettings, Vec<MaterialResult>), Erro
         return Err(Error::Usage(problem.to_owned()));
     }
     let tasks = tasks(args)?;
-    let settings = RunSettings::new(args.comparison.convention.name, args.target_error, args.seed, &tasks)
+    let settings = RunSettings::new(args.comparison.convention().name, args.target_error, args.seed, &tasks)
         .with_metrics(args.metrics);
     let tasks = args.shard.map_or(tasks.clone(), |shard| shard.part(tasks));
     let (journal, known) = match &args.journal {
@@ -90,7 +90,7 @@ fn evaluated(args: &RankArgs) -> Result<(RunSettings, Vec<MaterialResult>), Erro
         journal.as_ref().map_or(Ok(()), |journal| journal.add(result))
     };
     watched("comparing materials", |progress| {
-        evaluate(&remaining, &settings, &args.comparison.convention, open, progress, done)
+        evaluate(&remaining, &settings, &args.comparison.convention(), open, progress, done)
     })?;
     let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
     results.sort_by_key(|result| result.index);

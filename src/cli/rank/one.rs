@@ -28,13 +28,13 @@ pub fn run(mut args: RankArgs) -> Result<(), Error> {
     table::check_predictions(&args.comparison.materials)?;
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention)?;
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?;
     let request = Request::Accuracy { target: args.target_error, seed: args.seed };
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let places = places(&outcome);
     exit::put(&match args.format {
-        RankFormat::Text => text(&outcome, &places, &opened.ground_truth, &args.comparison.convention),
-        RankFormat::Json => json(&outcome, &places, &opened.ground_truth, &args.comparison.convention)?,
+        RankFormat::Text => text(&outcome, &places, &opened.ground_truth, &args.comparison.convention()),
+        RankFormat::Json => json(&outcome, &places, &opened.ground_truth, &args.comparison.convention())?,
         RankFormat::Csv => csv(&outcome, &places)?,
         RankFormat::Latex => latex(&outcome, &places),
     })?;

@@ -21,7 +21,7 @@ impl App {
                 self.inspect.region = region;
                 self.inspect.armed = false;
             }
-            InspectCommand::CopyPins => ctx.copy_text(self.pins_csv()),
+            InspectCommand::CopyPins => self.copy_text(ctx, self.pins_csv(), "the pinned texels as CSV"),
         }
     }
 

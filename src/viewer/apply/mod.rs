@@ -43,8 +43,8 @@ impl App {
             LossCommand::SetSettings(settings) => self.settings.loss = settings,
             LossCommand::SortByLoss(on) => self.settings.sort_losses = on,
             LossCommand::Copy => {
-                if let Some(losses) = self.loss.losses() {
-                    ctx.copy_text(losses.report.text());
+                if let Some(text) = self.loss.losses().map(|losses| losses.report.text()) {
+                    self.copy_text(ctx, text, "the losses as text");
                 }
             }
             LossCommand::ShowStudy(true) => {

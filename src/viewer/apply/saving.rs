@@ -61,6 +61,12 @@ impl App {
         }
     }
 
+    /// Puts a text on the clipboard, and says so.
+    pub(super) fn copy_text(&mut self, ctx: &egui::Context, text: String, what: &'static str) {
+        ctx.copy_text(text);
+        self.report([Message::Copied(what)]);
+    }
+
     /// The panes and the legend, as they are seen, in a picture of this size.
     fn picture(&mut self, ctx: &egui::Context, pixels: [u32; 2]) -> Result<egui::ColorImage, Error> {
         let seen = self.picture_size;

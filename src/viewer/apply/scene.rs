@@ -38,7 +38,10 @@ impl App {
             }
             SceneCommand::TogglePause => self.animation.paused = !self.animation.paused,
             SceneCommand::SetConvention(name) => self.state.convention = name.to_owned(),
-            SceneCommand::Copy => ctx.copy_text(scene_text(*scene)),
+            SceneCommand::Copy => {
+                let text = scene_text(*scene);
+                self.copy_text(ctx, text, "the scene as JSON");
+            }
             SceneCommand::Paste(text) => match pasted_scene(&text) {
                 Ok(pasted) => *scene = pasted,
                 Err(problem) => self.report([Message::NotPasted(problem)]),

@@ -37,6 +37,12 @@ impl Region {
         [0, 1].map(|axis| self.last[axis] - self.first[axis] + 1)
     }
 
+    /// (left, top, width, height), as graphics adapters take rectangles.
+    pub fn rectangle(self) -> [u32; 4] {
+        let ([left, top], [width, height]) = (self.first, self.size());
+        [left, top, width, height].map(|number| number as u32)
+    }
+
     /// Every (column, row), row by row.
     pub fn texels(self) -> impl Iterator<Item = [usize; 2]> {
         let columns = self.first[0]..=self.last[0];

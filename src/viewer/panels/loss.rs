@@ -5,12 +5,11 @@ use std::time::Duration;
 use eframe::egui::{self, RichText, Slider};
 
 use super::loss_results::{self, Results, seconds};
-use crate::loss::{Request, Texels};
+use crate::loss::{Ask, LossSettings, Request, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
 use crate::viewer::command::{Command, LossCommand};
 use crate::viewer::loss_run::{LossRun, Losses};
-use crate::viewer::loss_settings::{Ask, LossSettings};
 use crate::viewer::slots::Slots;
 use crate::viewer::theme;
 

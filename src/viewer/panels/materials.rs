@@ -1,8 +1,10 @@
 //! The materials in the window, and the assumptions in reading each.
 
-use eframe::egui::{self, RichText};
+use eframe::egui::text::{LayoutJob, TextFormat};
+use eframe::egui::{self, FontId, RichText};
 
-use crate::files::read::{Certainty, Note, ReadOptions, Sidecar};
+use crate::files::read::{Note, ReadOptions, Sidecar};
+use crate::viewer::assumed::{self, AssumedLine};
 use crate::viewer::command::{Command, MaterialsCommand};
 use crate::viewer::slot::Slot;
 use crate::viewer::slots::Slots;
@@ -46,7 +48,8 @@ impl MaterialsPanel<'_> {
         }
         for (index, slot) in self.slots.slots.iter().enumerate() {
             ui.separator();
-            ui.push_id(slot.id, |ui| material(ui, index, slot, &mut commands));
+            // Its id changes whenever it is read again; what is unfolded stays unfolded.
+            ui.push_id(index, |ui| material(ui, index, slot, &mut commands));
         }
         commands
     }
@@ -96,6 +99,24 @@ fn chooser(ui: &mut egui::Ui, slot: &Slot, read: &mut ReadOptions) {
     }
 }
 
+/// What was assumed about a map and why, in two rows at most: all of it on hovering.
+fn line(ui: &mut egui::Ui, line: &AssumedLine) {
+    const ROWS: usize = 2;
+    let (font, small) = (FontId::proportional(12.5), FontId::proportional(11.0));
+    let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
+    let (panel, warning) = (ui.visuals().panel_fill, ui.visuals().warn_fg_color);
+    let mut job = LayoutJob::default();
+    job.append(&format!("{}: ", line.name), 0.0, TextFormat::simple(font.clone(), weak));
+    job.append(&line.chosen, 0.0, TextFormat::simple(font, text));
+    if line.unsure {
+        let badge = TextFormat { background: warning, ..TextFormat::simple(small.clone(), panel) };
+        job.append(" unsure ", 6.0, badge);
+    }
+    job.append(&format!(": {}", line.why), 0.0, TextFormat::simple(small, weak));
+    job.wrap.max_rows = ROWS;
+    ui.label(job);
+}
+
 fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Command>) {
     let loaded = &slot.loaded;
     let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
@@ -123,22 +144,24 @@ fn material(ui: &mut egui::Ui, index: usize, slot: &Slot, commands: &mut Vec<Com
     if let Some(problem) = &slot.problem {
         ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
     }
+    for one in assumed::lines(&loaded.assumptions) {
+        line(ui, &one);
+    }
+    // Which file is which map stands in "As stored".
+    for note in loaded.notes.iter().filter(|note| !note.is_routine()) {
+        let text = RichText::new(note.to_string()).small();
+        ui.label(if note.changes_look() { text.color(ui.visuals().warn_fg_color) } else { text });
+    }
     if matches!(loaded.origin, Origin::Path(_)) {
         let mut read = loaded.read;
-        super::read_options(ui, slot.name(), &mut read, &loaded.assumptions);
         chooser(ui, slot, &mut read);
+        ui.collapsing("Change...", |ui| {
+            super::read_options(ui, slot.name(), &mut read, &loaded.assumptions);
+        });
         if read != loaded.read {
             commands.push(MaterialsCommand::ReadAs { slot: index, read }.into());
         }
         save_button(ui, index, slot, commands);
-    }
-    for assumption in &loaded.assumptions {
-        let text = RichText::new(assumption.to_string()).small();
-        let unsure = assumption.certainty == Certainty::Unsure;
-        ui.label(if unsure { text.color(ui.visuals().warn_fg_color) } else { text });
-    }
-    for note in &loaded.notes {
-        ui.label(RichText::new(note.to_string()).small());
     }
     ui.collapsing("As stored", |ui| {
         for map in &loaded.maps {

@@ -65,8 +65,8 @@ pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, as
         energy,
         ..
     } = options;
+    choice(ui, (name, "preset"), preset, &Preset::ALL, None);
     ui.horizontal_wrapped(|ui| {
-        choice(ui, (name, "preset"), preset, &Preset::ALL, None);
         choice(ui, (name, "order"), order, &Order::ALL, inferred(What::Layout));
         choice(ui, (name, "workflow"), workflow, &Workflow::ALL, inferred(What::Workflow));
         choice(ui, (name, "albedo"), albedo, &Albedo::ALL, inferred(What::Albedo));

@@ -146,7 +146,9 @@ impl OpenWindow {
             "The first is the ground truth, the others are predictions",
         );
         ui.radio_value(&mut self.as_predictions, true, "All are predictions");
-        super::read_options(ui, "the materials to open", &mut self.read, &[]);
+        ui.collapsing("How to read them...", |ui| {
+            super::read_options(ui, "the materials to open", &mut self.read, &[]);
+        });
         let paths: Vec<PathBuf> =
             self.text.lines().map(str::trim).filter(|l| !l.is_empty()).map(PathBuf::from).collect();
         let ready = !paths.is_empty() && !self.submitted;

@@ -1,6 +1,7 @@
 //! The bar at the top: open, save, layout, map or rendering, exposure, projection.
 
-use eframe::egui;
+use eframe::egui::containers::menu::{MenuButton, MenuConfig};
+use eframe::egui::{self, PopupCloseBehavior};
 
 use crate::picture::quantity::Quantity;
 use crate::viewer::command::{Command, DisplayCommand, LossCommand, WindowCommand};
@@ -20,24 +21,100 @@ pub struct TopBar<'a> {
     pub has_predictions: bool,
 }
 
+/// How much room the bar has: what does not fit into one line is in the menu.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Room {
+    Little,
+    Some,
+    Full,
+}
+
+impl Room {
+    /// Of a bar of this width, in points.
+    fn of(width: f32) -> Self {
+        match width {
+            1320.0.. => Self::Full,
+            870.0.. => Self::Some,
+            _ => Self::Little,
+        }
+    }
+}
+
+/// A control that is in the bar where there is room, and in the menu otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum BarItem {
+    Copy,
+    Histogram,
+    Perspective,
+    Tile,
+    FalseColour,
+    Swap,
+    Exposure,
+    AutoExposure,
+    Clip,
+    Fit,
+    OneToOne,
+    Reset,
+    Undo,
+    Redo,
+}
+
+impl BarItem {
+    const ALL: [Self; 14] = [
+        Self::Copy,
+        Self::Histogram,
+        Self::Perspective,
+        Self::Tile,
+        Self::FalseColour,
+        Self::Swap,
+        Self::Exposure,
+        Self::AutoExposure,
+        Self::Clip,
+        Self::Fit,
+        Self::OneToOne,
+        Self::Reset,
+        Self::Undo,
+        Self::Redo,
+    ];
+
+    /// The least room in which it is in the bar.
+    fn needs(self) -> Room {
+        match self {
+            Self::Perspective => Room::Little,
+            Self::Swap | Self::Exposure | Self::AutoExposure | Self::Fit | Self::Reset => Room::Some,
+            _ => Room::Full,
+        }
+    }
+}
+
 impl TopBar<'_> {
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
+        let room = Room::of(ui.available_width());
         ui.horizontal_wrapped(|ui| {
-            self.files(ui, &mut commands);
+            ui.spacing_mut().item_spacing.x = 4.0;
+            self.files(ui, room, &mut commands);
             ui.separator();
             self.choices(ui, &mut commands);
+            let shown = [BarItem::Histogram, BarItem::Perspective, BarItem::Tile, BarItem::FalseColour];
+            self.items(ui, room, &shown, &mut commands);
+            self.items(ui, room, &[BarItem::Swap], &mut commands);
+            if room > Room::Little {
+                ui.separator();
+                let exposure = [BarItem::Exposure, BarItem::AutoExposure, BarItem::Clip];
+                self.items(ui, room, &exposure, &mut commands);
+                ui.separator();
+                let position =
+                    [BarItem::Fit, BarItem::OneToOne, BarItem::Reset, BarItem::Undo, BarItem::Redo];
+                self.items(ui, room, &position, &mut commands);
+            }
             ui.separator();
-            self.exposure(ui, &mut commands);
-            ui.separator();
-            self.position(ui, &mut commands);
-            ui.separator();
-            self.window(ui, &mut commands);
+            self.window(ui, room, &mut commands);
         });
         commands
     }
 
-    fn files(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn files(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
         button(ui, "Open", "Open materials (Ctrl+O)", commands, WindowCommand::ShowOpen(true).into());
         button(
             ui,
@@ -46,8 +123,7 @@ impl TopBar<'_> {
             commands,
             WindowCommand::ShowSave(true).into(),
         );
-        let hover = "Copy the view as a picture (Ctrl+Shift+C)";
-        button(ui, "Copy", hover, commands, WindowCommand::CopyPicture.into());
+        self.items(ui, room, &[BarItem::Copy], commands);
     }
 
     fn choices(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
@@ -68,83 +144,93 @@ impl TopBar<'_> {
                 commands.push(DisplayCommand::ShowDifference(difference).into());
             }
         }
-        if !self.state.difference {
-            let histograms = ui
-                .selectable_label(self.histograms, "Histogram")
-                .on_hover_text("Histograms of the values, per channel, of every material (J)");
-            if histograms.clicked() {
-                commands.push(WindowCommand::ToggleHistograms.into());
+    }
+
+    /// Those of `items` that have room.
+    fn items(&self, ui: &mut egui::Ui, room: Room, items: &[BarItem], commands: &mut Vec<Command>) {
+        for item in items.iter().filter(|item| item.needs() <= room) {
+            self.item(ui, *item, commands);
+        }
+    }
+
+    fn item(&self, ui: &mut egui::Ui, item: BarItem, commands: &mut Vec<Command>) {
+        let state = self.state;
+        let (text, hover, command): (&str, &str, Command) = match item {
+            BarItem::Copy => {
+                ("Copy", "Copy the view as a picture (Ctrl+Shift+C)", WindowCommand::CopyPicture.into())
             }
-        }
-        let perspective = self.state.projection == Projection::Perspective;
-        let toggle = ui
-            .selectable_label(perspective, "Perspective")
-            .on_hover_text("The plane seen from the view position, or the flat texture (P)");
-        if toggle.clicked() {
-            commands.push(DisplayCommand::ToggleProjection.into());
-        }
-        let tiled = ui.selectable_label(self.state.tiled, "Tile").on_hover_text(
-            "Repeat the material 2 x 2 times, shifted by half of itself: shows its seams; for display only (T)",
-        );
-        if tiled.clicked() {
-            commands.push(DisplayCommand::ToggleTiled.into());
-        }
-        if self.state.quantity == Quantity::Roughness {
-            let colours = ui
-                .selectable_label(self.state.false_colour, "False colour")
-                .on_hover_text("Roughness from 0 (black) to 1 (light yellow) (V)");
-            if colours.clicked() {
-                commands.push(DisplayCommand::ToggleFalseColour.into());
+            BarItem::Fit => ("Fit", "Fit the material into its pane (F)", DisplayCommand::Fit.into()),
+            BarItem::OneToOne => ("1:1", "One texel per pixel (0)", DisplayCommand::OneToOne.into()),
+            BarItem::Reset => {
+                let hover = "Reset light, view, zoom, exposure and clipping marks (R)";
+                ("Reset", hover, DisplayCommand::Reset.into())
             }
-        }
-        let swap = ui.selectable_label(self.swapped, "Swap").on_hover_text(
-            "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
-        );
-        if swap.clicked() {
-            commands.push(DisplayCommand::Swap.into());
+            BarItem::Undo => ("Undo", "Undo (Ctrl+Z)", DisplayCommand::Undo.into()),
+            BarItem::Redo => ("Redo", "Redo (Ctrl+Shift+Z)", DisplayCommand::Redo.into()),
+            BarItem::AutoExposure => {
+                let hover = "The exposure at which the brightest 1% of the ground truth just clips (N)";
+                ("Auto EV", hover, DisplayCommand::AutoExposure.into())
+            }
+            BarItem::Exposure => return self.exposure(ui, commands),
+            BarItem::Histogram if state.difference => return,
+            BarItem::FalseColour if state.quantity != Quantity::Roughness => return,
+            _ => return self.toggle(ui, item, commands),
+        };
+        button(ui, text, hover, commands, command);
+    }
+
+    fn toggle(&self, ui: &mut egui::Ui, item: BarItem, commands: &mut Vec<Command>) {
+        let state = self.state;
+        let (on, text, hover, command): (bool, &str, &str, Command) = match item {
+            BarItem::Histogram => {
+                let hover = "Histograms of the values, per channel, of every material (J)";
+                (self.histograms, "Histogram", hover, WindowCommand::ToggleHistograms.into())
+            }
+            BarItem::Perspective => {
+                let on = state.projection == Projection::Perspective;
+                let hover = "The plane seen from the view position, or the flat texture (P)";
+                (on, "3D", hover, DisplayCommand::ToggleProjection.into())
+            }
+            BarItem::Tile => {
+                let hover = "Repeat the material 2 x 2 times, shifted by half of itself: shows its seams; for display only (T)";
+                (state.tiled, "Tile", hover, DisplayCommand::ToggleTiled.into())
+            }
+            BarItem::FalseColour => {
+                let hover = "Roughness from 0 (black) to 1 (light yellow) (V)";
+                (state.false_colour, "False colour", hover, DisplayCommand::ToggleFalseColour.into())
+            }
+            BarItem::Swap => {
+                let hover =
+                    "Swap prediction and ground truth (X); hold G to show the ground truth in every pane";
+                (self.swapped, "Swap", hover, DisplayCommand::Swap.into())
+            }
+            BarItem::Clip => {
+                let hover = "Mark clipped pixels: too bright (magenta) or black (blue) (L)";
+                (state.show_clipping, "Clip", hover, DisplayCommand::ToggleClipping.into())
+            }
+            _ => return,
+        };
+        if ui.selectable_label(on, text).on_hover_text(hover).clicked() {
+            commands.push(command);
         }
     }
 
     fn exposure(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        ui.label("EV");
         let mut ev = self.state.exposure_ev;
-        super::number(ui, "Exposure", &mut ev, 0.0, |d| d.speed(0.05).range(-20.0..=20.0).fixed_decimals(1))
-            .on_hover_text("Exposure in stops: E raises it by 0.5, Shift+E lowers it; double-click for 0");
+        super::number(ui, "Exposure", &mut ev, 0.0, |drag| {
+            drag.speed(0.05).range(-20.0..=20.0).fixed_decimals(1).prefix("EV ")
+        })
+        .on_hover_text("Exposure in stops: E raises it by 0.5, Shift+E lowers it; double-click for 0");
         if ev != self.state.exposure_ev {
             commands.push(DisplayCommand::SetExposure(ev).into());
         }
-        button(
-            ui,
-            "Auto EV",
-            "The exposure at which the brightest 1% of the ground truth just clips (N)",
-            commands,
-            DisplayCommand::AutoExposure.into(),
-        );
-        let clipping = ui
-            .selectable_label(self.state.show_clipping, "Clip")
-            .on_hover_text("Mark clipped pixels: too bright (magenta) or black (blue) (L)");
-        if clipping.clicked() {
-            commands.push(DisplayCommand::ToggleClipping.into());
-        }
     }
 
-    fn position(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        button(ui, "Fit", "Fit the material into its pane (F)", commands, DisplayCommand::Fit.into());
-        button(ui, "1:1", "One texel per pixel (0)", commands, DisplayCommand::OneToOne.into());
-        button(
-            ui,
-            "Reset",
-            "Reset light, view, zoom, exposure and clipping marks (R)",
-            commands,
-            DisplayCommand::Reset.into(),
-        );
-        button(ui, "Undo", "Undo (Ctrl+Z)", commands, DisplayCommand::Undo.into());
-        button(ui, "Redo", "Redo (Ctrl+Shift+Z)", commands, DisplayCommand::Redo.into());
-    }
-
-    fn window(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let menu = ui.menu_button("Menu", |ui| self.menu(ui, commands));
-        menu.response.on_hover_text("Study, theme and size of the window's text");
+    fn window(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
+        // Several of its controls may be used in a row.
+        let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+        let (menu, _) = MenuButton::new("Menu").config(config).ui(ui, |ui| self.menu(ui, room, commands));
+        menu.on_hover_text("Study, theme, size of the window's text, and what does not fit into this line");
         let panel = ui.selectable_label(self.side_panel, "Panel").on_hover_text("Side panel (B)");
         if panel.clicked() {
             commands.push(WindowCommand::ToggleSidePanel.into());
@@ -152,11 +238,17 @@ impl TopBar<'_> {
         button(ui, "?", "Keys and mouse (?)", commands, WindowCommand::ShowHelp(true).into());
     }
 
-    fn menu(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn menu(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
+        let hidden: Vec<BarItem> = BarItem::ALL.into_iter().filter(|item| item.needs() > room).collect();
+        hidden.iter().for_each(|item| self.item(ui, *item, commands));
+        if !hidden.is_empty() {
+            ui.separator();
+        }
         let study = ui.add_enabled(self.has_predictions, egui::Button::new("Study: time against error..."));
         let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
         if study.on_hover_text(hover).clicked() {
             commands.push(LossCommand::ShowStudy(true).into());
+            ui.close();
         }
         ui.separator();
         let theme = if self.dark { "Light theme" } else { "Dark theme" };

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::picture::difference::Difference;
-use crate::picture::quantity::Quantity;
+use super::difference::Difference;
+use super::quantity::Quantity;
 
 /// The choices that differ from the defaults: the first difference of a quantity, with an automatic range.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

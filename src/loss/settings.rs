@@ -1,22 +1,25 @@
-//! What a person asks of the loss: the fields of the loss section.
+//! How a loss is asked for, as settings that are saved: the fields of the window's loss section.
 
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::loss::{Request, Sampling, Texels};
+use super::request::{Request, Sampling, Texels};
 use crate::model::sampler::Sampler;
 
 /// What decides how many scenes there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Ask {
+    /// Their numbers.
     Scenes,
+    /// The accuracy of the loss.
     #[default]
     Accuracy,
+    /// The time.
     Time,
 }
 
-/// The fields of the loss section. Those that the other two ways of asking need are kept.
+/// How a loss is asked for. What the other two ways of asking need is kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LossSettings {

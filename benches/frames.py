@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""Measures the frames of the real window: the times between frames that arrived on the screen.
+
+    cargo build --release
+    benches/frames.py target/release/svbrdf [GT PRED...]
+
+Needs Xvfb and xdotool, and a machine that does nothing else. The window has 1360 x 860 points. The pointer hovers over a pane, then
+drags the light; then both again with magnified materials, and with differences. The screen is read from the memory of Xvfb every millisecond; a frame is a change of it.
+Prints the median and the 95th percentile of the times between frames, and the processor time per frame.
+"""
+
+import math
+import mmap
+import os
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+WIDTH, HEIGHT = 1360, 860
+SECONDS = 6.0
+# Events of a mouse, per second.
+RATE = 120
+# A frame is copied to the screen in pieces: changes closer than this belong to one frame.
+ONE_FRAME = 0.004
+# What is compared: rows of the other panes. The server itself draws the pointer, which is not a frame.
+ROWS = range(8, HEIGHT, 9)
+COLUMNS = (530, 1030)
+
+
+class Screen:
+    """The memory of a virtual display."""
+
+    def __init__(self, folder):
+        read, write = os.pipe()
+        size = ["-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", folder, "-nolisten", "tcp"]
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), *size], pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        self.display = ":" + os.fdopen(read).readline().strip()
+        file = open(pathlib.Path(folder) / "Xvfb_screen0", "rb")
+        self.memory = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+        fields = struct.unpack(">25I", self.memory[:100])
+        # Of an X window dump: the header, then the colours of 12 bytes each, then the rows.
+        self.start, self.stride = fields[0] + 12 * fields[19], fields[12]
+
+    def rows(self):
+        left, right = (4 * column for column in COLUMNS)
+        place = lambda row: self.start + row * self.stride
+        return b"".join(self.memory[place(row) + left : place(row) + right] for row in ROWS)
+
+
+def processor_seconds(process):
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def path(centre, radius):
+    """Pointer positions on a curve that never rests."""
+    for i in range(int(SECONDS * RATE)):
+        turn = 2 * math.pi * i / RATE / 1.7
+        yield round(centre[0] + radius * math.cos(turn)), round(centre[1] + radius * math.sin(1.3 * turn))
+
+
+def measure(screen, process, environment, name, button, centre, radius):
+    moves = [word for x, y in path(centre, radius) for word in ("mousemove", str(x), str(y), "sleep", str(1 / RATE))]
+    down, up = (["mousedown", "1"], ["mouseup", "1"]) if button else ([], [])
+    subprocess.run(["xdotool", "mousemove", str(centre[0]), str(centre[1]), *down], env=environment, check=True)
+    time.sleep(0.5)
+    pointer = subprocess.Popen(["xdotool", *moves], env=environment)
+    before, start = screen.rows(), time.perf_counter()
+    used, changes = processor_seconds(process), []
+    while pointer.poll() is None:
+        now, rows = time.perf_counter(), screen.rows()
+        if rows != before and (not changes or now - changes[-1] > ONE_FRAME):
+            changes.append(now)
+        before = rows
+        time.sleep(0.001)
+    used = processor_seconds(process) - used
+    if up:
+        subprocess.run(["xdotool", *up], env=environment, check=True)
+    # The first tenth is the adapter's warming up and the choice of how much is shaded.
+    changes = [change for change in changes if change - start > 0.1 * SECONDS]
+    times = sorted(1e3 * (b - a) for a, b in zip(changes, changes[1:]))
+    if len(times) < 10:
+        print(f"{name:<28} only {len(times)} frames")
+        return
+    at = lambda share: times[min(int(share * len(times)), len(times) - 1)]
+    cost = 1e3 * used / len(times)
+    print(f"{name:<28} {len(times):4} frames, p50 {at(0.5):6.1f} ms, p95 {at(0.95):6.1f} ms, {cost:6.1f} ms of processor a frame")
+
+
+def main():
+    program, materials = pathlib.Path(sys.argv[1]).resolve(), [str(pathlib.Path(p).resolve()) for p in sys.argv[2:]]
+    with tempfile.TemporaryDirectory() as folder:
+        screen = Screen(folder)
+        environment = {**os.environ, "DISPLAY": screen.display, "HOME": folder, "XDG_RUNTIME_DIR": folder, "WGPU_BACKEND": "vulkan"}
+        environment.pop("WAYLAND_DISPLAY", None)
+        process = subprocess.Popen([program, *materials], env=environment, cwd=folder, stderr=subprocess.DEVNULL)
+        try:
+            subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "svbrdf", "windowfocus"], env=environment, check=True, stdout=subprocess.DEVNULL)
+            still, since = screen.rows(), time.monotonic()
+            # The materials are there, and the loss is computed, when nothing has changed for a while.
+            while time.monotonic() - since < 8:
+                time.sleep(0.1)
+                if screen.rows() != still:
+                    still, since = screen.rows(), time.monotonic()
+            print(f"load {os.getloadavg()[0]:.1f} before the measurement")
+            pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
+            measure(screen, process, environment, "hover", False, pane, 90)
+            measure(screen, process, environment, "drag the light", True, pane, 90)
+            subprocess.run(["xdotool", "mousemove", *map(str, pane), *["click", "4"] * 8], env=environment, check=True)
+            time.sleep(2)
+            measure(screen, process, environment, "hover, magnified", False, pane, 90)
+            measure(screen, process, environment, "drag the light, magnified", True, pane, 90)
+            key("r"), key("d")
+            time.sleep(3)
+            measure(screen, process, environment, "hover, difference", False, pane, 90)
+            measure(screen, process, environment, "drag the light, difference", True, pane, 90)
+        finally:
+            for one in (process, screen.server):
+                one.terminate()
+                one.wait()
+
+
+if __name__ == "__main__":
+    main()

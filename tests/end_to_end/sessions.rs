@@ -1,0 +1,87 @@
+//! What the window saves, and what the command line makes of its session.
+
+use super::*;
+
+/// The kinds of the save dialog, as steps back from the path field.
+const SESSION: usize = 1;
+const STRIP: usize = 2;
+const RENDERINGS: usize = 3;
+
+/// Saves with the proposed name, by the keyboard.
+fn save(desktop: &Desktop, kind: usize, name: &str) {
+    desktop.dialog("ctrl+s");
+    (0..kind).for_each(|_| desktop.keys(&["shift+Tab"]));
+    desktop.keys(&["space"]);
+    (0..kind).for_each(|_| desktop.keys(&["Tab"]));
+    desktop.keys(&["Return"]);
+    desktop.wait(name, |_| desktop.folder.path().join(name).exists());
+    desktop.wait_until_still();
+}
+
+/// Runs the program on the folder of the desktop; its output.
+fn run(desktop: &Desktop, arguments: &str) -> String {
+    let output = desktop
+        .command(env!("CARGO_BIN_EXE_svbrdf"))
+        .args(arguments.split(' '))
+        .current_dir(desktop.folder.path())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{arguments}: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn pixels(desktop: &Desktop, name: &str) -> RgbImage {
+    image::open(desktop.folder.path().join(name)).unwrap().to_rgb8()
+}
+
+#[test]
+#[cfg_attr(
+    not(all(has_f32_adapter, has_desktop)),
+    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
+)]
+fn a_session_gives_the_pixels_and_the_numbers_of_its_window() {
+    let desktop = Desktop::start();
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    for name in ["worn_tiles.png", "wrong_roughness.png"] {
+        std::fs::copy(assets.join(name), desktop.folder.path().join(name)).unwrap();
+    }
+    let program = desktop.open(&["worn_tiles.png", "wrong_roughness.png"]);
+    // Another light, another exposure.
+    desktop.xdotool("mousemove 200 300");
+    desktop.xdotool("mousedown 1");
+    desktop.xdotool("mousemove 260 220");
+    desktop.xdotool("mouseup 1");
+    desktop.keys(&["e", "e"]);
+    desktop.wait_until_still();
+    let session = "comparison.svbrdf-session.json";
+    save(&desktop, RENDERINGS, "svbrdf-renderings.png");
+    save(&desktop, STRIP, "svbrdf-strip.png");
+    save(&desktop, SESSION, session);
+    run(&desktop, &format!("render {session} -o values.png"));
+    run(&desktop, &format!("strip {session} -o strip.png"));
+    assert!(pixels(&desktop, "values.png") == pixels(&desktop, "svbrdf-renderings.png"), "renderings");
+    assert!(pixels(&desktop, "strip.png") == pixels(&desktop, "svbrdf-strip.png"), "strip");
+    // Planted: without the session, light and exposure are others.
+    run(&desktop, "render worn_tiles.png wrong_roughness.png -o usual.png");
+    assert!(pixels(&desktop, "usual.png") != pixels(&desktop, "values.png"));
+
+    // The difference, with the range that the window finds.
+    desktop.keys(&["d"]);
+    desktop.wait_until_still();
+    std::fs::remove_file(desktop.folder.path().join("svbrdf-renderings.png")).unwrap();
+    std::fs::remove_file(desktop.folder.path().join(session)).unwrap();
+    save(&desktop, RENDERINGS, "svbrdf-renderings.png");
+    save(&desktop, SESSION, session);
+    run(&desktop, &format!("render {session} -o difference.png"));
+    assert!(pixels(&desktop, "difference.png") == pixels(&desktop, "svbrdf-renderings.png"), "difference");
+    drop(program);
+
+    // The window asks for 1%.
+    let of_session = run(&desktop, &format!("loss {session} --format json"));
+    let of_files = "loss worn_tiles.png wrong_roughness.png --target-error 1% --format json";
+    let loss =
+        |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap()["results"][0]["loss"].clone();
+    assert!(loss(&of_session).is_f64(), "{of_session}");
+    assert_eq!(loss(&of_session), loss(&run(&desktop, of_files)));
+    assert_ne!(loss(&of_session), loss(&run(&desktop, &format!("{of_files} --seed 1"))));
+}

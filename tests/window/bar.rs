@@ -1,0 +1,149 @@
+//! The bar at the top, in windows of all sizes.
+
+use svbrdf::viewer::command::{DisplayCommand, WindowCommand};
+
+use super::*;
+
+/// The labels of the bar that are visible now.
+fn in_bar(window: &Window<'_>) -> Vec<(&'static str, egui::Rect)> {
+    const ALL: [&str; 19] = [
+        "Open",
+        "Save",
+        "Copy",
+        "Value",
+        "Difference",
+        "Histogram",
+        "3D",
+        "Tile",
+        "False colour",
+        "Swap",
+        "Auto EV",
+        "Clip",
+        "Fit",
+        "1:1",
+        "Reset",
+        "Undo",
+        "Redo",
+        "Menu",
+        "Panel",
+    ];
+    let top = |label: &&'static str| {
+        let nodes = window.query_all_by_label(label).filter(|node| node.rect().top() < 80.0);
+        Some((*label, nodes.map(|node| node.rect()).next()?))
+    };
+    ALL.iter().filter_map(top).collect()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_bar_is_one_line_in_every_window_and_what_it_has_no_room_for_is_in_the_menu() {
+    let mut window = built_in();
+    for width in [640.0, 700.0, 860.0, 900.0, 1100.0, 1330.0, 1360.0, 1920.0] {
+        window.set_size(vec2(width, 600.0));
+        for difference in [false, true] {
+            for key in 0..5 {
+                let (ctx, command) = (window.ctx.clone(), DisplayCommand::ShowDifference(difference));
+                window.state_mut().apply(&ctx, command.into());
+                press(&mut window, egui::Key::M);
+                let bar = in_bar(&window);
+                let (first, help) = (bar[0].1, window.get_by_label("?").rect());
+                for (label, rect) in bar.iter().chain([&("?", help)]) {
+                    assert!(
+                        (rect.center().y - first.center().y).abs() < 3.0 && rect.right() <= width,
+                        "{label} at {rect:?} in a window of {width}, quantity {key}, difference {difference}"
+                    );
+                }
+            }
+        }
+        let visible = in_bar(&window).len();
+        assert_eq!(visible >= 17, width >= 1350.0, "{visible} in {width}");
+    }
+    // Undo is in the menu of a narrow window, and works there.
+    window.set_size(vec2(900.0, 600.0));
+    press(&mut window, egui::Key::E);
+    assert_eq!(window.state().state.exposure_ev, 0.5);
+    assert!(window.query_by_label("Undo").is_none());
+    window.get_by_label("Menu").click();
+    window.run_steps(6);
+    window.get_by_label("Undo").click();
+    window.run_steps(3);
+    assert_eq!(window.state().state.exposure_ev, 0.0);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn panes_stay_in_their_places_when_a_texel_is_pinned() {
+    let mut window = built_in();
+    window.set_size(vec2(1360.0, 860.0));
+    window.run_steps(6);
+    let all = [GROUND_TRUTH, "1  blurred normals", "2  wrong roughness"];
+    let corners = |window: &Window<'_>| all.map(|title| pane(window, title).left_top());
+    let before = corners(&window);
+    assert_eq!(before[0].x, before[2].x, "a grid of 2 x 2");
+    let at = pane(&window, GROUND_TRUTH).center();
+    window.event(egui::Event::PointerMoved(at));
+    window.run_steps(2);
+    press(&mut window, egui::Key::I);
+    window.run_steps(6);
+    window.get_by_label("Pinned texels");
+    let after = corners(&window);
+    for (before, after) in before.iter().zip(after) {
+        assert_eq!(before.x, after.x);
+    }
+    assert_eq!((before[0], before[1]), (after[0], after[1]));
+    assert!(after[2].y < before[2].y && after[2].y > after[0].y + 100.0, "the lower row moves up");
+    // The saved view has the same arrangement.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("view.png");
+    let size = window.state().picture_size();
+    let (ctx, what) = (window.ctx.clone(), svbrdf::viewer::save_kind::SaveKind::View);
+    let command = WindowCommand::Save { what, path: path.clone(), size };
+    window.state_mut().apply(&ctx, command.into());
+    wait(&mut window, "the file", |app| !app.messages().is_empty());
+    let saved = image::open(&path).unwrap().to_rgb8();
+    let titled = |x: f32, y: f32| {
+        // The title of the ground truth has the accent colour; those below each other are text.
+        let area = image::imageops::crop_imm(&saved, x as u32, y as u32, 100, 20).to_image();
+        area.pixels().filter(|pixel| pixel.0[0] > 150).count() > 20
+    };
+    let offset = after[0].y - 24.0;
+    assert!(titled(after[2].x, after[2].y - 24.0 - offset), "the third pane is below the first");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
+    let mut window = built_in();
+    // The range of the difference beside the panes is there.
+    wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
+    let size = window.state().picture_size();
+    let key = egui::Key::C;
+    let modifiers = egui::Modifiers::COMMAND | egui::Modifiers::SHIFT;
+    window.event(egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers });
+    // Each frame has its own output: the copy is in one of them.
+    let mut copied = None;
+    for _ in 0..20 {
+        window.step();
+        for command in &window.output().platform_output.commands {
+            if let egui::OutputCommand::CopyImage(image) = command {
+                copied = Some(image.clone());
+            }
+        }
+    }
+    let copied = copied.expect("an image is copied");
+    assert_eq!(copied.size.map(|side| side as u32), size);
+    let colours: std::collections::HashSet<_> = copied.pixels.iter().collect();
+    assert!(colours.len() > 1000, "it has the panes: {} colours", colours.len());
+    window.run_steps(2);
+    window.get_by_label_contains("the view as a picture");
+    // The same pixels as a saved view has.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("view.png");
+    let (ctx, what) = (window.ctx.clone(), svbrdf::viewer::save_kind::SaveKind::View);
+    window.state_mut().apply(&ctx, WindowCommand::DismissMessages.into());
+    window.state_mut().apply(&ctx, WindowCommand::Save { what, path: path.clone(), size }.into());
+    wait(&mut window, "the file", |app| !app.messages().is_empty());
+    let saved = image::open(&path).unwrap().to_rgb8();
+    let differ = saved.pixels().zip(&copied.pixels).filter(|(a, b)| a.0 != [b.r(), b.g(), b.b()]).count();
+    assert_eq!(differ, 0, "pixels differ");
+}
