@@ -49,6 +49,8 @@
 //! both, and the command line is part of the binary. Without default features the crate is the core with the command line.
 //! The feature `testing` makes internals public for the tests of this repository; it has no stable interface.
 
+#![cfg_attr(feature = "testing", warn(unreachable_pub))]
+
 pub mod dataset;
 pub mod error;
 pub mod files;

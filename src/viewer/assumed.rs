@@ -57,7 +57,7 @@ impl Part {
 
 /// What was assumed about a map or about the material as a whole.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct AssumedLine {
+pub(super) struct AssumedLine {
     /// The map, or "Material".
     pub name: &'static str,
     pub chosen: String,
@@ -67,7 +67,7 @@ pub struct AssumedLine {
 }
 
 /// The lines of the parts about which something was assumed.
-pub fn lines(assumptions: &[Assumption]) -> Vec<AssumedLine> {
+pub(super) fn lines(assumptions: &[Assumption]) -> Vec<AssumedLine> {
     let line = |part: Part| {
         let about: Vec<&Assumption> = assumptions.iter().filter(|a| Part::of(a) == part).collect();
         let mut chosen: Vec<String> = Vec::new();

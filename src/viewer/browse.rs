@@ -13,7 +13,7 @@ const AT_ONCE: Duration = Duration::from_millis(300);
 
 /// What a person did in the dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Browsed {
+pub(super) enum Browsed {
     Chosen(Vec<PathBuf>),
     Cancelled,
     /// There was no dialog.
@@ -21,7 +21,7 @@ pub enum Browsed {
 }
 
 /// Asks for files or folders.
-pub fn start(ctx: &egui::Context, folder: bool) -> Task<Browsed> {
+pub(super) fn start(ctx: &egui::Context, folder: bool) -> Task<Browsed> {
     let dialog = rfd::AsyncFileDialog::new().set_title("Open materials");
     Task::start(ctx, move |_| {
         let start = Instant::now();

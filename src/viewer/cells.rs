@@ -5,7 +5,7 @@ use eframe::egui::{self, Rect, Vec2, vec2};
 use crate::material::Grid;
 
 /// Height of the title above a pane.
-pub const TITLE: f32 = 24.0;
+pub(super) const TITLE: f32 = 24.0;
 /// Room between two panes.
 const GAP: f32 = 6.0;
 
@@ -18,7 +18,7 @@ const WORTH_MOVING: f32 = 1.6;
 ///
 /// The number of columns shows the material largest in an area of height `undivided`, with everything below the panes
 /// closed: panes do not change places when a drawer opens, unless they would become much smaller than they need be.
-pub fn cells(area: Rect, undivided: f32, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
+pub(super) fn cells(area: Rect, undivided: f32, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
     let whole = |v: Vec2| (v * scale).floor() / scale;
     let area = Rect::from_min_max(((area.min.to_vec2() * scale).ceil() / scale).to_pos2(), area.max);
     let [half_width, half_height] = grid.half_extent();
@@ -43,7 +43,7 @@ pub fn cells(area: Rect, undivided: f32, count: usize, grid: Grid, scale: f32) -
 }
 
 /// The empty place behind the last of `cells`, in a grid whose last row is not full.
-pub fn free_cell(area: Rect, cells: &[Rect]) -> Option<Rect> {
+pub(super) fn free_cell(area: Rect, cells: &[Rect]) -> Option<Rect> {
     let [first, second, .., last] = cells else { return None };
     let step = second.left() - first.left();
     let free = last.translate(vec2(step, 0.0));
@@ -56,7 +56,7 @@ fn cell_size(area: Vec2, columns: usize, rows: usize) -> Vec2 {
 }
 
 /// The rectangle rounded to whole physical pixels, so that the shader's pixels are the screen's.
-pub fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
+pub(super) fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
     let scale = ui.pixels_per_point();
     let round = |p: egui::Pos2| (p.to_vec2() * scale).round() / scale;
     Rect::from_min_max(round(rect.min).to_pos2(), round(rect.max).to_pos2())

@@ -31,11 +31,11 @@ struct DifferenceKey {
 
 /// The statistics of the difference in the panes, and the computation of new ones.
 #[derive(Debug, Default)]
-pub struct DifferenceRun(Latest<DifferenceKey, Distributions>);
+pub(super) struct DifferenceRun(Latest<DifferenceKey, Distributions>);
 
 impl DifferenceRun {
     /// The distributions for the current materials and difference, perhaps of an earlier scene; one for each prediction.
-    pub fn distributions(&self, slots: &[Slot], state: &ViewState) -> Option<&Distributions> {
+    pub(super) fn distributions(&self, slots: &[Slot], state: &ViewState) -> Option<&Distributions> {
         let (latest, distributions) = self.0.get()?;
         let now = key(slots, state);
         let same = (&latest.ids, latest.quantity, latest.kind) == (&now.ids, now.quantity, now.kind);
@@ -43,12 +43,12 @@ impl DifferenceRun {
     }
 
     /// Whether the distributions are those of the current scene.
-    pub fn is_current(&self, slots: &[Slot], state: &ViewState) -> bool {
+    pub(super) fn is_current(&self, slots: &[Slot], state: &ViewState) -> bool {
         self.0.get().is_some_and(|(latest, _)| *latest == key(slots, state))
     }
 
     /// Takes over a result, and computes what is needed now, where a difference is `shown`.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         ctx: &egui::Context,
         shown: bool,

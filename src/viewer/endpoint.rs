@@ -5,9 +5,9 @@ use glam::DVec3;
 use crate::model::scene::{Kind, Scene};
 
 /// Least height of a light or a view in the window: from within the plane nothing is seen.
-pub const LOWEST: f64 = 0.01;
+pub(super) const LOWEST: f64 = 0.01;
 /// Largest coordinate of a light or a view in the window.
-pub const FARTHEST: f64 = 1000.0;
+pub(super) const FARTHEST: f64 = 1000.0;
 /// Least height of a position that a direction becomes, as a share of its distance: about 6 degrees above the plane.
 const LOWEST_SHARE: f64 = 0.1;
 
@@ -19,7 +19,7 @@ pub enum Endpoint {
 }
 
 /// The position (or direction) of one endpoint of the scene.
-pub fn endpoint(scene: &Scene, which: Endpoint) -> [f64; 3] {
+pub(super) fn endpoint(scene: &Scene, which: Endpoint) -> [f64; 3] {
     match which {
         Endpoint::Light => scene.light,
         Endpoint::View => scene.view,
@@ -27,7 +27,7 @@ pub fn endpoint(scene: &Scene, which: Endpoint) -> [f64; 3] {
 }
 
 /// Puts one endpoint of the scene at `p`, clamped to above the plane and within reach.
-pub fn set_endpoint(scene: &mut Scene, which: Endpoint, p: [f64; 3]) {
+pub(super) fn set_endpoint(scene: &mut Scene, which: Endpoint, p: [f64; 3]) {
     if p.iter().any(|c| !c.is_finite()) {
         return;
     }
@@ -40,7 +40,7 @@ pub fn set_endpoint(scene: &mut Scene, which: Endpoint, p: [f64; 3]) {
 }
 
 /// The projection of an endpoint onto the plane, where its handle is: of a direction, its (x, y) on the unit hemisphere.
-pub fn over_plane(scene: &Scene, which: Endpoint) -> [f64; 2] {
+pub(super) fn over_plane(scene: &Scene, which: Endpoint) -> [f64; 2] {
     let p = DVec3::from(endpoint(scene, which));
     let p = if scene.kind == Kind::Distant { p.normalize() } else { p };
     [p.x, p.y]
@@ -48,7 +48,7 @@ pub fn over_plane(scene: &Scene, which: Endpoint) -> [f64; 2] {
 
 /// Makes the scene near-field or distant, such that it looks the same from the middle of the material: light and view keep
 /// their directions and distances. A direction within the plane becomes a position well above it.
-pub fn set_kind(scene: &mut Scene, kind: Kind) {
+pub(super) fn set_kind(scene: &mut Scene, kind: Kind) {
     if scene.kind == kind {
         return;
     }
@@ -66,7 +66,7 @@ pub fn set_kind(scene: &mut Scene, kind: Kind) {
 
 /// Moves an endpoint so that its projection onto the plane is (x, y): a position keeps its height, a direction stays
 /// on the hemisphere. The length of a direction stays: it is the distance of the position that it becomes.
-pub fn move_over_plane(scene: &mut Scene, which: Endpoint, [x, y]: [f64; 2]) {
+pub(super) fn move_over_plane(scene: &mut Scene, which: Endpoint, [x, y]: [f64; 2]) {
     let p = match scene.kind {
         Kind::Near => [x, y, endpoint(scene, which)[2]],
         Kind::Distant => {
@@ -81,20 +81,20 @@ pub fn move_over_plane(scene: &mut Scene, which: Endpoint, [x, y]: [f64; 2]) {
 }
 
 /// Multiplies the height of an endpoint by `factor`.
-pub fn scale_height(scene: &mut Scene, which: Endpoint, factor: f64) {
+pub(super) fn scale_height(scene: &mut Scene, which: Endpoint, factor: f64) {
     let [x, y, z] = endpoint(scene, which);
     set_endpoint(scene, which, [x, y, z * factor]);
 }
 
 /// Multiplies the distance of an endpoint from the middle of the material by `factor`.
-pub fn scale_distance(scene: &mut Scene, which: Endpoint, factor: f64) {
+pub(super) fn scale_distance(scene: &mut Scene, which: Endpoint, factor: f64) {
     let p = endpoint(scene, which);
     set_endpoint(scene, which, p.map(|c| c * factor));
 }
 
 /// Turns an endpoint about the middle of the material: by `sideways` about the upright axis y of the screen, and by
 /// `upwards` towards it, both in radians. The distance stays.
-pub fn orbit(scene: &mut Scene, which: Endpoint, sideways: f64, upwards: f64) {
+pub(super) fn orbit(scene: &mut Scene, which: Endpoint, sideways: f64, upwards: f64) {
     const STEEPEST: f64 = std::f64::consts::FRAC_PI_2 - 1e-3;
     let p = DVec3::from(endpoint(scene, which));
     let length = p.length();
@@ -108,7 +108,7 @@ pub fn orbit(scene: &mut Scene, which: Endpoint, sideways: f64, upwards: f64) {
 
 /// Puts the light where a flat surface mirrors it into the view at the point (x, y) of the plane; the light keeps its
 /// height. A distant light mirrored into a distant view is so at every point.
-pub fn put_highlight(scene: &mut Scene, [x, y]: [f64; 2]) {
+pub(super) fn put_highlight(scene: &mut Scene, [x, y]: [f64; 2]) {
     let [view_x, view_y, view_z] = scene.view;
     let light = match scene.kind {
         Kind::Distant => [-view_x, -view_y, view_z],

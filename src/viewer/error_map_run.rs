@@ -30,7 +30,7 @@ struct ErrorMapKey {
 
 /// The error maps of all predictions.
 #[derive(Debug)]
-pub struct ErrorMaps {
+pub(super) struct ErrorMaps {
     /// Of each prediction.
     pub images: Vec<Image<f32>>,
     /// Where there is an adapter.
@@ -40,7 +40,7 @@ pub struct ErrorMaps {
 
 /// What the legend says of error maps besides their statistics.
 #[derive(Clone, Copy, Debug)]
-pub struct ErrorMapSummary {
+pub(super) struct ErrorMapSummary {
     /// Number of scenes.
     pub scenes: usize,
     /// The share of the scenes that is done, while they are rendered.
@@ -49,11 +49,11 @@ pub struct ErrorMapSummary {
 
 /// The error maps of what the panes show.
 #[derive(Debug, Default)]
-pub struct ErrorMapRun(Latest<ErrorMapKey, Arc<ErrorMaps>>);
+pub(super) struct ErrorMapRun(Latest<ErrorMapKey, Arc<ErrorMaps>>);
 
 impl ErrorMapRun {
     /// Takes over a result, and computes what is wanted now; where none is `shown`, the latest is kept.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         ctx: &egui::Context,
         gpu: Option<&Gpu>,
@@ -78,25 +78,30 @@ impl ErrorMapRun {
     }
 
     /// The error maps of now, once they are there.
-    pub fn get(&self, slots: &[Slot], state: &ViewState, sampling: Sampling) -> Option<&Arc<ErrorMaps>> {
+    pub(super) fn get(
+        &self,
+        slots: &[Slot],
+        state: &ViewState,
+        sampling: Sampling,
+    ) -> Option<&Arc<ErrorMaps>> {
         let (of, maps) = self.0.get()?;
         (*of == key(slots, state, sampling)).then_some(maps)
     }
 
     /// The share of the scenes that is done, while they are rendered.
-    pub fn progress(&self) -> Option<f32> {
+    pub(super) fn progress(&self) -> Option<f32> {
         self.0.running().map(Task::fraction)
     }
 }
 
 impl ErrorMaps {
     /// The map of slot `slot` on the adapter.
-    pub fn shaded(&self, slot: usize) -> Option<&Arc<Shaded>> {
+    pub(super) fn shaded(&self, slot: usize) -> Option<&Arc<Shaded>> {
         self.shaded.get(slot.checked_sub(1)?)
     }
 
     /// The value of the map of slot `slot` at the texel (column, row): the mean over RGB.
-    pub fn at(&self, slot: usize, [column, row]: [usize; 2]) -> f64 {
+    pub(super) fn at(&self, slot: usize, [column, row]: [usize; 2]) -> f64 {
         let image = slot.checked_sub(1).and_then(|index| self.images.get(index));
         image.map_or(f64::NAN, |image| f64::from(mean(&image.pixels[row * image.width + column])))
     }

@@ -21,7 +21,7 @@ const ZOOM_STEP: f32 = 1.15;
 
 /// What the current drag does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Gesture {
+pub(super) enum Gesture {
     Light,
     View,
     OrbitView,
@@ -37,7 +37,7 @@ pub enum Gesture {
 
 /// A pane under the mouse.
 #[derive(Clone, Copy, Debug)]
-pub struct PaneTarget<'a> {
+pub(super) struct PaneTarget<'a> {
     pub rect: Rect,
     pub camera: &'a Camera,
     pub state: &'a ViewState,
@@ -190,7 +190,7 @@ fn orbit(endpoint: Endpoint, sideways: f64, upwards: f64) -> Command {
 }
 
 /// The commands of the mouse over one pane; `current` is the gesture that is going on in any pane.
-pub fn commands(
+pub(super) fn commands(
     ui: &egui::Ui,
     response: &Response,
     target: &PaneTarget<'_>,

@@ -12,7 +12,7 @@ use crate::gpu::{Blit, Display, DisplayParams, Gpu, ShadeParams, Shaded, Shading
 
 /// How much of a material is shaded.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ShadedPart {
+pub(super) enum ShadedPart {
     Whole,
     /// Every n-th texel along both axes.
     EveryNth(usize),
@@ -52,7 +52,7 @@ struct PaneKey {
 }
 
 /// The passes, the shaded materials and the pixels of the panes. The materials' textures are part of the materials.
-pub struct GpuView {
+pub(super) struct GpuView {
     pub gpu: Gpu,
     /// The device of the window, for pictures of it.
     pub state: egui_wgpu::RenderState,
@@ -69,7 +69,7 @@ pub struct GpuView {
 impl GpuView {
     /// # Errors
     /// Where the adapter cannot build the passes.
-    pub fn new(state: &egui_wgpu::RenderState) -> Result<Self, Error> {
+    pub(super) fn new(state: &egui_wgpu::RenderState) -> Result<Self, Error> {
         let gpu = Gpu::from_eframe_parts(&state.adapter, &state.device, &state.queue)?;
         let shading = Shading::new(&gpu)?;
         let display = Display::new(&gpu, state.target_format)?;
@@ -91,7 +91,7 @@ impl GpuView {
     ///
     /// # Errors
     /// A text for the pane, where the adapter cannot hold the material.
-    pub fn shade(&mut self, slot: &Slot, params: ShadeParams, part: ShadedPart) -> Result<(), String> {
+    pub(super) fn shade(&mut self, slot: &Slot, params: ShadeParams, part: ShadedPart) -> Result<(), String> {
         let textures = match &slot.loaded.textures {
             Some(Ok(textures)) => textures,
             Some(Err(problem)) => return Err(problem.clone()),
@@ -123,7 +123,7 @@ impl GpuView {
     }
 
     /// Takes the differences of the material `id`, for panes whose difference is computed elsewhere.
-    pub fn give(&mut self, id: u64, differences: &Arc<Shaded>) {
+    pub(super) fn give(&mut self, id: u64, differences: &Arc<Shaded>) {
         if self.given.get(&id).is_some_and(|(given, _)| Arc::ptr_eq(given, differences)) {
             return;
         }
@@ -132,7 +132,7 @@ impl GpuView {
     }
 
     /// Frees the shaded pictures of closed materials, and the pixels of all but the first `panes` panes.
-    pub fn keep_only(&mut self, slots: &[Slot], panes: usize) {
+    pub(super) fn keep_only(&mut self, slots: &[Slot], panes: usize) {
         self.shaded.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
         self.given.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
         self.stills.truncate(panes);
@@ -140,7 +140,7 @@ impl GpuView {
 
     /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded, or `shown` given. The pixels of pane
     /// `number` are drawn anew only where they change.
-    pub fn paint(
+    pub(super) fn paint(
         &mut self,
         painter: &egui::Painter,
         rect: egui::Rect,

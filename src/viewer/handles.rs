@@ -7,23 +7,23 @@ use super::theme;
 use crate::picture::camera::Camera;
 
 /// Distance, in points, within which a press grabs a handle or the wipe line.
-pub const REACH: f32 = 12.0;
+pub(super) const REACH: f32 = 12.0;
 /// Radius of the sun's disc, in points.
 const RADIUS: f32 = 6.0;
 
 /// From a pane's coordinates (x right, y up in [-1, 1]) to the screen.
-pub fn pos_from_ndc(rect: Rect, [x, y]: [f32; 2]) -> Pos2 {
+pub(super) fn pos_from_ndc(rect: Rect, [x, y]: [f32; 2]) -> Pos2 {
     rect.center() + Vec2::new(x * rect.width(), -y * rect.height()) * 0.5
 }
 
 /// From the screen to a pane's coordinates (x right, y up in [-1, 1]).
-pub fn ndc_from_pos(rect: Rect, pos: Pos2) -> [f32; 2] {
+pub(super) fn ndc_from_pos(rect: Rect, pos: Pos2) -> [f32; 2] {
     let offset = (pos - rect.center()) / (rect.size() * 0.5);
     [offset.x, -offset.y]
 }
 
 /// The point (x, y) of the plane on the screen, clamped to the pane; and whether it lies outside of it.
-pub fn pos_from_plane(camera: &Camera, rect: Rect, [x, y]: [f64; 2]) -> Option<(Pos2, bool)> {
+pub(super) fn pos_from_plane(camera: &Camera, rect: Rect, [x, y]: [f64; 2]) -> Option<(Pos2, bool)> {
     let ndc = camera.ndc_from_point(Vec3::new(x as f32, y as f32, 0.0))?;
     let pos = pos_from_ndc(rect, ndc);
     let inside = rect.shrink(RADIUS);
@@ -32,7 +32,7 @@ pub fn pos_from_plane(camera: &Camera, rect: Rect, [x, y]: [f64; 2]) -> Option<(
 }
 
 /// The light's handle; hollow where the light is outside of the pane.
-pub fn paint_sun(painter: &Painter, at: Pos2, outside: bool) {
+pub(super) fn paint_sun(painter: &Painter, at: Pos2, outside: bool) {
     let fill = if outside { Color32::TRANSPARENT } else { theme::SUN };
     for (width, colour) in [(4.0, Color32::from_black_alpha(150)), (2.0, theme::SUN)] {
         for i in 0..8 {
@@ -46,7 +46,7 @@ pub fn paint_sun(painter: &Painter, at: Pos2, outside: bool) {
 }
 
 /// The view's handle; hollow where the view is outside of the pane.
-pub fn paint_eye(painter: &Painter, at: Pos2, outside: bool) {
+pub(super) fn paint_eye(painter: &Painter, at: Pos2, outside: bool) {
     let (half_width, half_height) = (RADIUS * 1.9, RADIUS * 1.1);
     let outline: Vec<Pos2> = (0..32)
         .map(|i| {
@@ -63,7 +63,7 @@ pub fn paint_eye(painter: &Painter, at: Pos2, outside: bool) {
 }
 
 /// The line between the two sides of a wipe, with a grip.
-pub fn paint_wipe(painter: &Painter, rect: Rect, wipe: f32) {
+pub(super) fn paint_wipe(painter: &Painter, rect: Rect, wipe: f32) {
     let x = rect.left() + wipe * rect.width();
     let line = [pos2(x, rect.top()), pos2(x, rect.bottom())];
     painter.line_segment(line, Stroke::new(3.0, Color32::from_black_alpha(140)));

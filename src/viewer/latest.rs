@@ -8,7 +8,7 @@ use crate::error::Error;
 /// The result for a key, and the work on a newer one. Work for an earlier key is completed, so that there are results while
 /// something moves.
 #[derive(Debug)]
-pub struct Latest<K, R> {
+pub(super) struct Latest<K, R> {
     running: Option<(K, Task<R>)>,
     latest: Option<(K, R)>,
     /// What could not be computed, which is not tried again.
@@ -23,29 +23,29 @@ impl<K, R> Default for Latest<K, R> {
 
 impl<K: Clone + PartialEq, R: Send + 'static> Latest<K, R> {
     /// The latest result and what it is of.
-    pub fn get(&self) -> Option<(&K, &R)> {
+    pub(super) fn get(&self) -> Option<(&K, &R)> {
         self.latest.as_ref().map(|(key, result)| (key, result))
     }
 
     /// The work that is going on.
-    pub fn running(&self) -> Option<&Task<R>> {
+    pub(super) fn running(&self) -> Option<&Task<R>> {
         self.running.as_ref().map(|(_, task)| task)
     }
 
     /// Cancels the work, and keeps the latest result.
-    pub fn rest(&mut self) {
+    pub(super) fn rest(&mut self) {
         self.running = None;
     }
 
     /// Cancels the work for another key than `wanted`: slow work for what has changed is not worth its end.
-    pub fn drop_other(&mut self, wanted: &K) {
+    pub(super) fn drop_other(&mut self, wanted: &K) {
         if self.running.as_ref().is_some_and(|(key, _)| key != wanted) {
             self.running = None;
         }
     }
 
     /// Takes over a result, and starts the work on `wanted` if it is another one; without `wanted`, all is dropped.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         ctx: &egui::Context,
         wanted: Option<K>,

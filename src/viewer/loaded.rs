@@ -11,7 +11,7 @@ use crate::material::Material;
 
 /// A material that has been read and, where there is an adapter, uploaded.
 #[derive(Debug)]
-pub struct Loaded {
+pub(super) struct Loaded {
     pub origin: Origin,
     /// The options specified when it was opened.
     pub(super) asked: ReadOptions,
@@ -35,7 +35,7 @@ pub struct Loaded {
 
 impl Loaded {
     /// The path it was read from; empty for a built-in one.
-    pub fn path(&self) -> &Path {
+    pub(super) fn path(&self) -> &Path {
         match &self.origin {
             Origin::BuiltIn(_) => Path::new(""),
             Origin::Path(path) => path,
@@ -71,7 +71,7 @@ impl Loaded {
 
 /// Rules for every material that is opened.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rules {
+pub(super) struct Rules {
     /// Whether a guess is an error.
     pub strict: bool,
     /// Whether a prediction of another size is resized to the ground truth.
@@ -117,6 +117,6 @@ pub(super) fn loaded(source: Source, read: Read<f32>, gpu: Option<&Gpu>) -> Load
 }
 
 /// When a file was last changed; `None` where the system does not tell.
-pub fn changed(path: &Path) -> Option<SystemTime> {
+pub(super) fn changed(path: &Path) -> Option<SystemTime> {
     std::fs::metadata(path).and_then(|m| m.modified()).ok()
 }

@@ -9,7 +9,7 @@ use crate::material::Grid;
 use crate::picture::camera::Camera;
 
 /// Side of a texel, in points, from which on its numbers are drawn on it.
-pub const READABLE: f32 = 48.0;
+pub(super) const READABLE: f32 = 48.0;
 /// Side of a texel, in points, from which on the crosshair is its outline.
 const OUTLINED: f32 = 6.0;
 const DARK: Color32 = Color32::from_black_alpha(190);
@@ -18,7 +18,7 @@ const PIN: Color32 = Color32::from_rgb(0x7d, 0xd8, 0xff);
 
 /// A pane's picture on the screen.
 #[derive(Clone, Copy, Debug)]
-pub struct Placed<'a> {
+pub(super) struct Placed<'a> {
     pub rect: Rect,
     pub camera: &'a Camera,
     pub grid: Grid,
@@ -44,7 +44,7 @@ impl Placed<'_> {
     }
 
     /// The side of the texel (column, row), in points: the shorter one where perspective distorts it.
-    pub fn texel_side(&self, [column, row]: [usize; 2]) -> f32 {
+    pub(super) fn texel_side(&self, [column, row]: [usize; 2]) -> f32 {
         let [column, row] = [column as f32, row as f32];
         let corners = [[column, row], [column + 1.0, row], [column, row + 1.0]];
         let [Some(a), Some(b), Some(c)] = corners.map(|[column, row]| self.pos(column, row)) else {
@@ -54,7 +54,7 @@ impl Placed<'_> {
     }
 
     /// Marks one texel: by its outline where it is large, otherwise by a cross that leaves it free.
-    pub fn paint_crosshair(&self, painter: &Painter, texel: [usize; 2]) {
+    pub(super) fn paint_crosshair(&self, painter: &Painter, texel: [usize; 2]) {
         if self.texel_side(texel) >= OUTLINED {
             self.paint_outline(painter, Region { first: texel, last: texel }, BRIGHT);
             return;
@@ -75,7 +75,7 @@ impl Placed<'_> {
     }
 
     /// The pins with their numbers, and the rectangle.
-    pub fn paint_inspected(&self, painter: &Painter, inspect: &Inspect) {
+    pub(super) fn paint_inspected(&self, painter: &Painter, inspect: &Inspect) {
         if let Some(region) = inspect.region {
             self.paint_outline(painter, region, BRIGHT);
         }
@@ -98,7 +98,7 @@ impl Placed<'_> {
     }
 
     /// The numbers of every texel in sight of a flat view, on it; nothing where the texels are too small.
-    pub fn paint_numbers(&self, painter: &Painter, numbers: impl Fn([usize; 2]) -> Vec<f64>) {
+    pub(super) fn paint_numbers(&self, painter: &Painter, numbers: impl Fn([usize; 2]) -> Vec<f64>) {
         let Some(region) = self.in_sight() else { return };
         if self.texel_side(region.first) < READABLE {
             return;

@@ -16,13 +16,13 @@ struct Posted {
 
 /// The messages, the latest last.
 #[derive(Debug, Default)]
-pub struct MessageList {
+pub(super) struct MessageList {
     posted: Vec<Posted>,
 }
 
 impl MessageList {
     /// Adds a message at this time; a repeated one moves to the end.
-    pub fn add(&mut self, message: Message, now: f64) {
+    pub(super) fn add(&mut self, message: Message, now: f64) {
         let text = message.to_string();
         self.posted.retain(|earlier| earlier.message.to_string() != text);
         let until = (message.severity() == Severity::Success).then_some(now + MOMENT);
@@ -30,40 +30,40 @@ impl MessageList {
     }
 
     #[cfg(any(test, feature = "testing"))]
-    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Message> {
+    pub(super) fn iter(&self) -> impl DoubleEndedIterator<Item = &Message> {
         self.posted.iter().map(|posted| &posted.message)
     }
 
     /// The messages that stay until they are dismissed, each with its number.
-    pub fn lasting(&self) -> impl DoubleEndedIterator<Item = (usize, &Message)> {
+    pub(super) fn lasting(&self) -> impl DoubleEndedIterator<Item = (usize, &Message)> {
         let all = self.posted.iter().enumerate();
         all.filter(|(_, posted)| posted.until.is_none()).map(|(i, posted)| (i, &posted.message))
     }
 
     /// The latest of the messages that disappear by themselves.
-    pub fn passing(&self) -> Option<&Message> {
+    pub(super) fn passing(&self) -> Option<&Message> {
         self.posted.iter().rev().find(|posted| posted.until.is_some()).map(|posted| &posted.message)
     }
 
     /// Removes what has been shown for long enough; the seconds until the next one disappears.
-    pub fn expire(&mut self, now: f64) -> Option<f64> {
+    pub(super) fn expire(&mut self, now: f64) -> Option<f64> {
         self.posted.retain(|posted| posted.until.is_none_or(|until| until > now));
         self.posted.iter().filter_map(|posted| posted.until).map(|until| until - now).min_by(f64::total_cmp)
     }
 
     /// Removes the message of this number.
-    pub fn dismiss(&mut self, number: usize) {
+    pub(super) fn dismiss(&mut self, number: usize) {
         if number < self.posted.len() {
             self.posted.remove(number);
         }
     }
 
-    pub fn dismiss_all(&mut self) {
+    pub(super) fn dismiss_all(&mut self) {
         self.posted.clear();
     }
 
     /// Removes the messages about a file that has been read since.
-    pub fn settle(&mut self, path: &Path) {
+    pub(super) fn settle(&mut self, path: &Path) {
         self.posted.retain(|posted| posted.message.path() != Some(path));
     }
 }

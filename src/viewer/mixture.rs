@@ -24,14 +24,14 @@ struct MixtureKey {
 
 /// The mixture that is shown, and the making of another one.
 #[derive(Debug, Default)]
-pub struct MixtureRun {
+pub(super) struct MixtureRun {
     run: Latest<MixtureKey, Arc<Loaded>>,
     shown: Option<(MixtureKey, Slot)>,
 }
 
 impl MixtureRun {
     /// Takes over a mixture, and makes the one that is wanted now.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         ctx: &egui::Context,
         gpu: Option<&Gpu>,
@@ -64,7 +64,7 @@ impl MixtureRun {
 
     /// `slots`, with the mixture in the place of the prediction that it is made of. While another mixture of the same
     /// materials is made, the one before it stays.
-    pub fn seen(&self, slots: &[Slot], state: &ViewState) -> Vec<Slot> {
+    pub(super) fn seen(&self, slots: &[Slot], state: &ViewState) -> Vec<Slot> {
         let mut seen = slots.to_vec();
         if let (Some(wanted), Some((of, slot))) = (key(slots, state), &self.shown)
             && of.ids == wanted.ids

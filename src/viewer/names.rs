@@ -5,7 +5,7 @@ const SEPARATORS: [char; 6] = ['/', '\\', '_', '-', ' ', '.'];
 
 /// The names in at most `most` characters each. Where one is too long, the beginning that all have in common becomes an
 /// ellipsis; a name that is still too long loses its middle.
-pub fn shortened(names: &[&str], most: usize) -> Vec<String> {
+pub(super) fn shortened(names: &[&str], most: usize) -> Vec<String> {
     let too_long = names.iter().any(|name| name.chars().count() > most);
     let cut = if too_long && names.len() > 1 { common_beginning(names) } else { 0 };
     let one = |name: &&str| {

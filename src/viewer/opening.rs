@@ -40,14 +40,14 @@ fn read(source: Source, reader: &mut Reader, progress: &Progress) -> Result<Load
 
 /// A material of a set: one that is in the window and stays, or one to be read.
 #[derive(Debug)]
-pub enum Item {
+pub(super) enum Item {
     Kept(Slot),
     Read(Source),
 }
 
 /// A material that has been read, or why not.
 #[derive(Debug)]
-pub enum Arrival {
+pub(super) enum Arrival {
     Kept(Slot),
     Read(Box<Loaded>),
     Failed(Box<Source>, Error),
@@ -55,7 +55,7 @@ pub enum Arrival {
 
 /// The reading of several materials.
 #[derive(Debug)]
-pub struct Opening {
+pub(super) struct Opening {
     pub id: u64,
     pub target: Target,
     sources: Vec<String>,
@@ -69,7 +69,13 @@ pub struct Opening {
 
 impl Opening {
     /// Starts to read `items` in their order.
-    pub fn start(ctx: &egui::Context, id: u64, target: Target, items: Vec<Item>, mut reader: Reader) -> Self {
+    pub(super) fn start(
+        ctx: &egui::Context,
+        id: u64,
+        target: Target,
+        items: Vec<Item>,
+        mut reader: Reader,
+    ) -> Self {
         let name = |item: &Item| match item {
             Item::Kept(_) => String::new(),
             Item::Read(source) => source.name(),
@@ -103,19 +109,19 @@ impl Opening {
     }
 
     /// The materials that have been read since the last call, and how the reading ended.
-    pub fn poll(&self, ctx: &egui::Context) -> (Vec<Arrival>, Option<Result<(), Error>>) {
+    pub(super) fn poll(&self, ctx: &egui::Context) -> (Vec<Arrival>, Option<Result<(), Error>>) {
         // What was sent before the end is there after it.
         let ended = self.task.poll(ctx);
         (self.arrivals.try_iter().collect(), ended)
     }
 
     /// The names of the materials after the first `count`.
-    pub fn names_after(&self, count: usize) -> Vec<String> {
+    pub(super) fn names_after(&self, count: usize) -> Vec<String> {
         self.sources.iter().skip(count).cloned().collect()
     }
 
     /// What is being read, for a progress bar.
-    pub fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         let index = self.current.load(Ordering::Relaxed);
         let name = self.sources.get(index).map_or("", String::as_str);
         match self.sources.len() {
@@ -125,7 +131,7 @@ impl Opening {
     }
 
     /// Share of the files that has been read, in [0, 1].
-    pub fn fraction(&self) -> f32 {
+    pub(super) fn fraction(&self) -> f32 {
         let index = self.current.load(Ordering::Relaxed);
         let part = self.parts.get(index).map_or(0.0, |part| match part.counts() {
             (_, 0) => 0.0,
@@ -134,7 +140,7 @@ impl Opening {
         (index as f32 + part.min(1.0)) / self.sources.len().max(1) as f32
     }
 
-    pub fn cancel(&self) {
+    pub(super) fn cancel(&self) {
         self.task.cancel();
     }
 }

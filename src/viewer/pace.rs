@@ -7,11 +7,11 @@ const SLOW: f32 = 0.033;
 /// So many slow frames in a row, while something moves, make an adapter slow.
 const FRAMES: u32 = 3;
 /// Seconds without movement after which everything is shaded.
-pub const REST: f64 = 0.15;
+pub(super) const REST: f64 = 0.15;
 
 /// Whether panes are shaded in full.
 #[derive(Debug, Default)]
-pub struct Pace {
+pub(super) struct Pace {
     last: Option<ShadeParams>,
     /// When the parameters changed last.
     changed: Option<f64>,
@@ -20,7 +20,7 @@ pub struct Pace {
 
 impl Pace {
     /// Takes note of a frame at `now` that took `seconds`; returns whether it may be shaded in part.
-    pub fn frame(&mut self, params: ShadeParams, now: f64, seconds: f32) -> bool {
+    pub(super) fn frame(&mut self, params: ShadeParams, now: f64, seconds: f32) -> bool {
         let moves = self.last.is_some_and(|last| last != params);
         self.last = Some(params);
         let goes_on = self.changed.is_some_and(|changed| now - changed < REST);

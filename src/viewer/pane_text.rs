@@ -3,7 +3,7 @@
 use eframe::egui::{self, Align2, FontId, Rect, vec2};
 
 /// A text at the bottom of a pane.
-pub fn paint_hint(painter: &egui::Painter, rect: Rect, text: &str) {
+pub(super) fn paint_hint(painter: &egui::Painter, rect: Rect, text: &str) {
     let (font, ink) = (FontId::proportional(13.0), egui::Color32::from_gray(235));
     let galley = painter.layout(text.to_owned(), font, ink, (rect.width() - 24.0).max(40.0));
     let place = Align2::CENTER_BOTTOM.anchor_size(rect.center_bottom() - vec2(0.0, 10.0), galley.size());
@@ -12,7 +12,7 @@ pub fn paint_hint(painter: &egui::Painter, rect: Rect, text: &str) {
 }
 
 /// A text in the middle of an empty area.
-pub fn note(ui: &egui::Ui, area: Rect, text: &str) {
+pub(super) fn note(ui: &egui::Ui, area: Rect, text: &str) {
     let galley = ui.painter().layout(
         text.to_owned(),
         FontId::proportional(15.0),

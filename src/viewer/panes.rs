@@ -10,7 +10,7 @@ use crate::picture::camera::Camera;
 
 /// What the panes show, for one frame.
 #[derive(Debug)]
-pub struct Scenery<'a> {
+pub(super) struct Scenery<'a> {
     pub slots: &'a [Slot],
     pub state: &'a ViewState,
     pub dark: bool,
@@ -35,7 +35,7 @@ pub struct Scenery<'a> {
 
 /// The content of a pane: the slot it shows, the slot that is compared with, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Content {
+pub(super) struct Content {
     pub slot: usize,
     pub reference: usize,
     pub mode: DisplayMode,
@@ -45,7 +45,7 @@ pub struct Content {
 
 /// The point under the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hovered {
+pub(super) struct Hovered {
     /// The slot of the material there.
     pub slot: usize,
     /// The point (x, y) of the plane.
@@ -54,7 +54,7 @@ pub struct Hovered {
 
 impl Scenery<'_> {
     /// The slot that the chosen prediction is in; the ground truth's where there is no prediction.
-    pub fn chosen(&self) -> usize {
+    pub(super) fn chosen(&self) -> usize {
         (self.state.prediction + 1).min(self.slots.len().saturating_sub(1))
     }
 
@@ -101,7 +101,7 @@ impl Scenery<'_> {
     }
 
     /// The name of slot `index` as titles give it.
-    pub fn title(&self, index: usize) -> String {
+    pub(super) fn title(&self, index: usize) -> String {
         let slot = &self.slots[index];
         let mark = if slot.problem.is_some() { "  (stale)" } else { "" };
         let name = format!("{}{mark}", slot.name());

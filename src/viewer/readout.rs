@@ -7,10 +7,10 @@ use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 
 /// Characters of a number.
-pub const WIDTH: usize = 8;
+pub(super) const WIDTH: usize = 8;
 
 /// A number in exactly [`WIDTH`] characters, with as many digits as fit, at most 4 behind the point.
-pub fn fixed(value: f64) -> String {
+pub(super) fn fixed(value: f64) -> String {
     let digits = match value.abs() {
         v if v < 100.0 => 4,
         v if v < 1e3 => 3,
@@ -24,7 +24,7 @@ pub fn fixed(value: f64) -> String {
 
 /// What the numbers of texels are read from.
 #[derive(Clone, Copy, Debug)]
-pub struct Readout<'a> {
+pub(super) struct Readout<'a> {
     pub slots: &'a [Slot],
     pub state: &'a ViewState,
     /// Where the difference is the error map, the maps once they are there.
@@ -32,7 +32,7 @@ pub struct Readout<'a> {
 }
 
 /// The numbers of a slot's pane at a texel: its value, or its difference from the ground truth where the panes show that.
-pub fn shown(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2]) -> Vec<f64> {
+pub(super) fn shown(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2]) -> Vec<f64> {
     let Readout { slots, state, error_maps } = read;
     if difference && index > 0 && state.is_error_map() {
         return vec![error_maps.map_or(f64::NAN, |maps| maps.at(index, texel))];
@@ -47,12 +47,12 @@ pub fn shown(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2
 }
 
 /// How many numbers a column of the status line has.
-pub fn count(state: &ViewState, index: usize) -> usize {
+pub(super) fn count(state: &ViewState, index: usize) -> usize {
     if state.difference && index > 0 { 1 } else { state.quantity.channels() }
 }
 
 /// The unit behind a number of a pane.
-pub fn unit(state: &ViewState, index: usize) -> &'static str {
+pub(super) fn unit(state: &ViewState, index: usize) -> &'static str {
     let angle = state.difference_kind() == Difference::Angle && state.quantity == Quantity::Normal;
     if state.difference && index > 0 && angle { " deg" } else { "" }
 }

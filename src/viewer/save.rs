@@ -18,14 +18,14 @@ use crate::picture::shown::{Pictures, Shown, ShownDifference};
 use crate::picture::strip::{Column, Strip};
 
 /// What the panes show; `range` is the difference that has the last colour.
-pub fn shown(slots: &[Slot], state: &ViewState, range: f64) -> Shown {
+pub(super) fn shown(slots: &[Slot], state: &ViewState, range: f64) -> Shown {
     let difference = ShownDifference { kind: state.difference_kind(), range: Some(range) };
     let compares = state.difference && slots.len() > 1;
     Shown { quantity: state.quantity, difference: compares.then_some(difference) }
 }
 
 /// Where a picture of the materials comes from.
-pub fn provenance(slots: &[Slot], state: &ViewState, shown: Shown) -> Provenance {
+pub(super) fn provenance(slots: &[Slot], state: &ViewState, shown: Shown) -> Provenance {
     Provenance {
         shown,
         scene: state.scene,
@@ -45,7 +45,7 @@ fn materials(slots: &[Slot]) -> Vec<Arc<Loaded>> {
 }
 
 /// Starts to write what `shown` says of all materials, side by side, to `path`.
-pub fn renderings(
+pub(super) fn renderings(
     ctx: &egui::Context,
     slots: &[Slot],
     state: &ViewState,
@@ -65,7 +65,7 @@ pub fn renderings(
 }
 
 /// Starts to write the figure of all materials to `path`.
-pub fn strip(ctx: &egui::Context, slots: &[Slot], state: &ViewState, path: PathBuf) -> Task<PathBuf> {
+pub(super) fn strip(ctx: &egui::Context, slots: &[Slot], state: &ViewState, path: PathBuf) -> Task<PathBuf> {
     let (all, names) = (materials(slots), names(slots));
     let value = |quantity| Shown { quantity, difference: None };
     let maps = [Quantity::Normal, Quantity::Diffuse, Quantity::Roughness, Quantity::Specular];
@@ -89,7 +89,7 @@ pub fn strip(ctx: &egui::Context, slots: &[Slot], state: &ViewState, path: PathB
 }
 
 /// Starts to write a picture of the window to `path`.
-pub fn view(
+pub(super) fn view(
     ctx: &egui::Context,
     picture: egui::ColorImage,
     entries: Vec<(&'static str, String)>,

@@ -24,11 +24,11 @@ struct SceneLossKey {
 
 /// The loss of each prediction under the light and view of now.
 #[derive(Debug, Default)]
-pub struct SceneLossRun(Latest<SceneLossKey, Vec<f64>>);
+pub(super) struct SceneLossRun(Latest<SceneLossKey, Vec<f64>>);
 
 impl SceneLossRun {
     /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         ctx: &egui::Context,
         shown: bool,
@@ -50,7 +50,7 @@ impl SceneLossRun {
     }
 
     /// The latest losses of these materials, and whether they are those of now.
-    pub fn get(&self, slots: &Slots, state: &ViewState) -> Option<(&[f64], bool)> {
+    pub(super) fn get(&self, slots: &Slots, state: &ViewState) -> Option<(&[f64], bool)> {
         let (of, losses) = self.0.get()?;
         let now = key(slots, state);
         (of.ids == now.ids).then_some((losses.as_slice(), *of == now))

@@ -9,7 +9,7 @@ use crate::files::session::Session;
 use crate::loss::LossSettings;
 
 /// The key of the settings in the storage.
-pub const KEY: &str = "settings";
+pub(super) const KEY: &str = "settings";
 /// Number of recent materials.
 const RECENT: usize = 12;
 

@@ -15,7 +15,7 @@ const NEARLY_LOST: f32 = 0.3;
 const STEEP: f64 = 0.999;
 
 /// The pan nearest to that of `state` which leaves a fifth of the material in sight.
-pub fn kept_pan(state: &ViewState, grid: Grid, aspect: f32) -> [f32; 2] {
+pub(super) fn kept_pan(state: &ViewState, grid: Grid, aspect: f32) -> [f32; 2] {
     let Some(extents) = extents(state, grid, aspect) else { return state.pan };
     std::array::from_fn(|axis| {
         let [low, high] = extents[axis];
@@ -51,7 +51,7 @@ fn extents(state: &ViewState, grid: Grid, aspect: f32) -> Option<[[f32; 2]; 2]> 
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.
-pub fn hint(scenery: &Scenery<'_>, aspect: f32) -> Option<&'static str> {
+pub(super) fn hint(scenery: &Scenery<'_>, aspect: f32) -> Option<&'static str> {
     let state = scenery.state;
     let grid = scenery.slots.first()?.loaded.material.grid();
     if share_in_sight(state, grid, aspect) < NEARLY_LOST {

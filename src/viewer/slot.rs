@@ -8,7 +8,7 @@ use crate::report::distinct_names;
 
 /// A material in the window. Its id is never used again: it is the key of everything derived from the material.
 #[derive(Clone, Debug)]
-pub struct Slot {
+pub(super) struct Slot {
     pub id: u64,
     pub loaded: Arc<Loaded>,
     /// Why it is not what its files hold now: they are gone, or could not be read again.
@@ -28,14 +28,14 @@ impl Slot {
         Self { id, loaded, problem, name }
     }
 
-    pub fn name(&self) -> &str {
+    pub(super) fn name(&self) -> &str {
         &self.name
     }
 }
 
 /// Where materials go once they have been read.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Target {
+pub(super) enum Target {
     /// The first replaces the ground truth, the others the predictions.
     Everything,
     /// All are added as predictions.

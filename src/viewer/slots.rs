@@ -7,7 +7,7 @@ use eframe::egui;
 use super::loaded::{Loaded, Reader, Rules};
 use super::message::Message;
 use super::opening::{Arrival, Item, Opening};
-pub use super::slot::{Slot, Target};
+pub(super) use super::slot::{Slot, Target};
 use super::slot::{mismatch, rename};
 use super::source::{Origin, Source};
 use crate::error::Error;
@@ -17,7 +17,7 @@ use crate::samples;
 
 /// The ground truth first, then the predictions; and the materials that are still being read.
 #[derive(Debug, Default)]
-pub struct Slots {
+pub(super) struct Slots {
     pub slots: Vec<Slot>,
     pub openings: Vec<Opening>,
     pub rules: Rules,
@@ -29,31 +29,31 @@ pub struct Slots {
 }
 
 impl Slots {
-    pub fn ground_truth(&self) -> Option<&Slot> {
+    pub(super) fn ground_truth(&self) -> Option<&Slot> {
         self.slots.first()
     }
 
-    pub fn predictions(&self) -> &[Slot] {
+    pub(super) fn predictions(&self) -> &[Slot] {
         self.slots.get(1..).unwrap_or_default()
     }
 
     /// Whether there is only the built-in pair, which the first opened material replaces.
-    pub fn only_built_in(&self) -> bool {
+    pub(super) fn only_built_in(&self) -> bool {
         self.slots.iter().all(|s| matches!(s.loaded.origin, Origin::BuiltIn(_)))
     }
 
     /// What it takes to open these materials again.
-    pub fn sources(&self) -> Vec<Source> {
+    pub(super) fn sources(&self) -> Vec<Source> {
         self.slots.iter().map(|slot| slot.loaded.source()).collect()
     }
 
     /// Whether materials are being read that are not in the window yet.
-    pub fn expects_more(&self) -> bool {
+    pub(super) fn expects_more(&self) -> bool {
         self.openings.iter().any(|opening| !matches!(opening.target, Target::Again(_)))
     }
 
     /// Starts to read `sources`; the number of this opening.
-    pub fn open(
+    pub(super) fn open(
         &mut self,
         ctx: &egui::Context,
         gpu: Option<&Gpu>,
@@ -64,13 +64,13 @@ impl Slots {
     }
 
     /// Starts to read the built-in pair.
-    pub fn open_built_in(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>) {
+    pub(super) fn open_built_in(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>) {
         let sources = (0..samples::COUNT).map(Source::built_in).collect();
         self.open(ctx, gpu, sources, Target::Everything);
     }
 
     /// Makes these the materials in the window. Those that are there already are not read again.
-    pub fn restore(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, sources: &[Source]) {
+    pub(super) fn restore(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, sources: &[Source]) {
         let mut there = self.slots.clone();
         let item = |source: &Source| match there.iter().position(|slot| slot.loaded.source() == *source) {
             Some(index) => Item::Kept(there.remove(index)),
@@ -102,7 +102,7 @@ impl Slots {
     }
 
     /// Takes over the materials that have been read since the last call; returns what went wrong.
-    pub fn poll(&mut self, ctx: &egui::Context) -> Vec<Message> {
+    pub(super) fn poll(&mut self, ctx: &egui::Context) -> Vec<Message> {
         let mut problems = Vec::new();
         for mut opening in std::mem::take(&mut self.openings) {
             let (arrivals, ended) = opening.poll(ctx);
@@ -200,7 +200,7 @@ impl Slots {
     }
 
     /// Reads materials from files again: all of them, or those of the given indices.
-    pub fn reload(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, only: Option<&[usize]>) {
+    pub(super) fn reload(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, only: Option<&[usize]>) {
         for index in 0..self.slots.len() {
             if only.is_none_or(|only| only.contains(&index)) {
                 self.again(ctx, gpu, index, |_| {});
@@ -209,7 +209,13 @@ impl Slots {
     }
 
     /// Reads the material at `index` again with these options alone.
-    pub fn read_as(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, options: ReadOptions) {
+    pub(super) fn read_as(
+        &mut self,
+        ctx: &egui::Context,
+        gpu: Option<&Gpu>,
+        index: usize,
+        options: ReadOptions,
+    ) {
         self.again(ctx, gpu, index, |source| source.exactly = Some(options));
     }
 
@@ -235,7 +241,7 @@ impl Slots {
     ///
     /// # Errors
     /// Those of [`Sidecar`].
-    pub fn save_assumptions(
+    pub(super) fn save_assumptions(
         &mut self,
         ctx: &egui::Context,
         gpu: Option<&Gpu>,
@@ -249,7 +255,7 @@ impl Slots {
     }
 
     /// Closes the prediction in slot `index`.
-    pub fn close(&mut self, index: usize) {
+    pub(super) fn close(&mut self, index: usize) {
         if index > 0 && index < self.slots.len() {
             self.slots.remove(index);
             rename(&mut self.slots);
@@ -257,7 +263,7 @@ impl Slots {
     }
 
     /// Makes the material in slot `index` the ground truth; the old one becomes a prediction in its place.
-    pub fn make_ground_truth(&mut self, index: usize) {
+    pub(super) fn make_ground_truth(&mut self, index: usize) {
         if index < self.slots.len() {
             self.slots.swap(0, index);
         }

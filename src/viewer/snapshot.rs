@@ -12,7 +12,7 @@ const FRAMES: usize = 2;
 
 /// Size in pixels, and pixels per point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Size {
+pub(super) struct Size {
     pub pixels: [u32; 2],
     pub scale: f32,
 }
@@ -21,7 +21,7 @@ pub struct Size {
 ///
 /// # Errors
 /// [`Error::Gpu`] where the adapter cannot make a picture of this size, or fails.
-pub fn snapshot(
+pub(super) fn snapshot(
     state: &RenderState,
     gpu: &Gpu,
     size: Size,

@@ -15,14 +15,14 @@ const INTERRUPTED: i32 = 130;
 
 /// Whether a signal has come, and the writing that it cancels.
 #[derive(Clone, Debug, Default)]
-pub struct Stop {
+pub(super) struct Stop {
     stopped: Arc<AtomicBool>,
     writing: Arc<Mutex<Weak<Progress>>>,
 }
 
 impl Stop {
     /// Listens for signals; a second one ends the program at once.
-    pub fn listen(&self, ctx: &egui::Context) {
+    pub(super) fn listen(&self, ctx: &egui::Context) {
         let (stop, ctx) = (self.clone(), ctx.clone());
         // Fails where a signal is already handled or ignored, as under nohup; that stays.
         let _ = ctrlc::try_set_handler(move || {
@@ -45,7 +45,7 @@ impl Stop {
     }
 
     /// From now on, a signal cancels the work of this progress.
-    pub fn cancels(&self, progress: &Arc<Progress>) {
+    pub(super) fn cancels(&self, progress: &Arc<Progress>) {
         *self.writing.lock().unwrap_or_else(PoisonError::into_inner) = Arc::downgrade(progress);
         if self.is_stopped() {
             self.cancel();
@@ -53,7 +53,7 @@ impl Stop {
     }
 
     /// Whether a signal has come.
-    pub fn is_stopped(&self) -> bool {
+    pub(super) fn is_stopped(&self) -> bool {
         self.stopped.load(Ordering::SeqCst)
     }
 

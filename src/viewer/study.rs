@@ -15,7 +15,7 @@ type StudyKey = ([u64; 2], &'static str);
 
 /// The running study, and the results of it or of an earlier one.
 #[derive(Debug, Default)]
-pub struct StudyRun {
+pub(super) struct StudyRun {
     running: Option<RunningStudy>,
     measured: Option<Measured>,
 }
@@ -37,7 +37,7 @@ struct RunningStudy {
 
 impl StudyRun {
     /// What has been measured, and whether it is of the current materials.
-    pub fn measured(
+    pub(super) fn measured(
         &self,
         slots: &Slots,
         prediction: usize,
@@ -48,12 +48,12 @@ impl StudyRun {
     }
 
     /// The running study, for its progress.
-    pub fn task(&self) -> Option<&Task<Study>> {
+    pub(super) fn task(&self) -> Option<&Task<Study>> {
         self.running.as_ref().map(|running| &running.task)
     }
 
     /// Starts to measure `prediction` against the ground truth, unless that is done or running.
-    pub fn keep_up(
+    pub(super) fn keep_up(
         &mut self,
         ctx: &egui::Context,
         slots: &Slots,
@@ -71,7 +71,13 @@ impl StudyRun {
     }
 
     /// Starts to measure; a running study is cancelled.
-    pub fn start(&mut self, ctx: &egui::Context, slots: &Slots, prediction: usize, convention: &Convention) {
+    pub(super) fn start(
+        &mut self,
+        ctx: &egui::Context,
+        slots: &Slots,
+        prediction: usize,
+        convention: &Convention,
+    ) {
         self.running = None;
         let Some(key) = key(slots, prediction, convention) else { return };
         let [ground_truth, prediction] = [0, prediction + 1].map(|slot| slots.slots[slot].loaded.clone());
@@ -92,7 +98,7 @@ impl StudyRun {
     }
 
     /// Takes over what has been measured since the last call; returns the error of a failed study.
-    pub fn poll(&mut self, ctx: &egui::Context) -> Option<Error> {
+    pub(super) fn poll(&mut self, ctx: &egui::Context) -> Option<Error> {
         let running = self.running.as_ref()?;
         let latest = running.growing.try_iter().last();
         let result = running.task.poll(ctx);
@@ -112,7 +118,7 @@ impl StudyRun {
     }
 
     /// Stops measuring; what has been measured stays.
-    pub fn cancel(&mut self) {
+    pub(super) fn cancel(&mut self) {
         self.running = None;
     }
 }

@@ -7,9 +7,9 @@ const ACCENT: Color32 = Color32::from_rgb(0xe0, 0x93, 0x2f);
 /// The accent colour as text on light gray.
 const DARK_ACCENT: Color32 = Color32::from_rgb(0x9a, 0x52, 0x00);
 /// The sun handle.
-pub const SUN: Color32 = Color32::from_rgb(0xff, 0xd2, 0x4a);
+pub(super) const SUN: Color32 = Color32::from_rgb(0xff, 0xd2, 0x4a);
 /// The eye handle and the wipe line.
-pub const EYE: Color32 = Color32::from_rgb(0xf5, 0xf5, 0xf5);
+pub(super) const EYE: Color32 = Color32::from_rgb(0xf5, 0xf5, 0xf5);
 const PROBLEM: Color32 = Color32::from_rgb(0xef, 0x7f, 0x71);
 const DARK_PROBLEM: Color32 = Color32::from_rgb(0xa3, 0x1d, 0x10);
 const BETTER: Color32 = Color32::from_rgb(0x7f, 0xcf, 0x8f);
@@ -19,17 +19,17 @@ const UNSURE: Color32 = Color32::from_rgb(0xff, 0x9f, 0x43);
 const DARK_UNSURE: Color32 = Color32::from_rgb(0x8f, 0x40, 0x00);
 
 /// The accent colour, readable on the theme's grays.
-pub fn accent(visuals: &Visuals) -> Color32 {
+pub(super) fn accent(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { ACCENT } else { DARK_ACCENT }
 }
 
 /// The colour of what is better than another, readable on the theme's grays.
-pub fn better(visuals: &Visuals) -> Color32 {
+pub(super) fn better(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { BETTER } else { DARK_BETTER }
 }
 
 /// The colour of prediction `index` in histograms and bars: Okabe and Ito's palette, which colour-blind people can tell apart.
-pub fn series(index: usize, dark: bool) -> Color32 {
+pub(super) fn series(index: usize, dark: bool) -> Color32 {
     const COLOURS: [[u8; 3]; 6] =
         [[86, 180, 233], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0], [0, 114, 178]];
     let [r, g, b] = COLOURS[index % COLOURS.len()];
@@ -37,17 +37,17 @@ pub fn series(index: usize, dark: bool) -> Color32 {
 }
 
 /// The colour of errors, readable on the theme's grays.
-pub fn problem(visuals: &Visuals) -> Color32 {
+pub(super) fn problem(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { PROBLEM } else { DARK_PROBLEM }
 }
 
 /// The neutral gray around the images.
-pub fn surround(dark: bool) -> Color32 {
+pub(super) fn surround(dark: bool) -> Color32 {
     Color32::from_gray(if dark { 0x4b } else { 0x8c })
 }
 
 /// Installs both themes; [`choose`] selects one.
-pub fn install(ctx: &egui::Context) {
+pub(super) fn install(ctx: &egui::Context) {
     ctx.set_visuals_of(Theme::Dark, dark());
     ctx.set_visuals_of(Theme::Light, light());
     ctx.all_styles_mut(|style| {
@@ -60,7 +60,7 @@ pub fn install(ctx: &egui::Context) {
     });
 }
 
-pub fn choose(ctx: &egui::Context, dark: bool) {
+pub(super) fn choose(ctx: &egui::Context, dark: bool) {
     ctx.set_theme(if dark { Theme::Dark } else { Theme::Light });
 }
 

@@ -12,7 +12,7 @@ use crate::gpu::DisplayMode;
 const BACK: f32 = 96.0;
 
 /// The title of a pane. A click on the title of a prediction chooses the prediction.
-pub fn title_bar(
+pub(super) fn title_bar(
     ui: &mut egui::Ui,
     scenery: &Scenery<'_>,
     number: usize,

@@ -31,22 +31,22 @@ struct ValuesKey {
 
 /// One channel of one material.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
+pub(super) struct Channel {
     pub histogram: Histogram,
     /// `None` where nothing is finite.
     pub statistics: Option<Statistics>,
 }
 
 /// For each channel of the quantity, every material, the ground truth first.
-pub type Values = Vec<Vec<Channel>>;
+pub(super) type Values = Vec<Vec<Channel>>;
 
 /// The histograms of the values.
 #[derive(Debug, Default)]
-pub struct ValuesRun(Latest<ValuesKey, Values>);
+pub(super) struct ValuesRun(Latest<ValuesKey, Values>);
 
 impl ValuesRun {
     /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         ctx: &egui::Context,
         shown: bool,
@@ -63,7 +63,7 @@ impl ValuesRun {
     }
 
     /// The latest histograms of these materials and this quantity, and whether they are those of now.
-    pub fn get(&self, slots: &[Slot], state: &ViewState) -> Option<(&Values, bool)> {
+    pub(super) fn get(&self, slots: &[Slot], state: &ViewState) -> Option<(&Values, bool)> {
         let (of, values) = self.0.get()?;
         let now = key(slots, state);
         (of.ids == now.ids && of.quantity == now.quantity).then_some((values, *of == now))

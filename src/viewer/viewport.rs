@@ -25,7 +25,7 @@ use crate::picture::quantity::Quantity;
 
 /// The state of the panes between frames.
 #[derive(Debug, Default)]
-pub struct Viewport {
+pub(super) struct Viewport {
     gesture: Option<Gesture>,
     /// What is under the pointer.
     pub hovered: Option<Hovered>,
@@ -40,7 +40,7 @@ pub struct Viewport {
 
 impl Viewport {
     /// Draws the panes and returns the commands of the mouse in them.
-    pub fn ui(
+    pub(super) fn ui(
         &mut self,
         ui: &mut egui::Ui,
         scenery: &Scenery<'_>,
@@ -228,7 +228,7 @@ impl Viewport {
     }
 
     /// Screen pixels per texel in the middle of a pane.
-    pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
+    pub(super) fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
         let camera = state.fitted_camera(grid, self.aspect()).zoomed(state.zoom, state.pan);
         let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
         let middle = camera.plane_from_ndc(0.0, 0.0).and_then(|point| grid.texel_at(point));
@@ -237,13 +237,13 @@ impl Viewport {
     }
 
     /// Width of a pane over its height; 1 before there is one.
-    pub fn aspect(&self) -> f32 {
+    pub(super) fn aspect(&self) -> f32 {
         let aspect = self.pane_pixels.x / self.pane_pixels.y;
         if aspect.is_finite() && aspect > 0.0 { aspect } else { 1.0 }
     }
 
     /// The magnification at which a texel of `grid` covers one physical pixel.
-    pub fn one_to_one_zoom(&self, grid: Grid) -> f32 {
+    pub(super) fn one_to_one_zoom(&self, grid: Grid) -> f32 {
         let [half_width, _] = grid.half_extent();
         let aspect = self.pane_pixels.x / self.pane_pixels.y;
         let fitted = Camera::flat(grid, aspect).origin_right.x;

@@ -13,7 +13,7 @@ const AROUND: f32 = 0.04;
 
 /// About one texel a pixel where several fall into one, the visible texels otherwise. `pixels_per_texel` is the
 /// magnification in panes of `aspect` = width / height.
-pub fn shaded_part(state: &ViewState, grid: Grid, aspect: f32, pixels_per_texel: f32) -> ShadedPart {
+pub(super) fn shaded_part(state: &ViewState, grid: Grid, aspect: f32, pixels_per_texel: f32) -> ShadedPart {
     let stride = (pixels_per_texel.recip() as usize).clamp(1, MOST);
     if stride > 1 {
         return ShadedPart::EveryNth(stride);

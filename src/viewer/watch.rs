@@ -18,7 +18,7 @@ type Files = Vec<(u64, Vec<(PathBuf, Option<SystemTime>)>)>;
 
 /// What has happened to the files of a material.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Change {
+pub(super) enum Change {
     /// They have changed.
     Changed,
     /// This one is gone.
@@ -29,14 +29,14 @@ pub enum Change {
 
 /// Checks the files of all materials once a second.
 #[derive(Debug, Default)]
-pub struct Watch {
+pub(super) struct Watch {
     watcher: Option<Watcher>,
     ids: Vec<u64>,
 }
 
 impl Watch {
     /// What has happened since the last call, each with the index of the material.
-    pub fn poll(&mut self, ctx: &egui::Context, slots: &Slots) -> Vec<(usize, Change)> {
+    pub(super) fn poll(&mut self, ctx: &egui::Context, slots: &Slots) -> Vec<(usize, Change)> {
         let ids: Vec<u64> = slots.slots.iter().map(|slot| slot.id).collect();
         if self.watcher.is_none() || self.ids != ids {
             let watcher = self.watcher.get_or_insert_with(|| Watcher::start(ctx, INTERVAL));
@@ -49,7 +49,7 @@ impl Watch {
     }
 
     /// Ends the checks.
-    pub fn stop(&mut self) {
+    pub(super) fn stop(&mut self) {
         *self = Self::default();
     }
 }

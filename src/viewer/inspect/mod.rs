@@ -4,16 +4,16 @@ mod pin;
 mod region;
 mod region_run;
 
-pub use pin::{HEADS, csv, rows};
-pub use region::Region;
-pub use region_run::{RegionNumbers, RegionRun};
+pub(super) use pin::{HEADS, csv, rows};
+pub(super) use region::Region;
+pub(super) use region_run::{RegionNumbers, RegionRun};
 
 /// Most pinned texels.
 const MOST: usize = 12;
 
 /// Pinned texels and the rectangle. Undo does not cover them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Inspect {
+pub(super) struct Inspect {
     /// The pinned (column, row)s, the earliest first.
     pub pins: Vec<[usize; 2]>,
     pub region: Option<Region>,
@@ -23,7 +23,7 @@ pub struct Inspect {
 
 impl Inspect {
     /// Pins a texel, or removes its pin. The earliest pin makes room for one too many.
-    pub fn toggle_pin(&mut self, texel: [usize; 2]) {
+    pub(super) fn toggle_pin(&mut self, texel: [usize; 2]) {
         if let Some(index) = self.pins.iter().position(|pin| *pin == texel) {
             self.pins.remove(index);
             return;
@@ -35,13 +35,13 @@ impl Inspect {
     }
 
     /// Drops what lies outside of materials of `size` = (width, height).
-    pub fn keep_within(&mut self, size: [usize; 2]) {
+    pub(super) fn keep_within(&mut self, size: [usize; 2]) {
         self.pins.retain(|pin| pin[0] < size[0] && pin[1] < size[1]);
         self.region = self.region.filter(|region| region.last[0] < size[0] && region.last[1] < size[1]);
     }
 
     /// Whether the drawer has something to show.
-    pub fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         self.pins.is_empty() && self.region.is_none()
     }
 }

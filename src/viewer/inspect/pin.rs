@@ -8,7 +8,7 @@ use crate::model::scene::Scene;
 use crate::model::terms::Terms;
 
 /// The columns of [`Row::cells`]: a name, and what it means.
-pub const HEADS: [(&str, &str); 14] = [
+pub(crate) const HEADS: [(&str, &str); 14] = [
     ("normal", "The unit normal: x, y, z"),
     ("diffuse", "Diffuse albedo, linear RGB"),
     ("specular", "Specular reflectance at normal incidence, linear RGB"),
@@ -30,7 +30,7 @@ pub const HEADS: [(&str, &str); 14] = [
 
 /// A texel of one material.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub(crate) struct Row {
     pub texel: Texel<f64>,
     pub terms: Terms<f64>,
     /// The angle to the ground truth's normal in degrees, and the loss term; `None` for the ground truth.
@@ -39,7 +39,7 @@ pub struct Row {
 
 impl Row {
     /// The numbers in the order of [`HEADS`].
-    pub fn cells(&self) -> [Vec<f64>; 14] {
+    pub(crate) fn cells(&self) -> [Vec<f64>; 14] {
         let Self { texel, terms, errors } = self;
         let error = |i: usize| errors.map_or_else(Vec::new, |errors| vec![errors[i]]);
         [
@@ -62,7 +62,7 @@ impl Row {
 }
 
 /// The texel in column `column` of row `row` of every material, the ground truth first.
-pub fn rows<'a>(
+pub(crate) fn rows<'a>(
     materials: impl IntoIterator<Item = &'a Material<f32>>,
     [column, row]: [usize; 2],
     scene: &Scene,
@@ -98,7 +98,7 @@ fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
 }
 
 /// All pins as CSV, one line for each pin and material, every number in full.
-pub fn csv<'a>(all: impl IntoIterator<Item = ([usize; 2], Vec<(&'a str, Row)>)>) -> String {
+pub(crate) fn csv<'a>(all: impl IntoIterator<Item = ([usize; 2], Vec<(&'a str, Row)>)>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut heads = vec!["column".to_owned(), "row".to_owned(), "material".to_owned()];
     for (name, _) in HEADS {

@@ -23,7 +23,7 @@ use crate::viewer::worker::Task;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RegionKey {
+pub(super) struct RegionKey {
     ids: Vec<u64>,
     pub region: Region,
     pub quantity: Quantity,
@@ -33,7 +33,7 @@ pub struct RegionKey {
 
 /// The numbers of one material in the rectangle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RegionNumbers {
+pub(crate) struct RegionNumbers {
     /// Of each channel of the quantity; `None` where nothing is finite.
     pub channels: [Option<Statistics>; 3],
     /// The rendering loss of the rectangle under this scene; `None` for the ground truth.
@@ -42,11 +42,11 @@ pub struct RegionNumbers {
 
 /// The statistics of the rectangle, of every material.
 #[derive(Debug, Default)]
-pub struct RegionRun(Latest<RegionKey, Vec<RegionNumbers>>);
+pub(crate) struct RegionRun(Latest<RegionKey, Vec<RegionNumbers>>);
 
 impl RegionRun {
     /// Takes over a result, and computes what is needed now.
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
         ctx: &egui::Context,
         region: Option<Region>,
@@ -66,7 +66,12 @@ impl RegionRun {
     }
 
     /// The latest numbers, and whether they are those of now.
-    pub fn get(&self, region: Region, slots: &[Slot], state: &ViewState) -> Option<(&[RegionNumbers], bool)> {
+    pub(crate) fn get(
+        &self,
+        region: Region,
+        slots: &[Slot],
+        state: &ViewState,
+    ) -> Option<(&[RegionNumbers], bool)> {
         let (of, numbers) = self.0.get()?;
         let now = key(region, slots, state);
         (of.ids == now.ids && of.quantity == now.quantity).then_some((numbers.as_slice(), *of == now))

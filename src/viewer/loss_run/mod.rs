@@ -14,7 +14,7 @@ use crate::loss::{Comparison, Estimate, Outcome, Request};
 use crate::material::Material;
 use crate::report::Report;
 
-pub use phase::{Asked, Losses};
+pub(super) use phase::{Asked, Losses};
 use phase::{LossKey, Phase, RunningLoss, Settled, Step, stopped};
 
 /// Progress and staleness are shown after this time: what takes less would only flicker.
@@ -22,7 +22,7 @@ const SOON: Duration = Duration::from_millis(100);
 
 /// The loss that is being computed and the one that is shown.
 #[derive(Debug)]
-pub struct LossRun {
+pub(super) struct LossRun {
     phase: Phase,
     /// The losses that are wanted, and since when.
     wanted: Option<(LossKey, Instant)>,
@@ -36,12 +36,12 @@ impl Default for LossRun {
 
 impl LossRun {
     /// The latest losses.
-    pub fn losses(&self) -> Option<&Losses> {
+    pub(super) fn losses(&self) -> Option<&Losses> {
         self.phase.losses()
     }
 
     /// Whether the latest losses are those of a run that ended early.
-    pub fn is_partial(&self) -> bool {
+    pub(super) fn is_partial(&self) -> bool {
         matches!(
             &self.phase,
             Phase::Settled(Settled::Partial(_)) | Phase::Stopped { settled: Settled::Partial(_), .. }
@@ -49,7 +49,7 @@ impl LossRun {
     }
 
     /// Whether the latest losses are complete.
-    pub fn is_complete(&self) -> bool {
+    pub(super) fn is_complete(&self) -> bool {
         matches!(
             &self.phase,
             Phase::Settled(Settled::Finished(_))
@@ -59,21 +59,21 @@ impl LossRun {
     }
 
     /// Whether other losses than the latest are wanted, for longer than a moment where they are being computed.
-    pub fn stale(&self) -> bool {
+    pub(super) fn stale(&self) -> bool {
         let (Some(losses), Some((wanted, since))) = (self.losses(), &self.wanted) else { return false };
         losses.key != *wanted && (self.phase.run().is_none() || since.elapsed() > SOON)
     }
 
     /// The losses, if they are complete and hold for `asked` and `slots`.
     #[cfg(feature = "testing")]
-    pub fn finished(&self, slots: &Slots, asked: &Asked) -> Option<&[crate::loss::Loss]> {
+    pub(super) fn finished(&self, slots: &Slots, asked: &Asked) -> Option<&[crate::loss::Loss]> {
         let losses = self.losses().filter(|losses| self.is_complete() && losses.key == key(slots, asked))?;
         Some(losses.report.outcome.losses.as_slice())
     }
 
     /// Progress of the running loss: its share in [0, 1], its time, and whether it has losses yet. `None` without one, and
     /// for the first moment of one.
-    pub fn busy(&self) -> Option<(f32, Duration, bool)> {
+    pub(super) fn busy(&self) -> Option<(f32, Duration, bool)> {
         let run = self.phase.run()?;
         let elapsed = run.task.elapsed();
         let scenes = match &self.phase {
@@ -89,12 +89,12 @@ impl LossRun {
     }
 
     /// Whether losses are being computed.
-    pub fn is_running(&self) -> bool {
+    pub(super) fn is_running(&self) -> bool {
         self.phase.run().is_some()
     }
 
     /// Why the wanted losses could not be computed.
-    pub fn problem(&self) -> Option<&str> {
+    pub(super) fn problem(&self) -> Option<&str> {
         match &self.phase {
             Phase::Stopped { problem, .. } => problem.as_deref(),
             _ => None,
@@ -102,7 +102,7 @@ impl LossRun {
     }
 
     /// Takes over the results of the worker.
-    pub fn poll(&mut self, ctx: &egui::Context) {
+    pub(super) fn poll(&mut self, ctx: &egui::Context) {
         let Some(run) = self.phase.run() else { return };
         // A worker leaves its last losses before it ends.
         let ended = run.task.poll(ctx);
@@ -125,7 +125,7 @@ impl LossRun {
 
     /// Takes note of the losses that are wanted. With `auto` it computes them, unless that is done or was stopped; a run for
     /// others is cancelled.
-    pub fn follow(&mut self, ctx: &egui::Context, slots: &Slots, asked: &Asked, auto: bool) {
+    pub(super) fn follow(&mut self, ctx: &egui::Context, slots: &Slots, asked: &Asked, auto: bool) {
         if slots.predictions().is_empty() {
             *self = Self::default();
             return;
@@ -149,7 +149,7 @@ impl LossRun {
     }
 
     /// Starts the loss of the predictions in `slots`; a running one is cancelled.
-    pub fn start(&mut self, ctx: &egui::Context, slots: &Slots, asked: &Asked) {
+    pub(super) fn start(&mut self, ctx: &egui::Context, slots: &Slots, asked: &Asked) {
         let run = (!slots.predictions().is_empty()).then(|| start(ctx, slots, asked));
         self.change(|phase| match run {
             Some(run) => Phase::Starting(run, phase.settled()),
@@ -158,7 +158,7 @@ impl LossRun {
     }
 
     /// Cancels the running loss, which is not started again by itself. The losses it has reached stay.
-    pub fn cancel(&mut self) {
+    pub(super) fn cancel(&mut self) {
         if self.phase.run().is_some() {
             self.change(|phase| stopped(phase, None));
         }

@@ -10,21 +10,21 @@ use crate::viewer::worker::Task;
 
 /// What a loss depends on: the ids of the materials, the ground truth first, and the request.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LossKey {
+pub(crate) struct LossKey {
     pub ids: Vec<u64>,
     pub asked: Asked,
 }
 
 /// A request and the convention.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub(crate) struct Asked {
     pub request: Request,
     pub convention: Convention,
 }
 
 /// Losses for a key, complete or so far.
 #[derive(Debug)]
-pub struct Losses {
+pub(crate) struct Losses {
     pub key: LossKey,
     pub report: Report,
     /// `differences[a][b]`: the loss of prediction b minus that of a, on the same scenes.
@@ -35,19 +35,19 @@ pub struct Losses {
 
 impl Losses {
     /// The request they answer.
-    pub fn request(&self) -> &Request {
+    pub(crate) fn request(&self) -> &Request {
         &self.key.asked.request
     }
 
     /// The largest half of a 95% interval, relative to its loss.
-    pub fn relative_error(&self) -> f64 {
+    pub(crate) fn relative_error(&self) -> f64 {
         self.report.outcome.relative_error95()
     }
 }
 
 /// A loss that is being computed. The worker replaces `latest`; the window takes it.
 #[derive(Debug)]
-pub struct RunningLoss {
+pub(super) struct RunningLoss {
     pub key: LossKey,
     pub task: Task<()>,
     pub latest: Arc<Mutex<Option<Losses>>>,
@@ -55,7 +55,7 @@ pub struct RunningLoss {
 
 /// Losses that no longer change.
 #[derive(Debug)]
-pub enum Settled {
+pub(super) enum Settled {
     Nothing,
     Finished(Losses),
     /// Of a run that was cancelled or failed: the losses it had reached.
@@ -73,7 +73,7 @@ impl Settled {
 
 /// The phase of the loss in the window.
 #[derive(Debug)]
-pub enum Phase {
+pub(super) enum Phase {
     /// No run; the losses of the last one.
     Settled(Settled),
     /// A run without losses yet; the losses of an earlier one.
@@ -86,7 +86,7 @@ pub enum Phase {
 
 /// What the phase and the wanted losses call for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Step {
+pub(super) enum Step {
     Keep,
     /// Cancel the run: the losses of an earlier one are the wanted ones.
     Drop,
@@ -96,7 +96,7 @@ pub enum Step {
 impl Phase {
     /// The next step towards the losses of `wanted`; `young` tells whether a run has begun a moment ago. Such a run is left
     /// to give its first losses: otherwise there are none while a slider moves.
-    pub fn step(&self, wanted: &LossKey, young: bool) -> Step {
+    pub(super) fn step(&self, wanted: &LossKey, young: bool) -> Step {
         let is_finished = |settled: &Settled| matches!(settled, Settled::Finished(l) if l.key == *wanted);
         match self {
             Self::Settled(settled) if is_finished(settled) => Step::Keep,
@@ -112,14 +112,14 @@ impl Phase {
     }
 
     /// The run is dropped; its losses are kept.
-    pub fn settled(self) -> Settled {
+    pub(super) fn settled(self) -> Settled {
         match self {
             Self::Settled(settled) | Self::Starting(_, settled) | Self::Stopped { settled, .. } => settled,
             Self::Refining(_, losses) => Settled::Partial(losses),
         }
     }
 
-    pub fn losses(&self) -> Option<&Losses> {
+    pub(super) fn losses(&self) -> Option<&Losses> {
         match self {
             Self::Settled(settled) | Self::Starting(_, settled) | Self::Stopped { settled, .. } => {
                 settled.losses()
@@ -128,7 +128,7 @@ impl Phase {
         }
     }
 
-    pub fn run(&self) -> Option<&RunningLoss> {
+    pub(super) fn run(&self) -> Option<&RunningLoss> {
         match self {
             Self::Starting(run, _) | Self::Refining(run, _) => Some(run),
             Self::Settled(_) | Self::Stopped { .. } => None,
@@ -137,7 +137,7 @@ impl Phase {
 }
 
 /// The phase after its run has stopped early.
-pub fn stopped(phase: Phase, problem: Option<String>) -> Phase {
+pub(super) fn stopped(phase: Phase, problem: Option<String>) -> Phase {
     match phase.run().map(|run| run.key.clone()) {
         Some(key) => Phase::Stopped { key, problem, settled: phase.settled() },
         None => phase,

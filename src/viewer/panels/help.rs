@@ -6,7 +6,7 @@ use crate::viewer::command::{Command, WindowCommand};
 use crate::viewer::keys;
 
 /// The help window; closing it is a command.
-pub fn ui(ctx: &egui::Context) -> Option<Command> {
+pub(crate) fn ui(ctx: &egui::Context) -> Option<Command> {
     let mut open = true;
     let height = ctx.content_rect().height() - 90.0;
     egui::Window::new("Keys and mouse")

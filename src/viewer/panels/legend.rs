@@ -29,7 +29,7 @@ const AXIS: f64 = 1.5;
 
 /// What the strip shows.
 #[derive(Debug)]
-pub struct LegendStrip<'a> {
+pub(crate) struct LegendStrip<'a> {
     pub quantity: Quantity,
     pub kind: Difference,
     /// Where the difference is the error map, its scenes.
@@ -47,7 +47,7 @@ pub struct LegendStrip<'a> {
 }
 
 impl LegendStrip<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         ui.horizontal_top(|ui| {
             ui.allocate_ui(vec2(CONTROLS, HISTOGRAM + BAR), |ui| {

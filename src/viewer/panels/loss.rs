@@ -22,7 +22,7 @@ const MILLISECONDS: std::ops::RangeInclusive<u64> = 16..=10_000;
 
 /// What the section shows.
 #[derive(Debug)]
-pub struct LossPanel<'a> {
+pub(crate) struct LossPanel<'a> {
     pub settings: &'a LossSettings,
     pub auto: bool,
     pub run: &'a LossRun,
@@ -35,7 +35,7 @@ pub struct LossPanel<'a> {
 }
 
 impl LossPanel<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut settings = self.settings.clone();
         request(ui, &mut settings);

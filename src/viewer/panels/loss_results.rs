@@ -32,7 +32,7 @@ pub(super) struct Results<'a> {
 
 impl Results<'_> {
     /// A row for each prediction; a click chooses it.
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(super) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let losses = &self.latest.report.outcome.losses;
         let filter = self.controls(ui, losses.len(), &mut commands);

@@ -13,13 +13,13 @@ use crate::viewer::theme;
 
 /// What the section shows.
 #[derive(Debug)]
-pub struct MaterialsPanel<'a> {
+pub(crate) struct MaterialsPanel<'a> {
     pub slots: &'a Slots,
     pub watch: bool,
 }
 
 impl MaterialsPanel<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         ui.horizontal_wrapped(|ui| {
             if ui.button("Reload").on_hover_text("Read all files again (Ctrl+R)").clicked() {

@@ -11,7 +11,7 @@ use crate::viewer::theme;
 const HIGHEST: f32 = 0.3;
 
 /// The messages over `area`; dismissing them is a command, and so is what can be done about one.
-pub fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) -> Vec<Command> {
+pub(crate) fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) -> Vec<Command> {
     let mut commands = Vec::new();
     let lasting: Vec<_> = messages.lasting().collect();
     let mut bottom = area.bottom() - 8.0;

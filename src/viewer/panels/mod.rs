@@ -1,20 +1,20 @@
 //! The parts of the window around the panes. Each draws what it is given and returns commands.
 
-pub mod help;
-pub mod legend;
-pub mod loss;
+pub(super) mod help;
+pub(super) mod legend;
+pub(super) mod loss;
 mod loss_results;
-pub mod materials;
-pub mod messages;
-pub mod open;
-pub mod pins;
-pub mod save;
-pub mod scene;
-pub mod status;
-pub mod study;
-pub mod top;
-pub mod values;
-pub mod why;
+pub(super) mod materials;
+pub(super) mod messages;
+pub(super) mod open;
+pub(super) mod pins;
+pub(super) mod save;
+pub(super) mod scene;
+pub(super) mod status;
+pub(super) mod study;
+pub(super) mod top;
+pub(super) mod values;
+pub(super) mod why;
 
 use eframe::egui::{self, DragValue, Response, RichText};
 
@@ -26,7 +26,7 @@ use crate::files::read::{
 /// A number to drag or type; a double-click resets it to `default`.
 ///
 /// `name` is its accessible name.
-pub fn number<T: egui::emath::Numeric>(
+pub(super) fn number<T: egui::emath::Numeric>(
     ui: &mut egui::Ui,
     name: &str,
     value: &mut T,
@@ -51,7 +51,12 @@ pub fn number<T: egui::emath::Numeric>(
 ///
 /// `name` is the material's, unique in the window. `assumptions` are those of the last reading: what was inferred, and
 /// why.
-pub fn read_options(ui: &mut egui::Ui, name: &str, options: &mut ReadOptions, assumptions: &[Assumption]) {
+pub(super) fn read_options(
+    ui: &mut egui::Ui,
+    name: &str,
+    options: &mut ReadOptions,
+    assumptions: &[Assumption],
+) {
     let inferred = |what| assumptions.iter().find(|a| a.what == what);
     let ReadOptions {
         preset,

@@ -12,7 +12,7 @@ use crate::viewer::theme;
 
 /// The paths and choices so far.
 #[derive(Debug, Default)]
-pub struct OpenWindow {
+pub(crate) struct OpenWindow {
     /// One path a line.
     pub text: String,
     pub as_predictions: bool,
@@ -61,7 +61,12 @@ impl From<ReadOptions> for OpenWindow {
 }
 
 impl OpenWindow {
-    pub fn ui(&mut self, ctx: &egui::Context, recent: &[PathBuf], last: Option<&Session>) -> Vec<Command> {
+    pub(crate) fn ui(
+        &mut self,
+        ctx: &egui::Context,
+        recent: &[PathBuf],
+        last: Option<&Session>,
+    ) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut open = true;
         egui::Window::new("Open materials")
@@ -89,7 +94,7 @@ impl OpenWindow {
     }
 
     /// Shows what went wrong, and puts the cursor into the path field.
-    pub fn fail(&mut self, problem: String) {
+    pub(crate) fn fail(&mut self, problem: String) {
         self.problem = Some(problem);
         (self.submitted, self.opening, self.focused) = (false, None, false);
     }
@@ -132,7 +137,7 @@ impl OpenWindow {
     }
 
     /// Adds a path as a line of its own.
-    pub fn add(&mut self, path: &str) {
+    pub(crate) fn add(&mut self, path: &str) {
         if !self.text.is_empty() && !self.text.ends_with('\n') {
             self.text.push('\n');
         }

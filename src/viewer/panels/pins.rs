@@ -16,7 +16,7 @@ const NAME: f32 = 130.0;
 
 /// What the drawer shows.
 #[derive(Debug)]
-pub struct Drawer<'a> {
+pub(crate) struct Drawer<'a> {
     pub inspect: &'a Inspect,
     pub slots: &'a [Slot],
     pub state: &'a ViewState,
@@ -25,7 +25,7 @@ pub struct Drawer<'a> {
 }
 
 impl Drawer<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let height = self.height();
         egui::ScrollArea::both()

@@ -10,7 +10,7 @@ use crate::viewer::theme;
 
 /// What is typed and chosen so far.
 #[derive(Debug)]
-pub struct SaveWindow {
+pub(crate) struct SaveWindow {
     pub path: String,
     pub what: SaveKind,
     /// Size of a picture of the view, in pixels.
@@ -27,14 +27,14 @@ pub struct SaveWindow {
 
 impl SaveWindow {
     /// `size` is the size of the view in the window, in pixels.
-    pub fn new(size: [u32; 2]) -> Self {
+    pub(crate) fn new(size: [u32; 2]) -> Self {
         let what = SaveKind::default();
         let path = what.proposal().to_owned();
         Self { path, what, size, replaces: None, focused: false, saving: false, problem: None }
     }
 
     /// `seen` is the size of the view in the window, in pixels.
-    pub fn ui(&mut self, ctx: &egui::Context, seen: [u32; 2]) -> Vec<Command> {
+    pub(crate) fn ui(&mut self, ctx: &egui::Context, seen: [u32; 2]) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut open = true;
         egui::Window::new("Save")
@@ -106,7 +106,7 @@ impl SaveWindow {
     }
 
     /// Shows what went wrong, and puts the cursor into the path field.
-    pub fn fail(&mut self, problem: String) {
+    pub(crate) fn fail(&mut self, problem: String) {
         self.problem = Some(problem);
         (self.saving, self.focused) = (false, false);
     }

@@ -12,14 +12,14 @@ use crate::viewer::state::ViewState;
 
 /// What the section shows.
 #[derive(Debug)]
-pub struct ScenePanel<'a> {
+pub(crate) struct ScenePanel<'a> {
     pub state: &'a ViewState,
     pub settings: &'a Settings,
     pub animation: &'a Animation,
 }
 
 impl ScenePanel<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut scene = self.state.scene;
         ui.horizontal(|ui| {

@@ -19,7 +19,7 @@ const PLACE: usize = 9;
 
 /// What the line shows.
 #[derive(Debug)]
-pub struct StatusBar<'a> {
+pub(crate) struct StatusBar<'a> {
     pub state: &'a ViewState,
     pub slots: &'a [Slot],
     /// Where the difference is the error map, the maps once they are there.
@@ -37,7 +37,7 @@ pub struct StatusBar<'a> {
 }
 
 impl StatusBar<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.set_height(ui.spacing().interact_size.y);

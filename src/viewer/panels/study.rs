@@ -17,7 +17,7 @@ const REACH: f32 = 8.0;
 
 /// What the window shows.
 #[derive(Debug)]
-pub struct StudyWindow<'a> {
+pub(crate) struct StudyWindow<'a> {
     pub run: &'a StudyRun,
     /// What has been measured, and whether it is of the current materials.
     pub measured: Option<(&'a Study, bool)>,
@@ -26,7 +26,7 @@ pub struct StudyWindow<'a> {
 }
 
 impl StudyWindow<'_> {
-    pub fn ui(&self, ctx: &egui::Context) -> Vec<Command> {
+    pub(crate) fn ui(&self, ctx: &egui::Context) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut open = true;
         egui::Window::new("Study")

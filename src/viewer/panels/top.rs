@@ -9,7 +9,7 @@ use crate::viewer::state::{Layout, Projection, ViewState};
 
 /// What the bar shows.
 #[derive(Debug)]
-pub struct TopBar<'a> {
+pub(crate) struct TopBar<'a> {
     pub state: &'a ViewState,
     pub dark: bool,
     pub side_panel: bool,
@@ -88,7 +88,7 @@ impl BarItem {
 }
 
 impl TopBar<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let room = Room::of(ui.available_width());
         ui.horizontal_wrapped(|ui| {

@@ -12,7 +12,7 @@ const HEIGHT: f32 = 60.0;
 
 /// What the strip shows.
 #[derive(Debug)]
-pub struct ValueStrip<'a> {
+pub(crate) struct ValueStrip<'a> {
     pub quantity: Quantity,
     /// The histograms, and whether they are those of now.
     pub values: Option<(&'a Values, bool)>,
@@ -23,7 +23,7 @@ pub struct ValueStrip<'a> {
 }
 
 impl ValueStrip<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) {
         let Some((values, current)) = self.values else {
             ui.weak("Computing histograms...");
             return;

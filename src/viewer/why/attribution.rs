@@ -23,18 +23,18 @@ struct AttributionKey {
 
 /// An attribution, and the time that it took.
 #[derive(Clone, Debug)]
-pub struct Attributed {
+pub(crate) struct Attributed {
     pub attribution: Attribution,
     pub elapsed: Duration,
 }
 
 /// The attribution of the chosen prediction.
 #[derive(Debug, Default)]
-pub struct AttributionRun(Latest<AttributionKey, Attributed>);
+pub(crate) struct AttributionRun(Latest<AttributionKey, Attributed>);
 
 impl AttributionRun {
     /// Takes over a result, and computes what is wanted now; where nothing is `shown`, the latest result is kept.
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
         ctx: &egui::Context,
         shown: bool,
@@ -59,13 +59,13 @@ impl AttributionRun {
     }
 
     /// The attribution of this pair.
-    pub fn get(&self, pair: &ComparedPair, seed: u64) -> Option<&Attributed> {
+    pub(crate) fn get(&self, pair: &ComparedPair, seed: u64) -> Option<&Attributed> {
         let (of, attributed) = self.0.get()?;
         (*of == AttributionKey { pair: pair.key, seed }).then_some(attributed)
     }
 
     /// The share of the work that is done and its time, while it goes on.
-    pub fn busy(&self) -> Option<(f32, Duration)> {
+    pub(crate) fn busy(&self) -> Option<(f32, Duration)> {
         self.0.running().map(|task| (task.fraction(), task.elapsed()))
     }
 }

@@ -15,7 +15,7 @@ use crate::viewer::worker::Task;
 use crate::why::{Hemisphere, Moved, hemisphere};
 
 /// Columns and rows of the finest map.
-pub const SIDE: usize = 64;
+pub(super) const SIDE: usize = 64;
 
 /// What a map depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ struct DirectionsKey {
 
 /// A map over directions, and its picture.
 #[derive(Clone, Debug)]
-pub struct DirectionMap {
+pub(crate) struct DirectionMap {
     pub map: Hemisphere,
     pub texture: PanelTexture,
     /// The loss that has the last colour: the largest.
@@ -40,7 +40,7 @@ type Coarse = Arc<Mutex<Option<(DirectionsKey, DirectionMap)>>>;
 
 /// The map of the chosen prediction.
 #[derive(Debug, Default)]
-pub struct DirectionsRun {
+pub(crate) struct DirectionsRun {
     fine: Latest<DirectionsKey, DirectionMap>,
     /// Left by the worker.
     arriving: Coarse,
@@ -49,7 +49,7 @@ pub struct DirectionsRun {
 
 impl DirectionsRun {
     /// Takes over results, and computes what is wanted now; where nothing is `shown`, the latest result is kept.
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
         ctx: &egui::Context,
         shown: bool,
@@ -81,7 +81,12 @@ impl DirectionsRun {
     }
 
     /// The finest map of this pair, and whether it is that of now; otherwise the latest one of an earlier light or view.
-    pub fn get(&self, pair: &ComparedPair, moved: Moved, scene: &Scene) -> Option<(&DirectionMap, bool)> {
+    pub(crate) fn get(
+        &self,
+        pair: &ComparedPair,
+        moved: Moved,
+        scene: &Scene,
+    ) -> Option<(&DirectionMap, bool)> {
         let wanted = key(pair, moved, scene);
         let fine = self.fine.get().map(|(of, map)| (*of, map));
         let coarse = self.coarse.as_ref().map(|(of, map)| (*of, map));

@@ -17,20 +17,20 @@ use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
 use crate::why::{Moved, Worst};
 
-pub use attribution::{Attributed, AttributionRun};
-pub use directions::{DirectionMap, DirectionsRun};
-pub use pair::ComparedPair;
-pub use scenes::{SceneList, ScenesRun};
-pub use search::SearchRun;
-pub use sections::{WhySection, WhySections};
-pub use thumbnails::{MOST as MOST_THUMBNAILS, Thumbnails};
+pub(super) use attribution::{Attributed, AttributionRun};
+pub(super) use directions::{DirectionMap, DirectionsRun};
+pub(super) use pair::ComparedPair;
+pub(super) use scenes::{SceneList, ScenesRun};
+pub(super) use search::SearchRun;
+pub(super) use sections::{WhySection, WhySections};
+pub(super) use thumbnails::{MOST as MOST_THUMBNAILS, Thumbnails};
 
 /// Scenes in the panel until more are asked for.
 const FEW: usize = 10;
 
 /// What the computations depend on besides the pair and the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WhyAsked {
+pub(super) struct WhyAsked {
     pub sections: WhySections,
     /// The scenes that are listed.
     pub sampling: Sampling,
@@ -38,7 +38,7 @@ pub struct WhyAsked {
 
 /// The computations, and what of them is shown.
 #[derive(Debug)]
-pub struct Why {
+pub(super) struct Why {
     pub attribution: AttributionRun,
     pub scenes: ScenesRun,
     pub directions: DirectionsRun,
@@ -64,7 +64,7 @@ impl Default for Why {
 
 impl Why {
     /// Takes over results, and computes what is wanted now; nothing new where the tab is not `shown`.
-    pub fn follow(
+    pub(super) fn follow(
         &mut self,
         ctx: &egui::Context,
         shown: bool,
@@ -85,7 +85,7 @@ impl Why {
     }
 
     /// Takes over the result of the search for the worst scene, once.
-    pub fn poll_search(
+    pub(super) fn poll_search(
         &mut self,
         ctx: &egui::Context,
         slots: &[Slot],

@@ -12,7 +12,7 @@ use crate::viewer::state::ViewState;
 
 /// What identifies a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairKey {
+pub(crate) struct PairKey {
     /// Of the ground truth and of the prediction.
     ids: [u64; 2],
     convention: &'static str,
@@ -20,7 +20,7 @@ pub struct PairKey {
 
 /// A ground truth and a prediction, for a worker.
 #[derive(Clone, Debug)]
-pub struct ComparedPair {
+pub(crate) struct ComparedPair {
     pub key: PairKey,
     materials: [Arc<Loaded>; 2],
     pub convention: Convention,
@@ -28,18 +28,18 @@ pub struct ComparedPair {
 
 impl ComparedPair {
     /// The pair of the chosen prediction, if there is one.
-    pub fn of(slots: &[Slot], state: &ViewState) -> Option<Self> {
+    pub(crate) fn of(slots: &[Slot], state: &ViewState) -> Option<Self> {
         let slots = [slots.first()?, slots.get(state.prediction + 1)?];
         let convention = state.convention();
         let key = PairKey { ids: slots.map(|slot| slot.id), convention: convention.name };
         Some(Self { key, materials: slots.map(|slot| slot.loaded.clone()), convention })
     }
 
-    pub fn ground_truth(&self) -> &Material<f32> {
+    pub(crate) fn ground_truth(&self) -> &Material<f32> {
         &self.materials[0].material
     }
 
-    pub fn prediction(&self) -> &Material<f32> {
+    pub(crate) fn prediction(&self) -> &Material<f32> {
         &self.materials[1].material
     }
 
@@ -47,7 +47,7 @@ impl ComparedPair {
     ///
     /// # Errors
     /// [`Error::SizesDiffer`].
-    pub fn comparison(&self) -> Result<Comparison<'_, f32>, Error> {
+    pub(crate) fn comparison(&self) -> Result<Comparison<'_, f32>, Error> {
         Ok(Comparison::new(self.ground_truth(), &[self.prediction()], self.convention)?.without_pilot())
     }
 }

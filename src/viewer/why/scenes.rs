@@ -25,7 +25,7 @@ struct ScenesKey {
 
 /// The scenes of a loss.
 #[derive(Clone, Debug)]
-pub struct SceneList {
+pub(crate) struct SceneList {
     pub sampling: Sampling,
     /// Worst first.
     pub ranked: Vec<RankedScene>,
@@ -38,14 +38,14 @@ pub struct SceneList {
 
 /// The scenes of the chosen prediction, and their thumbnails.
 #[derive(Debug, Default)]
-pub struct ScenesRun {
+pub(crate) struct ScenesRun {
     list: Latest<ScenesKey, Arc<SceneList>>,
     thumbnails: Latest<ScenesKey, Thumbnails>,
 }
 
 impl ScenesRun {
     /// Takes over results, and computes what is wanted now; where nothing is `shown`, the latest results are kept.
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
         ctx: &egui::Context,
         shown: bool,
@@ -80,7 +80,11 @@ impl ScenesRun {
     }
 
     /// The scenes of this pair, and their thumbnails once they are made.
-    pub fn get(&self, pair: &ComparedPair, sampling: Sampling) -> Option<(&SceneList, Option<&Thumbnails>)> {
+    pub(crate) fn get(
+        &self,
+        pair: &ComparedPair,
+        sampling: Sampling,
+    ) -> Option<(&SceneList, Option<&Thumbnails>)> {
         let wanted = ScenesKey { pair: pair.key, sampling };
         let (_, list) = self.list.get().filter(|(of, _)| **of == wanted)?;
         let thumbnails = self.thumbnails.get().filter(|(of, _)| **of == wanted);
@@ -88,7 +92,7 @@ impl ScenesRun {
     }
 
     /// The share of the work that is done, while it goes on.
-    pub fn busy(&self) -> Option<f32> {
+    pub(crate) fn busy(&self) -> Option<f32> {
         self.list.running().map(Task::fraction)
     }
 }

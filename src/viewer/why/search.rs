@@ -11,14 +11,14 @@ use crate::why::{Worst, worst};
 
 /// The search that goes on, and the worst scene that was found.
 #[derive(Debug, Default)]
-pub struct SearchRun {
+pub(crate) struct SearchRun {
     running: Option<(PairKey, Task<Worst>)>,
     found: Option<(PairKey, Worst)>,
 }
 
 impl SearchRun {
     /// Starts a search; `seed` names the scenes that it starts from.
-    pub fn start(&mut self, ctx: &egui::Context, pair: &ComparedPair, seed: u64) {
+    pub(crate) fn start(&mut self, ctx: &egui::Context, pair: &ComparedPair, seed: u64) {
         let (key, pair) = (pair.key, pair.clone());
         let search = move |progress: &_| {
             worst(pair.ground_truth(), pair.prediction(), &pair.convention, seed, progress)
@@ -26,12 +26,16 @@ impl SearchRun {
         self.running = Some((key, Task::start(ctx, search)));
     }
 
-    pub fn cancel(&mut self) {
+    pub(crate) fn cancel(&mut self) {
         self.running = None;
     }
 
     /// Takes over the result, once. A search of another pair than the present one is cancelled.
-    pub fn poll(&mut self, ctx: &egui::Context, pair: Option<&ComparedPair>) -> Option<Result<Worst, Error>> {
+    pub(crate) fn poll(
+        &mut self,
+        ctx: &egui::Context,
+        pair: Option<&ComparedPair>,
+    ) -> Option<Result<Worst, Error>> {
         let (key, task) = self.running.as_ref()?;
         if pair.is_none_or(|pair| pair.key != *key) {
             self.cancel();
@@ -46,12 +50,12 @@ impl SearchRun {
     }
 
     /// The worst scene that was found of this pair.
-    pub fn found(&self, pair: &ComparedPair) -> Option<&Worst> {
+    pub(crate) fn found(&self, pair: &ComparedPair) -> Option<&Worst> {
         self.found.as_ref().filter(|(key, _)| *key == pair.key).map(|(_, worst)| worst)
     }
 
     /// The share of the search that is done and its time, while it goes on.
-    pub fn busy(&self) -> Option<(f32, Duration)> {
+    pub(crate) fn busy(&self) -> Option<(f32, Duration)> {
         self.running.as_ref().map(|(_, task)| (task.fraction(), task.elapsed()))
     }
 }

@@ -4,11 +4,11 @@ use eframe::egui;
 
 /// A texture of the window, freed with its last owner.
 #[derive(Clone)]
-pub struct PanelTexture(egui::TextureHandle);
+pub(crate) struct PanelTexture(egui::TextureHandle);
 
 impl PanelTexture {
     /// Loads a picture. Workers may do so, too.
-    pub fn new(
+    pub(crate) fn new(
         ctx: &egui::Context,
         name: &str,
         picture: egui::ColorImage,
@@ -17,7 +17,7 @@ impl PanelTexture {
         Self(ctx.load_texture(name, picture, options))
     }
 
-    pub fn id(&self) -> egui::TextureId {
+    pub(crate) fn id(&self) -> egui::TextureId {
         self.0.id()
     }
 }

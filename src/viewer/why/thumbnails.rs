@@ -14,11 +14,11 @@ use crate::render;
 use crate::why::RankedScene;
 
 /// Side of a thumbnail, in pixels.
-pub const SIDE: usize = 48;
+pub(super) const SIDE: usize = 48;
 /// Thumbnails in a row of the texture.
 const COLUMNS: usize = 16;
 /// Scenes that have a thumbnail.
-pub const MOST: usize = 96;
+pub(crate) const MOST: usize = 96;
 /// Texels along a side from which on every n-th texel is rendered.
 const LARGE: usize = 512;
 /// The share of all pixels that have less than the last colour.
@@ -26,7 +26,7 @@ const RANGE: f64 = 0.99;
 
 /// Thumbnails of the worst scenes.
 #[derive(Debug)]
-pub struct Thumbnails {
+pub(crate) struct Thumbnails {
     texture: PanelTexture,
     count: usize,
     /// The log difference that has the last colour, the same in all.
@@ -38,7 +38,7 @@ pub struct Thumbnails {
 
 impl Thumbnails {
     /// The texture, and the part of it that is the thumbnail of the scene of this rank.
-    pub fn of(&self, rank: usize) -> Option<(egui::TextureId, Rect)> {
+    pub(crate) fn of(&self, rank: usize) -> Option<(egui::TextureId, Rect)> {
         let rows = self.count.div_ceil(COLUMNS);
         let size = egui::vec2(1.0 / COLUMNS as f32, 1.0 / rows as f32);
         let corner = pos2((rank % COLUMNS) as f32 * size.x, (rank / COLUMNS) as f32 * size.y);
@@ -50,7 +50,7 @@ impl Thumbnails {
 ///
 /// # Errors
 /// [`Error::Cancelled`].
-pub fn make(
+pub(super) fn make(
     ctx: &egui::Context,
     pair: &ComparedPair,
     ranked: &[RankedScene],

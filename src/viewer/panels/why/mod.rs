@@ -19,7 +19,7 @@ const NAME: usize = 30;
 
 /// What the tab shows.
 #[derive(Debug)]
-pub struct WhyPanel<'a> {
+pub(crate) struct WhyPanel<'a> {
     pub state: &'a ViewState,
     /// The loss of each prediction in the current scene, and whether they are those of now.
     pub losses: Option<(&'a [f64], bool)>,
@@ -34,7 +34,7 @@ pub struct WhyPanel<'a> {
 }
 
 impl WhyPanel<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let Some(pair) = &self.pair else {
             ui.label("Open a prediction to compare with the ground truth.");
