@@ -4,7 +4,7 @@
 //! use std::path::Path;
 //!
 //! use svbrdf::files::read::{self, Read, ReadOptions};
-//! use svbrdf::files::write::{self, Kind, WriteOptions};
+//! use svbrdf::files::write::{self, FileKind, WriteOptions};
 //! use svbrdf::progress::Progress;
 //!
 //! let read: Read<f32> = read::read(Path::new("brick.png"), &ReadOptions::AUTO, &Progress::default())?;
@@ -13,7 +13,7 @@
 //! }
 //! let output = Path::new("brick.exr");
 //! let options = WriteOptions::default();
-//! write::write(&read.material, output, Kind::new(output, &options)?)?;
+//! write::write(&read.material, output, FileKind::new(output, &options)?)?;
 //! # Ok::<(), svbrdf::error::Error>(())
 //! ```
 
