@@ -42,7 +42,7 @@ pub struct SummaryItems {
     median: f64,
     interval95_materials: Option<(f64, f64)>,
     interval95_scenes: (f64, f64),
-    /// The mean of this method - that of the best, and its interval over materials.
+    /// The mean of this method - the mean of the best, and its interval over materials.
     to_best: Option<f64>,
     to_best_interval95_materials: Option<(f64, f64)>,
     ties_with_best: bool,

@@ -7,7 +7,7 @@ use super::session::SessionSettings;
 
 #[derive(Debug, clap::Args)]
 pub struct ComparisonArgs {
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020 [default: printed, or that of the session]
+    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020 [default: printed, or as in the session]
     #[arg(long, value_name = "NAME")]
     convention: Option<Convention>,
 
@@ -16,7 +16,7 @@ pub struct ComparisonArgs {
 }
 
 impl ComparisonArgs {
-    /// The convention: as specified, or that of the session, or the default.
+    /// The convention: as specified, or as in the session, or the default.
     pub fn convention(&self) -> Convention {
         // A session that cannot be read is an error wherever its materials are opened.
         let of_session = || SessionSettings::of(&self.materials).ok().flatten().map(|saved| saved.convention);

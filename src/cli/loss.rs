@@ -21,7 +21,7 @@ use super::{exit, materials, table};
 /// Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the mean over scenes,
 /// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
 /// texels; it is unknown with a single scene of a kind. Without options that choose scenes: the loss over all
-/// scenes to +-1%, and that of the 6 + 3 scenes of the papers; of a session, what its window asked for. Without GT and PRED:
+/// scenes to +-1%, and the loss over the 6 + 3 scenes of the papers; of a session, what its window asked for. Without GT and PRED:
 /// the built-in materials.
 #[derive(Debug, clap::Args)]
 pub struct LossArgs {
@@ -33,7 +33,7 @@ pub struct LossArgs {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     distant: Option<usize>,
 
-    /// Seed of the sampled scenes [default: 0, or that of the session]
+    /// Seed of the sampled scenes [default: 0, or as in the session]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u64>,
 

@@ -62,11 +62,11 @@ impl SceneArgs {
 
 #[derive(Debug, clap::Args)]
 pub struct OneSceneArgs {
-    /// Position of the viewer, or its direction with --distant [default: 0,0,2.5, or that of the session]
+    /// Position of the viewer, or its direction with --distant [default: 0,0,2.5, or as in the session]
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     view: Option<[f64; 3]>,
 
-    /// Position of the light, or its direction with --distant [default: 0.4,0.5,1.2, or that of the session]
+    /// Position of the light, or its direction with --distant [default: 0.4,0.5,1.2, or as in the session]
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     light: Option<[f64; 3]>,
 

@@ -45,7 +45,7 @@ pub struct StripArgs {
     #[command(flatten)]
     scene: OneSceneArgs,
 
-    /// Exposure of renderings in stops [default: 0, or that of the session]
+    /// Exposure of renderings in stops [default: 0, or as in the session]
     #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true)]
     exposure: Option<f32>,
 
