@@ -42,7 +42,7 @@ impl DifferenceRun {
         same.then_some(distributions)
     }
 
-    /// Whether the distributions are those of the current scene.
+    /// Whether the distributions are up to date.
     pub(super) fn is_current(&self, slots: &[Slot], state: &ViewState) -> bool {
         self.0.get().is_some_and(|(latest, _)| *latest == key(slots, state))
     }

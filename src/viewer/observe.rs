@@ -22,7 +22,7 @@ impl App {
         current.then_some((study, self.study.task().is_none()))
     }
 
-    /// The statistics of each prediction's difference in the panes, once they are those of the current scene.
+    /// The statistics of each prediction's difference in the panes, once they are up to date.
     pub fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {
         let (distributions, current) = self.distributions()?;
         current.then_some(distributions.statistics.as_slice())

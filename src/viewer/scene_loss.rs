@@ -49,7 +49,7 @@ impl SceneLossRun {
         })
     }
 
-    /// The latest losses of these materials, and whether they are those of now.
+    /// The latest losses of these materials, and whether they are up to date.
     pub(super) fn get(&self, slots: &Slots, state: &ViewState) -> Option<(&[f64], bool)> {
         let (of, losses) = self.0.get()?;
         let now = key(slots, state);

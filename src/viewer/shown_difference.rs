@@ -32,7 +32,7 @@ impl App {
         ErrorMapSummary { scenes: sampling.near + sampling.distant, progress }
     }
 
-    /// The distributions of the difference in the panes, and whether they are those of now.
+    /// The distributions of the difference in the panes, and whether they are up to date.
     pub(super) fn distributions(&self) -> Option<(&Distributions, bool)> {
         if self.state.is_error_map() {
             return self.error_maps().map(|maps| (&maps.distributions, true));

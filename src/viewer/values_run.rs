@@ -62,7 +62,7 @@ impl ValuesRun {
         })
     }
 
-    /// The latest histograms of these materials and this quantity, and whether they are those of now.
+    /// The latest histograms of these materials and this quantity, and whether they are up to date.
     pub(super) fn get(&self, slots: &[Slot], state: &ViewState) -> Option<(&Values, bool)> {
         let (of, values) = self.0.get()?;
         let now = key(slots, state);

@@ -65,7 +65,7 @@ impl RegionRun {
         })
     }
 
-    /// The latest numbers, and whether they are those of now.
+    /// The latest numbers, and whether they are up to date.
     pub(crate) fn get(
         &self,
         region: Region,

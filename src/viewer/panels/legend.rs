@@ -39,7 +39,7 @@ pub(crate) struct LegendStrip<'a> {
     /// The difference that has the last colour.
     pub range: f64,
     pub distributions: Option<&'a Distributions>,
-    /// Whether the distributions are those of the current scene.
+    /// Whether the distributions are up to date.
     pub current: bool,
     /// Of the predictions.
     pub names: Vec<&'a str>,

@@ -20,7 +20,7 @@ pub(crate) struct Drawer<'a> {
     pub inspect: &'a Inspect,
     pub slots: &'a [Slot],
     pub state: &'a ViewState,
-    /// The numbers of the rectangle, and whether they are those of now.
+    /// The numbers of the rectangle, and whether they are up to date.
     pub region: Option<(&'a [RegionNumbers], bool)>,
 }
 

@@ -14,7 +14,7 @@ const HEIGHT: f32 = 60.0;
 #[derive(Debug)]
 pub(crate) struct ValueStrip<'a> {
     pub quantity: Quantity,
-    /// The histograms, and whether they are those of now.
+    /// The histograms, and whether they are up to date.
     pub values: Option<(&'a Values, bool)>,
     /// Of all materials.
     pub names: Vec<&'a str>,

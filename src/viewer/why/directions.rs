@@ -80,7 +80,7 @@ impl DirectionsRun {
         })
     }
 
-    /// The finest map of this pair, and whether it is that of now; otherwise the latest one of an earlier light or view.
+    /// The finest map of this pair, and whether it is up to date; otherwise the latest one of an earlier light or view.
     pub(crate) fn get(
         &self,
         pair: &ComparedPair,

@@ -21,7 +21,7 @@ const NAME: usize = 30;
 #[derive(Debug)]
 pub(crate) struct WhyPanel<'a> {
     pub state: &'a ViewState,
-    /// The loss of each prediction in the current scene, and whether they are those of now.
+    /// The loss of each prediction in the current scene, and whether they are up to date.
     pub losses: Option<(&'a [f64], bool)>,
     /// Of the predictions.
     pub names: Vec<&'a str>,
