@@ -7,3 +7,8 @@ pub struct Image<T> {
     pub height: usize,
     pub pixels: Vec<[T; 3]>,
 }
+
+/// The mean of red, green and blue.
+pub fn mean_of_channels(rgb: &[f32; 3]) -> f32 {
+    rgb.iter().sum::<f32>() / 3.0
+}

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::error::Error;
-use svbrdf::image::Image;
+use svbrdf::image::{Image, mean_of_channels};
 use svbrdf::loss::Comparison;
 use svbrdf::picture::export::{Destination, PictureFormat, Provenance, check_place, write_text};
 use svbrdf::why::{self, Hemisphere, Moved};
@@ -134,8 +134,7 @@ fn over_texels(args: &MapArgs, comparison: &Comparison<'_, f32>) -> Result<LossM
     let mut summary = vec![["prediction", "mean", "largest", "column", "row"].map(str::to_owned).to_vec()];
     let mut rows = Vec::new();
     for (name, pane) in names.iter().zip(&panes) {
-        let value = |pixel: &[f32; 3]| pixel.iter().sum::<f32>() / 3.0;
-        let all = pane.pixels.iter().map(value).enumerate();
+        let all = pane.pixels.iter().map(mean_of_channels).enumerate();
         let (at, largest) = all.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
         let place = [at % pane.width, at / pane.width].map(|i| i.to_string());
         let numbers = [format!("{:.6}", why::mean(pane)), format!("{largest:.6}")];

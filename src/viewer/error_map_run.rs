@@ -11,7 +11,7 @@ use super::state::ViewState;
 use super::worker::Task;
 use crate::error::Error;
 use crate::gpu::{Gpu, Shaded};
-use crate::image::Image;
+use crate::image::{Image, mean_of_channels};
 use crate::loss::{Comparison, Sampling};
 use crate::material::Material;
 use crate::model::convention::Convention;
@@ -43,7 +43,7 @@ pub(super) struct ErrorMaps {
 pub(super) struct ErrorMapSummary {
     /// Number of scenes.
     pub scenes: usize,
-    /// The share of the scenes that is done, while they are rendered.
+    /// The share of the texels that is done, while they are rendered.
     pub progress: Option<f32>,
 }
 
@@ -88,7 +88,7 @@ impl ErrorMapRun {
         (*of == key(slots, state, sampling)).then_some(maps)
     }
 
-    /// The share of the scenes that is done, while they are rendered.
+    /// The share of the texels that is done, while they are rendered.
     pub(super) fn progress(&self) -> Option<f32> {
         self.0.running().map(Task::fraction)
     }
@@ -103,12 +103,8 @@ impl ErrorMaps {
     /// The value of the map of slot `slot` at the texel (column, row): the mean over RGB.
     pub(super) fn at(&self, slot: usize, [column, row]: [usize; 2]) -> f64 {
         let image = slot.checked_sub(1).and_then(|index| self.images.get(index));
-        image.map_or(f64::NAN, |image| f64::from(mean(&image.pixels[row * image.width + column])))
+        image.map_or(f64::NAN, |image| f64::from(mean_of_channels(&image.pixels[row * image.width + column])))
     }
-}
-
-fn mean(rgb: &[f32; 3]) -> f32 {
-    rgb.iter().sum::<f32>() / 3.0
 }
 
 fn key(slots: &[Slot], state: &ViewState, sampling: Sampling) -> ErrorMapKey {
@@ -126,7 +122,8 @@ fn maps(
     let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| &loaded.material).collect();
     let comparison = Comparison::new(materials[0], &materials[1..], *convention)?;
     let images = error_maps(&comparison, &sampling.scenes(convention)?, progress)?;
-    let values: Vec<Vec<f32>> = images.iter().map(|image| image.pixels.iter().map(mean).collect()).collect();
+    let means = |image: &Image<f32>| image.pixels.iter().map(mean_of_channels).collect();
+    let values: Vec<Vec<f32>> = images.iter().map(means).collect();
     let distributions = Distributions::of(&values, false);
     let upload = |gpu: &Gpu| {
         let one = |image| Shaded::of_image(gpu, image).map(Arc::new);

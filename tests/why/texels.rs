@@ -2,11 +2,14 @@
 
 use svbrdf::image::Image;
 use svbrdf::loss::{Comparison, Request, Sampling};
+use svbrdf::material::Material;
+use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
+use svbrdf::render::render_f32;
 use svbrdf::why::{error_maps, mean, worst_first};
 
 use super::{built_in, printed};
-use crate::support::tolerance::ERROR_MAP_MEAN;
+use crate::support::tolerance::{ERROR_MAP_MEAN, ERROR_MAP_TEXEL};
 
 #[test]
 fn the_mean_of_the_error_map_is_the_loss() {
@@ -22,6 +25,52 @@ fn the_mean_of_the_error_map_is_the_loss() {
     let mut faulty = maps[0].clone();
     faulty.pixels[77][1] += 10.0;
     assert!(off(&faulty, outcome.losses[0].estimate.mean) > ERROR_MAP_MEAN, "one wrong texel is not seen");
+}
+
+/// The error map by the definition: renderings of whole materials, and logarithms in f64.
+fn by_definition(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Vec<[f64; 3]> {
+    let epsilon = comparison.convention().epsilon;
+    let render = |material, scene| {
+        render_f32(material, scene, comparison.convention(), &Progress::default()).unwrap().pixels
+    };
+    let ln = |value: f32| (f64::from(value) + epsilon).ln();
+    let (truth, prediction) = (comparison.ground_truth(), comparison.predictions()[0]);
+    let mut means = vec![[0.0; 3]; truth.width() * truth.height()];
+    for scene in scenes {
+        let (expected, predicted) = (render(truth, scene), render(prediction, scene));
+        for (mean, (a, b)) in means.iter_mut().zip(expected.iter().zip(&predicted)) {
+            (0..3).for_each(|c| mean[c] += (ln(a[c]) - ln(b[c])).abs() / scenes.len() as f64);
+        }
+    }
+    means
+}
+
+#[test]
+fn every_texel_of_the_error_map_is_its_mean_log_difference() {
+    let [truth, blurred, rough] = built_in();
+    // 101 x 67 texels end in the middle of a block and of a tile; those of a mirror leave the fast path.
+    let [truth, blurred, rough] =
+        [truth, blurred, rough].map(|material| material.resized([101, 67]).unwrap());
+    let mut planes = rough.planes().clone();
+    planes.roughness.iter_mut().step_by(7).for_each(|r| *r = 1e-4);
+    let mirrors = Material::new("mirrors", 101, 67, planes).unwrap();
+    let scenes = Sampling { near: 40, distant: 20, ..Sampling::default() }.scenes(&printed()).unwrap();
+    for prediction in [&blurred, &rough, &mirrors] {
+        let comparison = Comparison::new(&truth, &[&blurred, prediction], printed()).unwrap();
+        let map = error_maps(&comparison, &scenes, &Progress::default()).unwrap().remove(1);
+        let comparison = Comparison::new(&truth, &[prediction], printed()).unwrap();
+        let expected = by_definition(&comparison, &scenes);
+        let off = |map: &Image<f32>| {
+            let pairs = map.pixels.as_flattened().iter().zip(expected.as_flattened());
+            pairs.map(|(got, expected)| (f64::from(*got) - expected).abs()).fold(0.0, f64::max)
+        };
+        let off_by = off(&map);
+        println!("{}: off by {off_by:e}", prediction.name());
+        assert!(off_by < ERROR_MAP_TEXEL, "{}: {off_by:e}", prediction.name());
+        let mut faulty = map;
+        faulty.pixels.swap(3000, 3001);
+        assert!(off(&faulty) > ERROR_MAP_TEXEL, "two swapped texels are not seen");
+    }
 }
 
 #[test]

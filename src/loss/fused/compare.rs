@@ -16,6 +16,12 @@ const MANTISSA: u32 = 0x007f_ffff;
 /// The bits of 1.
 const ONE: u32 = 0x3f80_0000;
 
+/// What adds up the log differences of two materials, tile by tile.
+pub(super) trait LogDifferences<S: Simd> {
+    /// Adds all texels and channels of a tile. Radiances are positive and, unless `SAFE`, below 2^21.
+    fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance);
+}
+
 /// Running products, one per lane. Each factor rounds once, so n factors are off by about sqrt(n) 4e-8.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LogProducts<S: Simd> {
@@ -33,10 +39,44 @@ impl<S: Simd> LogProducts<S> {
         Self { larger: one, smaller: one, exponent: Bits::<S>::splat(simd, 0) }
     }
 
-    /// Adds all texels and channels of a tile. Radiances are positive and, unless `SAFE`, below 2^21: the product of six
-    /// of them and a mantissa fits a float.
     #[inline(always)]
-    pub(super) fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
+    fn multiply(&mut self, larger: V<S>, smaller: V<S>) {
+        self.larger *= larger;
+        self.smaller *= smaller;
+    }
+
+    /// Moves the exponents of the products to the integer.
+    #[inline(always)]
+    fn normalize(&mut self) {
+        let (larger, smaller) = (self.larger.to_bits(), self.smaller.to_bits());
+        self.exponent += (larger >> 23) - (smaller >> 23);
+        self.larger = V::<S>::from_bits((larger & MANTISSA) | ONE);
+        self.smaller = V::<S>::from_bits((smaller & MANTISSA) | ONE);
+    }
+
+    /// The sum in one lane.
+    #[inline(always)]
+    fn of_lane(&self, lane: usize) -> f64 {
+        let ratio = f64::from(self.larger[lane]) / f64::from(self.smaller[lane]);
+        f64::from(self.exponent[lane].cast_signed()) * std::f64::consts::LN_2 + ratio.ln()
+    }
+
+    /// The sum over all lanes.
+    #[inline(always)]
+    pub(super) fn total(&self) -> f64 {
+        let (mut product, mut exponent) = (1.0, 0);
+        for lane in 0..V::<S>::LEN {
+            product *= f64::from(self.larger[lane]) / f64::from(self.smaller[lane]);
+            exponent += i64::from(self.exponent[lane].cast_signed());
+        }
+        exponent as f64 * std::f64::consts::LN_2 + product.ln()
+    }
+}
+
+impl<S: Simd> LogDifferences<S> for LogProducts<S> {
+    /// The product of six radiances below 2^21 and a mantissa fits a float.
+    #[inline(always)]
+    fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
         // In registers: through memory, each product would wait for the store of the one before.
         let mut products = *self;
         for pair in 0..vectors::<S>() / 2 {
@@ -60,30 +100,39 @@ impl<S: Simd> LogProducts<S> {
         }
         *self = products;
     }
+}
 
+/// A product for each texel and channel of a tile.
+#[derive(Clone, Debug)]
+pub(super) struct TexelLogProducts<S: Simd> {
+    /// Of each vector of texels: red, green and blue.
+    products: Vec<[LogProducts<S>; 3]>,
+}
+
+impl<S: Simd> TexelLogProducts<S> {
     #[inline(always)]
-    fn multiply(&mut self, larger: V<S>, smaller: V<S>) {
-        self.larger *= larger;
-        self.smaller *= smaller;
+    pub(super) fn new(simd: S) -> Self {
+        Self { products: vec![[LogProducts::new(simd); 3]; vectors::<S>()] }
     }
 
-    /// Moves the exponents of the products to the integer.
+    /// The sums of red, green and blue of a texel of the tile.
     #[inline(always)]
-    fn normalize(&mut self) {
-        let (larger, smaller) = (self.larger.to_bits(), self.smaller.to_bits());
-        self.exponent += (larger >> 23) - (smaller >> 23);
-        self.larger = V::<S>::from_bits((larger & MANTISSA) | ONE);
-        self.smaller = V::<S>::from_bits((smaller & MANTISSA) | ONE);
+    pub(super) fn of_texel(&self, texel: usize) -> [f64; 3] {
+        let (vector, lane) = (texel / V::<S>::LEN, texel % V::<S>::LEN);
+        self.products[vector].map(|products| products.of_lane(lane))
     }
+}
 
-    /// The sum over all lanes.
+impl<S: Simd> LogDifferences<S> for TexelLogProducts<S> {
     #[inline(always)]
-    pub(super) fn total(&self) -> f64 {
-        let (mut product, mut exponent) = (1.0, 0);
-        for lane in 0..V::<S>::LEN {
-            product *= f64::from(self.larger[lane]) / f64::from(self.smaller[lane]);
-            exponent += i64::from(self.exponent[lane].cast_signed());
+    fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
+        for (i, channels) in self.products.iter_mut().enumerate() {
+            for (c, products) in channels.iter_mut().enumerate() {
+                let (a, b) = (a.0[c].load(simd, i), b.0[c].load(simd, i));
+                // One factor fits beside a mantissa, also a large one.
+                products.multiply(a.max(b), a.min(b));
+                products.normalize();
+            }
         }
-        exponent as f64 * std::f64::consts::LN_2 + product.ln()
     }
 }

@@ -13,6 +13,7 @@ mod compare;
 mod inputs;
 mod pass;
 mod sums;
+mod texel_means;
 
 use super::comparison::{Backend, Comparison, Compute};
 use crate::error::Error;
@@ -33,6 +34,25 @@ const MAX_SUMS: usize = 1 << 20;
 pub struct Fused {
     /// The instruction set. `None`: the widest one of this machine.
     pub level: Option<Level>,
+}
+
+impl Fused {
+    /// For each prediction of `comparison` the mean of the log differences of each texel and channel over `scenes`, which are
+    /// usable. A block of texels is one step of `progress`.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub(crate) fn texel_means(
+        &self,
+        comparison: &Comparison<'_, f32>,
+        scenes: &[Scene],
+        progress: &Progress,
+    ) -> Result<Vec<Vec<[f32; 3]>>, Error> {
+        let level = self.level.unwrap_or_else(Level::best);
+        let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
+        let inputs = LossInputs::new(ground_truth, predictions, None, comparison.convention());
+        inputs.texel_means(level, scenes, progress)
+    }
 }
 
 impl Compute for f32 {

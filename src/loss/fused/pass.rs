@@ -1,6 +1,6 @@
 //! One scene over the tile in cache: all materials are rendered and compared.
 
-use super::compare::LogProducts;
+use super::compare::LogDifferences;
 use super::inputs::LossInputs;
 use crate::render::simd::geometry::{Geometry, KernelScene, TileGeometry};
 use crate::render::simd::lanes::{Lanes, V};
@@ -41,13 +41,13 @@ impl LossTile {
 
     /// Adds the differences in one scene to the sums of the predictions. `distant` is the geometry of a distant scene.
     #[inline(always)]
-    pub(super) fn add<S: Lanes>(
+    pub(super) fn add<S: Lanes, D: LogDifferences<S>>(
         &mut self,
         simd: S,
         params: &ShadingParams,
         scene: &KernelScene,
         distant: Option<Geometry<V<S>>>,
-        sums: &mut [LogProducts<S>],
+        sums: &mut [D],
     ) {
         match distant {
             Some(geometry) => self.add_with(
@@ -73,12 +73,12 @@ impl LossTile {
     }
 
     #[inline(always)]
-    fn add_with<S: Lanes>(
+    fn add_with<S: Lanes, D: LogDifferences<S>>(
         &mut self,
         simd: S,
         params: &ShadingParams,
         scene: &KernelScene,
-        sums: &mut [LogProducts<S>],
+        sums: &mut [D],
         geometry: impl Fn(&TileGeometry, usize) -> Geometry<V<S>>,
     ) {
         let tile = &self.geometry;

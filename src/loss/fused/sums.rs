@@ -27,8 +27,7 @@ impl LossInputs<'_> {
         progress: &Progress,
         per_scene: &mut [Vec<f64>],
     ) -> Result<(), Error> {
-        let reach = self.ground_truth.grid().position::<DVec3>(0, 0).length();
-        let scenes: Vec<_> = scenes.iter().map(|s| KernelScene::new(s, self.convention, reach)).collect();
+        let scenes = self.kernel_scenes(scenes);
         let groups: Vec<_> = scenes.chunks(SCENES_PER_GROUP).collect();
         let sums = (0..groups.len() * self.blocks)
             .into_par_iter()
@@ -52,6 +51,12 @@ impl LossInputs<'_> {
             }
         }
         Ok(())
+    }
+
+    /// The scenes as the kernel takes them.
+    pub(super) fn kernel_scenes(&self, scenes: &[Scene]) -> Vec<KernelScene> {
+        let reach = self.ground_truth.grid().position::<DVec3>(0, 0).length();
+        scenes.iter().map(|scene| KernelScene::new(scene, self.convention, reach)).collect()
     }
 
     /// The sums of one block: for each scene, for each prediction.
