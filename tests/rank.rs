@@ -6,7 +6,8 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
 use svbrdf::dataset::{
-    KnownLoss, MaterialResult, Pick, PredictionResult, interval_of_mean, summarize, summarize_metrics,
+    KnownLoss, MaterialResult, Pick, PredictionResult, best_by_metric, interval_of_mean, summarize,
+    summarize_metrics,
 };
 use svbrdf::loss::{Comparison, Request};
 use svbrdf::material::Map;
@@ -172,4 +173,30 @@ fn metrics_over_materials_follow_the_pick_of_the_losses() {
     // Two materials without a first prediction do not count.
     assert!((mean("b", Pick::Fixed).mean - 4.0).abs() < 1e-12);
     assert!(summarize_metrics("c", &results, Pick::Mean).is_empty());
+}
+
+#[test]
+fn the_best_of_a_metric_ties_with_what_the_materials_cannot_separate() {
+    // Of a the losses differ by material far more than from those of b, which are larger everywhere; those of c are a little larger
+    // or smaller than those of a; d has no predictions.
+    let of = |material: usize| {
+        let base = 1.0 + material as f64;
+        let off = if material % 2 == 0 { 0.011 } else { -0.01 };
+        let mut result =
+            result(material, &[("a", Some(base)), ("b", Some(base + 0.1)), ("c", Some(base + off))]);
+        for prediction in &mut result.predictions {
+            let rmse = prediction.metrics["rmse_roughness"];
+            prediction.metrics.insert("ssim11_roughness".to_owned(), rmse);
+        }
+        result
+    };
+    let results: Vec<MaterialResult> = (0..8).map(of).collect();
+    let best = best_by_metric(&["a", "b", "c", "d"], &results, Pick::Fixed);
+    assert_eq!(best["rmse_roughness"], [true, false, true, false]);
+    // Of similarities the largest is the best.
+    assert_eq!(best["ssim11_roughness"], [false, true, false, false]);
+    assert_eq!(best.len(), 2);
+    // Two materials separate nothing.
+    let best = best_by_metric(&["a", "b"], &results[..2], Pick::Fixed);
+    assert_eq!(best["rmse_roughness"], [true, true]);
 }

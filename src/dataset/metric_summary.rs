@@ -1,6 +1,6 @@
 //! Metrics of maps over all materials.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::bootstrap::interval_of_mean;
 use super::record::{MaterialResult, PredictionResult};
@@ -21,21 +21,68 @@ pub fn summarize_metrics(
     results: &[MaterialResult],
     pick: Pick,
 ) -> BTreeMap<String, MetricSummary> {
-    let mut values: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
-    for result in results {
-        let counted = counted(result, method, pick);
-        for name in counted.first().map(|prediction| prediction.metrics.keys()).into_iter().flatten() {
-            let all = counted.iter().filter_map(|prediction| prediction.metrics.get(name));
-            values.entry(name).or_default().push(all.sum::<f64>() / counted.len() as f64);
-        }
-    }
-    let summary = |(name, mut values): (&str, Vec<f64>)| {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let summary = |(name, values): (&str, BTreeMap<usize, f64>)| {
+        let mut values: Vec<f64> = values.into_values().collect();
+        let mean = mean(&values);
         let interval95_materials = interval_of_mean(&values);
         let median = median(&mut values);
         (name.to_owned(), MetricSummary { mean, median, interval95_materials })
     };
-    values.into_iter().map(summary).collect()
+    values_of(method, results, pick).into_iter().map(summary).collect()
+}
+
+/// Whether larger values of a metric are better ones: similarities and signal-to-noise ratios.
+pub fn is_better_larger(metric: &str) -> bool {
+    ["ssim", "psnr"].iter().any(|start| metric.starts_with(start))
+}
+
+/// For each metric by name: which of `methods` is the best one, or cannot be separated from it. That is where the 95% interval of the
+/// mean of their differences, over the materials of both, includes 0 or is unknown.
+pub fn best_by_metric(
+    methods: &[&str],
+    results: &[MaterialResult],
+    pick: Pick,
+) -> BTreeMap<String, Vec<bool>> {
+    let values: Vec<_> = methods.iter().map(|method| values_of(method, results, pick)).collect();
+    let names: BTreeSet<&str> = values.iter().flat_map(|values| values.keys().copied()).collect();
+    let none = BTreeMap::new();
+    let best_of = |name: &str| {
+        let sign = if is_better_larger(name) { -1.0 } else { 1.0 };
+        let of: Vec<&BTreeMap<usize, f64>> =
+            values.iter().map(|values| values.get(name).unwrap_or(&none)).collect();
+        let known = of.iter().filter(|values| !values.is_empty());
+        let cost = |values: &BTreeMap<usize, f64>| sign * mean(&values.values().copied().collect::<Vec<_>>());
+        let best = known.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let ties = |values: &&BTreeMap<usize, f64>| {
+            let Some(best) = best.filter(|_| !values.is_empty()) else { return false };
+            let paired =
+                values.iter().filter_map(|(material, value)| Some(sign * (value - best.get(material)?)));
+            interval_of_mean(&paired.collect::<Vec<_>>()).is_none_or(|[low, _]| low <= 0.0)
+        };
+        of.iter().map(ties).collect()
+    };
+    names.into_iter().map(|name| (name.to_owned(), best_of(name))).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// For each metric the value of each material, by its index among all.
+fn values_of<'a>(
+    method: &str,
+    results: &'a [MaterialResult],
+    pick: Pick,
+) -> BTreeMap<&'a str, BTreeMap<usize, f64>> {
+    let mut values: BTreeMap<&str, BTreeMap<usize, f64>> = BTreeMap::new();
+    for result in results {
+        let counted = counted(result, method, pick);
+        for name in counted.first().map(|prediction| prediction.metrics.keys()).into_iter().flatten() {
+            let all = counted.iter().filter_map(|prediction| prediction.metrics.get(name));
+            values.entry(name).or_default().insert(result.index, all.sum::<f64>() / counted.len() as f64);
+        }
+    }
+    values
 }
 
 /// The predictions of a material by a method that count: those with a loss.

@@ -98,6 +98,11 @@ fn a_ranking_of_a_data_set_has_metrics_of_the_maps() {
     }
     let table = succeed(folder.path(), rank);
     assert!(table.contains("metric, mean over materials") && table.contains("rmse_roughness"), "{table}");
+    let latex = succeed(folder.path(), &format!("{rank} --format latex"));
+    assert_eq!(latex.matches("\\begin{tabular}").count(), 2, "{latex}");
+    // The roughness of theirs is worse in every material, the normals are the same.
+    assert!(latex.contains("rmse\\_roughness $\\downarrow$ & \\textbf{0.0314} & 0.1569 \\\\"), "{latex}");
+    assert!(latex.contains("degrees $\\downarrow$ & \\textbf{0.0000} & \\textbf{0.0000} \\\\"), "{latex}");
     let rows = succeed(folder.path(), &format!("{rank} --format csv"));
     let mut rows = csv::Reader::from_reader(rows.as_bytes());
     let column = rows.headers().unwrap().iter().position(|name| name == "l1_roughness").unwrap();

@@ -1,4 +1,4 @@
-//! Ctrl+C while files are written.
+//! Ctrl+C while files are written, and a data-set run that is killed.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -7,7 +7,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use super::{files, folder};
+use super::{files, folder, succeed, write_material};
 
 /// Width and height of the material: writing it takes a while.
 const LARGE: u32 = 1024;
@@ -45,7 +45,7 @@ fn is_interrupted(status: ExitStatus) -> bool {
 #[test]
 fn an_interrupt_at_any_moment_leaves_what_was_there() {
     let folder = folder();
-    super::write_material(&folder.path().join("large.png"), LARGE, 90);
+    write_material(&folder.path().join("large.png"), LARGE, 90);
     for (out, target, signal) in [
         ("out.exr --depth float", "out.exr", "INT"),
         ("out.png --depth 16", "out.png", "TERM"),
@@ -85,5 +85,55 @@ fn an_interrupt_at_any_moment_leaves_what_was_there() {
         send(signal, &child);
         assert!(is_interrupted(child.wait().unwrap()), "{out}");
         assert_eq!(files(folder.path()), before);
+    }
+}
+
+/// A data set of so many materials that a run of it can be killed on its way.
+fn data_set() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        for i in 0..MATERIALS {
+            write_material(&folder.path().join(name).join(format!("m{i:02}.png")), 32, 60 + i + more);
+        }
+    }
+    fs::write(folder.path().join("theirs/m03.png"), "not an image").unwrap();
+    folder
+}
+
+const MATERIALS: u8 = 12;
+const RANK: &str = "rank --dataset gt ours theirs --target-error 3% --metrics";
+
+#[test]
+fn a_data_set_run_that_is_killed_and_continued_prints_the_bytes_of_a_whole_one() {
+    let folder = data_set();
+    let journal = folder.path().join("run.jsonl");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_svbrdf"))
+        .args(RANK.split(' ').chain(["--journal", "run.jsonl"]))
+        .current_dir(folder.path())
+        // One material after the other: many cores would be done with all at once.
+        .env("RAYON_NUM_THREADS", "1")
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // The settings and two materials.
+    let lines = || fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
+    while lines() < 3 && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    let left = fs::read(&journal).unwrap();
+    let done = lines();
+    assert!((3..=usize::from(MATERIALS)).contains(&done), "{done} lines: the run was not interrupted");
+    for format in ["csv", "json", "latex"] {
+        let whole = succeed(folder.path(), &format!("{RANK} --format {format} --journal whole.jsonl"));
+        fs::write(&journal, &left).unwrap();
+        let continued = succeed(folder.path(), &format!("{RANK} --format {format} --journal run.jsonl"));
+        assert_eq!(continued, whole, "{format}");
+        assert_eq!(fs::read(&journal).unwrap(), fs::read(folder.path().join("whole.jsonl")).unwrap());
+        fs::remove_file(folder.path().join("whole.jsonl")).unwrap();
     }
 }

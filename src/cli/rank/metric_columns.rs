@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 use svbrdf::dataset::{
-    MaterialResult, MethodSummary, MetricSummary, Pick, PredictionResult, summarize_metrics,
+    MaterialResult, MethodSummary, MetricSummary, Pick, PredictionResult, best_by_metric, is_better_larger,
+    summarize_metrics,
 };
 
 use crate::cli::table;
@@ -36,6 +37,31 @@ pub fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -
     };
     let rows: Vec<Vec<String>> = [heading].into_iter().chain(names.iter().map(|name| row(name))).collect();
     format!("\n{}", table::aligned(&rows))
+}
+
+/// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
+/// without metrics.
+pub fn latex(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
+    let methods: Vec<&str> = methods.iter().map(|summary| summary.method.as_str()).collect();
+    let best = best_by_metric(&methods, results, pick);
+    if best.is_empty() {
+        return String::new();
+    }
+    let columns: Vec<_> = methods.iter().map(|method| summarize_metrics(method, results, pick)).collect();
+    let row = |(name, best): (&String, &Vec<bool>)| {
+        let cell = |(metrics, &best): (&BTreeMap<String, MetricSummary>, &bool)| {
+            metrics
+                .get(name)
+                .map_or("--".to_owned(), |metric| table::bold(&format!("{:.4}", metric.mean), best))
+        };
+        let cells: Vec<String> = columns.iter().zip(best).map(cell).collect();
+        let arrow = if is_better_larger(name) { "$\\uparrow$" } else { "$\\downarrow$" };
+        format!("{} {arrow} & {} \\\\\n", table::escaped(name), cells.join(" & "))
+    };
+    let rows: String = best.iter().map(row).collect();
+    let names: Vec<String> = methods.iter().map(|method| table::escaped(method)).collect();
+    let heading = format!("Metric, mean over materials & {}", names.join(" & "));
+    format!("\n{}", table::latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
 }
 
 fn cells(metric: Option<&MetricSummary>) -> [String; 2] {
