@@ -20,7 +20,6 @@ mod gpu_parity;
 mod layering;
 mod metrics;
 mod mutations;
-mod photograph;
 mod physics;
 mod rank;
 mod reading;

@@ -21,8 +21,8 @@ use super::{exit, materials, table};
 /// Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the mean over scenes,
 /// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
 /// texels; it is unknown with a single scene of a kind. Without options that choose scenes: the loss over all
-/// scenes to +-1%, and the loss over the 6 + 3 scenes of the papers; of a session, what its window asked for. Without GT and PRED:
-/// the built-in materials.
+/// scenes to +-1%, and the loss over the 6 + 3 scenes of the papers; of a session, what its window asked for. A folder of training
+/// steps, such as NAME_step000100.png or epoch_12/, stands for all its steps. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 pub struct LossArgs {
     /// Number of near-field scenes [default: 6]
@@ -81,7 +81,9 @@ pub struct LossArgs {
 /// # Errors
 /// Where a material or the scenes cannot be read or used; with `--strict` where a target error is not reached, after the
 /// losses are printed.
-pub fn run(args: &LossArgs) -> Result<(), Error> {
+pub fn run(mut args: LossArgs) -> Result<(), Error> {
+    let steps = args.comparison.materials.expand_steps()?;
+    let args = &args;
     table::check_predictions(&args.comparison.materials)?;
     let saved = saved_request(args)?;
     let is_chosen = saved.is_some() || chooses_scenes(args);
@@ -96,7 +98,7 @@ pub fn run(args: &LossArgs) -> Result<(), Error> {
             Ok(Report::new(&comparison, outcome))
         })?,
     };
-    let printed = Printed { missed: missed(&request, &report), report, request, paths: paths(args) };
+    let printed = Printed { missed: missed(&request, &report), report, request, paths: paths(args), steps };
     exit::put(&args.format.write(&printed).map_err(exit::unwritable)?)?;
     match printed.missed {
         Some(missed) if args.comparison.materials.reading.both.strict => Err(missed),

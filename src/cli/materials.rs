@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use svbrdf::error::Error;
 use svbrdf::files::read::{self, Binding, Read, ReadOptions};
 use svbrdf::files::session::{Session, SessionMaterial};
+use svbrdf::files::steps::runs_in;
 use svbrdf::material::Material;
 use svbrdf::math::real::Real;
 use svbrdf::report::distinct_names;
@@ -32,6 +33,28 @@ pub struct MaterialArgs {
 
     #[command(flatten)]
     pub reading: PairReadingArgs,
+}
+
+impl MaterialArgs {
+    /// Puts the steps of training runs in the place of each prediction that is a folder of them. Returns the number of the step of
+    /// each prediction.
+    ///
+    /// # Errors
+    /// Where a folder cannot be listed.
+    pub fn expand_steps(&mut self) -> Result<Vec<Option<u64>>, Error> {
+        let mut expanded = Vec::new();
+        for path in std::mem::take(&mut self.predictions) {
+            let runs = if path.is_dir() { runs_in(&path)? } else { Vec::new() };
+            if runs.is_empty() {
+                expanded.push((path, None));
+            }
+            let steps = runs.into_iter().flat_map(|run| run.steps);
+            expanded.extend(steps.map(|step| (step.path, Some(step.number))));
+        }
+        let (paths, steps) = expanded.into_iter().unzip();
+        self.predictions = paths;
+        Ok(steps)
+    }
 }
 
 /// The ground truth and its predictions.

@@ -13,7 +13,6 @@ mod map;
 mod materials;
 mod metric_table;
 mod metrics;
-mod photo;
 mod protocol;
 mod rank;
 mod reading;
@@ -41,11 +40,10 @@ Examples:
   svbrdf gt.png prediction.png            opens your own materials
   svbrdf loss gt.png a.png b.png          prints the losses of two predictions
   svbrdf loss gt.png a.png --format json  the same as JSON
+  svbrdf loss gt.png run/ --format csv    prints the loss of each step of a training run
   svbrdf blame gt.png prediction.png      prints how much of the loss comes from each map
   svbrdf render gt.png -o gt.exr          renders to linear floats
   svbrdf strip gt.png a.png -o fig.png    writes a labelled figure of maps and renderings
-  svbrdf photo photo.jpg a.png --flash --fov 45
-                                          compares renderings with a photograph
   svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
   svbrdf info gt.png                      prints what the files hold and what was assumed
   svbrdf convert gt.png gt.exr            writes the material as one layered EXR
@@ -83,7 +81,6 @@ enum Subcommands {
     Worst(worst::WorstArgs),
     Map(map::MapArgs),
     Metrics(metrics::MetricsArgs),
-    Photo(photo::PhotoArgs),
     Study(study::StudyArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
@@ -97,7 +94,7 @@ impl Cli {
     pub fn run(self) -> Result<(), Error> {
         match self.command.unwrap_or(Subcommands::View(self.view)) {
             Subcommands::View(args) => view::run(args),
-            Subcommands::Loss(args) => loss::run(&args),
+            Subcommands::Loss(args) => loss::run(args),
             Subcommands::Render(args) => render::run(&args),
             Subcommands::Strip(args) => strip::run(&args),
             Subcommands::Rank(args) => rank::run(args),
@@ -106,7 +103,6 @@ impl Cli {
             Subcommands::Worst(args) => worst::run(&args),
             Subcommands::Map(args) => map::run(&args),
             Subcommands::Metrics(args) => metrics::run(&args),
-            Subcommands::Photo(args) => photo::run(&args),
             Subcommands::Study(args) => study::run(&args),
             Subcommands::Info(args) => info::run(&args),
             Subcommands::Convert(args) => convert::run(&args),

@@ -23,4 +23,7 @@ pub(crate) mod atomic;
 pub mod atomic;
 pub mod read;
 pub mod session;
+pub mod stamp;
+mod step_names;
+pub mod steps;
 pub mod write;

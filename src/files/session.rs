@@ -51,6 +51,9 @@ pub struct SessionMaterial {
     /// Whether it is resized to the ground truth.
     #[serde(default)]
     pub fit: bool,
+    /// Whether it is a step of a training run whose other steps the window has at hand.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub steps: bool,
 }
 
 impl Session {
@@ -160,8 +163,13 @@ mod tests {
 
     fn session(paths: &[PathBuf]) -> Session {
         let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };
-        let material =
-            |path: &PathBuf| SessionMaterial { path: Some(path.clone()), built_in: None, read, fit: true };
+        let material = |path: &PathBuf| SessionMaterial {
+            path: Some(path.clone()),
+            built_in: None,
+            read,
+            fit: true,
+            steps: false,
+        };
         let scene = Scene { kind: Kind::Distant, view: [0.1, 0.2, 1.0], light: [0.3, 0.1, 0.7] };
         Session::new(paths.iter().map(material).collect(), scene, "guided-2020".to_owned(), -0.5)
     }

@@ -25,10 +25,11 @@ use super::panels::save::SaveWindow;
 use super::scene_loss::SceneLossRun;
 use super::settings::{self, Settings};
 use super::slots::{Slot, Slots, Target};
-use super::source::Source;
+use super::source::{self, Source};
 use super::state::ViewState;
 use super::stop::Stop;
 use super::study::StudyRun;
+use super::training::Training;
 use super::values_run::ValuesRun;
 use super::viewport::Viewport;
 use super::watch::Watch;
@@ -70,6 +71,7 @@ pub struct App {
     pub(super) gpu: Option<GpuView>,
     pub(super) viewport: Viewport,
     pub(super) watch: Watch,
+    pub(super) training: Training,
     pub(super) browsing: Option<Task<Browsed>>,
     pub(super) saving: Option<Task<PathBuf>>,
     pub(super) open_window: Option<OpenWindow>,
@@ -131,6 +133,7 @@ impl App {
             gpu,
             viewport: Viewport::default(),
             watch: Watch::default(),
+            training: Training::default(),
             browsing: None,
             saving: None,
             open_window: None,
@@ -164,7 +167,7 @@ impl App {
         let Some(ground_truth) = options.ground_truth else {
             return self.slots.open_built_in(ctx, self.gpu.as_ref().map(|g| &g.gpu));
         };
-        let predictions = options.predictions.into_iter().map(|p| Source::file(p, options.prediction_read));
+        let predictions = source::sources(&options.predictions, options.prediction_read);
         let ground_truth = Source::file(ground_truth, options.ground_truth_read);
         let sources = std::iter::once(ground_truth).chain(predictions).collect();
         self.slots.open(ctx, self.gpu.as_ref().map(|g| &g.gpu), sources, Target::Everything);
@@ -196,6 +199,7 @@ impl App {
         if let Some(rest) = self.messages.expire(self.now) {
             ctx.request_repaint_after_secs(rest as f32);
         }
+        self.slots.patient = self.settings.watch;
         self.poll_readings(ctx);
         let error = self.study.poll(ctx);
         self.report(error.map(Message::Failed));
@@ -208,6 +212,7 @@ impl App {
         } else {
             self.watch.stop();
         }
+        self.follow_training(ctx);
         // A loss of materials that are not all there yet would be computed in vain.
         let auto = self.settings.auto_loss && !self.slots.expects_more();
         self.loss.follow(ctx, &self.slots, &self.asked(), auto);
@@ -239,12 +244,9 @@ impl App {
     fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
         let paths: Vec<PathBuf> =
             ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
-        (!paths.is_empty()).then(|| self.opened_from_outside(paths).into())
-    }
-
-    /// Opens files that were dropped or pasted: in place of the built-in materials, otherwise as predictions.
-    pub(super) fn opened_from_outside(&self, paths: Vec<PathBuf>) -> MaterialsCommand {
-        MaterialsCommand::Open { paths, replace: self.slots.only_built_in(), read: ReadOptions::AUTO }
+        let replace = self.slots.only_built_in();
+        (!paths.is_empty())
+            .then_some(MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO }.into())
     }
 }
 

@@ -30,6 +30,7 @@ pub enum Command {
     Window(WindowCommand),
     Inspect(InspectCommand),
     Why(WhyCommand),
+    Training(TrainingCommand),
 }
 
 /// Files and materials.
@@ -99,7 +100,7 @@ pub enum SceneCommand {
     SetConvention(&'static str),
     /// Puts the scene on the clipboard as a scene file.
     Copy,
-    /// Takes the scene, or opens the files, that this text of the clipboard names.
+    /// Takes the scene from this text of the clipboard.
     Paste(String),
 }
 
@@ -227,6 +228,23 @@ pub enum WhyCommand {
     /// Searches the worst scene of the chosen prediction, and shows it.
     FindWorst,
     CancelSearch,
+}
+
+/// The steps of training runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrainingCommand {
+    /// Shows the step of this number of the run in slot `slot`.
+    Show { slot: usize, number: u64 },
+    /// Goes this many steps on in the run of the chosen prediction; stops at either end.
+    Move(isize),
+    /// Opens the step that is shown in this slot as a prediction of its own.
+    Keep(usize),
+}
+
+impl From<TrainingCommand> for Command {
+    fn from(command: TrainingCommand) -> Self {
+        Self::Training(command)
+    }
 }
 
 impl From<WhyCommand> for Command {

@@ -13,6 +13,7 @@ use super::panels::scene::ScenePanel;
 use super::panels::status::StatusBar;
 use super::panels::study::StudyWindow;
 use super::panels::top::TopBar;
+use super::panels::training::TrainingPanel;
 use super::panels::values::ValueStrip;
 use super::panels::why::WhyPanel;
 use super::panes::Scenery;
@@ -174,7 +175,15 @@ impl App {
             slots: &self.slots,
             chosen: self.state.prediction,
         };
-        loss.ui(ui)
+        let mut commands = loss.ui(ui);
+        let training = TrainingPanel {
+            runs: self.training.views(&self.slots.slots),
+            chosen: self.state.prediction,
+            watch: self.settings.watch,
+            busy: self.training.losses.busy(),
+        };
+        commands.extend(training.ui(ui));
+        commands
     }
 
     fn why_tab(&self, ui: &mut egui::Ui) -> Vec<Command> {

@@ -3,7 +3,8 @@
 use eframe::egui::{self, Key, Modifiers};
 
 use super::command::{
-    Command, DisplayCommand, InspectCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
+    Command, DisplayCommand, InspectCommand, LossCommand, MaterialsCommand, SceneCommand, TrainingCommand,
+    WindowCommand,
 };
 
 /// Every gesture and key with its effect, for the help window and the README.
@@ -25,6 +26,7 @@ pub const HELP: &[(&str, &str)] = &[
     ("X", "swap prediction and ground truth"),
     ("1 .. 9", "choose the prediction"),
     ("Ctrl + Up / Down", "previous / next prediction"),
+    (", / .", "previous / next step of a training run"),
     ("C", "layout: side by side, wipe, single"),
     ("D", "value / difference from the ground truth"),
     ("P", "flat / perspective"),
@@ -46,9 +48,9 @@ pub const HELP: &[(&str, &str)] = &[
         "undo / redo light, view, display and set of materials (redo also: Ctrl + Y)",
     ),
     ("Ctrl + plus / minus / 0", "size of text and controls"),
-    ("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene, or paths of materials"),
+    ("Ctrl + C / Ctrl + V", "copy / paste the scene as JSON"),
     ("double-click a number", "reset it to its default"),
-    ("?, F1", "this help"),
+    ("?", "this help"),
 ];
 
 /// What the commands of the keys depend on.
@@ -126,7 +128,8 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (none, Key::R, DisplayCommand::Reset.into()),
         (none, Key::I, InspectCommand::TogglePinHere.into()),
         (none, Key::Q, InspectCommand::Arm(true).into()),
-        (none, Key::F1, WindowCommand::ShowHelp(true).into()),
+        (none, Key::Comma, TrainingCommand::Move(-1).into()),
+        (none, Key::Period, TrainingCommand::Move(1).into()),
         (none, Key::Escape, now.escape.clone()),
     ];
     let digits =

@@ -1,11 +1,12 @@
 //! A material in the window, with all that was learnt in reading it.
 
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use super::source::{Origin, Source};
 use crate::error::Error;
 use crate::files::read::{Assumption, MapReport, Note, Read, ReadOptions};
+use crate::files::stamp::Stamp;
+use crate::files::steps::RunId;
 use crate::gpu::{Gpu, MaterialTextures};
 use crate::material::Material;
 
@@ -21,14 +22,16 @@ pub(super) struct Loaded {
     pub kept: ReadOptions,
     /// Whether it is resized to the ground truth.
     pub(super) fit: bool,
+    /// The training run that it is a step of.
+    pub run: Option<RunId>,
     pub material: Material<f32>,
     /// Remarks on the reading.
     pub notes: Vec<Note>,
     pub assumptions: Vec<Assumption>,
     /// Each map as stored.
     pub maps: Vec<MapReport>,
-    /// The files that were read, each with its time of last change.
-    pub files: Vec<(PathBuf, Option<SystemTime>)>,
+    /// The files that were read, each with its stamp.
+    pub files: Vec<(PathBuf, Option<Stamp>)>,
     /// `None` without an adapter; an error where the adapter cannot hold the material.
     pub textures: Option<Result<MaterialTextures, String>>,
 }
@@ -45,13 +48,14 @@ impl Loaded {
     /// This material with other maps, which no file holds.
     pub(super) fn with_material(&self, material: Material<f32>, gpu: Option<&Gpu>) -> Self {
         let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &material).map_err(|e| e.to_string()));
-        let Self { origin, asked, read, kept, fit, .. } = self;
+        let Self { origin, asked, read, kept, fit, run, .. } = self;
         Self {
             origin: origin.clone(),
             asked: *asked,
             read: *read,
             kept: *kept,
             fit: *fit,
+            run: run.clone(),
             material,
             notes: Vec::new(),
             assumptions: Vec::new(),
@@ -61,11 +65,18 @@ impl Loaded {
         }
     }
 
+    /// The training run that it is a step of, and the number of the step.
+    pub(super) fn step(&self) -> Option<(&RunId, u64)> {
+        let (_, number) = RunId::of_step(self.path())?;
+        Some((self.run.as_ref()?, number))
+    }
+
     /// What it takes to open it again.
     pub(super) fn source(&self) -> Source {
         let chosen = matches!(self.origin, Origin::Path(_)) && self.read != self.asked.over(self.kept);
         let exactly = chosen.then_some(self.read);
-        Source { origin: self.origin.clone(), asked: self.asked, exactly, fit: self.fit }
+        let (origin, run) = (self.origin.clone(), self.run.clone());
+        Source { origin, asked: self.asked, exactly, fit: self.fit, run }
     }
 }
 
@@ -84,6 +95,8 @@ pub(super) struct Reader {
     pub(super) rules: Rules,
     /// The size of the ground truth, once it is known.
     pub(super) size: Option<[usize; 2]>,
+    /// Whether a file that cannot be read is waited for, where it was written a moment ago.
+    pub(super) patient: bool,
 }
 
 impl Reader {
@@ -96,6 +109,9 @@ impl Reader {
     ) -> Result<Loaded, Error> {
         if self.rules.strict {
             read.refuse_guesses(path)?;
+        }
+        if let (Some(run), Some((_, number))) = (&source.run, RunId::of_step(path)) {
+            read.material = read.material.renamed(run.step_name(number));
         }
         source.fit |= self.rules.fit;
         let from = read.material.size();
@@ -110,13 +126,21 @@ impl Reader {
 
 pub(super) fn loaded(source: Source, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
     let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
-    let files = read.files.into_iter().map(|path| (changed(&path), path)).map(|(t, p)| (p, t)).collect();
+    let files = read.files.into_iter().map(|path| (Stamp::of(&path), path)).map(|(s, p)| (p, s)).collect();
     let Read { material, assumptions, notes, maps, options, saved: kept, .. } = read;
-    let Source { origin, asked, fit, .. } = source;
-    Loaded { origin, asked, read: options, kept, fit, material, notes, assumptions, maps, files, textures }
-}
-
-/// When a file was last changed; `None` where the system does not tell.
-pub(super) fn changed(path: &Path) -> Option<SystemTime> {
-    std::fs::metadata(path).and_then(|m| m.modified()).ok()
+    let Source { origin, asked, fit, run, .. } = source;
+    Loaded {
+        origin,
+        asked,
+        read: options,
+        kept,
+        fit,
+        run,
+        material,
+        notes,
+        assumptions,
+        maps,
+        files,
+        textures,
+    }
 }

@@ -51,10 +51,9 @@ pub struct SizeMismatch {
     pub source: Source,
 }
 
-/// Why the clipboard's text was not taken.
+/// Why the clipboard's text did not become the scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PasteProblem {
-    /// It is neither a scene nor paths of files.
     NoScene,
     /// It has a scene that cannot be rendered, for this reason.
     Unusable(String),
@@ -110,8 +109,7 @@ impl fmt::Display for Message {
                 write!(f, "Not opened, because the ground truth could not be read: {}.", names.join(", "))
             }
             Self::NotPasted(PasteProblem::NoScene) => f.write_str(
-                "Not pasted: the clipboard holds neither a scene nor paths of files. Copy a scene from this window or \
-                 from a scene file, or files of materials.",
+                "Not pasted: the clipboard holds no scene. Copy one from this window or from a scene file.",
             ),
             Self::NotPasted(PasteProblem::Unusable(problem)) => {
                 write!(f, "Not pasted: the scene cannot be rendered, {problem}.")

@@ -16,6 +16,7 @@ pub(crate) mod command;
 #[cfg(feature = "testing")]
 pub mod command;
 mod follow;
+mod follow_training;
 mod gestures;
 mod gpu_view;
 mod handles;
@@ -44,7 +45,6 @@ mod pace;
 mod pane_text;
 mod panels;
 mod panes;
-mod pasted;
 mod polling;
 
 mod difference_run;
@@ -77,6 +77,7 @@ mod stop;
 mod study;
 mod theme;
 mod title;
+mod training;
 mod values_run;
 mod viewport;
 mod visible;

@@ -2,7 +2,8 @@
 
 use super::app::App;
 use super::message::Message;
-use crate::loss::Loss;
+use super::training::RunView;
+use crate::loss::{Estimate, Loss};
 use crate::material::Material;
 use crate::picture::statistics::Statistics;
 use crate::study::Study;
@@ -72,6 +73,20 @@ impl App {
     /// Whether the worst scene is being searched.
     pub fn is_searching(&self) -> bool {
         self.why.search.busy().is_some()
+    }
+
+    /// The training runs in the window: the place of the prediction, the numbers of the steps, and the step that is shown.
+    pub fn training_runs(&self) -> Vec<(usize, Vec<u64>, u64)> {
+        let views = self.training.views(&self.slots.slots);
+        let numbers = |view: &RunView<'_>| view.run.steps.iter().map(|step| step.number).collect();
+        views.iter().map(|view| (view.slot, numbers(view), view.shown)).collect()
+    }
+
+    /// The losses of the steps of the run in this place, as far as they are known.
+    pub fn step_losses(&self, slot: usize) -> Vec<Option<Result<Estimate, String>>> {
+        let views = self.training.views(&self.slots.slots);
+        let view = views.iter().find(|view| view.slot == slot);
+        view.map_or(Vec::new(), |view| view.losses.iter().map(|loss| loss.cloned()).collect())
     }
 
     /// The names of the materials, the ground truth first.

@@ -9,6 +9,7 @@ use super::source::{Origin, Source};
 use super::state::ViewState;
 use crate::files::read::ReadOptions;
 use crate::files::session::{Session, SessionMaterial};
+use crate::files::steps::RunId;
 
 /// The fields of the view that are in the session itself.
 const ELSEWHERE: [&str; 3] = ["scene", "convention", "exposure_ev"];
@@ -24,7 +25,8 @@ impl App {
                 Origin::BuiltIn(number) => (None, Some(*number)),
             };
             let read = if built_in.is_some() { ReadOptions::AUTO } else { slot.loaded.read };
-            SessionMaterial { path, built_in, read, fit: slot.loaded.fit }
+            let steps = slot.loaded.run.is_some();
+            SessionMaterial { path, built_in, read, fit: slot.loaded.fit, steps }
         });
         let state = &self.state;
         let convention = state.convention.clone();
@@ -49,6 +51,8 @@ impl App {
             self.settings.loss = loss;
         }
         let sources: Vec<_> = session.materials.iter().filter_map(source).collect();
+        // They show the step that was saved, whatever has come since.
+        self.training.held.extend(sources.iter().filter_map(|source| source.run.clone()));
         let gpu = self.gpu.as_ref().map(|g| &g.gpu);
         self.slots.restore(ctx, gpu, &sources);
     }
@@ -62,12 +66,15 @@ impl App {
 }
 
 fn source(material: &SessionMaterial) -> Option<Source> {
-    let origin = match (&material.path, material.built_in) {
-        (Some(path), _) => Origin::Path(path.clone()),
+    let (origin, run) = match (&material.path, material.built_in) {
+        (Some(path), _) => {
+            let run = RunId::of_step(path).filter(|_| material.steps);
+            (Origin::Path(path.clone()), run.map(|(run, _)| run))
+        }
         (None, number) => return number.map(Source::built_in),
     };
     let (read, fit) = (material.read, material.fit);
-    Some(Source { origin, asked: read, exactly: Some(read), fit })
+    Some(Source { origin, asked: read, exactly: Some(read), fit, run })
 }
 
 fn value(of: &impl Serialize) -> Value {

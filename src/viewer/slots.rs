@@ -21,6 +21,8 @@ pub(super) struct Slots {
     pub slots: Vec<Slot>,
     pub openings: Vec<Opening>,
     pub rules: Rules,
+    /// Whether materials that change on disk are read again, so that files that are just being written are waited for.
+    pub patient: bool,
     /// The paths that have been opened since they were last taken.
     pub opened: Vec<PathBuf>,
     /// The paths that have been read, whether for the first time or again, since they were last taken.
@@ -42,9 +44,9 @@ impl Slots {
         self.slots.iter().all(|s| matches!(s.loaded.origin, Origin::BuiltIn(_)))
     }
 
-    /// What it takes to open these materials again.
+    /// What it takes to open this set of materials again.
     pub(super) fn sources(&self) -> Vec<Source> {
-        self.slots.iter().map(|slot| slot.loaded.source()).collect()
+        self.slots.iter().map(|slot| slot.loaded.source().of_set()).collect()
     }
 
     /// Whether materials are being read that are not in the window yet.
@@ -72,7 +74,11 @@ impl Slots {
     /// Makes these the materials in the window. Those that are there already are not read again.
     pub(super) fn restore(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, sources: &[Source]) {
         let mut there = self.slots.clone();
-        let item = |source: &Source| match there.iter().position(|slot| slot.loaded.source() == *source) {
+        let is = |slot: &Slot, source: &Source| {
+            let there = slot.loaded.source();
+            there == *source || there.of_set() == *source
+        };
+        let item = |source: &Source| match there.iter().position(|slot| is(slot, source)) {
             Some(index) => Item::Kept(there.remove(index)),
             None => Item::Read(source.clone()),
         };
@@ -98,7 +104,9 @@ impl Slots {
             Target::Again(id) => *id != ground_truth.id,
         });
         let size = ground_truth.map(|slot| slot.loaded.material.size());
-        Reader { gpu: gpu.cloned(), rules: self.rules, size }
+        // A person who opens a file is told at once what is wrong with it.
+        let patient = self.patient && matches!(target, Target::Again(_));
+        Reader { gpu: gpu.cloned(), rules: self.rules, size, patient }
     }
 
     /// Takes over the materials that have been read since the last call; returns what went wrong.
@@ -171,7 +179,7 @@ impl Slots {
             return problems.push(Message::Refused(Box::new(sizes)));
         }
         if let Origin::Path(path) = &loaded.origin {
-            self.opened.push(path.clone());
+            self.opened.push(loaded.run.as_ref().map_or(path, |run| &run.folder).clone());
             self.read.push(path.clone());
         }
         let id = self.new_id();
@@ -206,6 +214,11 @@ impl Slots {
                 self.again(ctx, gpu, index, |_| {});
             }
         }
+    }
+
+    /// Reads the step at `path` of the training run in slot `index`.
+    pub(super) fn show_step(&mut self, ctx: &egui::Context, gpu: Option<&Gpu>, index: usize, path: PathBuf) {
+        self.again(ctx, gpu, index, |source| source.origin = Origin::Path(path));
     }
 
     /// Reads the material at `index` again with these options alone.

@@ -1,4 +1,6 @@
 //! Files that change on disk, detected on a thread of their own: the window is drawn again only after a change.
+//!
+//! A file that is being written is left alone: a change counts once the file is the same in two checks, or was written a while ago.
 
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
@@ -7,14 +9,16 @@ use std::time::{Duration, SystemTime};
 
 use eframe::egui;
 
-use super::loaded::changed;
 use super::slots::Slots;
+use crate::files::stamp::Stamp;
 
 /// Time between two checks.
-const INTERVAL: Duration = Duration::from_secs(1);
+pub(super) const INTERVAL: Duration = Duration::from_secs(1);
+/// A file that was written before this time is complete.
+pub(super) const QUIET: Duration = Duration::from_secs(3);
 
-/// The files of each material, by its id, with the times of their last change when they were read.
-type Files = Vec<(u64, Vec<(PathBuf, Option<SystemTime>)>)>;
+/// The files of each material, by its id, with their stamps when they were read.
+type Files = Vec<(u64, Vec<(PathBuf, Option<Stamp>)>)>;
 
 /// What has happened to the files of a material.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,36 +105,51 @@ impl Watcher {
 #[derive(Debug, Default)]
 struct Check {
     files: Files,
-    reported: HashMap<PathBuf, SystemTime>,
+    reported: HashMap<PathBuf, Stamp>,
+    /// As they were at the last check.
+    seen: HashMap<PathBuf, Stamp>,
+    /// Not there at the last check: a file that is replaced may be missing for a moment.
+    missing: HashSet<PathBuf>,
+    /// Reported to be gone.
     gone: HashSet<PathBuf>,
 }
 
 impl Check {
     /// What has happened to each material since the last call: a file has changed since it was read and since it was last
-    /// reported, is gone, or is back.
+    /// reported, is gone for two checks, or is back. A material with a file that is being written has not changed yet.
     fn changes(&mut self) -> Vec<(u64, Change)> {
+        let now = SystemTime::now();
+        let (mut seen, mut missing) = (HashMap::new(), HashSet::new());
         let mut changes = Vec::new();
         for (id, files) in &self.files {
-            let (mut is_changed, mut is_back, mut gone) = (false, false, None);
+            let (mut changed, mut is_still, mut is_back, mut gone) = (Vec::new(), true, false, None);
             for (path, read) in files {
-                let Some(now) = changed(path) else {
-                    if self.gone.insert(path.clone()) {
+                let Some(stamp) = Stamp::of(path) else {
+                    missing.insert(path.clone());
+                    if self.missing.contains(path) && self.gone.insert(path.clone()) {
                         gone = Some(path.clone());
                     }
                     continue;
                 };
                 is_back |= self.gone.remove(path);
-                if Some(now) != *read {
-                    is_changed |= self.reported.insert(path.clone(), now) != Some(now);
+                is_still &= self.seen.get(path) == Some(&stamp) || !stamp.is_younger_than(QUIET, now);
+                seen.insert(path.clone(), stamp);
+                if Some(stamp) != *read && self.reported.get(path) != Some(&stamp) {
+                    changed.push((path.clone(), stamp));
                 }
             }
             let change = match gone {
                 Some(path) => Some(Change::Gone(path)),
-                None if is_changed => Some(Change::Changed),
-                None => is_back.then_some(Change::Back),
+                None if changed.is_empty() => is_back.then_some(Change::Back),
+                None if is_still => {
+                    self.reported.extend(changed);
+                    Some(Change::Changed)
+                }
+                None => None,
             };
             changes.extend(change.map(|change| (*id, change)));
         }
+        (self.seen, self.missing) = (seen, missing);
         changes
     }
 }
@@ -152,7 +171,7 @@ mod tests {
         let path = folder.path().join("map.png");
         std::fs::write(&path, "a").unwrap();
         set_time(&path, 1000);
-        let files = vec![(7, vec![(path.clone(), changed(&path))])];
+        let files = vec![(7, vec![(path.clone(), Stamp::of(&path))])];
         (path, files)
     }
 
@@ -175,15 +194,35 @@ mod tests {
         let (path, files) = watched(&folder);
         let mut check = Check { files, ..Check::default() };
         std::fs::remove_file(&path).unwrap();
+        assert!(check.changes().is_empty(), "it may be replaced");
         assert_eq!(check.changes(), [(7, Change::Gone(path.clone()))]);
         assert!(check.changes().is_empty(), "it is reported already");
         std::fs::write(&path, "a").unwrap();
         set_time(&path, 1000);
         assert_eq!(check.changes(), [(7, Change::Back)], "it is as it was read");
         std::fs::remove_file(&path).unwrap();
+        assert!(check.changes().is_empty());
         assert_eq!(check.changes(), [(7, Change::Gone(path.clone()))]);
         std::fs::write(&path, "b").unwrap();
+        assert!(check.changes().is_empty(), "it may still be written");
         assert_eq!(check.changes(), [(7, Change::Changed)], "it is there again, and another");
+    }
+
+    #[test]
+    fn a_file_that_is_being_written_has_not_changed_until_it_stands_still() {
+        let folder = tempfile::tempdir().unwrap();
+        let (path, files) = watched(&folder);
+        let mut check = Check { files, ..Check::default() };
+        for size in 2..6 {
+            std::fs::write(&path, "a".repeat(size)).unwrap();
+            assert!(check.changes().is_empty(), "it grows: {size} bytes");
+        }
+        assert_eq!(check.changes(), [(7, Change::Changed)]);
+        assert!(check.changes().is_empty(), "it is reported already");
+        // Of the same size, a moment ago.
+        std::fs::write(&path, "bbbbb").unwrap();
+        assert!(check.changes().is_empty());
+        assert_eq!(check.changes(), [(7, Change::Changed)]);
     }
 
     #[test]

@@ -189,7 +189,7 @@ fn an_accuracy_that_is_not_reached_is_said() {
     );
     assert_eq!(strict.status.code(), Some(1));
     assert!(
-        text(&strict.stdout).contains(",0.00001,false,a.png,gt,gt.png,scenes,,,\n"),
+        text(&strict.stdout).contains(",0.00001,false,a.png,gt,gt.png,scenes,,,,\n"),
         "{}",
         text(&strict.stdout)
     );

@@ -16,6 +16,7 @@ mod saving;
 mod screenshots;
 mod study;
 mod texels;
+mod training;
 mod view;
 mod why;
 

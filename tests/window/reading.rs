@@ -28,7 +28,7 @@ fn open(paths: Vec<PathBuf>) -> Command {
     MaterialsCommand::Open { paths, replace: true, read: ReadOptions::AUTO }.into()
 }
 
-fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
+pub(super) fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
     let (ctx, command) = (window.ctx.clone(), command.into());
     window.state_mut().apply(&ctx, command);
 }

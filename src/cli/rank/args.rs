@@ -11,9 +11,9 @@ use crate::cli::loss;
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
 ///
 /// Predictions see the same scenes; a paired difference tells which are worse than the best, and groups which the scenes cannot
-/// separate. Patterns such as 'out/*.png' are expanded. With --dataset, GT and every PRED are folders: their materials are
-/// matched by name, and every PRED is a method. With --pairs, GT is a CSV table with the columns ground_truth, prediction
-/// and, where needed, method and material.
+/// separate. Patterns such as 'out/*.png' are expanded; a folder of training steps, such as NAME_step000100.png or epoch_12/, stands
+/// for all its steps. With --dataset, GT and every PRED are folders: their materials are matched by name, and every PRED is a
+/// method. With --pairs, GT is a CSV table with the columns ground_truth, prediction and, where needed, method and material.
 #[derive(Debug, clap::Args)]
 pub struct RankArgs {
     /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method

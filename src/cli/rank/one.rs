@@ -25,6 +25,7 @@ pub fn run(mut args: RankArgs) -> Result<(), Error> {
         ));
     }
     args.comparison.materials.predictions = wildcards::expanded(&args.comparison.materials.predictions)?;
+    args.comparison.materials.expand_steps()?;
     table::check_predictions(&args.comparison.materials)?;
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();

@@ -7,7 +7,7 @@ use svbrdf::model::scene::Kind;
 
 use super::printed::Printed;
 
-const HEADING: [&str; 25] = [
+const HEADING: [&str; 26] = [
     "prediction",
     "loss",
     "standard_error",
@@ -33,6 +33,7 @@ const HEADING: [&str; 25] = [
     "all_scenes_loss",
     "all_scenes_low",
     "all_scenes_high",
+    "step",
 ];
 
 pub(super) fn write(printed: &Printed) -> io::Result<String> {
@@ -45,7 +46,8 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
         let names = [path.unwrap_or_default()].into_iter().chain(ground_truth);
         let cells = cells(loss).into_iter().chain(common.clone());
         let source = [outcome.interval_source().to_string()];
-        let added = source.into_iter().chain(all_scenes(printed, index));
+        let added =
+            source.into_iter().chain(all_scenes(printed, index)).chain([or_empty(printed.step(index))]);
         writer.write_record(cells.chain(names.map(str::to_owned)).chain(added))?;
     }
     let bytes = writer.into_inner().map_err(csv::IntoInnerError::into_error)?;

@@ -74,6 +74,9 @@ struct DifferenceEntry<'a> {
 struct PredictionEntry<'a> {
     prediction: &'a str,
     path: Option<&'a str>,
+    /// Of a training run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<u64>,
     loss: f64,
     standard_error: Option<f64>,
     interval95: Option<[f64; 2]>,
@@ -84,7 +87,7 @@ struct PredictionEntry<'a> {
 pub(super) fn write(printed: &Printed) -> io::Result<String> {
     let report = &printed.report;
     let all = printed.lists_scenes();
-    let predictions = report.outcome.losses.iter().zip(printed.prediction_paths());
+    let predictions = report.outcome.losses.iter().enumerate();
     let object = LossJson {
         ground_truth: &report.ground_truth,
         ground_truth_path: printed.ground_truth_path(),
@@ -105,14 +108,9 @@ pub(super) fn write(printed: &Printed) -> io::Result<String> {
         target_error: printed.target().map(|(error, _)| error),
         target_reached: printed.target().map(|(_, reached)| reached),
         all_scenes: report.all_scenes.as_ref().map(|known| {
-            known
-                .losses
-                .iter()
-                .zip(printed.prediction_paths())
-                .map(|(l, path)| entry(l, path, false))
-                .collect()
+            known.losses.iter().enumerate().map(|(index, loss)| entry(printed, index, loss, false)).collect()
         }),
-        results: predictions.map(|(loss, path)| entry(loss, path, all)).collect(),
+        results: predictions.map(|(index, loss)| entry(printed, index, loss, all)).collect(),
         differences: report.differences().into_iter().map(|d| difference(report, d)).collect(),
         scenes: all.then_some(&report.outcome.scenes),
     };
@@ -129,10 +127,11 @@ fn difference<'a>(report: &'a Report, (loss, e): (&'a Loss, Estimate)) -> Differ
     }
 }
 
-fn entry<'a>(loss: &'a Loss, path: Option<&'a str>, all: bool) -> PredictionEntry<'a> {
+fn entry<'a>(printed: &'a Printed, index: usize, loss: &'a Loss, all: bool) -> PredictionEntry<'a> {
     PredictionEntry {
         prediction: &loss.prediction,
-        path,
+        path: printed.prediction_paths().nth(index).flatten(),
+        step: printed.step(index),
         loss: loss.estimate.mean,
         standard_error: loss.estimate.standard_error,
         interval95: loss.estimate.interval95,

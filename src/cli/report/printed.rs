@@ -14,6 +14,8 @@ pub struct Printed {
     pub missed: Option<Error>,
     /// Where the ground truth and the predictions were read from; none for the built-in ones.
     pub paths: Vec<String>,
+    /// The step of the training run that each prediction is; empty, or `None` for others.
+    pub steps: Vec<Option<u64>>,
 }
 
 impl Printed {
@@ -32,6 +34,11 @@ impl Printed {
 
     pub fn ground_truth_path(&self) -> Option<&str> {
         self.paths.first().map(String::as_str)
+    }
+
+    /// The step of the training run that a prediction is.
+    pub fn step(&self, index: usize) -> Option<u64> {
+        self.steps.get(index).copied().flatten()
     }
 
     /// The path of each prediction.

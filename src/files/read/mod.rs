@@ -21,7 +21,6 @@ mod note;
 mod options;
 mod order;
 mod outside;
-mod photograph;
 mod pictures;
 mod preset;
 mod raster;
@@ -43,12 +42,12 @@ pub use extensions::EXTENSIONS;
 pub use grid::TileGrid;
 pub use interpret::report::MapReport;
 pub use locate::binding::Binding;
+pub(crate) use locate::names::Label;
 pub use note::{Gray, Note, SpecifiedBy, Subject, Unused};
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
 };
 pub use order::Order;
-pub use photograph::{Photograph, PhotographOptions, Transfer, read_photograph};
 pub use preset::Preset;
 pub use reason::Reason;
 pub use role::Role;

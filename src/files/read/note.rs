@@ -59,8 +59,6 @@ pub enum Subject {
     Material,
     /// A picture whose name names no map.
     Picture,
-    /// A photograph that renderings are compared with.
-    Photograph,
     Map(Role),
 }
 
@@ -69,7 +67,6 @@ impl fmt::Display for Subject {
         match self {
             Self::Material => f.write_str("material"),
             Self::Picture => f.write_str("picture"),
-            Self::Photograph => f.write_str("photograph"),
             Self::Map(role) => write!(f, "{} map", role.name()),
         }
     }

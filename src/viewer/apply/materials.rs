@@ -10,7 +10,7 @@ use crate::viewer::app::App;
 use crate::viewer::command::MaterialsCommand;
 use crate::viewer::message::Message;
 use crate::viewer::slots::Target;
-use crate::viewer::source::Source;
+use crate::viewer::source::{Source, sources};
 
 impl App {
     pub(super) fn apply_to_materials(&mut self, ctx: &egui::Context, command: MaterialsCommand) {
@@ -29,7 +29,9 @@ impl App {
             MaterialsCommand::Open { paths, replace, read } => {
                 self.read = read;
                 let target = if replace { Target::Everything } else { Target::Predictions };
-                let sources = paths.into_iter().map(|path| Source::file(path, read)).collect();
+                let (first, predictions) = paths.split_at(usize::from(replace).min(paths.len()));
+                let first = first.iter().map(|path| Source::file(path.clone(), read));
+                let sources = first.chain(sources(predictions, read)).collect();
                 let opening = self.slots.open(ctx, gpu, sources, target);
                 if let Some(window) = &mut self.open_window {
                     window.opening = window.submitted.then_some(opening);
@@ -39,7 +41,10 @@ impl App {
                 self.slots.open(ctx, gpu, vec![*source], Target::Predictions);
             }
             MaterialsCommand::OpenBuiltIn => self.slots.open_built_in(ctx, gpu),
-            MaterialsCommand::Reload => self.slots.reload(ctx, gpu, None),
+            MaterialsCommand::Reload => {
+                self.slots.reload(ctx, gpu, None);
+                self.training.scan.again();
+            }
             MaterialsCommand::ReadAs { slot, read } => self.slots.read_as(ctx, gpu, slot, read),
             MaterialsCommand::SaveAssumptions { slot } => {
                 let saved = self.slots.save_assumptions(ctx, gpu, slot);

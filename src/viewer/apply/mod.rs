@@ -4,7 +4,8 @@ mod display;
 mod inspect;
 mod materials;
 mod saving;
-pub(super) mod scene;
+mod scene;
+mod training;
 mod undo;
 mod why;
 
@@ -27,6 +28,7 @@ impl App {
             Command::Window(command) => self.apply_to_window(ctx, command),
             Command::Inspect(command) => self.apply_to_inspect(ctx, command),
             Command::Why(command) => self.apply_to_why(ctx, command),
+            Command::Training(command) => self.apply_to_training(ctx, command),
         }
         ctx.request_repaint();
     }

@@ -13,6 +13,7 @@ pub(super) mod scene;
 pub(super) mod status;
 pub(super) mod study;
 pub(super) mod top;
+pub(super) mod training;
 pub(super) mod values;
 pub(super) mod why;
 

@@ -1,0 +1,120 @@
+//! Training runs: the steps of one prediction.
+
+use std::path::{Path, PathBuf};
+
+use svbrdf::files::read::{ReadOptions, read};
+use svbrdf::loss::Comparison;
+use svbrdf::material::Material;
+use svbrdf::model::convention::PRINTED;
+use svbrdf::progress::Progress;
+use svbrdf::samples::generate;
+use svbrdf::viewer::command::{MaterialsCommand, TrainingCommand};
+
+use super::reading::apply;
+use super::*;
+
+/// The built-in ground truth as a strip, with a roughness that is off by `off`.
+fn strip(off: u8) -> Vec<u8> {
+    let side = generate::SIDE as u32;
+    let pixels = generate::pack(&generate::ground_truth());
+    let mut picture = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
+    for (x, _, pixel) in picture.enumerate_pixels_mut() {
+        if x / side == 2 {
+            pixel.0 = pixel.0.map(|value| value.saturating_add(off));
+        }
+    }
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    bytes.into_inner()
+}
+
+fn step(folder: &Path, number: u64) -> PathBuf {
+    folder.join(format!("run/pred_step{number:06}.png"))
+}
+
+/// A window on a ground truth and the folder of a run of three steps, which come closer to it.
+fn window_of_run() -> (tempfile::TempDir, Window<'static>) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("run")).unwrap();
+    std::fs::write(folder.path().join("gt.png"), strip(0)).unwrap();
+    for (number, off) in [(100, 90), (200, 60), (300, 30)] {
+        std::fs::write(step(folder.path(), number), strip(off)).unwrap();
+    }
+    let options = ViewerOptions {
+        ground_truth: Some(folder.path().join("gt.png")),
+        predictions: vec![folder.path().join("run")],
+        ..ViewerOptions::default()
+    };
+    let mut window = window(options);
+    wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 300"]);
+    (folder, window)
+}
+
+fn steps(app: &App) -> Vec<u64> {
+    app.training_runs().into_iter().flat_map(|(_, steps, _)| steps).collect()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_folder_of_steps_is_one_prediction_whose_steps_have_their_losses() {
+    let (folder, mut window) = window_of_run();
+    wait(&mut window, "the steps", |app| app.training_runs() == [(1, vec![100, 200, 300], 300)]);
+    wait(&mut window, "the losses", |app| app.step_losses(1).iter().all(Option::is_some));
+    let request = window.state().settings.loss.request();
+    let open = |path: &Path| -> Material<f32> {
+        read(path, &ReadOptions::AUTO, &Progress::default()).unwrap().material
+    };
+    let truth = open(&folder.path().join("gt.png"));
+    for (loss, number) in window.state().step_losses(1).into_iter().zip([100, 200, 300]) {
+        let prediction = open(&step(folder.path(), number));
+        let comparison = Comparison::new(&truth, &[&prediction], PRINTED).unwrap();
+        let expected = comparison.run(&request, &Progress::default()).unwrap().losses[0].estimate;
+        assert_eq!(loss, Some(Ok(expected)), "{number}");
+    }
+    press(&mut window, egui::Key::Comma);
+    wait(&mut window, "the step before", |app| app.names() == ["gt", "pred, step 200"]);
+    window.get_by_label("1 newer, of 3");
+    press(&mut window, egui::Key::Period);
+    press(&mut window, egui::Key::Period);
+    wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 300"]);
+    window.get_by_label("newest, of 3");
+    apply(&mut window, TrainingCommand::Show { slot: 1, number: 100 });
+    wait(&mut window, "the first step", |app| app.names() == ["gt", "pred, step 100"]);
+    window.get_by_label("Keep").click();
+    wait(&mut window, "the step alone", |app| app.names() == ["gt", "pred, step 100", "pred_step000100"]);
+    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn new_steps_appear_when_they_are_complete_and_are_shown_unless_the_person_went_back() {
+    let (folder, mut window) = window_of_run();
+    apply(&mut window, MaterialsCommand::SetWatch(true));
+    wait(&mut window, "the steps", |app| steps(app) == [100, 200, 300]);
+    let whole = strip(10);
+    let started = std::time::Instant::now();
+    std::fs::write(step(folder.path(), 400), &whole[..whole.len() / 2]).unwrap();
+    // Long enough that a half of it stands still and is read.
+    while started.elapsed() < std::time::Duration::from_millis(3500) {
+        window.step();
+        let app = window.state();
+        assert_eq!(app.names(), ["gt", "pred, step 300"]);
+        assert!(app.messages().is_empty() && app.problems() == [None, None], "{:?}", app.messages());
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert_eq!(steps(window.state()), [100, 200, 300, 400], "it was not looked at");
+    std::fs::write(step(folder.path(), 400), &whole).unwrap();
+    wait(&mut window, "the new step", |app| app.names() == ["gt", "pred, step 400"]);
+    press(&mut window, egui::Key::Comma);
+    wait(&mut window, "the step before", |app| app.names() == ["gt", "pred, step 300"]);
+    std::fs::write(step(folder.path(), 500), strip(5)).unwrap();
+    wait(&mut window, "the next step", |app| steps(app) == [100, 200, 300, 400, 500]);
+    window.run_steps(20);
+    assert_eq!(window.state().names(), ["gt", "pred, step 300"], "the person went back");
+    apply(&mut window, TrainingCommand::Show { slot: 1, number: 500 });
+    wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 500"]);
+    std::fs::write(folder.path().join("run/other_step000100.png"), strip(50)).unwrap();
+    let expected = ["gt", "pred, step 500", "other, step 100"];
+    wait(&mut window, "the new run", |app| app.names() == expected);
+    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+}
