@@ -1,12 +1,11 @@
 //! `svbrdf scenes`: which scenes a loss comes from.
 
-use serde::Serialize;
 use svbrdf::error::Error;
 use svbrdf::loss::{Comparison, Outcome};
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::why::{Distribution, RankedScene, worst_first};
+use svbrdf::why::{Distribution, RankedScene, SceneReport, worst_first};
 
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
@@ -51,7 +50,10 @@ pub fn run(args: &ScenesArgs) -> Result<(), Error> {
     ranked.truncate(args.top);
     exit::put(&match args.format {
         ReportFormat::Text => text(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention()),
-        ReportFormat::Json => json(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention())?,
+        ReportFormat::Json => {
+            let (name, convention) = (opened.ground_truth.name(), args.comparison.convention());
+            table::json(&SceneReport::new(name, &convention, &outcome, &ranked))?
+        }
         ReportFormat::Csv => csv(&outcome, &ranked)?,
     })
 }
@@ -111,48 +113,4 @@ fn csv(outcome: &Outcome, ranked: &[RankedScene]) -> Result<String, Error> {
         [ranked.index.to_string(), kind_name(kind).to_owned()].into_iter().chain(numbers).collect()
     };
     table::csv([heading].into_iter().chain(ranked.iter().map(row)))
-}
-
-/// A scene file, too.
-#[derive(Serialize)]
-struct ScenesJson<'a> {
-    ground_truth: &'a str,
-    convention: &'a str,
-    epsilon: f64,
-    seed: Option<u64>,
-    /// The number of scenes that these are the worst of.
-    of: usize,
-    results: Vec<ScenesEntry<'a>>,
-    scenes: Vec<Scene>,
-}
-
-#[derive(Serialize)]
-struct ScenesEntry<'a> {
-    prediction: &'a str,
-    /// Over all scenes.
-    loss: f64,
-    /// That of each listed scene.
-    losses: Vec<f64>,
-}
-
-fn json(
-    outcome: &Outcome,
-    ranked: &[RankedScene],
-    ground_truth: &Material<f32>,
-    convention: &Convention,
-) -> Result<String, Error> {
-    let entry = |(index, loss): (usize, &svbrdf::loss::Loss)| ScenesEntry {
-        prediction: &outcome.losses[index].prediction,
-        loss: loss.estimate.mean,
-        losses: ranked.iter().map(|ranked| ranked.losses[index]).collect(),
-    };
-    table::json(&ScenesJson {
-        ground_truth: ground_truth.name(),
-        convention: convention.name,
-        epsilon: convention.epsilon,
-        seed: outcome.sampling.map(|sampling| sampling.seed),
-        of: outcome.scenes.len(),
-        results: outcome.losses.iter().enumerate().map(entry).collect(),
-        scenes: ranked.iter().map(|ranked| ranked.scene).collect(),
-    })
 }

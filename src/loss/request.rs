@@ -33,6 +33,29 @@ pub enum Request {
     Listed(Vec<Scene>),
 }
 
+impl Request {
+    /// The scenes, where neither an accuracy nor a time decides them.
+    ///
+    /// # Errors
+    /// As [`Sampling::check`].
+    pub fn scenes(&self, convention: &Convention) -> Result<Option<Vec<Scene>>, Error> {
+        match self {
+            Self::Scenes(sampling) => sampling.scenes(convention).map(Some),
+            Self::Listed(scenes) => Ok(Some(scenes.clone())),
+            Self::Accuracy { .. } | Self::Time { .. } => Ok(None),
+        }
+    }
+
+    /// The number of scenes, where neither an accuracy nor a time decides it.
+    pub fn count(&self) -> Option<usize> {
+        match self {
+            Self::Scenes(sampling) => Some(sampling.near + sampling.distant),
+            Self::Listed(scenes) => Some(scenes.len()),
+            Self::Accuracy { .. } | Self::Time { .. } => None,
+        }
+    }
+}
+
 impl Default for Request {
     fn default() -> Self {
         Self::Scenes(Sampling::default())

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::request::{Request, Sampling, Texels};
 use crate::model::sampler::Sampler;
+use crate::model::scene::Scene;
 
 /// What decides how many scenes there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -17,9 +18,20 @@ pub enum Ask {
     Accuracy,
     /// The time.
     Time,
+    /// The scenes of a file.
+    File,
 }
 
-/// How a loss is asked for. What the other two ways of asking need is kept.
+/// The scenes of a file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FileScenes {
+    /// The name of the file.
+    pub name: String,
+    /// At least one.
+    pub scenes: Vec<Scene>,
+}
+
+/// How a loss is asked for. What the other ways of asking need is kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LossSettings {
@@ -32,12 +44,25 @@ pub struct LossSettings {
     /// Half of the 95% interval, in percent of the loss.
     pub target_percent: f64,
     pub time_ms: u64,
+    /// `None` where no scene file has been opened; an accuracy is asked for then in place of [`Ask::File`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<FileScenes>,
 }
 
 impl Default for LossSettings {
     fn default() -> Self {
         let Sampling { near, distant, sampler, texels, seed } = Sampling::default();
-        Self { ask: Ask::Accuracy, near, distant, sampler, texels, seed, target_percent: 1.0, time_ms: 100 }
+        Self {
+            ask: Ask::Accuracy,
+            near,
+            distant,
+            sampler,
+            texels,
+            seed,
+            target_percent: 1.0,
+            time_ms: 100,
+            file: None,
+        }
     }
 }
 
@@ -49,7 +74,27 @@ impl LossSettings {
             Ask::Scenes => Request::Scenes(Sampling { near, distant, seed, sampler, texels }),
             Ask::Accuracy => Request::Accuracy { target: self.target_percent / 100.0, seed },
             Ask::Time => Request::Time { budget: Duration::from_millis(self.time_ms), seed },
+            Ask::File => match &self.file {
+                Some(file) => Request::Listed(file.scenes.clone()),
+                None => Request::Accuracy { target: self.target_percent / 100.0, seed },
+            },
         }
+    }
+
+    /// The scenes of the file, where they are those of the loss.
+    pub fn file_scenes(&self) -> Option<&FileScenes> {
+        self.file.as_ref().filter(|_| self.ask == Ask::File)
+    }
+
+    /// These settings with the scenes of a file; `None`: without them.
+    #[must_use]
+    pub fn with_file(&self, file: Option<FileScenes>) -> Self {
+        let ask = match (&file, self.ask) {
+            (Some(_), _) => Ask::File,
+            (None, Ask::File) => Ask::default(),
+            (None, ask) => ask,
+        };
+        Self { ask, file, ..self.clone() }
     }
 }
 
@@ -62,11 +107,14 @@ impl LossSettings {
         }
     }
 
-    /// The scenes that are listed one by one, on all texels: those of the loss where it has few, otherwise 128 near-field and
-    /// 64 distant ones of its seed.
-    pub fn listed_scenes(&self) -> Sampling {
-        /// Most scenes that are listed.
+    /// The request for the scenes that are listed one by one, on all texels: those of the loss where it has few or they are of a
+    /// file, otherwise 128 near-field and 64 distant ones of its seed.
+    pub fn listed_scenes(&self) -> Request {
+        /// Most sampled scenes that are listed.
         const MOST: usize = 1000;
+        if let Some(file) = self.file_scenes() {
+            return Request::Listed(file.scenes.clone());
+        }
         let few = self.sampling().filter(|sampling| (1..=MOST).contains(&(sampling.near + sampling.distant)));
         let default = Sampling {
             near: 128,
@@ -75,7 +123,7 @@ impl LossSettings {
             sampler: Sampler::Sobol,
             texels: Texels::All,
         };
-        Sampling { texels: Texels::All, ..few.unwrap_or(default) }
+        Request::Scenes(Sampling { texels: Texels::All, ..few.unwrap_or(default) })
     }
 
     /// The 6 near-field and 3 distant random scenes of the papers, of this seed.
@@ -113,5 +161,22 @@ mod tests {
             assert_eq!(settings.request(), other.request());
             assert_ne!(settings.request(), request);
         }
+    }
+
+    #[test]
+    fn the_scenes_of_a_file_are_asked_for_until_they_are_removed() {
+        let scenes = Sampler::Random.scenes(1, 2, 1, &crate::model::convention::PRINTED);
+        let file = FileScenes { name: "render.json".to_owned(), scenes: scenes.clone() };
+        let settings = LossSettings { seed: 5, ..LossSettings::default() };
+        let with = settings.with_file(Some(file.clone()));
+        assert_eq!(
+            (with.request(), with.listed_scenes()),
+            (Request::Listed(scenes.clone()), Request::Listed(scenes))
+        );
+        assert_eq!(with.file_scenes(), Some(&file));
+        let other = LossSettings { ask: Ask::Time, ..with.clone() };
+        assert_eq!(other.file_scenes(), None);
+        assert_eq!(other.with_file(None).ask, Ask::Time);
+        assert_eq!(with.with_file(None), settings);
     }
 }

@@ -37,6 +37,7 @@ use super::why::Why;
 use super::worker::Task;
 use super::{sight, theme};
 use crate::files::read::ReadOptions;
+use crate::loss::FileScenes;
 
 /// Width of a window, in points, below which the side panel is hidden until it is asked for.
 const NARROW: f32 = 900.0;
@@ -74,6 +75,8 @@ pub struct App {
     pub(super) training: Training,
     pub(super) browsing: Option<Task<Browsed>>,
     pub(super) saving: Option<Task<PathBuf>>,
+    /// The scene file that is being read.
+    pub(super) scene_file: Option<Task<FileScenes>>,
     pub(super) open_window: Option<OpenWindow>,
     pub(super) save_window: Option<SaveWindow>,
     pub(super) help: bool,
@@ -136,6 +139,7 @@ impl App {
             training: Training::default(),
             browsing: None,
             saving: None,
+            scene_file: None,
             open_window: None,
             save_window: None,
             help: false,
@@ -207,6 +211,7 @@ impl App {
         self.report(fault.map(Message::Failed));
         self.poll_saving(ctx);
         self.poll_browsing(ctx);
+        self.poll_scene_file(ctx);
         if self.settings.watch {
             self.follow_files(ctx);
         } else {

@@ -169,6 +169,8 @@ pub enum LossCommand {
     CancelStudy,
     /// Sets the loss to the scenes and texels of a point of the study.
     UseSampling(Sampling),
+    /// Removes the scenes of the file that was opened.
+    RemoveFileScenes,
 }
 
 /// The window itself and its dialogs.
@@ -180,6 +182,8 @@ pub enum WindowCommand {
         folder: bool,
     },
     ShowSave(bool),
+    /// Shows the dialog that saves the scenes of the loss.
+    SaveScenes,
     /// Writes to this file; `size` is the size of a picture of the view, in pixels.
     Save {
         what: SaveKind,

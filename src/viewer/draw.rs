@@ -194,7 +194,7 @@ impl App {
             pair: ComparedPair::of(&self.slots.slots, &self.state),
             why: &self.why,
             sections: self.settings.why,
-            sampling: self.settings.loss.listed_scenes(),
+            settings: &self.settings.loss,
         };
         why.ui(ui)
     }

@@ -12,7 +12,7 @@ use super::worker::Task;
 use crate::error::Error;
 use crate::gpu::{Gpu, Shaded};
 use crate::image::{Image, mean_of_channels};
-use crate::loss::{Comparison, Sampling};
+use crate::loss::{Comparison, Request};
 use crate::material::Material;
 use crate::model::convention::Convention;
 use crate::picture::statistics::Distributions;
@@ -24,7 +24,7 @@ use crate::why::error_maps;
 struct ErrorMapKey {
     /// Of the materials, the ground truth first.
     ids: Vec<u64>,
-    sampling: Sampling,
+    scenes: Request,
     convention: &'static str,
 }
 
@@ -59,33 +59,29 @@ impl ErrorMapRun {
         gpu: Option<&Gpu>,
         shown: bool,
         (slots, state): (&[Slot], &ViewState),
-        sampling: Sampling,
+        scenes: Request,
     ) -> Option<Error> {
         if !shown || slots.len() < 2 {
             self.0.rest();
             return None;
         }
-        let wanted = key(slots, state, sampling);
+        let wanted = key(slots, state, scenes);
         self.0.drop_other(&wanted);
         let convention = state.convention();
-        self.0.follow(ctx, Some(wanted), |_| {
+        self.0.follow(ctx, Some(wanted), |key| {
+            let scenes = key.scenes.clone();
             let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
             let gpu = gpu.cloned();
             Task::start(ctx, move |progress| {
-                maps(&materials, &sampling, &convention, gpu.as_ref(), progress).map(Arc::new)
+                maps(&materials, &scenes, &convention, gpu.as_ref(), progress).map(Arc::new)
             })
         })
     }
 
     /// The error maps of now, once they are there.
-    pub(super) fn get(
-        &self,
-        slots: &[Slot],
-        state: &ViewState,
-        sampling: Sampling,
-    ) -> Option<&Arc<ErrorMaps>> {
+    pub(super) fn get(&self, slots: &[Slot], state: &ViewState, scenes: Request) -> Option<&Arc<ErrorMaps>> {
         let (of, maps) = self.0.get()?;
-        (*of == key(slots, state, sampling)).then_some(maps)
+        (*of == key(slots, state, scenes)).then_some(maps)
     }
 
     /// The share of the texels that is done, while they are rendered.
@@ -107,21 +103,22 @@ impl ErrorMaps {
     }
 }
 
-fn key(slots: &[Slot], state: &ViewState, sampling: Sampling) -> ErrorMapKey {
+fn key(slots: &[Slot], state: &ViewState, scenes: Request) -> ErrorMapKey {
     let ids = slots.iter().map(|slot| slot.id).collect();
-    ErrorMapKey { ids, sampling, convention: state.convention().name }
+    ErrorMapKey { ids, scenes, convention: state.convention().name }
 }
 
 fn maps(
     materials: &[Arc<Loaded>],
-    sampling: &Sampling,
+    scenes: &Request,
     convention: &Convention,
     gpu: Option<&Gpu>,
     progress: &Progress,
 ) -> Result<ErrorMaps, Error> {
     let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| &loaded.material).collect();
     let comparison = Comparison::new(materials[0], &materials[1..], *convention)?;
-    let images = error_maps(&comparison, &sampling.scenes(convention)?, progress)?;
+    let scenes = scenes.scenes(convention)?.unwrap_or_default();
+    let images = error_maps(&comparison, &scenes, progress)?;
     let means = |image: &Image<f32>| image.pixels.iter().map(mean_of_channels).collect();
     let values: Vec<Vec<f32>> = images.iter().map(means).collect();
     let distributions = Distributions::of(&values, false);

@@ -32,8 +32,8 @@ impl App {
         let error = self.difference.follow(ctx, shown && !averages, &self.seen, &self.state);
         self.report(error.map(Message::Failed));
         let gpu = self.gpu.as_ref().map(|g| &g.gpu);
-        let sampling = self.settings.loss.listed_scenes();
-        let error = self.error_map.follow(ctx, gpu, averages, (&self.seen, &self.state), sampling);
+        let scenes = self.settings.loss.listed_scenes();
+        let error = self.error_map.follow(ctx, gpu, averages, (&self.seen, &self.state), scenes);
         self.report(error.map(Message::Failed));
         if let Some(slot) = self.slots.ground_truth() {
             self.inspect.keep_within(slot.loaded.material.size());
@@ -44,7 +44,8 @@ impl App {
 
     /// The work of the tab *Why*, where it is shown. The search for the worst scene goes on in other tabs, too.
     fn follow_why(&mut self, ctx: &egui::Context, shown: bool) {
-        let asked = WhyAsked { sections: self.settings.why, sampling: self.settings.loss.listed_scenes() };
+        let loss = &self.settings.loss;
+        let asked = WhyAsked { sections: self.settings.why, scenes: loss.listed_scenes(), seed: loss.seed };
         // Materials that arrive one by one would be looked at in vain.
         let shown = shown && !self.slots.expects_more();
         let errors = self.why.follow(ctx, shown, &self.slots.slots, &self.state, asked);

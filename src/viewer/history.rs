@@ -1,9 +1,10 @@
-//! What undo returns to: the view, and the set of materials.
+//! What undo returns to: the view, the set of materials, and the scenes of a file.
 
 use eframe::egui::util::undoer::{Settings, Undoer};
 
 use super::source::Source;
 use super::state::ViewState;
+use crate::loss::FileScenes;
 
 /// How long nothing changes, in seconds, before it becomes a point to return to.
 const STABLE: f32 = 0.4;
@@ -13,6 +14,8 @@ const STABLE: f32 = 0.4;
 pub(super) struct Moment {
     pub view: ViewState,
     pub materials: Vec<Source>,
+    /// The scenes of a file, where they are those of the loss.
+    pub scenes: Option<FileScenes>,
 }
 
 /// The earlier and the later moments.

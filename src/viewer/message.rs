@@ -32,6 +32,8 @@ pub enum Message {
     },
     /// Something is on the clipboard.
     Copied(&'static str),
+    /// The scenes of the file of this name, so many, are those of the loss.
+    ScenesOpened(String, usize),
     /// These predictions were not opened: their ground truth could not be read.
     NotOpened(Vec<String>),
     NotPasted(PasteProblem),
@@ -62,7 +64,7 @@ pub enum PasteProblem {
 impl Message {
     pub fn severity(&self) -> Severity {
         match self {
-            Self::Saved(_) | Self::Copied(_) => Severity::Success,
+            Self::Saved(_) | Self::Copied(_) | Self::ScenesOpened(..) => Severity::Success,
             Self::Closed(_) => Severity::Warning,
             Self::Refused(_)
             | Self::NotRead { .. }
@@ -118,6 +120,7 @@ impl fmt::Display for Message {
                 "Nothing to reopen: no materials from files have been open yet. Open some with Ctrl+O.",
             ),
             Self::Copied(what) => write!(f, "Copied {what}"),
+            Self::ScenesOpened(name, count) => write!(f, "The loss is over the {count} scenes of {name}"),
             Self::NotRead { error, .. } | Self::Failed(error) => error.fmt(f),
         }
     }

@@ -55,7 +55,7 @@ impl App {
 
     /// The listed scenes of the chosen prediction, and the pixels of their thumbnails.
     pub fn listed_scenes(&self) -> Option<(&[RankedScene], &[Vec<f32>])> {
-        let (list, thumbnails) = self.why.scenes.get(&self.pair()?, self.settings.loss.listed_scenes())?;
+        let (list, thumbnails) = self.why.scenes.get(&self.pair()?, &self.settings.loss.listed_scenes())?;
         Some((&list.ranked, &thumbnails?.pixels))
     }
 

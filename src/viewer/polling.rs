@@ -63,6 +63,21 @@ impl App {
         }
     }
 
+    /// Takes over the scenes of a file as those of the loss.
+    pub(super) fn poll_scene_file(&mut self, ctx: &egui::Context) {
+        let Some(result) = self.scene_file.as_ref().and_then(|job| job.poll(ctx)) else { return };
+        self.scene_file = None;
+        match (result, &mut self.open_window) {
+            (Ok(file), _) => {
+                self.open_window = None;
+                self.report([Message::ScenesOpened(file.name.clone(), file.scenes.len())]);
+                self.settings.loss = self.settings.loss.with_file(Some(file));
+            }
+            (Err(error), Some(window)) => window.fail(error.to_string()),
+            (Err(error), None) => self.report([Message::Failed(error)]),
+        }
+    }
+
     pub(super) fn poll_browsing(&mut self, ctx: &egui::Context) {
         let Some(result) = self.browsing.as_ref().and_then(|job| job.poll(ctx)) else { return };
         self.browsing = None;

@@ -12,10 +12,12 @@ pub enum SaveKind {
     Strip,
     /// Files, assumptions, scene, display and loss settings.
     Session,
+    /// The scenes of the loss of the chosen prediction, as `svbrdf scenes` writes.
+    Scenes,
 }
 
 impl SaveKind {
-    pub const ALL: [Self; 4] = [Self::View, Self::Renderings, Self::Strip, Self::Session];
+    pub const ALL: [Self; 5] = [Self::View, Self::Renderings, Self::Strip, Self::Session, Self::Scenes];
 
     /// The label of its button.
     pub fn name(self) -> &'static str {
@@ -24,6 +26,7 @@ impl SaveKind {
             Self::Renderings => "Renderings",
             Self::Strip => "Strip",
             Self::Session => "Session",
+            Self::Scenes => "Scenes",
         }
     }
 
@@ -46,6 +49,10 @@ impl SaveKind {
                 "Paths of the files (relative to this one), assumptions, scene, display and loss settings. `svbrdf` opens \
                  it, and so does Open."
             }
+            Self::Scenes => {
+                "The scenes that the tab Why lists for the chosen prediction, worst first, with their losses. Open takes \
+                 them as the scenes of the loss, and so does --scenes of `svbrdf`."
+            }
         }
     }
 
@@ -56,6 +63,7 @@ impl SaveKind {
             Self::Renderings => "svbrdf-renderings.png",
             Self::Strip => "svbrdf-strip.png",
             Self::Session => "comparison.svbrdf-session.json",
+            Self::Scenes => "scenes.json",
         }
     }
 }

@@ -11,7 +11,7 @@ use super::slot::Slot;
 use super::worker::Task;
 use crate::error::Error;
 use crate::files::atomic::Destination;
-use crate::loss::Sampling;
+use crate::loss::{Request, Sampling};
 use crate::model::sampler::Sampler;
 use crate::picture::export::Provenance;
 use crate::picture::statistics::Distributions;
@@ -27,9 +27,8 @@ impl App {
     }
 
     pub(super) fn error_map_summary(&self) -> ErrorMapSummary {
-        let sampling = self.settings.loss.listed_scenes();
-        let progress = self.error_map.progress();
-        ErrorMapSummary { scenes: sampling.near + sampling.distant, progress }
+        let scenes = self.settings.loss.listed_scenes().count().unwrap_or(0);
+        ErrorMapSummary { scenes, progress: self.error_map.progress() }
     }
 
     /// The distributions of the difference in the panes, and whether they are up to date.
@@ -50,17 +49,19 @@ impl App {
 
     /// What the metadata of a picture say where it shows error maps.
     pub(super) fn error_map_text(&self) -> Option<String> {
-        let Sampling { near, distant, seed, sampler, .. } = self.settings.loss.listed_scenes();
-        let sampler = match sampler {
-            Sampler::Sobol => "scrambled Sobol",
-            Sampler::Random => "random",
+        let loss = &self.settings.loss;
+        let scenes = match (loss.listed_scenes(), loss.file_scenes()) {
+            (Request::Scenes(Sampling { near, distant, seed, sampler, .. }), _) => {
+                let sampler = if sampler == Sampler::Sobol { "scrambled Sobol" } else { "random" };
+                format!("{near} near-field and {distant} distant scenes, seed {seed}, {sampler}")
+            }
+            (_, file) => {
+                let (count, name) = file.map_or((0, ""), |file| (file.scenes.len(), file.name.as_str()));
+                format!("{count} scenes of {name}")
+            }
         };
         (self.state.difference && self.state.is_error_map()).then(|| {
-            format!(
-                "mean log difference of each texel over {near} near-field and {distant} distant scenes, seed {seed}, \
-                 {sampler}; {} the last colour",
-                self.range()
-            )
+            format!("mean log difference of each texel over {scenes}; {} the last colour", self.range())
         })
     }
 

@@ -3,9 +3,9 @@
 use super::*;
 
 /// The kinds of the save dialog, as steps back from the path field.
-const SESSION: usize = 1;
-const STRIP: usize = 2;
-const RENDERINGS: usize = 3;
+const SESSION: usize = 2;
+const STRIP: usize = 3;
+const RENDERINGS: usize = 4;
 
 /// Saves with the proposed name, by the keyboard.
 fn save(desktop: &Desktop, kind: usize, name: &str) {

@@ -13,6 +13,7 @@ mod loss_panel;
 mod panels;
 mod reading;
 mod saving;
+mod scene_files;
 mod screenshots;
 mod study;
 mod texels;

@@ -54,6 +54,11 @@ impl Sidecar {
         if is_map && !own.exists() && common.exists() { common } else { own }
     }
 
+    /// Whether `path` is named like a sidecar file.
+    pub fn is_named(path: &Path) -> bool {
+        is_sidecar(path)
+    }
+
     /// Reads the sidecar file of the material `path`; the default where there is none.
     ///
     /// # Errors

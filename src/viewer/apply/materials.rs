@@ -1,16 +1,20 @@
 //! Commands about files and materials.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
 use crate::error::Error;
+use crate::files::read::Sidecar;
 use crate::files::session::Session;
+use crate::loss::FileScenes;
+use crate::model::scene_file;
 use crate::viewer::app::App;
 use crate::viewer::command::MaterialsCommand;
 use crate::viewer::message::Message;
 use crate::viewer::slots::Target;
-use crate::viewer::source::{Source, sources};
+use crate::viewer::source::{Source, file_name, sources};
+use crate::viewer::worker::Task;
 
 impl App {
     pub(super) fn apply_to_materials(&mut self, ctx: &egui::Context, command: MaterialsCommand) {
@@ -18,6 +22,9 @@ impl App {
         match command {
             MaterialsCommand::Open { paths, .. } if paths.iter().any(|path| Session::is_named(path)) => {
                 self.open_session_file(ctx, &paths);
+            }
+            MaterialsCommand::Open { paths, .. } if paths.iter().any(|path| is_scene_file(path)) => {
+                self.open_scene_file(ctx, paths);
             }
             MaterialsCommand::ReopenLast => match self.settings.last.clone() {
                 Some(session) => {
@@ -76,6 +83,14 @@ impl App {
         }
     }
 
+    /// Starts to read a scene file, which stands alone, too.
+    fn open_scene_file(&mut self, ctx: &egui::Context, paths: Vec<PathBuf>) {
+        self.scene_file = Some(Task::start(ctx, move |_| match paths.as_slice() {
+            [path] => Ok(FileScenes { name: file_name(path), scenes: scene_file::read(path)? }),
+            _ => Err(Error::Usage("open a scene file alone, and materials without it".to_owned())),
+        }));
+    }
+
     /// Closes the material in slot `slot`; the chosen prediction stays the same one where it can.
     fn close_prediction(&mut self, slot: usize) {
         self.slots.close(slot);
@@ -85,4 +100,10 @@ impl App {
         }
         state.prediction = state.prediction.min(self.slots.predictions().len().saturating_sub(1));
     }
+}
+
+/// Whether `path` is named like a scene file: JSON that says neither what a session is nor how a material is read.
+fn is_scene_file(path: &Path) -> bool {
+    let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+    is_json && !Session::is_named(path) && !Sidecar::is_named(path)
 }

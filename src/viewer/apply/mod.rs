@@ -16,6 +16,7 @@ use super::browse;
 use super::command::{Command, LossCommand, WindowCommand};
 use super::panels::open::OpenWindow;
 use super::panels::save::SaveWindow;
+use super::save_kind::SaveKind;
 
 impl App {
     /// Carries out one command.
@@ -62,6 +63,7 @@ impl App {
             LossCommand::UseSampling(sampling) => {
                 self.settings.loss = self.settings.loss.with_sampling(sampling);
             }
+            LossCommand::RemoveFileScenes => self.settings.loss = self.settings.loss.with_file(None),
         }
     }
 
@@ -69,7 +71,12 @@ impl App {
         match command {
             WindowCommand::ShowOpen(on) => self.open_window = on.then(|| OpenWindow::from(self.read)),
             WindowCommand::Browse { folder } => self.browsing = Some(browse::start(ctx, folder)),
-            WindowCommand::ShowSave(on) => self.save_window = on.then(|| SaveWindow::new(self.picture_size)),
+            WindowCommand::ShowSave(on) => {
+                self.save_window = on.then(|| SaveWindow::new(SaveKind::default(), self.picture_size));
+            }
+            WindowCommand::SaveScenes => {
+                self.save_window = Some(SaveWindow::new(SaveKind::Scenes, self.picture_size));
+            }
             WindowCommand::Save { what, path, size } => self.start_saving(ctx, what, path, size),
             WindowCommand::CopyPicture => self.copy_picture(ctx),
             WindowCommand::SetDark(on) => self.settings.dark = on,

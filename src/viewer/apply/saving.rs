@@ -12,7 +12,9 @@ use crate::viewer::message::Message;
 use crate::viewer::save;
 use crate::viewer::save_kind::SaveKind;
 use crate::viewer::snapshot::{Size, snapshot};
+use crate::viewer::why::ComparedPair;
 use crate::viewer::worker::Task;
+use crate::why::{SceneReport, worst_first};
 
 impl App {
     /// Starts to save; `size` is the size of a picture of the view.
@@ -32,6 +34,7 @@ impl App {
             SaveKind::Renderings => save::renderings(ctx, &self.seen, &self.state, shown, path),
             SaveKind::Strip => save::strip(ctx, &self.seen, &self.state, path),
             SaveKind::Session => self.save_session(ctx, path),
+            SaveKind::Scenes => self.save_scenes(ctx, path),
             SaveKind::View => match self.picture(ctx, size) {
                 Ok(picture) => {
                     let mut entries = save::provenance(&self.seen, &self.state, shown).entries();
@@ -95,6 +98,23 @@ impl App {
             ("svbrdf:projection", format!("{:?}", state.projection).to_lowercase()),
             ("svbrdf:zoom", format!("{}, pan {x}, {y}", state.zoom)),
         ]
+    }
+
+    /// Starts to write the scenes of the loss of the chosen prediction, worst first.
+    fn save_scenes(&self, ctx: &egui::Context, path: PathBuf) -> Task<PathBuf> {
+        let pair = ComparedPair::of(&self.slots.slots, &self.state);
+        let request = self.settings.loss.listed_scenes();
+        Task::start(ctx, move |progress| {
+            let pair = pair.ok_or_else(|| Error::Usage("there is no prediction to compare".to_owned()))?;
+            atomic::check_place(&path)?;
+            let outcome = pair.comparison()?.run(&request, progress)?;
+            let name = pair.ground_truth().name();
+            let report = SceneReport::new(name, &pair.convention, &outcome, &worst_first(&outcome));
+            let text =
+                serde_json::to_string_pretty(&report).map_err(|e| Error::Internal(e.to_string()))? + "\n";
+            atomic::replace(&path, progress, |file| file.write_all(text.as_bytes()))?;
+            Ok(path)
+        })
     }
 
     fn save_session(&self, ctx: &egui::Context, path: PathBuf) -> Task<PathBuf> {

@@ -34,12 +34,16 @@ impl App {
     }
 
     fn moment(&self) -> Moment {
-        Moment { view: self.state.clone(), materials: self.history.materials.clone() }
+        let scenes = self.settings.loss.file_scenes().cloned();
+        Moment { view: self.state.clone(), materials: self.history.materials.clone(), scenes }
     }
 
     fn return_to(&mut self, ctx: &egui::Context, moment: Option<Moment>) {
-        let Some(Moment { view, materials }) = moment else { return };
+        let Some(Moment { view, materials, scenes }) = moment else { return };
         self.state = view;
+        if scenes.as_ref() != self.settings.loss.file_scenes() {
+            self.settings.loss = self.settings.loss.with_file(scenes);
+        }
         if materials != self.history.materials {
             let gpu = self.gpu.as_ref().map(|g| &g.gpu);
             self.slots.restore(ctx, gpu, &materials);

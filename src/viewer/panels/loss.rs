@@ -8,7 +8,7 @@ use super::loss_results::{self, Results, seconds};
 use crate::loss::{Ask, LossSettings, Request, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
-use crate::viewer::command::{Command, LossCommand};
+use crate::viewer::command::{Command, LossCommand, WindowCommand};
 use crate::viewer::loss_run::{LossRun, Losses};
 use crate::viewer::slots::Slots;
 use crate::viewer::theme;
@@ -38,7 +38,7 @@ impl LossPanel<'_> {
     pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut settings = self.settings.clone();
-        request(ui, &mut settings);
+        request(ui, &mut settings, &mut commands);
         if settings != *self.settings {
             commands.push(LossCommand::SetSettings(settings).into());
         }
@@ -163,7 +163,7 @@ fn button(text: &str) -> egui::Button<'_> {
 }
 
 /// The settings of the loss: first what decides the number of scenes, then the fields of that choice.
-fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
+fn request(ui: &mut egui::Ui, settings: &mut LossSettings, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         for (ask, name, meaning) in [
@@ -173,11 +173,19 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
         ] {
             ui.selectable_value(&mut settings.ask, ask, name).on_hover_text(meaning);
         }
+        if let Some(file) = &settings.file {
+            let meaning = format!("The {} scenes of {}, on all texels", file.scenes.len(), file.name);
+            ui.selectable_value(&mut settings.ask, Ask::File, "File").on_hover_text(meaning);
+        }
     });
     match settings.ask {
         Ask::Scenes => scenes(ui, settings),
         Ask::Accuracy => accuracy(ui, &mut settings.target_percent),
         Ask::Time => time(ui, &mut settings.time_ms),
+        Ask::File => file(ui, settings, commands),
+    }
+    if settings.ask == Ask::File {
+        return;
     }
     ui.horizontal_wrapped(|ui| {
         ui.label("Seed");
@@ -188,6 +196,26 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings) {
                 .on_hover_text("Independent random scenes, as in the papers");
             ui.selectable_value(&mut settings.sampler, Sampler::Sobol, "Sobol")
                 .on_hover_text("Scrambled Sobol sequences: a smaller error for the same number of scenes");
+        }
+        if settings.ask == Ask::Scenes {
+            let open = ui.small_button("Scene file...");
+            let hover = "Open a scene file (JSON, or render.json of a MaterialGAN capture), whose scenes are those of the loss";
+            if open.on_hover_text(hover).clicked() {
+                commands.push(WindowCommand::ShowOpen(true).into());
+            }
+        }
+    });
+}
+
+/// Which file the scenes are of, and the button that removes them.
+fn file(ui: &mut egui::Ui, settings: &LossSettings, commands: &mut Vec<Command>) {
+    let Some(file) = &settings.file else { return };
+    ui.horizontal_wrapped(|ui| {
+        let scenes = if file.scenes.len() == 1 { "scene" } else { "scenes" };
+        ui.label(format!("{} {scenes} of {}", file.scenes.len(), file.name));
+        let remove = ui.small_button("Remove scenes").on_hover_text("Sample the scenes of the loss again");
+        if remove.clicked() {
+            commands.push(LossCommand::RemoveFileScenes.into());
         }
     });
 }

@@ -232,7 +232,8 @@ fn summary(latest: &Losses) -> String {
     let report = &latest.report;
     let sampler = match report.sampler() {
         Some(Sampler::Sobol) => "scrambled Sobol",
-        _ => "random",
+        Some(Sampler::Random) => "random",
+        None => "listed",
     };
     format!(
         "convention {}, epsilon {}, {sampler} scenes{}, {} on the {}",

@@ -1,4 +1,4 @@
-//! The dialog that saves the view, the renderings, a strip or the session.
+//! The dialog that saves the view, the renderings, a strip, the session or the scenes of the loss.
 
 use std::path::PathBuf;
 
@@ -26,9 +26,8 @@ pub(crate) struct SaveWindow {
 }
 
 impl SaveWindow {
-    /// `size` is the size of the view in the window, in pixels.
-    pub(crate) fn new(size: [u32; 2]) -> Self {
-        let what = SaveKind::default();
+    /// `what` is chosen at first; `size` is the size of the view in the window, in pixels.
+    pub(crate) fn new(what: SaveKind, size: [u32; 2]) -> Self {
         let path = what.proposal().to_owned();
         Self { path, what, size, replaces: None, focused: false, saving: false, problem: None }
     }

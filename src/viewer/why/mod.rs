@@ -12,7 +12,7 @@ mod thumbnails;
 use eframe::egui;
 
 use crate::error::Error;
-use crate::loss::Sampling;
+use crate::loss::Request;
 use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
 use crate::why::{Moved, Worst};
@@ -29,11 +29,13 @@ pub(super) use thumbnails::{MOST as MOST_THUMBNAILS, Thumbnails};
 const FEW: usize = 10;
 
 /// What the computations depend on besides the pair and the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct WhyAsked {
     pub sections: WhySections,
     /// The scenes that are listed.
-    pub sampling: Sampling,
+    pub scenes: Request,
+    /// Names the scenes of the attribution.
+    pub seed: u64,
 }
 
 /// The computations, and what of them is shown.
@@ -75,10 +77,9 @@ impl Why {
         let pair = ComparedPair::of(slots, state);
         let pair = pair.as_ref();
         let shown = |section| shown && asked.sections.is_open(section);
-        let seed = asked.sampling.seed;
         let errors = [
-            self.attribution.follow(ctx, shown(WhySection::Maps), pair, seed),
-            self.scenes.follow(ctx, shown(WhySection::Scenes), pair, asked.sampling),
+            self.attribution.follow(ctx, shown(WhySection::Maps), pair, asked.seed),
+            self.scenes.follow(ctx, shown(WhySection::Scenes), pair, asked.scenes),
             self.directions.follow(ctx, shown(WhySection::Directions), pair, self.moved, &state.scene),
         ];
         errors.into_iter().flatten().collect()

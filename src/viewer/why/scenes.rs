@@ -7,7 +7,8 @@ use eframe::egui;
 use super::pair::{ComparedPair, PairKey};
 use super::thumbnails::{self, Thumbnails};
 use crate::error::Error;
-use crate::loss::{Request, Sampling};
+use crate::loss::Request;
+use crate::model::scene::Kind;
 use crate::picture::statistics::Histogram;
 use crate::viewer::latest::Latest;
 use crate::viewer::worker::Task;
@@ -17,16 +18,17 @@ use crate::why::{Distribution, RankedScene, worst_first};
 const BINS: usize = 40;
 
 /// What a list of scenes depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 struct ScenesKey {
     pair: PairKey,
-    sampling: Sampling,
+    scenes: Request,
 }
 
 /// The scenes of a loss.
 #[derive(Clone, Debug)]
 pub(crate) struct SceneList {
-    pub sampling: Sampling,
+    /// The numbers of near-field and of distant ones.
+    pub counts: [usize; 2],
     /// Worst first.
     pub ranked: Vec<RankedScene>,
     /// The mean of their losses.
@@ -50,20 +52,20 @@ impl ScenesRun {
         ctx: &egui::Context,
         shown: bool,
         pair: Option<&ComparedPair>,
-        sampling: Sampling,
+        scenes: Request,
     ) -> Option<Error> {
         let Some(pair) = pair.filter(|_| shown) else {
             self.list.rest();
             self.thumbnails.rest();
             return None;
         };
-        let wanted = ScenesKey { pair: pair.key, sampling };
+        let wanted = ScenesKey { pair: pair.key, scenes };
         self.list.drop_other(&wanted);
-        let mut error = self.list.follow(ctx, Some(wanted), |_| {
-            let pair = pair.clone();
+        let mut error = self.list.follow(ctx, Some(wanted.clone()), |key| {
+            let (pair, scenes) = (pair.clone(), key.scenes.clone());
             Task::start(ctx, move |progress| {
-                let outcome = pair.comparison()?.run(&Request::Scenes(sampling), progress)?;
-                Ok(Arc::new(SceneList::new(sampling, worst_first(&outcome))))
+                let outcome = pair.comparison()?.run(&scenes, progress)?;
+                Ok(Arc::new(SceneList::new(worst_first(&outcome))))
             })
         });
         self.thumbnails.drop_other(&wanted);
@@ -83,11 +85,11 @@ impl ScenesRun {
     pub(crate) fn get(
         &self,
         pair: &ComparedPair,
-        sampling: Sampling,
+        scenes: &Request,
     ) -> Option<(&SceneList, Option<&Thumbnails>)> {
-        let wanted = ScenesKey { pair: pair.key, sampling };
-        let (_, list) = self.list.get().filter(|(of, _)| **of == wanted)?;
-        let thumbnails = self.thumbnails.get().filter(|(of, _)| **of == wanted);
+        let is_wanted = |of: &ScenesKey| of.pair == pair.key && of.scenes == *scenes;
+        let (_, list) = self.list.get().filter(|(of, _)| is_wanted(of))?;
+        let thumbnails = self.thumbnails.get().filter(|(of, _)| is_wanted(of));
         Some((list, thumbnails.map(|(_, thumbnails)| thumbnails)))
     }
 
@@ -98,7 +100,9 @@ impl ScenesRun {
 }
 
 impl SceneList {
-    fn new(sampling: Sampling, ranked: Vec<RankedScene>) -> Self {
+    fn new(ranked: Vec<RankedScene>) -> Self {
+        let count = |kind| ranked.iter().filter(|scene| scene.scene.kind == kind).count();
+        let counts = [Kind::Near, Kind::Distant].map(count);
         let losses: Vec<f64> = ranked.iter().map(|scene| scene.losses[0]).collect();
         let largest = losses.first().copied().filter(|largest| *largest > 0.0).unwrap_or(1.0);
         let values: Vec<f32> = losses.iter().map(|loss| *loss as f32).collect();
@@ -106,7 +110,7 @@ impl SceneList {
         let axis = [0.0, f64::from(largest as f32)];
         let histogram = Histogram::of(&values, axis, BINS);
         let mean = losses.iter().sum::<f64>() / losses.len().max(1) as f64;
-        Self { sampling, ranked, mean, distribution: Distribution::of(&losses), histogram }
+        Self { counts, ranked, mean, distribution: Distribution::of(&losses), histogram }
     }
 }
 
@@ -120,7 +124,8 @@ mod tests {
         let scene = ViewState::default().scene;
         let one = |(index, loss): (usize, &f64)| RankedScene { index, scene, losses: vec![*loss] };
         for losses in [vec![0.9, 0.3, 0.1, 0.0], vec![0.0, 0.0], vec![1e-30]] {
-            let list = SceneList::new(Sampling::default(), losses.iter().enumerate().map(one).collect());
+            let list = SceneList::new(losses.iter().enumerate().map(one).collect());
+            assert_eq!(list.counts, [losses.len(), 0]);
             let Histogram { counts, below, above, .. } = &list.histogram;
             assert_eq!(counts.iter().sum::<u64>(), losses.len() as u64, "{losses:?}");
             assert_eq!((*below, *above), (0, 0));

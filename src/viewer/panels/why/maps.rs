@@ -18,7 +18,7 @@ const NUMBERS: f32 = 108.0;
 
 impl WhyPanel<'_> {
     pub(super) fn maps(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
-        let attributed = self.why.attribution.get(pair, self.sampling.seed);
+        let attributed = self.why.attribution.get(pair, self.settings.seed);
         let axis = attributed.map_or([0.0, 1.0], axis);
         for map in Map::ALL {
             let row = MapRow { map, attributed, axis, chosen: self.state.prediction };

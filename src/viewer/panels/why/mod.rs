@@ -6,7 +6,7 @@ mod scenes;
 
 use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
-use crate::loss::Sampling;
+use crate::loss::LossSettings;
 use crate::picture::quantity::Quantity;
 use crate::viewer::command::{Command, DisplayCommand, WhyCommand};
 use crate::viewer::names::shortened;
@@ -29,8 +29,8 @@ pub(crate) struct WhyPanel<'a> {
     pub pair: Option<ComparedPair>,
     pub why: &'a Why,
     pub sections: WhySections,
-    /// The scenes that are listed.
-    pub sampling: Sampling,
+    /// Say which scenes are listed.
+    pub settings: &'a LossSettings,
 }
 
 impl WhyPanel<'_> {

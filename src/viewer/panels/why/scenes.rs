@@ -3,9 +3,10 @@
 use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
 use super::WhyPanel;
+use crate::loss::LossSettings;
 use crate::model::scene::{Kind, Scene};
 use crate::picture::statistics::Histogram;
-use crate::viewer::command::{Command, SceneCommand, WhyCommand};
+use crate::viewer::command::{Command, SceneCommand, WhyCommand, WindowCommand};
 use crate::viewer::panels::legend::digits;
 use crate::viewer::theme;
 use crate::viewer::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbnails};
@@ -21,15 +22,16 @@ const MORE: usize = 20;
 
 impl WhyPanel<'_> {
     pub(super) fn scenes(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
-        match self.why.scenes.get(pair, self.sampling) {
+        let scenes = self.settings.listed_scenes();
+        match self.why.scenes.get(pair, &scenes) {
             Some((list, thumbnails)) => {
                 self.histogram(ui, list);
-                distribution(ui, list);
+                distribution(ui, list, self.settings);
                 self.thumbnails(ui, list, thumbnails, commands);
             }
             None => {
                 let fraction = self.why.scenes.busy().unwrap_or_default();
-                let count = self.sampling.near + self.sampling.distant;
+                let count = scenes.count().unwrap_or(0);
                 ui.add(egui::ProgressBar::new(fraction).text(format!("{count} scenes")).corner_radius(3.0));
             }
         }
@@ -104,6 +106,12 @@ impl WhyPanel<'_> {
             if listed > MORE / 2 && ui.small_button("Fewer scenes").clicked() {
                 commands.push(WhyCommand::ListScenes(MORE / 2).into());
             }
+            let save = ui.small_button("Save scenes...");
+            let hover =
+                "Write these scenes to a scene file, worst first; Open, and --scenes of svbrdf, take it";
+            if save.on_hover_text(hover).clicked() {
+                commands.push(WindowCommand::SaveScenes.into());
+            }
             if let Some(thumbnails) = thumbnails {
                 let text = format!("log difference, 0 to {}", digits(thumbnails.range));
                 ui.label(RichText::new(text).small().weak())
@@ -174,18 +182,21 @@ fn place(scene: &Scene) -> String {
     format!("{kind}, light {}, view {}", triple(scene.light), triple(scene.view))
 }
 
-fn distribution(ui: &mut egui::Ui, list: &SceneList) {
+fn distribution(ui: &mut egui::Ui, list: &SceneList, settings: &LossSettings) {
     let Some(distribution) = list.distribution else { return };
     let text = format!(
         "{} + {} scenes: median {}, 95% below {}, the worst tenth adds {:.0}% of the loss",
-        list.sampling.near,
-        list.sampling.distant,
+        list.counts[0],
+        list.counts[1],
         digits(distribution.median),
         digits(distribution.percentile95),
         100.0 * distribution.worst_tenth
     );
-    ui.label(RichText::new(text).small().weak())
-        .on_hover_text("Near-field and distant scenes of the seed of the loss, each on all texels");
+    let of = match settings.file_scenes() {
+        Some(file) => format!("Near-field and distant scenes of {}, each on all texels", file.name),
+        None => "Near-field and distant scenes of the seed of the loss, each on all texels".to_owned(),
+    };
+    ui.label(RichText::new(text).small().weak()).on_hover_text(of);
 }
 
 fn thumbnail(

@@ -1,0 +1,104 @@
+//! Scene files: the scenes of the loss, from a file and to one.
+
+use std::path::{Path, PathBuf};
+
+use svbrdf::files::read::ReadOptions;
+use svbrdf::loss::{Comparison, Outcome, Request};
+use svbrdf::model::convention::PRINTED;
+use svbrdf::model::scene::Scene;
+use svbrdf::model::scene_file;
+use svbrdf::progress::Progress;
+use svbrdf::samples;
+use svbrdf::viewer::command::{DisplayCommand, LossCommand, MaterialsCommand, WindowCommand};
+use svbrdf::viewer::save_kind::SaveKind;
+
+use super::reading::apply;
+use super::*;
+
+const CAPTURE: &str = r#"{"im_size": 4, "camera_pos": [[-3, 3, 16], [0, 3, 16], [3, 1, 16]],
+    "light_pos": [[-1, 3, 16], [0, 3, 16], [3, 2, 8]]}"#;
+
+fn open(window: &mut Window<'_>, path: &Path) {
+    let (paths, read) = (vec![path.to_owned()], ReadOptions::AUTO);
+    apply(window, MaterialsCommand::Open { paths, replace: false, read });
+}
+
+/// What the core gives for these scenes and the built-in predictions.
+fn expected(scenes: &[Scene]) -> Outcome {
+    let samples = samples::load::<f32>().unwrap();
+    let predictions: Vec<_> = samples.predictions.iter().map(|read| &read.material).collect();
+    let comparison = Comparison::new(&samples.ground_truth.material, &predictions, PRINTED).unwrap();
+    comparison.run(&Request::Listed(scenes.to_vec()), &Progress::default()).unwrap()
+}
+
+fn capture(folder: &tempfile::TempDir) -> PathBuf {
+    let path = folder.path().join("render.json");
+    std::fs::write(&path, CAPTURE).unwrap();
+    path
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = capture(&folder);
+    let scenes = scene_file::read(&path).unwrap();
+    let mut window = built_in();
+    window.run_steps(30);
+    open(&mut window, &path);
+    let is_of_file = |app: &App| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 3);
+    wait(&mut window, "the loss over the file", is_of_file);
+    assert_eq!(window.state().losses().unwrap(), expected(&scenes).losses);
+    window.get_by_label("3 scenes of render.json");
+    assert_eq!(window.state().names().len(), 3, "the materials stay");
+    let listed = |app: &App| app.listed_scenes().is_some_and(|(scenes, _)| scenes.len() == 3);
+    tab(&mut window, "Why");
+    wait(&mut window, "the list of the file", listed);
+    tab(&mut window, "Loss");
+    window.get_by_label("Remove scenes").click();
+    window.run_steps(30);
+    assert!(window.query_by_label("3 scenes of render.json").is_none());
+    assert!(window.state().settings.loss.file.is_none());
+    apply(&mut window, DisplayCommand::Undo);
+    wait(&mut window, "the loss over the file", is_of_file);
+    apply(&mut window, LossCommand::RemoveFileScenes);
+    wait(&mut window, "the loss to +-1%", |app| app.losses().is_some());
+
+    // What is no scene file is an error, and changes nothing.
+    let wrong = folder.path().join("wrong.json");
+    std::fs::write(&wrong, "{}").unwrap();
+    open(&mut window, &wrong);
+    wait(&mut window, "the error", |app| {
+        app.messages().iter().any(|text| text.contains("not a usable scene file"))
+    });
+    assert!(window.state().settings.loss.file.is_none());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = by_scenes();
+    tab(&mut window, "Why");
+    wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
+    let ranked = window.state().listed_scenes().unwrap().0.to_vec();
+    let path = folder.path().join("scenes.json");
+    apply(&mut window, WindowCommand::Save { what: SaveKind::Scenes, path: path.clone(), size: [0; 2] });
+    wait(&mut window, "the file", |app| app.messages().iter().any(|text| text.starts_with("Saved")));
+    let saved = scene_file::read(&path).unwrap();
+    assert_eq!(saved, ranked.iter().map(|ranked| ranked.scene).collect::<Vec<_>>());
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
+    let losses: Vec<f64> = ranked.iter().map(|ranked| ranked.losses[0]).collect();
+    assert_eq!(json["results"][0]["losses"], serde_json::json!(losses));
+    assert_eq!(json["results"].as_array().unwrap().len(), 1, "of the chosen prediction");
+
+    open(&mut window, &path);
+    wait(&mut window, "the scenes of the file", |app| app.settings.loss.file_scenes().is_some());
+    let session = folder.path().join("a.svbrdf-session.json");
+    apply(&mut window, WindowCommand::Save { what: SaveKind::Session, path: session.clone(), size: [0; 2] });
+    wait(&mut window, "the session", |_| session.exists());
+    let session = svbrdf::files::session::Session::read(&session).unwrap();
+    let mut other = super::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });
+    wait(&mut other, "the loss", |app| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 9));
+    assert_eq!(other.state().losses().unwrap(), expected(&saved).losses);
+}
