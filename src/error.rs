@@ -112,6 +112,20 @@ pub enum Error {
     #[error("the scene cannot be rendered: {problem}; move it above the plane, within 1e9 of the origin")]
     UnusableScene { problem: String },
 
+    /// The corners of the plane in a photograph make no sense.
+    #[error(
+        "the corners of the plane cannot be used: {problem}; give the top left, top right, bottom right and bottom left \
+        corner of the material in the photograph, in pixels"
+    )]
+    UnusableCorners { problem: String },
+
+    /// No factor brings a photograph to the exposure of a rendering.
+    #[error(
+        "the exposure of the photograph cannot be fitted to {name}: {problem}; check light, view and corners, or take \
+        another photograph"
+    )]
+    NoExposure { name: String, problem: String },
+
     /// A name that is none of the known ones.
     #[error("unknown {what} `{found}`; use one of: {known}")]
     UnknownName { what: &'static str, found: String, known: String },

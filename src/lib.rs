@@ -37,6 +37,7 @@
 //! | [`report`] | losses as text |
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
+//! | [`photograph`] | renderings against a photograph: four corners, one exposure factor |
 //! | [`rank`] | many predictions of one ground truth, best first |
 //! | [`dataset`] | many materials and methods: result files, means with intervals over materials |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
@@ -62,6 +63,7 @@ pub mod material;
 pub mod math;
 pub mod metrics;
 pub mod model;
+pub mod photograph;
 pub mod picture;
 pub mod progress;
 pub mod rank;

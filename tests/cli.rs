@@ -6,6 +6,7 @@ mod loss;
 mod materials;
 mod metrics;
 mod notes;
+mod photo;
 mod pictures;
 mod rank;
 mod scenes;

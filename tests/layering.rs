@@ -21,7 +21,7 @@ const LAYERS: [&[&str]; 14] = [
     &["picture"],
     &["files"],
     &["loss"],
-    &["dataset", "metrics", "rank", "report", "samples", "study", "why"],
+    &["dataset", "metrics", "photograph", "rank", "report", "samples", "study", "why"],
     &["gpu"],
     &["viewer"],
     &["cli", "lib", "main"],

@@ -20,6 +20,7 @@ mod gpu_parity;
 mod layering;
 mod metrics;
 mod mutations;
+mod photograph;
 mod physics;
 mod rank;
 mod reading;

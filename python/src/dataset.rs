@@ -1,10 +1,12 @@
 //! Many materials: the losses of methods over a data set.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
-use svbrdf::dataset::{self, MaterialResult, MethodSummary, Pick, RunSettings, Side};
+use svbrdf::dataset::{
+    self, MaterialResult, MethodSummary, MetricSummary, Pick, RunSettings, Side, summarize_metrics,
+};
 use svbrdf::error::Error;
 use svbrdf::files::read as reading;
 use svbrdf::material::Material;
@@ -28,6 +30,8 @@ pub struct DatasetAsked {
     convention: String,
     pick: String,
     strict: bool,
+    metrics: bool,
+    journal: Option<PathBuf>,
     /// Read options of the ground truths, then of the predictions, as JSON.
     read: [String; 2],
 }
@@ -46,6 +50,16 @@ pub struct SummaryItems {
     to_best: Option<f64>,
     to_best_interval95_materials: Option<(f64, f64)>,
     ties_with_best: bool,
+    /// Of the maps, by name.
+    metrics: BTreeMap<String, MetricItems>,
+}
+
+/// A metric of a method over the materials.
+#[derive(Debug, IntoPyObject)]
+pub struct MetricItems {
+    mean: f64,
+    median: f64,
+    interval95_materials: Option<(f64, f64)>,
 }
 
 /// One prediction of one material.
@@ -62,6 +76,8 @@ pub struct PredictionItems {
     interval95: Option<(f64, f64)>,
     /// What is wrong where there is no loss.
     error: Option<String>,
+    /// Of its maps, by name.
+    metrics: BTreeMap<String, f64>,
 }
 
 /// The losses of all methods over a data set: the methods, best first, and all predictions.
@@ -83,25 +99,27 @@ pub fn rank_dataset(
         Ok(read.material)
     };
     let tasks = dataset::tasks_of_folders(&asked.ground_truths, &asked.methods).map_err(exception)?;
-    let settings = RunSettings::new(convention.name, asked.target_error, asked.seed, &tasks);
-    let results = Mutex::new(Vec::new());
-    let done = |result: &MaterialResult| {
-        results.lock().unwrap_or_else(PoisonError::into_inner).push(result.clone());
-        Ok(())
-    };
-    work::run(py, progress, |progress| {
-        dataset::evaluate(&tasks, &settings, &convention, open, progress, done)
+    let settings =
+        RunSettings::new(convention.name, asked.target_error, asked.seed, &tasks).with_metrics(asked.metrics);
+    let journal = asked.journal.as_deref();
+    let results = work::run(py, progress, |progress| {
+        dataset::run(&tasks, &settings, &convention, open, journal, progress)
     })?;
-    let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
-    results.sort_by_key(|result| result.index);
     let summaries = dataset::summarize(&settings.methods, &results, pick);
-    let predictions = results.iter().flat_map(predictions).collect();
-    Ok((summaries.into_iter().map(SummaryItems::from).collect(), predictions))
+    let summaries = summaries.into_iter().map(|summary| {
+        let metrics = summarize_metrics(&summary.method, &results, pick);
+        SummaryItems::new(summary, metrics)
+    });
+    Ok((summaries.collect(), results.iter().flat_map(predictions).collect()))
 }
 
-impl From<MethodSummary> for SummaryItems {
-    fn from(summary: MethodSummary) -> Self {
-        let interval = |interval: Option<[f64; 2]>| interval.map(|[low, high]| (low, high));
+fn interval(interval: Option<[f64; 2]>) -> Option<(f64, f64)> {
+    interval.map(|[low, high]| (low, high))
+}
+
+impl SummaryItems {
+    fn new(summary: MethodSummary, metrics: BTreeMap<String, MetricSummary>) -> Self {
+        let to_best = summary.to_best;
         Self {
             ties_with_best: summary.ties_with_best(),
             method: summary.method,
@@ -111,11 +129,17 @@ impl From<MethodSummary> for SummaryItems {
             median: summary.median,
             interval95_materials: interval(summary.interval95_materials),
             interval95_scenes: summary.interval95_scenes.into(),
-            to_best: summary.to_best.map(|difference| difference.mean),
-            to_best_interval95_materials: summary
-                .to_best
+            to_best: to_best.map(|difference| difference.mean),
+            to_best_interval95_materials: to_best
                 .and_then(|difference| interval(difference.interval95_materials)),
+            metrics: metrics.into_iter().map(|(name, metric)| (name, metric.into())).collect(),
         }
+    }
+}
+
+impl From<MetricSummary> for MetricItems {
+    fn from(MetricSummary { mean, median, interval95_materials }: MetricSummary) -> Self {
+        Self { mean, median, interval95_materials: interval(interval95_materials) }
     }
 }
 
@@ -133,6 +157,7 @@ fn predictions(result: &MaterialResult) -> impl Iterator<Item = PredictionItems>
             standard_error: known.map(|known| known.standard_error),
             interval95: known.map(|known| known.interval95.into()),
             error: prediction.result.as_ref().err().cloned(),
+            metrics: prediction.metrics.clone(),
         }
     })
 }

@@ -27,12 +27,22 @@ def dataset(tmp_path: Path) -> Path:
     return tmp_path
 
 
+def of_command_line(program: str, dataset: Path, *options: str) -> Any:
+    """The ranking of both methods as the command line's JSON."""
+    folders = [str(dataset / name) for name in ("gt", "good", "bad")]
+    command = [program, "rank", "--dataset", *folders, "--target-error", "5%", "--format", "json", *options]
+    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+
+
+def ranked(dataset: Path, **options: Any) -> svbrdf.DatasetReport:
+    methods = [dataset / name for name in ("good", "bad")]
+    return svbrdf.rank_dataset(dataset / "gt", methods, **{"target_error": 0.05, **options})
+
+
 @pytest.mark.parametrize("pick", ["fixed", "mean", "best"])
 def test_a_data_set_has_the_numbers_of_the_command_line(program: str, dataset: Path, pick: Any) -> None:
-    folders = [dataset / name for name in ("gt", "good", "bad")]
-    command = [program, "rank", "--dataset", *map(str, folders), "--target-error", "5%", "--pick", pick]
-    found = json.loads(subprocess.run([*command, "--format", "json"], check=True, capture_output=True).stdout)
-    report = svbrdf.rank_dataset(folders[0], folders[1:], target_error=0.05, pick=pick)
+    found = of_command_line(program, dataset, "--pick", pick)
+    report = ranked(dataset, pick=pick)
     got = json.loads(json.dumps(report.to_dict()))
     assert got["methods"] == found["methods"]
     expected = [p["result"].get("Ok", {}).get("loss") for result in found["results"] for p in result["predictions"]]
@@ -66,3 +76,57 @@ def test_read_options_reach_the_files_and_wrong_ones_are_refused(dataset: Path) 
         svbrdf.rank_dataset(dataset / "nowhere", dataset / "bad")
     with pytest.raises(ValueError, match="methods: expected at least one"):
         svbrdf.rank_dataset(dataset / "gt", [])
+
+
+@pytest.mark.parametrize("pick", ["fixed", "mean", "best"])
+def test_metrics_are_those_of_the_command_line(program: str, dataset: Path, pick: Any) -> None:
+    found = of_command_line(program, dataset, "--pick", pick, "--metrics")
+    report = ranked(dataset, pick=pick, metrics=True)
+    got = json.loads(json.dumps(report.to_dict()))
+    assert got["methods"] == found["methods"]
+    expected = [prediction for result in found["results"] for prediction in result["predictions"]]
+    assert [dict(result.metrics) for result in report.results] == [p.get("metrics", {}) for p in expected]
+    worse, better = (report.methods[i].metrics["rmse_roughness"] for i in (1, 0))
+    assert worse.mean > better.mean > 0
+    assert worse.interval95_materials is not None
+    assert f"{worse.mean:.6f}" in repr(report)
+    without = ranked(dataset, pick=pick)
+    assert all(not summary.metrics for summary in without.methods)
+    assert "metrics" not in without.to_dict()["results"][0]
+
+
+def test_an_interrupted_run_continues_from_its_journal(program: str, dataset: Path) -> None:
+    journal = dataset / "run.jsonl"
+    whole = ranked(dataset, journal=journal)
+    complete = journal.read_text()
+    assert len(complete.splitlines()) == 9
+    of_command_line(program, dataset, "--journal", str(dataset / "other.jsonl"))
+    assert (dataset / "other.jsonl").read_text() == complete
+
+    # Two materials are done, one of them with another loss; the third was being written. What is done is not read
+    # again.
+    settings, *lines = complete.splitlines()
+    loss = whole.results[2].loss
+    assert loss is not None
+    changed = lines[1].replace(f'"loss":{loss!r}', '"loss":0.125')
+    assert changed != lines[1]
+    journal.write_text("\n".join([settings, lines[4], changed, lines[0][:40]]))
+    (dataset / "gt" / "m4.exr").write_bytes(b"gone")
+    seen: list[tuple[int, int]] = []
+    resumed = ranked(dataset, journal=str(journal), progress=lambda *counts: seen.append(counts))
+    assert seen[-1] == (6, 6)
+    assert resumed.results[2].loss == 0.125
+    assert [r for r in resumed.results if r.loss != 0.125] == [r for r in whole.results if r.loss != loss]
+    assert journal.read_text() == complete.replace(f'"loss":{loss!r}', '"loss":0.125')
+
+    # The command line continues it, too.
+    journal.write_text("\n".join([settings, lines[4], changed, ""]))
+    found = of_command_line(program, dataset, "--journal", str(journal))
+    assert json.loads(json.dumps(resumed.to_dict()))["methods"] == found["methods"]
+
+    with pytest.raises(svbrdf.Error, match="it is of other settings, materials or methods"):
+        ranked(dataset, journal=journal, seed=1)
+    with pytest.raises(svbrdf.Error, match="it is of other settings, materials or methods"):
+        ranked(dataset, journal=journal, metrics=True)
+    with pytest.raises(OSError, match="cannot write"):
+        ranked(dataset, journal=dataset / "nowhere" / "run.jsonl")

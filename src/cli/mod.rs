@@ -13,6 +13,7 @@ mod map;
 mod materials;
 mod metric_table;
 mod metrics;
+mod photo;
 mod protocol;
 mod rank;
 mod reading;
@@ -44,6 +45,8 @@ Examples:
   svbrdf blame gt.png prediction.png      prints how much of the loss comes from each map
   svbrdf render gt.png -o gt.exr          renders to linear floats
   svbrdf strip gt.png a.png -o fig.png    writes a labelled figure of maps and renderings
+  svbrdf photo photo.jpg a.png --flash --fov 45
+                                          compares renderings with a photograph
   svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
   svbrdf info gt.png                      prints what the files hold and what was assumed
   svbrdf convert gt.png gt.exr            writes the material as one layered EXR
@@ -81,6 +84,7 @@ enum Subcommands {
     Worst(worst::WorstArgs),
     Map(map::MapArgs),
     Metrics(metrics::MetricsArgs),
+    Photo(photo::PhotoArgs),
     Study(study::StudyArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
@@ -103,6 +107,7 @@ impl Cli {
             Subcommands::Worst(args) => worst::run(&args),
             Subcommands::Map(args) => map::run(&args),
             Subcommands::Metrics(args) => metrics::run(&args),
+            Subcommands::Photo(args) => photo::run(&args),
             Subcommands::Study(args) => study::run(&args),
             Subcommands::Info(args) => info::run(&args),
             Subcommands::Convert(args) => convert::run(&args),

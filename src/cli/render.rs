@@ -146,7 +146,10 @@ impl FromStr for Range {
 }
 
 /// Materials stand side by side only where they are equally high.
-fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
+///
+/// # Errors
+/// [`Error::SizesDiffer`].
+pub fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
     let different = |pair: &&[Material<f32>]| pair[0].height() != pair[1].height();
     let Some(pair) = materials.windows(2).find(different) else { return Ok(()) };
     Err(Error::SizesDiffer {

@@ -93,9 +93,13 @@ impl OneSceneArgs {
 
 /// Three numbers with commas between them.
 pub fn triple(text: &str) -> Result<[f64; 3], String> {
+    numbers(text).ok_or_else(|| format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`"))
+}
+
+/// `N` numbers with commas between them.
+pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    let expected = || format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`");
-    numbers.ok().and_then(|numbers| numbers.try_into().ok()).ok_or_else(expected)
+    numbers.ok().and_then(|numbers| numbers.try_into().ok())
 }
 
 #[cfg(test)]

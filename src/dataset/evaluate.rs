@@ -28,7 +28,7 @@ pub enum Side {
 ///
 /// # Errors
 /// [`Error::Cancelled`], and those of `done`.
-pub fn evaluate(
+pub(super) fn evaluate(
     tasks: &[Case],
     settings: &RunSettings,
     convention: &Convention,

@@ -13,7 +13,7 @@ use crate::progress::Progress;
 
 /// A file to which results are added.
 #[derive(Debug)]
-pub struct Journal {
+pub(super) struct Journal {
     path: PathBuf,
     file: Mutex<File>,
 }
@@ -25,7 +25,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`Error::Unreadable`], [`Error::Unwritable`]; [`Error::BadJournal`] where the file is of other settings, or is no journal.
-    pub fn open(path: &Path, settings: &RunSettings) -> Result<(Self, Vec<MaterialResult>), Error> {
+    pub(super) fn open(path: &Path, settings: &RunSettings) -> Result<(Self, Vec<MaterialResult>), Error> {
         let results = if path.exists() {
             let (found, results) = read(path)?;
             if found != *settings {
@@ -44,7 +44,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`Error::Unwritable`].
-    pub fn add(&self, result: &MaterialResult) -> Result<(), Error> {
+    pub(super) fn add(&self, result: &MaterialResult) -> Result<(), Error> {
         let line = line(&self.path, result)?;
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         file.write_all(line.as_bytes()).map_err(|source| unwritable(&self.path, source))
@@ -55,7 +55,7 @@ impl Journal {
 ///
 /// # Errors
 /// [`Error::Unwritable`].
-pub fn write(path: &Path, settings: &RunSettings, results: &[MaterialResult]) -> Result<(), Error> {
+pub(super) fn write(path: &Path, settings: &RunSettings, results: &[MaterialResult]) -> Result<(), Error> {
     let mut text = line(path, settings)?;
     for result in results {
         text += &line(path, result)?;
@@ -94,7 +94,7 @@ pub fn merged(paths: &[PathBuf]) -> Result<(RunSettings, Vec<MaterialResult>), E
 }
 
 /// The tasks whose results are not there yet.
-pub fn remaining(tasks: &[Case], results: &[MaterialResult]) -> Vec<Case> {
+pub(super) fn remaining(tasks: &[Case], results: &[MaterialResult]) -> Vec<Case> {
     let is_done = |task: &&Case| results.iter().any(|result| result.index == task.index);
     tasks.iter().filter(|task| !is_done(task)).cloned().collect()
 }

@@ -1,8 +1,8 @@
 //! Many materials: the losses of several methods over a data set, with intervals over materials.
 //!
 //! A data set is a list of [`Case`]s, one for each material: [`tasks_of_folders`] matches folders by name, [`tasks_of_table`] reads a table of
-//! pairs. [`evaluate`] gives a [`MaterialResult`] for each, [`Journal`] keeps them in a file, so that an interrupted run
-//! continues and parts of a run can be joined, and [`summarize`] tells what they say about the methods.
+//! pairs. [`run`] gives a [`MaterialResult`] for each and keeps them in a journal, so that an interrupted run continues; [`merged`]
+//! joins the journals of parts of a run, and [`summarize`] tells what they say about the methods.
 
 mod bootstrap;
 mod evaluate;
@@ -10,12 +10,14 @@ mod journal;
 mod list;
 mod metric_summary;
 mod record;
+mod run;
 mod summary;
 
 pub use bootstrap::interval_of_mean;
-pub use evaluate::{Side, evaluate};
-pub use journal::{Journal, merged, remaining, write};
+pub use evaluate::Side;
+pub use journal::merged;
 pub use list::{Shard, tasks_of_folders, tasks_of_table};
 pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
 pub use record::{Candidate, Case, KnownLoss, MaterialResult, PredictionResult, RunSettings};
+pub use run::run;
 pub use summary::{MethodDifference, MethodSummary, Pick, summarize};

@@ -249,9 +249,12 @@ impl App {
     fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
         let paths: Vec<PathBuf> =
             ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
-        let replace = self.slots.only_built_in();
-        (!paths.is_empty())
-            .then_some(MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO }.into())
+        (!paths.is_empty()).then(|| self.opened_from_outside(paths).into())
+    }
+
+    /// Opens files that were dropped or pasted: in place of the built-in materials, otherwise as predictions.
+    pub(super) fn opened_from_outside(&self, paths: Vec<PathBuf>) -> MaterialsCommand {
+        MaterialsCommand::Open { paths, replace: self.slots.only_built_in(), read: ReadOptions::AUTO }
     }
 }
 

@@ -100,7 +100,7 @@ pub enum SceneCommand {
     SetConvention(&'static str),
     /// Puts the scene on the clipboard as a scene file.
     Copy,
-    /// Takes the scene from this text of the clipboard.
+    /// Takes the scene, or opens the files, that this text of the clipboard names.
     Paste(String),
 }
 

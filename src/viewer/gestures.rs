@@ -198,17 +198,20 @@ pub(super) fn commands(
 ) -> Vec<Command> {
     let mut commands = Vec::new();
     for button in [PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle] {
-        if response.drag_started_by(button)
-            && let Some(pos) = ui.input(|i| i.pointer.press_origin())
-        {
-            let gesture = target.begin(ui, button, pos);
+        let dragged = response.drag_started_by(button);
+        let pos =
+            if dragged { ui.input(|i| i.pointer.press_origin()) } else { clicked(ui, response, button) };
+        let Some(pos) = pos else { continue };
+        let gesture = target.begin(ui, button, pos);
+        if dragged {
             *current = Some(gesture);
-            if gesture == Gesture::Pin
-                && let Some(texel) =
-                    target.point(pos).and_then(|point| target.state.texel_at(target.grid, point))
-            {
-                commands.push(InspectCommand::TogglePin(texel).into());
-            }
+        } else {
+            commands.extend(target.carry_on(gesture, pos, Vec2::ZERO));
+        }
+        if gesture == Gesture::Pin
+            && let Some(texel) = target.point(pos).and_then(|point| target.state.texel_at(target.grid, point))
+        {
+            commands.push(InspectCommand::TogglePin(texel).into());
         }
     }
     if response.dragged()
@@ -224,4 +227,10 @@ pub(super) fn commands(
         commands.extend(target.wheel(ui, pos));
     }
     commands
+}
+
+/// Where a button was pressed and released within one frame, which on slow adapters takes as long as a click.
+fn clicked(ui: &egui::Ui, response: &Response, button: PointerButton) -> Option<Pos2> {
+    let quick = ui.input(|i| i.pointer.button_pressed(button) && i.pointer.button_released(button));
+    response.hover_pos().filter(|_| quick)
 }

@@ -48,9 +48,9 @@ pub const HELP: &[(&str, &str)] = &[
         "undo / redo light, view, display and set of materials (redo also: Ctrl + Y)",
     ),
     ("Ctrl + plus / minus / 0", "size of text and controls"),
-    ("Ctrl + C / Ctrl + V", "copy / paste the scene as JSON"),
+    ("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene, or paths of materials"),
     ("double-click a number", "reset it to its default"),
-    ("?", "this help"),
+    ("?, F1", "this help"),
 ];
 
 /// What the commands of the keys depend on.
@@ -128,6 +128,7 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (none, Key::R, DisplayCommand::Reset.into()),
         (none, Key::I, InspectCommand::TogglePinHere.into()),
         (none, Key::Q, InspectCommand::Arm(true).into()),
+        (none, Key::F1, WindowCommand::ShowHelp(true).into()),
         (none, Key::Comma, TrainingCommand::Move(-1).into()),
         (none, Key::Period, TrainingCommand::Move(1).into()),
         (none, Key::Escape, now.escape.clone()),

@@ -53,9 +53,10 @@ pub struct SizeMismatch {
     pub source: Source,
 }
 
-/// Why the clipboard's text did not become the scene.
+/// Why the clipboard's text was not taken.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PasteProblem {
+    /// It is neither a scene nor paths of files.
     NoScene,
     /// It has a scene that cannot be rendered, for this reason.
     Unusable(String),
@@ -111,7 +112,8 @@ impl fmt::Display for Message {
                 write!(f, "Not opened, because the ground truth could not be read: {}.", names.join(", "))
             }
             Self::NotPasted(PasteProblem::NoScene) => f.write_str(
-                "Not pasted: the clipboard holds no scene. Copy one from this window or from a scene file.",
+                "Not pasted: the clipboard holds neither a scene nor paths of files. Copy a scene from this window or \
+                 from a scene file, or files of materials.",
             ),
             Self::NotPasted(PasteProblem::Unusable(problem)) => {
                 write!(f, "Not pasted: the scene cannot be rendered, {problem}.")

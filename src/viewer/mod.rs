@@ -45,6 +45,7 @@ mod pace;
 mod pane_text;
 mod panels;
 mod panes;
+mod pasted;
 mod polling;
 
 mod difference_run;

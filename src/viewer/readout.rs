@@ -11,15 +11,19 @@ pub(super) const WIDTH: usize = 8;
 
 /// A number in exactly [`WIDTH`] characters, with as many digits as fit, at most 4 behind the point.
 pub(super) fn fixed(value: f64) -> String {
-    let digits = match value.abs() {
-        v if v < 100.0 => 4,
-        v if v < 1e3 => 3,
-        v if v < 1e4 => 2,
-        v if v < 1e5 => 1,
-        v if v.is_finite() => return format!("{value:>WIDTH$.1e}"),
-        _ => 0,
-    };
-    format!("{value:>WIDTH$.digits$}")
+    in_width(value, WIDTH, 4)
+}
+
+/// A number in `width` characters, at least 6, with as many digits behind the point as fit, at most `digits`.
+pub(super) fn in_width(value: f64, width: usize, digits: usize) -> String {
+    let size = value.abs();
+    if !size.is_finite() {
+        return format!("{value:>width$}");
+    }
+    let before = 1 + (1..).take_while(|&power| size >= 10_f64.powi(power)).count();
+    // Of the sign and the point.
+    let behind = width.saturating_sub(2 + before).min(digits);
+    if behind > 0 { format!("{value:>width$.behind$}") } else { format!("{value:>width$.1e}") }
 }
 
 /// What the numbers of texels are read from.
@@ -69,5 +73,7 @@ mod tests {
             assert_eq!(fixed(value).len(), WIDTH, "{value}: {:?}", fixed(value));
         }
         assert_eq!([fixed(0.5), fixed(-12.3456)], ["  0.5000", "-12.3456"]);
+        let narrow = [0.25, -0.123_45, 12.345, -123.45, 1234.5, 1e30].map(|value| in_width(value, 6, 3));
+        assert_eq!(narrow, [" 0.250", "-0.123", "12.345", "-123.5", "1234.5", "1.0e30"]);
     }
 }

@@ -188,3 +188,20 @@ fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
     assert_eq!(field.value().as_deref(), Some("no/such/folder/view.png"));
     assert!(window.state().messages().is_empty());
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
+    let mut window = built_in();
+    let at = pane(&window, GROUND_TRUTH).center();
+    window.event(egui::Event::PointerMoved(at));
+    window.run_steps(2);
+    press(&mut window, egui::Key::I);
+    let mut height = |button: &str, message: &str| {
+        window.get_by_label(button).click();
+        window.run_steps(4);
+        window.get_by_label(message).rect().height()
+    };
+    let short = height("Copy scene", "Copied the scene as JSON");
+    assert_eq!(height("Copy as CSV", "Copied the pinned texels as CSV"), short);
+}

@@ -16,7 +16,7 @@ The numbers are those of the command line `svbrdf loss`, bit for bit. `svbrdf.to
 
 from ._blame import Attribution, Estimate, MapShare, blame
 from ._core import Error, __version__
-from ._dataset import DatasetLoss, DatasetReport, MethodSummary, rank_dataset
+from ._dataset import DatasetLoss, DatasetReport, MethodSummary, MetricSummary, rank_dataset
 from ._loss import Difference, Loss, LossReport, Place, loss, rank
 from ._material import Assumption, AssumptionWarning, Material, built_in, read, write
 from ._scenes import CONVENTIONS, Convention, Scene, read_scenes, render, sample_scenes
@@ -38,6 +38,7 @@ __all__ = [
     "MapShare",
     "Material",
     "MethodSummary",
+    "MetricSummary",
     "Place",
     "Scene",
     "__version__",

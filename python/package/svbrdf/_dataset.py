@@ -15,6 +15,16 @@ from ._progress import Report, reported
 
 
 @dataclass(frozen=True)
+class MetricSummary:
+    """A metric of the maps of a method over the materials."""
+
+    mean: float
+    median: float
+    interval95_materials: tuple[float, float] | None
+    """The 95% interval of the mean over all materials like these; None for fewer than 3."""
+
+
+@dataclass(frozen=True)
 class MethodSummary:
     """A method over the materials that it has a loss of."""
 
@@ -34,6 +44,8 @@ class MethodSummary:
     to_best_interval95_materials: tuple[float, float] | None
     ties_with_best: bool
     """Whether the materials cannot separate it from the best."""
+    metrics: Mapping[str, MetricSummary]
+    """Of the maps by name; empty where they were not asked for."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +66,8 @@ class DatasetLoss:
     standard_error: float | None
     interval95: tuple[float, float] | None
     error: str | None
+    metrics: Mapping[str, float]
+    """Of the maps by name; empty where they were not asked for or the maps cannot be compared."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -70,8 +84,12 @@ class DatasetReport:
     """Every prediction, in the order of the materials."""
 
     def to_dict(self) -> dict[str, Any]:
-        """The report as numbers, words, lists and dictionaries."""
-        return asdict(self)
+        """The report as numbers, words, lists and dictionaries. Methods have the keys of the command line's JSON."""
+        report = asdict(self)
+        for entry in (*report["methods"], *report["results"]):
+            if not entry["metrics"]:
+                del entry["metrics"]
+        return report
 
     def __repr__(self) -> str:
         width = max(len(summary.method) for summary in self.methods)
@@ -82,6 +100,12 @@ class DatasetReport:
                 f"{summary.method:{width}}  {summary.materials:9}  {summary.failures:6}  {summary.mean:9.6f}  "
                 f"{summary.median:8.6f}  {low:.6f} to {high:.6f}"
             )
+        names = {name: None for summary in self.methods for name in summary.metrics}
+        if names:
+            rows.append("metric, mean over materials: " + ", ".join(summary.method for summary in self.methods))
+        for name in names:
+            means = [summary.metrics[name].mean if name in summary.metrics else math.nan for summary in self.methods]
+            rows.append(f"{name:{max(map(len, names))}}  " + "  ".join(f"{mean:9.6f}" for mean in means))
         return "\n".join(rows)
 
 
@@ -94,6 +118,8 @@ def rank_dataset(
     convention: str = "printed",
     pick: Literal["fixed", "mean", "best"] = "fixed",
     strict: bool = False,
+    metrics: bool = False,
+    journal: Source | None = None,
     read_ground_truth: Mapping[str, Any] | None = None,
     read_predictions: Mapping[str, Any] | None = None,
     progress: bool | Report = False,
@@ -102,7 +128,7 @@ def rank_dataset(
 
     Materials of the same name in the folders belong together. `name_0`, `name_1` and so on in the folder of a method
     are several predictions of one material. A file that cannot be read is a result with its error, and not fatal.
-    Materials are compared in parallel. To continue interrupted runs, use the command line (`--journal`).
+    Materials are compared in parallel.
 
     Args:
         ground_truths: The folder of the ground truths.
@@ -112,13 +138,16 @@ def rank_dataset(
         convention: A name of `svbrdf.CONVENTIONS`.
         pick: Which of several predictions counts: the first, the mean of their losses, or the best.
         strict: Whether guesses in reading are errors.
+        metrics: Whether to compute metrics of the maps, too: RMSE, L1, angles and SSIM. docs/metrics.md defines them.
+        journal: A file that keeps results while they come: an interrupted run continues where it was. It is the file of
+            `svbrdf rank --dataset --journal`, which can continue it, too.
         read_ground_truth: Options of `svbrdf.read` for the ground truths, such as `{"albedo": "srgb"}`.
         read_predictions: The same for the predictions.
         progress: True for a bar of tqdm, or a function of (materials done, materials in all).
 
     Raises:
-        OSError: A folder cannot be read.
-        svbrdf.Error: A folder has no materials, or an option has no such value.
+        OSError: A folder cannot be read, or the journal cannot be written.
+        svbrdf.Error: A folder has no materials, an option has no such value, or the journal is of other settings.
     """
     check_goals(target_error, None, None)
     asked = {
@@ -129,6 +158,8 @@ def rank_dataset(
         "convention": convention,
         "pick": pick,
         "strict": strict,
+        "metrics": metrics,
+        "journal": journal,
         "read": [_options(given) for given in (read_ground_truth, read_predictions)],
     }
     with reported("comparing materials", progress) as report:
@@ -138,9 +169,13 @@ def rank_dataset(
         target_error=target_error,
         seed=seed,
         pick=pick,
-        methods=tuple(MethodSummary(**items) for items in summaries),
+        methods=tuple(_summary(**items) for items in summaries),
         results=tuple(DatasetLoss(**items) for items in results),
     )
+
+
+def _summary(metrics: Mapping[str, Mapping[str, Any]], **items: Any) -> MethodSummary:
+    return MethodSummary(metrics={name: MetricSummary(**metric) for name, metric in metrics.items()}, **items)
 
 
 def _named(methods: Source | Sequence[Source] | Mapping[str, Source]) -> list[tuple[str, str]]:

@@ -46,8 +46,9 @@ class Material:
         name: What reports call the material.
         precision: What the values are kept in: "f32" or "f64".
 
-    Row 0 is the top row. The core keeps its own copy. Anything with `__array__` or `__dlpack__` in the memory of the
-    CPU will do, such as a tensor of PyTorch.
+    Row 0 is the top row. Anything with `__array__` or `__dlpack__` in the memory of the CPU will do, such as a tensor
+    of PyTorch. Arrays are copied: the core keeps planes of checked values and normalized normals, and shares no memory
+    with numpy.
 
     Raises:
         TypeError: A map is not an array of floating-point numbers.

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 use svbrdf::dataset::{
-    self, Case, Journal, MaterialResult, MethodSummary, Pick, RunSettings, Side, evaluate, summarize,
-    tasks_of_folders, tasks_of_table,
+    self, Case, MaterialResult, MethodSummary, Pick, RunSettings, Side, summarize, tasks_of_folders,
+    tasks_of_table,
 };
 use svbrdf::error::Error;
 use svbrdf::files::read;
@@ -66,12 +65,6 @@ fn evaluated(args: &RankArgs) -> Result<(RunSettings, Vec<MaterialResult>), Erro
     let settings = RunSettings::new(args.comparison.convention().name, args.target_error, args.seed, &tasks)
         .with_metrics(args.metrics);
     let tasks = args.shard.map_or(tasks.clone(), |shard| shard.part(tasks));
-    let (journal, known) = match &args.journal {
-        Some(path) => Journal::open(path, &settings).map(|(journal, known)| (Some(journal), known))?,
-        None => (None, Vec::new()),
-    };
-    let remaining = dataset::remaining(&tasks, &known);
-    let results = Mutex::new(known);
     let options = [
         args.comparison.materials.reading.of_ground_truth(),
         args.comparison.materials.reading.of_predictions(),
@@ -85,18 +78,10 @@ fn evaluated(args: &RankArgs) -> Result<(RunSettings, Vec<MaterialResult>), Erro
         }
         Ok(read.material)
     };
-    let done = |result: &MaterialResult| {
-        results.lock().unwrap_or_else(PoisonError::into_inner).push(result.clone());
-        journal.as_ref().map_or(Ok(()), |journal| journal.add(result))
-    };
-    watched("comparing materials", |progress| {
-        evaluate(&remaining, &settings, &args.comparison.convention(), open, progress, done)
+    let results = watched("comparing materials", |progress| {
+        let convention = args.comparison.convention();
+        dataset::run(&tasks, &settings, &convention, open, args.journal.as_deref(), progress)
     })?;
-    let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
-    results.sort_by_key(|result| result.index);
-    if let Some(path) = &args.journal {
-        dataset::write(path, &settings, &results)?;
-    }
     Ok((settings, results))
 }
 

@@ -21,6 +21,7 @@ mod note;
 mod options;
 mod order;
 mod outside;
+mod photograph;
 mod pictures;
 mod preset;
 mod raster;
@@ -48,6 +49,7 @@ pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
 };
 pub use order::Order;
+pub use photograph::{Photograph, PhotographOptions, Transfer, read_photograph};
 pub use preset::Preset;
 pub use reason::Reason;
 pub use role::Role;

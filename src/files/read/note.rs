@@ -59,6 +59,8 @@ pub enum Subject {
     Material,
     /// A picture whose name names no map.
     Picture,
+    /// A photograph that renderings are compared with.
+    Photograph,
     Map(Role),
 }
 
@@ -67,6 +69,7 @@ impl fmt::Display for Subject {
         match self {
             Self::Material => f.write_str("material"),
             Self::Picture => f.write_str("picture"),
+            Self::Photograph => f.write_str("photograph"),
             Self::Map(role) => write!(f, "{} map", role.name()),
         }
     }

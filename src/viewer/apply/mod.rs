@@ -4,7 +4,7 @@ mod display;
 mod inspect;
 mod materials;
 mod saving;
-mod scene;
+pub(super) mod scene;
 mod training;
 mod undo;
 mod why;

@@ -6,7 +6,8 @@ use crate::model::scene::{Scene, SceneFile};
 use crate::viewer::app::App;
 use crate::viewer::command::SceneCommand;
 use crate::viewer::endpoint;
-use crate::viewer::message::{Message, PasteProblem};
+use crate::viewer::message::Message;
+use crate::viewer::pasted::{Pasted, pasted};
 
 impl App {
     pub(super) fn apply_to_scene(&mut self, ctx: &egui::Context, command: SceneCommand) {
@@ -42,8 +43,12 @@ impl App {
                 let text = scene_text(*scene);
                 self.copy_text(ctx, text, "the scene as JSON");
             }
-            SceneCommand::Paste(text) => match pasted_scene(&text) {
-                Ok(pasted) => *scene = pasted,
+            SceneCommand::Paste(text) => match pasted(&text) {
+                Ok(Pasted::Scene(pasted)) => *scene = pasted,
+                Ok(Pasted::Files(paths)) => {
+                    let command = self.opened_from_outside(paths);
+                    self.apply_to_materials(ctx, command);
+                }
                 Err(problem) => self.report([Message::NotPasted(problem)]),
             },
         }
@@ -51,33 +56,6 @@ impl App {
 }
 
 /// The scene as a scene file of one scene.
-fn scene_text(scene: Scene) -> String {
+pub(in crate::viewer) fn scene_text(scene: Scene) -> String {
     serde_json::to_string_pretty(&SceneFile { scenes: vec![scene] }).unwrap_or_default()
-}
-
-/// The first scene of a scene file, or a scene alone.
-fn pasted_scene(text: &str) -> Result<Scene, PasteProblem> {
-    let scene = serde_json::from_str::<SceneFile>(text)
-        .ok()
-        .and_then(|file| file.scenes.first().copied())
-        .or_else(|| serde_json::from_str(text).ok())
-        .ok_or(PasteProblem::NoScene)?;
-    scene.check().map_err(PasteProblem::Unusable)?;
-    Ok(scene)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::viewer::state::ViewState;
-
-    #[test]
-    fn a_copied_scene_can_be_pasted() {
-        let scene = ViewState::default().scene;
-        assert_eq!(pasted_scene(&scene_text(scene)), Ok(scene));
-        assert_eq!(pasted_scene("{\"scenes\": []}"), Err(PasteProblem::NoScene));
-        let below = scene_text(Scene { light: [0.0, 0.0, -1.0], ..scene });
-        let Err(PasteProblem::Unusable(problem)) = pasted_scene(&below) else { panic!("it is below") };
-        assert!(problem.contains("above the plane"), "{problem}");
-    }
 }

@@ -15,6 +15,8 @@ pub(crate) fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) 
     let mut commands = Vec::new();
     let lasting: Vec<_> = messages.lasting().collect();
     let mut bottom = area.bottom() - 8.0;
+    // An area without a width of its own is as wide as what it showed before.
+    let widest = (area.width() - 40.0).clamp(200.0, 720.0);
     if !lasting.is_empty() {
         let list = egui::Area::new(egui::Id::unique("messages"))
             .order(egui::Order::Middle)
@@ -22,7 +24,7 @@ pub(crate) fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) 
             .fixed_pos(egui::pos2(area.left() + 8.0, bottom))
             .show(ctx, |ui| {
                 egui::Frame::window(ui.style()).show(ui, |ui| {
-                    ui.set_max_width((area.width() - 40.0).clamp(200.0, 720.0));
+                    ui.set_max_width(widest);
                     list(ui, &lasting, &mut commands);
                 });
             });
@@ -36,6 +38,7 @@ pub(crate) fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) 
             .interactable(false)
             .show(ctx, |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
+                    ui.set_max_width(widest);
                     ui.label(message.to_string());
                 });
             });

@@ -1,18 +1,29 @@
 //! The drawer below the panes: every number of the pinned texels, and the statistics of the rectangle.
 
-use eframe::egui::{self, RichText};
+use std::ops::Range;
+
+use eframe::egui::{self, FontId, RichText, TextStyle};
 
 use crate::picture::quantity::Quantity;
 use crate::picture::statistics::Statistics;
 use crate::viewer::command::{Command, InspectCommand};
 use crate::viewer::inspect::{self, HEADS, Inspect, Region, RegionNumbers};
-use crate::viewer::readout::fixed;
+use crate::viewer::readout::{fixed, in_width};
 use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
 use crate::viewer::theme;
 
-/// Width of a name, in points.
-const NAME: f32 = 130.0;
+/// Width of a name, and between columns, in points.
+const NAME: f32 = 110.0;
+const SPACING: f32 = 8.0;
+/// Size of the numbers, in points.
+const NUMBERS: f32 = 11.0;
+/// Characters of a number in the columns of [`HEADS`].
+const WIDTHS: [usize; HEADS.len()] = [6, 6, 6, 6, 6, 7, 7, 6, 6, 6, 6, 6, 6, 6];
+/// Which columns of [`HEADS`] have three numbers.
+const COLOURS: [usize; 5] = [0, 1, 2, 4, 7];
+/// The column from which on a second table has the columns where one is too wide: the terms of the rendering.
+const TERMS: usize = 5;
 
 /// What the drawer shows.
 #[derive(Debug)]
@@ -27,7 +38,8 @@ pub(crate) struct Drawer<'a> {
 impl Drawer<'_> {
     pub(crate) fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
-        let height = self.height();
+        let tables = tables(ui);
+        let height = self.height(tables.len());
         egui::ScrollArea::both()
             .auto_shrink([false, true])
             .max_height(height)
@@ -37,22 +49,23 @@ impl Drawer<'_> {
                     self.region(ui, region, &mut commands);
                 }
                 if !self.inspect.pins.is_empty() {
-                    self.pins(ui, &mut commands);
+                    self.pins(ui, &tables, &mut commands);
                 }
             });
         commands
     }
 
     /// Of the contents, as far as the window has room for it.
-    fn height(&self) -> f32 {
+    fn height(&self, tables: usize) -> f32 {
         const MOST: f32 = 260.0;
-        let pins = self.inspect.pins.len() * self.slots.len();
-        let pins = if pins > 0 { 50.0 + 21.0 * pins as f32 } else { 0.0 };
-        let region = if self.inspect.region.is_some() { 50.0 + 19.0 * self.slots.len() as f32 } else { 0.0 };
+        let rows = (self.slots.len() + 1) as f32;
+        let pins = self.inspect.pins.len() as f32 * tables as f32 * (19.0 * rows + 5.0);
+        let pins = if pins > 0.0 { 28.0 + pins } else { 0.0 };
+        let region = if self.inspect.region.is_some() { 31.0 + 19.0 * rows } else { 0.0 };
         (pins + region + 14.0).min(MOST)
     }
 
-    fn pins(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn pins(&self, ui: &mut egui::Ui, tables: &[Range<usize>], commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             ui.strong("Pinned texels").on_hover_text("Computed in f64 under the light and view of now");
             if ui.small_button("Copy as CSV").on_hover_text("Every number in full").clicked() {
@@ -62,43 +75,50 @@ impl Drawer<'_> {
                 commands.push(InspectCommand::ClearPins.into());
             }
         });
-        egui::Grid::new("pins").num_columns(HEADS.len() + 2).spacing([14.0, 2.0]).striped(true).show(
-            ui,
-            |ui| {
-                ui.label("");
-                ui.label("");
-                for (name, meaning) in HEADS {
-                    ui.label(RichText::new(name).small().weak()).on_hover_text(meaning);
-                }
-                ui.end_row();
-                for (index, pin) in self.inspect.pins.iter().enumerate() {
-                    self.pin(ui, index, *pin, commands);
-                }
-            },
-        );
+        for (index, pin) in self.inspect.pins.iter().enumerate() {
+            let materials = self.slots.iter().map(|slot| &slot.loaded.material);
+            let rows = inspect::rows(materials, *pin, &self.state.scene, &self.state.convention());
+            for columns in tables {
+                let grid = egui::Grid::new(("pin", index, columns.start)).num_columns(columns.len() + 1);
+                grid.min_col_width(0.0).spacing([SPACING, 2.0]).striped(true).show(ui, |ui| {
+                    self.pin_heading(ui, index, columns, commands);
+                    for (slot, row) in rows.iter().enumerate() {
+                        self.name(ui, slot);
+                        row.cells()[columns.clone()].iter().zip(columns.clone()).for_each(
+                            |(cell, column)| {
+                                numbers(ui, cell, WIDTHS[column]);
+                            },
+                        );
+                        ui.end_row();
+                    }
+                });
+            }
+        }
     }
 
-    /// A line for each material.
-    fn pin(&self, ui: &mut egui::Ui, index: usize, pin: [usize; 2], commands: &mut Vec<Command>) {
-        let materials = self.slots.iter().map(|slot| &slot.loaded.material);
-        let rows = inspect::rows(materials, pin, &self.state.scene, &self.state.convention());
-        for (slot, row) in rows.iter().enumerate() {
-            if slot == 0 {
+    /// The names of the columns; before those of the first table, the place of the pin.
+    fn pin_heading(
+        &self,
+        ui: &mut egui::Ui,
+        index: usize,
+        columns: &Range<usize>,
+        commands: &mut Vec<Command>,
+    ) {
+        let pin = self.inspect.pins[index];
+        ui.horizontal(|ui| {
+            ui.set_min_width(NAME);
+            if columns.start == 0 {
                 let name = format!("{}: {},{}", index + 1, pin[0], pin[1]);
                 let button = ui.small_button(RichText::new(&name).monospace());
                 if button.on_hover_text("Remove this pin").clicked() {
                     commands.push(InspectCommand::TogglePin(pin).into());
                 }
-            } else {
-                ui.label("");
             }
-            self.name(ui, slot);
-            for cell in row.cells() {
-                let text: Vec<String> = cell.into_iter().map(fixed).collect();
-                ui.label(RichText::new(text.join(" ")).monospace().size(11.5));
-            }
-            ui.end_row();
+        });
+        for (name, meaning) in &HEADS[columns.clone()] {
+            ui.label(RichText::new(*name).small().weak()).on_hover_text(*meaning);
         }
+        ui.end_row();
     }
 
     fn name(&self, ui: &mut egui::Ui, slot: usize) {
@@ -170,4 +190,29 @@ impl Drawer<'_> {
             ui.end_row();
         }
     }
+}
+
+/// The columns of each table of pins: of one where it fits into the width, otherwise of two below each other.
+fn tables(ui: &egui::Ui) -> Vec<Range<usize>> {
+    let all = 0..HEADS.len();
+    let small = TextStyle::Small.resolve(ui.style());
+    let needed = ui.fonts_mut(|fonts| {
+        let glyph = fonts.glyph_width(&FontId::monospace(NUMBERS), '0');
+        let columns = all.clone().map(|column| {
+            let count = if COLOURS.contains(&column) { 3 * WIDTHS[column] + 2 } else { WIDTHS[column] };
+            let name: f32 = HEADS[column].0.chars().map(|c| fonts.glyph_width(&small, c)).sum();
+            name.max(glyph * count as f32) + SPACING
+        });
+        NAME + columns.sum::<f32>()
+    });
+    let room = ui.available_width() - ui.spacing().scroll.allocated_width();
+    if needed <= room { vec![all] } else { vec![0..TERMS, TERMS..HEADS.len()] }
+}
+
+/// The numbers of a cell, each in `width` characters; in full under the pointer.
+fn numbers(ui: &mut egui::Ui, cell: &[f64], width: usize) {
+    let text: Vec<String> = cell.iter().map(|value| in_width(*value, width, 3)).collect();
+    let full: Vec<String> = cell.iter().map(f64::to_string).collect();
+    let label = ui.label(RichText::new(text.join(" ")).monospace().size(NUMBERS));
+    label.on_hover_text(full.join("\n"));
 }

@@ -69,3 +69,24 @@ pub(super) fn decode_one(path: &Path, what: Subject) -> Result<(Raster, Vec<Note
         }
     }
 }
+
+/// The picture of a photograph, of one or three channels: the only one of a file, or its layer without a name.
+///
+/// # Errors
+/// As [`decode_file`]; [`Error::BadImage`] where no layer or several could be meant.
+pub(super) fn decode_photograph(path: &Path) -> Result<(Raster, Vec<Note>), Error> {
+    let place = Place { path, what: Subject::Photograph };
+    let Decoded { mut layers, notes, .. } = decode_file(path, place.what)?;
+    let unnamed = layers.iter().position(|layer| layer.name.is_empty());
+    let chosen = if layers.len() == 1 { Some(0) } else { unnamed };
+    let Some(chosen) = chosen else {
+        let names: Vec<_> = layers.iter().map(|layer| layer.name.as_str()).collect();
+        let problem = format!("expected one picture, found the layers {}", names.join(", "));
+        return Err(place.bad(problem, "save the layer of the photograph alone"));
+    };
+    let raster = layers.swap_remove(chosen).raster;
+    match raster.channels.len() {
+        1 | 3 => Ok((raster, notes)),
+        count => Err(place.bad(format!("expected gray or RGB, found {count} channels"), "convert it to RGB")),
+    }
+}

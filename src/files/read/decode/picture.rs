@@ -82,22 +82,23 @@ fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -
     decoder.set_limits(limits()).map_err(broken)?;
     let (width, height) = decoder.dimensions();
     place.check_size(width.into(), height.into(), decoder.total_bytes())?;
-    let notes = ignored(&mut decoder, place);
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+    let notes = ignored(&mut decoder, orientation, place);
     let image = caught(|| DynamicImage::from_decoder(decoder))
         .map_err(|_| place.invalid(format, "a contradiction in it"))?
         .map_err(broken)?;
     let found = image.color();
     let raster = raster(image)
         .ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))?;
+    let raster = if place.is_photograph() { raster.oriented(orientation.to_exif().into()) } else { raster };
     Ok(Decoded { notes, ..alone(raster) })
 }
 
 /// Metadata of the file that is ignored.
-fn ignored(decoder: &mut impl ImageDecoder, place: Place<'_>) -> Vec<Note> {
+fn ignored(decoder: &mut impl ImageDecoder, orientation: Orientation, place: Place<'_>) -> Vec<Note> {
     let mut notes = Vec::new();
     let what = place.what;
-    let turned = decoder.orientation().is_ok_and(|turned| turned != Orientation::NoTransforms);
-    if turned {
+    if orientation != Orientation::NoTransforms && !place.is_photograph() {
         notes.push(Note::Orientation(what));
     }
     let profile = decoder.icc_profile().ok().flatten().filter(|_| !place.is_data());

@@ -68,6 +68,11 @@ impl Place<'_> {
         }
     }
 
+    /// Whether the picture is seen as a person sees it, and not texel by texel.
+    pub(super) fn is_photograph(self) -> bool {
+        self.what == Subject::Photograph
+    }
+
     pub(super) fn truncated(self) -> Error {
         self.bad("expected the whole image, found the end of the file within it", "copy the file again")
     }

@@ -72,9 +72,9 @@ impl WhyPanel<'_> {
         painter.text(area.right_bottom(), Align2::RIGHT_TOP, digits(*high), font.clone(), weak);
         let mean = pos2(x(list.mean).clamp(area.left() + 60.0, area.right() - 90.0), area.bottom());
         painter.text(mean, Align2::CENTER_TOP, format!("mean {}", digits(list.mean)), font, ink);
+        let [mean, current] = if ui.visuals().dark_mode { ["White", "orange"] } else { ["Black", "brown"] };
         response.on_hover_text(format!(
-            "Number of scenes by their loss, on all texels. White: the mean; {}: the current scene",
-            if ui.visuals().dark_mode { "orange" } else { "brown" }
+            "Number of scenes by their loss, on all texels. {mean}: the mean; {current}: the current scene"
         ));
     }
 

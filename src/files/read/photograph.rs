@@ -1,0 +1,140 @@
+//! Photographs: radiance as a camera stores it.
+
+use std::fmt;
+use std::path::Path;
+use std::str::FromStr;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::decode;
+use super::interpret::transfer;
+use super::note::{Note, Subject};
+use super::options::Albedo;
+use super::raster::Raster;
+use super::samples::Samples;
+use crate::error::Error;
+use crate::image::Image;
+
+/// How the samples of a photograph encode radiance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Transfer {
+    /// Samples are proportional to radiance.
+    Linear,
+    /// The curve of IEC 61966-2-1.
+    Srgb,
+}
+
+/// How a photograph is read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, rename_all = "kebab-case")]
+pub struct PhotographOptions {
+    /// `None`: linear for floats and for a PNG that declares itself linear, sRGB for other integers.
+    pub transfer: Option<Transfer>,
+    /// The stored value from which on a pixel is clipped, where 1 is the largest integer. `None`: 1 for integers; floats
+    /// are never clipped.
+    pub clip: Option<f64>,
+}
+
+/// A photograph, as it is seen: turned as its EXIF orientation says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Photograph {
+    /// Linear radiance in a unit of its own; 0 where a stored sample is not finite.
+    pub image: Image<f32>,
+    /// Of each pixel, whether a channel of it is clipped or not finite.
+    pub clipped: Vec<bool>,
+    pub transfer: Transfer,
+    /// What the transfer curve was taken from.
+    pub transfer_from: &'static str,
+    /// What else was noticed.
+    pub notes: Vec<Note>,
+}
+
+impl Transfer {
+    pub const ALL: [Self; 2] = [Self::Linear, Self::Srgb];
+
+    /// The name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Srgb => "srgb",
+        }
+    }
+
+    fn curve(self) -> Albedo {
+        match self {
+            Self::Linear => Albedo::Linear,
+            Self::Srgb => Albedo::Srgb,
+        }
+    }
+}
+
+impl fmt::Display for Transfer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Linear => "linear",
+            Self::Srgb => "sRGB",
+        })
+    }
+}
+
+impl FromStr for Transfer {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|transfer| transfer.name() == text);
+        found.ok_or_else(|| Error::UnknownName {
+            what: "transfer curve",
+            found: text.to_owned(),
+            known: Self::ALL.map(Self::name).join(", "),
+        })
+    }
+}
+
+impl Photograph {
+    /// (width, height) in pixels.
+    pub fn size(&self) -> [usize; 2] {
+        [self.image.width, self.image.height]
+    }
+}
+
+/// Reads the photograph at `path`: any picture format that opens as a map, gray or RGB. Of an EXR with several layers, the one
+/// without a name is read; alpha is not used.
+///
+/// # Errors
+/// [`Error::Unreadable`], [`Error::BadImage`].
+pub fn read_photograph(path: &Path, options: &PhotographOptions) -> Result<Photograph, Error> {
+    let (raster, mut notes) = decode::decode_photograph(path)?;
+    let declared_linear = Note::LinearGamma(Subject::Photograph);
+    let (transfer, transfer_from) = match options.transfer {
+        Some(transfer) => (transfer, "as specified"),
+        None if notes.contains(&declared_linear) => (Transfer::Linear, "declared by its gAMA chunk"),
+        None if raster.is_float() => (Transfer::Linear, "since it stores floats"),
+        None => (Transfer::Srgb, "since it stores integers"),
+    };
+    if transfer == Transfer::Linear {
+        notes.retain(|note| *note != declared_linear);
+    }
+    let clip = options.clip.unwrap_or(if raster.is_float() { f64::INFINITY } else { 1.0 });
+    let channels = [0, 1, 2].map(|c| &raster.channels[c.min(raster.channels.len() - 1)]);
+    let clipped: Vec<bool> =
+        (0..raster.width * raster.height).into_par_iter().map(|i| is_clipped(channels, i, clip)).collect();
+    let image = linear(&raster, channels, &clipped, transfer);
+    Ok(Photograph { image, clipped, transfer, transfer_from, notes })
+}
+
+fn is_clipped(channels: [&Samples; 3], index: usize, clip: f64) -> bool {
+    channels.iter().map(|channel| channel.at(index)).any(|value| !value.is_finite() || value >= clip)
+}
+
+fn linear(raster: &Raster, channels: [&Samples; 3], clipped: &[bool], transfer: Transfer) -> Image<f32> {
+    let curve = transfer.curve();
+    let [r, g, b] = Samples::decoded_three::<f32>(channels, |value| transfer::linear(value, curve));
+    let pixel = |index: usize| {
+        let rgb = [r[index], g[index], b[index]];
+        if clipped[index] { rgb.map(|value| if value.is_finite() { value } else { 0.0 }) } else { rgb }
+    };
+    let pixels = (0..clipped.len()).into_par_iter().map(pixel).collect();
+    Image { width: raster.width, height: raster.height, pixels }
+}

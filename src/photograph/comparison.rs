@@ -1,0 +1,85 @@
+//! The rendering of a material against a photograph.
+
+use super::exposure;
+use super::rectified::Rectified;
+use crate::error::Error;
+use crate::image::Image;
+use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::picture::difference::Difference;
+use crate::picture::statistics::Statistics;
+use crate::progress::Progress;
+use crate::render;
+
+/// A rendering and the photograph at its exposure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhotographComparison {
+    /// What the photograph was multiplied by.
+    pub factor: f64,
+    /// The photograph on the texels of the material, multiplied by the factor; NaN where it is clipped.
+    pub photograph: Image<f32>,
+    pub rendering: Image<f32>,
+    epsilon: f64,
+}
+
+impl Rectified {
+    /// Renders `material`, which has the size of the photograph's texels, and brings the photograph to its exposure.
+    ///
+    /// # Errors
+    /// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Cancelled`].
+    pub fn compare(
+        &self,
+        material: &Material<f32>,
+        scene: &Scene,
+        convention: &Convention,
+        progress: &Progress,
+    ) -> Result<PhotographComparison, Error> {
+        let size = [self.image.width, self.image.height];
+        if material.size() != size {
+            return Err(Error::SizesDiffer {
+                first: "the rectified photograph".to_owned(),
+                first_size: size,
+                second: material.name().to_owned(),
+                second_size: material.size(),
+                remedy: "rectify the photograph to the size of the material",
+            });
+        }
+        let rendering = render::render_f32(material, scene, convention, progress)?;
+        let factor = exposure::factor(&self.image, &rendering, convention.epsilon);
+        let factor = factor.ok_or_else(|| Error::NoExposure {
+            name: material.name().to_owned(),
+            problem: match self.clipped() == self.image.pixels.len() {
+                true => "every texel of the photograph is clipped".to_owned(),
+                false => "no part of the material is lit in both".to_owned(),
+            },
+        })?;
+        // A stored value below 0 is noise: there is no negative radiance.
+        let expose = |value: f32| if value.is_nan() { value } else { (value * factor as f32).max(0.0) };
+        let pixels = self.image.pixels.iter().map(|pixel| pixel.map(expose)).collect();
+        let photograph = Image { width: size[0], height: size[1], pixels };
+        Ok(PhotographComparison { factor, photograph, rendering, epsilon: convention.epsilon })
+    }
+}
+
+impl PhotographComparison {
+    /// The factor in stops: positive where the photograph is darker than the rendering.
+    pub fn exposure_ev(&self) -> f64 {
+        self.factor.log2()
+    }
+
+    /// The difference of the rendering from the photograph, of each channel; NaN where the photograph is clipped.
+    pub fn difference(&self, kind: Difference) -> Image<f32> {
+        kind.picture(&self.photograph, &self.rendering, self.epsilon)
+    }
+
+    /// The difference of each texel, the mean over RGB; NaN where the photograph is clipped.
+    pub fn differences(&self, kind: Difference) -> Vec<f32> {
+        kind.of_images(&self.photograph, &self.rendering, self.epsilon)
+    }
+
+    /// The statistics of the difference over the texels that are not clipped; `None` where there is none.
+    pub fn statistics(&self, kind: Difference) -> Option<Statistics> {
+        Statistics::of(&self.differences(kind))
+    }
+}
