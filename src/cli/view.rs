@@ -1,12 +1,26 @@
 //! `svbrdf view`: the window.
 
+use std::path::PathBuf;
+
 use svbrdf::error::Error;
 
 use super::exit::tell;
 use super::materials::MaterialArgs;
+use super::photo::{PhotoReadingArgs, PhotoSceneArgs};
 
 #[derive(Debug, clap::Args)]
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
 pub struct ViewArgs {
+    /// Compares renderings with this photograph, in the place of the ground truth
+    #[arg(long, value_name = "FILE")]
+    photo: Option<PathBuf>,
+
+    #[command(flatten)]
+    photo_scene: PhotoSceneArgs,
+
+    #[command(flatten)]
+    photo_reading: PhotoReadingArgs,
+
     #[command(flatten)]
     materials: MaterialArgs,
 }
@@ -16,7 +30,7 @@ pub struct ViewArgs {
 /// # Errors
 /// [`Error::NoWindow`] without a display, [`Error::NoAdapter`] without a graphics adapter.
 pub fn run(args: ViewArgs) -> Result<(), Error> {
-    let shown = open_window(args.materials);
+    let shown = open_window(args);
     if let Err(Error::NoWindow { .. } | Error::NoAdapter { .. }) = shown {
         tell("note: `svbrdf loss` and `svbrdf render` work without a window");
     }
@@ -24,10 +38,10 @@ pub fn run(args: ViewArgs) -> Result<(), Error> {
 }
 
 #[cfg(feature = "viewer")]
-fn open_window(materials: MaterialArgs) -> Result<(), Error> {
+fn open_window(args: ViewArgs) -> Result<(), Error> {
     use super::reading::ResizeTo;
 
-    let fit = match materials.reading.resize_to {
+    let fit = match args.materials.reading.resize_to {
         None => false,
         Some(ResizeTo::GroundTruth) => true,
         Some(_) => {
@@ -38,9 +52,12 @@ fn open_window(materials: MaterialArgs) -> Result<(), Error> {
             ));
         }
     };
+    let photograph = photograph_of(&args)?;
+    let materials = args.materials;
     let session = session_of(&materials)?;
     svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
         session,
+        photograph,
         strict: materials.reading.both.strict,
         fit,
         ground_truth_read: materials.reading.of_ground_truth(),
@@ -48,6 +65,16 @@ fn open_window(materials: MaterialArgs) -> Result<(), Error> {
         ground_truth: materials.ground_truth,
         predictions: materials.predictions,
     })
+}
+
+/// The photograph, and its light and view where they are specified.
+#[cfg(feature = "viewer")]
+fn photograph_of(
+    args: &ViewArgs,
+) -> Result<Option<(svbrdf::files::session::SessionPhotograph, Option<svbrdf::model::scene::Scene>)>, Error> {
+    let Some(path) = args.photo.clone() else { return Ok(None) };
+    let scene = args.photo_scene.specified()?;
+    Ok(Some((args.photo_reading.of_session(path), scene)))
 }
 
 /// The session file that is given in place of a ground truth.
@@ -63,7 +90,7 @@ fn session_of(materials: &MaterialArgs) -> Result<Option<svbrdf::files::session:
 }
 
 #[cfg(not(feature = "viewer"))]
-fn open_window(_: MaterialArgs) -> Result<(), Error> {
+fn open_window(_: ViewArgs) -> Result<(), Error> {
     Err(Error::NoWindow {
         problem: "this program was built without the window".to_owned(),
         remedy: "build with the default features",

@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::read::ReadOptions;
+use super::read::{PhotographOptions, ReadOptions};
 use crate::error::Error;
 use crate::model::scene::Scene;
 
@@ -30,6 +30,9 @@ pub struct Session {
     /// Exposure in stops.
     #[serde(default)]
     pub exposure: f32,
+    /// The photograph that renderings are compared with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub photograph: Option<SessionPhotograph>,
     /// Display and loss settings of the window.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub window: Map<String, Value>,
@@ -56,6 +59,23 @@ pub struct SessionMaterial {
     pub steps: bool,
 }
 
+/// A photograph of a session, taken in its scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct SessionPhotograph {
+    /// Its file. In a file, it is relative to the folder of the file.
+    pub path: PathBuf,
+    /// How it is read; what is not specified is inferred.
+    #[serde(default)]
+    pub read: PhotographOptions,
+    /// The corners of the material in pixels, as in [`crate::photograph::Corners`]. `None` for the whole picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corners: Option<[[f64; 2]; 4]>,
+    /// Whether the falloff of the light is divided out.
+    #[serde(default)]
+    pub falloff: bool,
+}
+
 impl Session {
     /// The key of the window's display among [`Session::window`].
     pub const VIEW: &str = "view";
@@ -74,7 +94,8 @@ impl Session {
 
     /// A session without anything of a window.
     pub fn new(materials: Vec<SessionMaterial>, scene: Scene, convention: String, exposure: f32) -> Self {
-        Self { version: VERSION, materials, scene, convention, exposure, window: Map::new() }
+        let (photograph, window) = (None, Map::new());
+        Self { version: VERSION, materials, scene, convention, exposure, photograph, window }
     }
 
     /// Reads a session file; the paths of its materials become those from here.
@@ -96,6 +117,9 @@ impl Session {
             return Err(bad("expected at least one material, found none".to_owned()));
         }
         let folder = path.parent().unwrap_or(Path::new(""));
+        if let Some(photograph) = &mut session.photograph {
+            photograph.path = folder.join(&photograph.path);
+        }
         for material in &mut session.materials {
             match (&mut material.path, material.built_in) {
                 (Some(path), None) => *path = folder.join(&path),
@@ -120,12 +144,18 @@ impl Session {
         for material in &mut session.materials {
             material.path = material.path.as_ref().map(|path| relative(&absolute(path), &folder));
         }
+        if let Some(photograph) = &mut session.photograph {
+            photograph.path = relative(&absolute(&photograph.path), &folder);
+        }
         let failed = |e: serde_json::Error| Error::Internal(format!("a session cannot be written: {e}"));
         let mut value = serde_json::to_value(&session).map_err(failed)?;
         for material in value["materials"].as_array_mut().into_iter().flatten() {
             if let Some(read) = material["read"].as_object_mut() {
                 read.retain(|_, option| !option.is_null());
             }
+        }
+        if let Some(read) = value.pointer_mut("/photograph/read").and_then(Value::as_object_mut) {
+            read.retain(|_, option| !option.is_null());
         }
         Ok(format!("{value:#}\n"))
     }
@@ -158,7 +188,7 @@ fn relative(path: &Path, folder: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::read::Albedo;
+    use crate::files::read::{Albedo, Transfer};
     use crate::model::scene::Kind;
 
     fn session(paths: &[PathBuf]) -> Session {
@@ -174,6 +204,12 @@ mod tests {
         Session::new(paths.iter().map(material).collect(), scene, "guided-2020".to_owned(), -0.5)
     }
 
+    fn photograph(path: PathBuf) -> SessionPhotograph {
+        let read = PhotographOptions { transfer: Some(Transfer::Srgb), clip: None };
+        let corners = Some([[1.0, 2.0], [90.5, 1.0], [88.0, 70.0], [3.0, 69.0]]);
+        SessionPhotograph { path, read, corners, falloff: true }
+    }
+
     #[test]
     fn a_session_that_moves_with_its_files_finds_them() {
         let folder = tempfile::tempdir().unwrap();
@@ -182,8 +218,11 @@ mod tests {
         let paths = [here.join("maps/gt.png"), here.join("p.png")];
         let file = here.join("runs/a.svbrdf-session.json");
         let saved = session(&paths);
+        let mut saved = saved;
+        saved.photograph = Some(photograph(here.join("photos/a.jpg")));
         let text = saved.text(&file).unwrap();
         assert!(text.contains("\"../maps/gt.png\"") && text.contains("\"../p.png\""), "{text}");
+        assert!(text.contains("\"../photos/a.jpg\""), "{text}");
         assert!(!text.contains("null") && text.contains("srgb"), "{text}");
         fs::write(&file, text).unwrap();
         fs::rename(&here, &there).unwrap();
@@ -191,7 +230,9 @@ mod tests {
         let found: Vec<_> = read.materials.iter().map(|m| absolute(m.path.as_ref().unwrap())).collect();
         assert_eq!(found, [there.join("maps/gt.png"), there.join("p.png")]);
         let moved = [there.join("runs/../maps/gt.png"), there.join("runs/../p.png")];
-        assert_eq!(read, session(&moved));
+        let photographed =
+            Session { photograph: Some(photograph(there.join("runs/../photos/a.jpg"))), ..session(&moved) };
+        assert_eq!(read, photographed);
     }
 
     #[test]

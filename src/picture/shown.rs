@@ -14,6 +14,9 @@ use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 
+/// The colour of a difference that is not a number.
+const MID_GRAY: [u8; 3] = [128; 3];
+
 /// A quantity, or its difference from the ground truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Shown {
@@ -74,10 +77,13 @@ impl Shown {
     }
 
     /// The 8-bit colours of a number: of a rendering exposed and sRGB-encoded, of an albedo sRGB-encoded, of a normal
-    /// (n + 1) / 2, of roughness itself; of a difference those of its colour map. Exposure changes renderings only.
+    /// (n + 1) / 2, of roughness itself; of a difference those of its colour map, gray where it is NaN. Exposure changes renderings only.
     pub fn colour(&self, rgb: [f32; 3], exposure_ev: f32) -> [u8; 3] {
         if let Some(ShownDifference { kind, range }) = self.difference {
             let mean = rgb.iter().sum::<f32>() / 3.0;
+            if mean.is_nan() {
+                return MID_GRAY;
+            }
             let range = range.unwrap_or_else(|| kind.default_range());
             return difference_to_display(mean, range as f32, kind.is_signed());
         }

@@ -7,7 +7,6 @@ use eframe::egui;
 
 use super::animation::Animation;
 use super::browse::Browsed;
-use super::command::{Command, MaterialsCommand};
 use super::difference_run::DifferenceRun;
 use super::error_map_run::ErrorMapRun;
 use super::gpu_view::GpuView;
@@ -21,7 +20,9 @@ use super::message_list::MessageList;
 use super::mixture::MixtureRun;
 use super::options::ViewerOptions;
 use super::panels::open::OpenWindow;
+use super::panels::photograph_open::PhotographWindow;
 use super::panels::save::SaveWindow;
+use super::photograph::PhotographRun;
 use super::scene_loss::SceneLossRun;
 use super::settings::{self, Settings};
 use super::slots::{Slot, Slots, Target};
@@ -42,7 +43,7 @@ use crate::loss::FileScenes;
 /// Width of a window, in points, below which the side panel is hidden until it is asked for.
 const NARROW: f32 = 900.0;
 
-/// The viewer. Only [`Command`]s change it.
+/// The viewer. Only [`Command`](super::command::Command)s change it.
 #[derive(Debug)]
 pub struct App {
     pub state: ViewState,
@@ -66,6 +67,7 @@ pub struct App {
     pub(super) why: Why,
     pub(super) difference: DifferenceRun,
     pub(super) error_map: ErrorMapRun,
+    pub(super) photograph: PhotographRun,
     pub(super) study_window: bool,
     pub(super) inspect: Inspect,
     pub(super) region: RegionRun,
@@ -79,6 +81,7 @@ pub struct App {
     pub(super) scene_file: Option<Task<FileScenes>>,
     pub(super) open_window: Option<OpenWindow>,
     pub(super) save_window: Option<SaveWindow>,
+    pub(super) photograph_window: Option<PhotographWindow>,
     pub(super) help: bool,
     pub(super) swapped: bool,
     /// Whether the side panel is shown where the window is narrow.
@@ -130,6 +133,7 @@ impl App {
             why: Why::default(),
             difference: DifferenceRun::default(),
             error_map: ErrorMapRun::default(),
+            photograph: PhotographRun::default(),
             study_window: false,
             inspect: Inspect::default(),
             region: RegionRun::default(),
@@ -142,6 +146,7 @@ impl App {
             scene_file: None,
             open_window: None,
             save_window: None,
+            photograph_window: None,
             help: false,
             swapped: false,
             narrow_side_panel: false,
@@ -153,7 +158,10 @@ impl App {
             now: 0.0,
             frame_ms: 0.0,
         };
+        let photograph = options.photograph.clone();
         app.open_first(&cc.egui_ctx, options);
+        // After a session, which may have another one.
+        photograph.into_iter().for_each(|(photograph, scene)| app.show_photograph(photograph, scene));
         app
     }
 
@@ -243,18 +251,6 @@ impl App {
             eframe::set_value(storage, settings::KEY, &self.settings);
             storage.flush();
         }
-    }
-
-    /// Opens the files that were dropped on the window.
-    fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
-        let paths: Vec<PathBuf> =
-            ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
-        (!paths.is_empty()).then(|| self.opened_from_outside(paths).into())
-    }
-
-    /// Opens files that were dropped or pasted: in place of the built-in materials, otherwise as predictions.
-    pub(super) fn opened_from_outside(&self, paths: Vec<PathBuf>) -> MaterialsCommand {
-        MaterialsCommand::Open { paths, replace: self.slots.only_built_in(), read: ReadOptions::AUTO }
     }
 }
 

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use super::animation::{Animation, Preset};
 use super::endpoint::Endpoint;
 use super::inspect::Region;
+pub use super::photograph_command::{PhotographCommand, PhotographLight};
 use super::save_kind::SaveKind;
 use super::settings::Tab;
 use super::source::Source;
@@ -31,6 +32,7 @@ pub enum Command {
     Inspect(InspectCommand),
     Why(WhyCommand),
     Training(TrainingCommand),
+    Photograph(PhotographCommand),
 }
 
 /// Files and materials.

@@ -8,6 +8,7 @@ use super::panels;
 use super::panels::legend::LegendStrip;
 use super::panels::loss::LossPanel;
 use super::panels::materials::MaterialsPanel;
+use super::panels::photograph::PhotographCard;
 use super::panels::pins::Drawer;
 use super::panels::scene::ScenePanel;
 use super::panels::status::StatusBar;
@@ -18,6 +19,7 @@ use super::panels::values::ValueStrip;
 use super::panels::why::WhyPanel;
 use super::panes::Scenery;
 use super::settings::Tab;
+use super::slot::Slot;
 use super::why::ComparedPair;
 use crate::files::read::Certainty;
 
@@ -64,7 +66,7 @@ impl App {
         let mut commands = Vec::new();
         // A saved picture has the arrangement of the window, also at another size.
         let undivided = ui.available_height() / (1.0 - self.drawer_share).max(0.1);
-        if self.state.difference && !self.slots.predictions().is_empty() {
+        if self.state.difference && self.compares() {
             bare(egui::Panel::bottom("legend"), ui).show(ui, |ui| commands.extend(self.legend(ui)));
         }
         if self.settings.histograms && !self.state.difference && self.slots.ground_truth().is_some() {
@@ -72,6 +74,11 @@ impl App {
         }
         egui::CentralPanel::no_frame().show(ui, |ui| commands.extend(self.panes(ui, undivided)));
         commands
+    }
+
+    /// Whether there is something to compare: predictions, or a photograph.
+    fn compares(&self) -> bool {
+        !self.slots.predictions().is_empty() || self.photograph_scene().is_some()
     }
 
     fn top(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
@@ -83,6 +90,7 @@ impl App {
             scale: self.settings.ui_scale,
             histograms: self.settings.histograms,
             has_predictions: !self.slots.predictions().is_empty(),
+            has_photograph: self.photograph.source().is_some(),
             swapped: self.swapped,
         };
         bar.ui(ui)
@@ -95,6 +103,7 @@ impl App {
             state: &self.state,
             slots: &self.seen,
             error_maps: self.error_maps().map(AsRef::as_ref),
+            photographs: self.photographs().map(AsRef::as_ref),
             texel: hovered.and_then(|hovered| self.state.texel_at(grid?, hovered.point)),
             hovered: hovered.map(|hovered| hovered.slot),
             magnification: grid.map_or(1.0, |grid| self.viewport.magnification(grid, &self.state)),
@@ -125,6 +134,14 @@ impl App {
                 ScenePanel { state: &self.state, settings: &self.settings, animation: &self.animation };
             header.show_unindented(ui, |ui| commands.extend(scene.ui(ui)));
         });
+        if let Some(photograph) = self.photograph.scene(&self.seen) {
+            let shown = self.photograph_scene().is_some();
+            let names = self.seen.iter().map(Slot::name).collect();
+            let card = PhotographCard { photograph, names, shown };
+            bare(egui::Panel::bottom("photograph"), ui)
+                .resizable(false)
+                .show(ui, |ui| commands.extend(card.ui(ui)));
+        }
         egui::ScrollArea::vertical().id_salt(self.settings.tab as usize).auto_shrink([false, false]).show(
             ui,
             |ui| {
@@ -201,6 +218,7 @@ impl App {
 
     fn legend(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let distributions = self.distributions();
+        let first = usize::from(self.photograph_scene().is_none());
         let strip = LegendStrip {
             quantity: self.state.quantity,
             kind: self.state.difference_kind(),
@@ -209,8 +227,9 @@ impl App {
             range: self.range(),
             distributions: distributions.map(|(distributions, _)| distributions),
             current: distributions.is_some_and(|(_, current)| current),
-            names: self.seen.iter().skip(1).map(|slot| slot.name()).collect(),
-            chosen: self.state.prediction,
+            names: self.seen.iter().skip(first).map(|slot| slot.name()).collect(),
+            first,
+            chosen: (self.state.prediction + 1).min(self.seen.len().saturating_sub(1)).saturating_sub(first),
         };
         strip.ui(ui)
     }
@@ -228,6 +247,9 @@ impl App {
     fn panes(&mut self, ui: &mut egui::Ui, undivided: f32) -> Vec<Command> {
         let peek = ui.input(|i| i.key_down(egui::Key::G)) && !ui.ctx().text_edit_focused();
         let error_maps = self.error_maps().cloned();
+        let range = self.range();
+        let is_photographed = self.photograph_scene().is_some();
+        let photograph = if is_photographed { self.photograph.scene(&self.seen) } else { None };
         let scenery = Scenery {
             slots: &self.seen,
             state: &self.state,
@@ -237,8 +259,9 @@ impl App {
             peek,
             swapped: self.swapped,
             reading: !self.slots.openings.is_empty(),
-            range: self.range(),
+            range,
             error_maps: error_maps.as_deref(),
+            photograph,
             inspect: &self.inspect,
             undivided,
         };
@@ -255,6 +278,9 @@ impl App {
         }
         if let Some(window) = &mut self.open_window {
             commands.extend(window.ui(ctx, &self.settings.recent, self.settings.last.as_ref()));
+        }
+        if let Some(window) = &mut self.photograph_window {
+            commands.extend(window.ui(ctx));
         }
         if let Some(window) = &mut self.save_window {
             commands.extend(window.ui(ctx, self.picture_size));

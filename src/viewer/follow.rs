@@ -4,7 +4,8 @@ use eframe::egui;
 
 use super::app::App;
 use super::command::{
-    Command, DisplayCommand, InspectCommand, LossCommand, SceneCommand, WhyCommand, WindowCommand,
+    Command, DisplayCommand, InspectCommand, LossCommand, PhotographCommand, SceneCommand, WhyCommand,
+    WindowCommand,
 };
 use super::keys;
 use super::loss_run::{Asked, LossRun};
@@ -29,7 +30,11 @@ impl App {
         self.report(error.map(Message::Failed));
         let shown = self.state.difference || self.viewport.shows_extra;
         let averages = shown && self.state.is_error_map();
-        let error = self.difference.follow(ctx, shown && !averages, &self.seen, &self.state);
+        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+        let error = self.photograph.follow(ctx, gpu, &self.seen, &self.state);
+        self.report(error.map(Message::Failed));
+        let of_ground_truth = shown && !averages && self.photograph_scene().is_none();
+        let error = self.difference.follow(ctx, of_ground_truth, &self.seen, &self.state);
         self.report(error.map(Message::Failed));
         let gpu = self.gpu.as_ref().map(|g| &g.gpu);
         let scenes = self.settings.loss.listed_scenes();
@@ -74,6 +79,7 @@ impl App {
     /// The commands of the keys.
     pub(super) fn keys(&self, ctx: &egui::Context) -> Vec<Command> {
         let escape: Command = match (self.help, &self.open_window, &self.save_window) {
+            _ if self.photograph_window.is_some() => PhotographCommand::ShowOpen(false).into(),
             (true, _, _) => WindowCommand::ShowHelp(false).into(),
             (_, Some(_), _) => WindowCommand::ShowOpen(false).into(),
             (_, _, Some(_)) => WindowCommand::ShowSave(false).into(),

@@ -43,10 +43,21 @@ impl ShadedMaterial {
     }
 }
 
+/// The texels of a pane, or those that they are compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PaneTexels {
+    /// The shaded material of this id.
+    Shaded(u64),
+    /// The differences given for the material of this id.
+    Differences(u64),
+    /// The photograph given for the material of this id.
+    Photograph(u64),
+}
+
 /// What the pixels of a pane depend on.
 #[derive(PartialEq)]
 struct PaneKey {
-    ids: [u64; 2],
+    texels: [PaneTexels; 2],
     versions: [u64; 2],
     params: DisplayParams,
 }
@@ -62,6 +73,8 @@ pub(super) struct GpuView {
     shaded: HashMap<u64, ShadedMaterial>,
     /// Differences that were computed elsewhere, of materials by their ids, each with its version.
     given: HashMap<u64, (Arc<Shaded>, u64)>,
+    /// The photograph at the exposure of materials by their ids, each with its version.
+    photographs: HashMap<u64, (Arc<Shaded>, u64)>,
     versions: u64,
     stills: Vec<Option<(PaneKey, Arc<Still>)>>,
 }
@@ -82,6 +95,7 @@ impl GpuView {
             blit,
             shaded: HashMap::new(),
             given: HashMap::new(),
+            photographs: HashMap::new(),
             versions: 0,
             stills: Vec::new(),
         })
@@ -124,45 +138,53 @@ impl GpuView {
 
     /// Takes the differences of the material `id`, for panes whose difference is computed elsewhere.
     pub(super) fn give(&mut self, id: u64, differences: &Arc<Shaded>) {
-        if self.given.get(&id).is_some_and(|(given, _)| Arc::ptr_eq(given, differences)) {
-            return;
-        }
-        self.versions += 1;
-        self.given.insert(id, (differences.clone(), self.versions));
+        put(&mut self.given, &mut self.versions, id, differences);
+    }
+
+    /// Takes the photograph at the exposure of the material `id`.
+    pub(super) fn give_photograph(&mut self, id: u64, photograph: &Arc<Shaded>) {
+        put(&mut self.photographs, &mut self.versions, id, photograph);
+    }
+
+    /// These texels and their version, where they are there.
+    fn texels(&self, texels: PaneTexels) -> Option<(&Shaded, u64)> {
+        let (given, id) = match texels {
+            PaneTexels::Shaded(id) => {
+                let shown = self.shaded.get(&id).and_then(ShadedMaterial::shown)?;
+                return Some((&shown.shaded, shown.version));
+            }
+            PaneTexels::Differences(id) => (&self.given, id),
+            PaneTexels::Photograph(id) => (&self.photographs, id),
+        };
+        given.get(&id).map(|(given, version)| (given.as_ref(), *version))
     }
 
     /// Frees the shaded pictures of closed materials, and the pixels of all but the first `panes` panes.
     pub(super) fn keep_only(&mut self, slots: &[Slot], panes: usize) {
         self.shaded.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
         self.given.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
+        self.photographs.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
         self.stills.truncate(panes);
     }
 
-    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded, or `shown` given. The pixels of pane
+    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded or given. The pixels of pane
     /// `number` are drawn anew only where they change.
     pub(super) fn paint(
         &mut self,
         painter: &egui::Painter,
         rect: egui::Rect,
         number: usize,
-        ids: [u64; 2],
+        texels: [PaneTexels; 2],
         params: DisplayParams,
     ) {
-        let shaded = |id: u64| {
-            let shown = self.shaded.get(&id).and_then(ShadedMaterial::shown)?;
-            Some((&shown.shaded, shown.version))
-        };
-        let given = |id: u64| self.given.get(&id).map(|(given, version)| (given.as_ref(), *version));
-        let is_given = params.difference.is_some_and(|difference| difference.is_computed);
-        let shown = if is_given { given(ids[0]) } else { shaded(ids[0]) };
-        let (Some(shown), Some(reference)) = (shown, shaded(ids[1])) else { return };
-        let size = (rect.size() * painter.ctx().pixels_per_point()).round().max(egui::Vec2::splat(1.0));
-        let size = [size.x as u32, size.y as u32];
-        let key = PaneKey { ids, versions: [shown.1, reference.1], params };
         if self.stills.len() <= number {
             self.stills.resize_with(number + 1, || None);
         }
         let kept = self.stills[number].take();
+        let [Some(shown), Some(reference)] = texels.map(|texels| self.texels(texels)) else { return };
+        let size = (rect.size() * painter.ctx().pixels_per_point()).round().max(egui::Vec2::splat(1.0));
+        let size = [size.x as u32, size.y as u32];
+        let key = PaneKey { texels, versions: [shown.1, reference.1], params };
         let kept = kept.filter(|(_, still)| still.size() == size);
         let still = match kept {
             Some((of, still)) if of == key => still,
@@ -179,6 +201,15 @@ impl GpuView {
         let copy = CopyPane { blit: self.blit.clone(), still };
         painter.add(egui_wgpu::Callback::new_paint_callback(rect, copy));
     }
+}
+
+/// Puts texels that were computed elsewhere in the place of `id`, with a new version where they are others.
+fn put(all: &mut HashMap<u64, (Arc<Shaded>, u64)>, versions: &mut u64, id: u64, texels: &Arc<Shaded>) {
+    if all.get(&id).is_some_and(|(given, _)| Arc::ptr_eq(given, texels)) {
+        return;
+    }
+    *versions += 1;
+    all.insert(id, (texels.clone(), *versions));
 }
 
 /// The pixels of one pane, in egui's render pass.

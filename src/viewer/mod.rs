@@ -42,10 +42,13 @@ mod observe;
 mod opening;
 mod options;
 mod pace;
+mod pane_texels;
 mod pane_text;
 mod panels;
 mod panes;
 mod pasted;
+mod photograph;
+mod photograph_command;
 mod polling;
 
 mod difference_run;

@@ -5,6 +5,7 @@ use super::message::Message;
 use super::training::RunView;
 use crate::loss::{Estimate, Loss};
 use crate::material::Material;
+use crate::photograph::PhotographComparison;
 use crate::picture::statistics::Statistics;
 use crate::study::Study;
 use crate::viewer::why::ComparedPair;
@@ -32,6 +33,11 @@ impl App {
     /// The difference that has the last colour.
     pub fn difference_range(&self) -> f64 {
         self.range()
+    }
+
+    /// Every material against the photograph, where the panes compare with one and it is there.
+    pub fn against_photograph(&self) -> Option<&[PhotographComparison]> {
+        self.photographs().map(|all| all.comparisons.as_slice())
     }
 
     /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use crate::files::read::ReadOptions;
-use crate::files::session::Session;
+use crate::files::session::{Session, SessionPhotograph};
+use crate::model::scene::Scene;
 
 /// The materials that the window opens, and how it reads them.
 #[derive(Clone, Debug, Default)]
@@ -19,4 +20,6 @@ pub struct ViewerOptions {
     pub strict: bool,
     /// Whether predictions of another size are resized to the ground truth.
     pub fit: bool,
+    /// A photograph that renderings are compared with; its light and view, `None` for those of a session or the default.
+    pub photograph: Option<(SessionPhotograph, Option<Scene>)>,
 }

@@ -2,6 +2,7 @@
 
 use super::error_map_run::ErrorMaps;
 use super::inspect::Inspect;
+use super::photograph::PhotographScene;
 use super::slot::Slot;
 use super::state::{Layout, ViewState};
 use crate::gpu::DisplayMode;
@@ -27,6 +28,8 @@ pub(super) struct Scenery<'a> {
     pub range: f64,
     /// Where the difference is the error map, the maps once they are there.
     pub error_maps: Option<&'a ErrorMaps>,
+    /// The photograph, where renderings are compared with one.
+    pub photograph: Option<PhotographScene<'a>>,
     /// Pins and rectangle.
     pub inspect: &'a Inspect,
     /// Height of the panes with the drawer and the legend closed, in points.
@@ -41,12 +44,24 @@ pub(super) struct Content {
     pub mode: DisplayMode,
     /// Whether the slot's difference from the reference is shown, in place of its value.
     pub difference: bool,
+    pub photograph: PhotographUse,
+}
+
+/// What a photograph is in a pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PhotographUse {
+    /// Nothing: materials are compared with each other.
+    Absent,
+    /// What is shown, at the exposure of the slot.
+    Shown,
+    /// What the slot is compared with, at its exposure.
+    Reference,
 }
 
 /// The point under the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hovered {
-    /// The slot of the material there.
+    /// The slot of the material there; the number of slots for a photograph.
     pub slot: usize,
     /// The point (x, y) of the plane.
     pub point: [f32; 2],
@@ -72,8 +87,12 @@ impl Scenery<'_> {
     pub(super) fn contents(&self) -> Vec<Content> {
         let content = |slot, reference, mode| {
             let difference = self.state.difference && slot != 0;
-            Content { slot, reference: if difference { 0 } else { reference }, mode, difference }
+            let reference = if difference { 0 } else { reference };
+            Content { slot, reference, mode, difference, photograph: PhotographUse::Absent }
         };
+        if self.photograph.is_some() {
+            return self.photograph_contents();
+        }
         let (ground_truth, chosen) = (self.seen(0), self.seen(self.chosen()));
         match self.state.layout {
             Layout::SideBySide => {
@@ -86,18 +105,67 @@ impl Scenery<'_> {
         }
     }
 
+    /// The content of every pane beside a photograph: the photograph at the exposure of the chosen slot, then every material.
+    fn photograph_contents(&self) -> Vec<Content> {
+        let difference = self.state.difference;
+        let material = |slot| Content {
+            slot,
+            reference: slot,
+            mode: DisplayMode::Value,
+            difference,
+            photograph: PhotographUse::Reference,
+        };
+        let chosen = material(self.chosen());
+        let photograph = Content { difference: false, photograph: PhotographUse::Shown, ..chosen };
+        let mut panes: Vec<Content> = match self.state.layout {
+            Layout::SideBySide => {
+                std::iter::once(photograph).chain((0..self.slots.len()).map(material)).collect()
+            }
+            Layout::Single => vec![if self.swapped { photograph } else { chosen }],
+            Layout::Wipe => vec![Content { mode: DisplayMode::Wipe(self.state.wipe * 2.0 - 1.0), ..chosen }],
+        };
+        if self.peek {
+            panes.fill(photograph);
+        } else if self.swapped && self.state.layout == Layout::SideBySide {
+            panes.swap(0, self.chosen() + 1);
+        }
+        panes
+    }
+
     /// What fills an empty place beside the panes: of the chosen prediction, the difference where the others show values,
     /// and the value where they show differences.
     pub(super) fn extra(&self) -> Option<Content> {
         let is_plain = !self.peek && !self.swapped;
-        let grid = self.state.layout == Layout::SideBySide && self.slots.len() > 2;
+        let panes = self.slots.len() + usize::from(self.photograph.is_some());
+        let grid = self.state.layout == Layout::SideBySide && panes > 2;
         let difference = !self.state.difference;
-        let content = Content { slot: self.chosen(), reference: 0, mode: DisplayMode::Value, difference };
+        let photograph = match self.photograph {
+            Some(_) => PhotographUse::Reference,
+            None => PhotographUse::Absent,
+        };
+        let mode = DisplayMode::Value;
+        let content = Content { slot: self.chosen(), reference: 0, mode, difference, photograph };
         (is_plain && grid).then_some(content)
     }
 
     pub(super) fn camera(&self, grid: Grid, aspect: f32) -> Camera {
         self.state.fitted_camera(grid, aspect).zoomed(self.state.zoom, self.state.pan)
+    }
+
+    /// The name of what a pane shows, without its difference.
+    pub(super) fn name_of(&self, content: Content) -> String {
+        match (self.photograph, content.photograph) {
+            (Some(photograph), PhotographUse::Shown) => photograph.title(content.slot),
+            _ => self.title(content.slot),
+        }
+    }
+
+    /// The name of what a pane compares with.
+    pub(super) fn name_of_reference(&self, content: Content) -> String {
+        match (self.photograph, content.photograph) {
+            (Some(photograph), PhotographUse::Reference) => photograph.title(content.slot),
+            _ => self.title(content.reference),
+        }
     }
 
     /// The name of slot `index` as titles give it.

@@ -1,11 +1,19 @@
 //! The results of reading, saving and browsing, taken over.
 
+use std::path::PathBuf;
+
 use eframe::egui;
 
 use super::app::App;
 use super::browse::Browsed;
+use super::command::{Command, MaterialsCommand, PhotographCommand};
 use super::message::Message;
 use super::watch::Change;
+use crate::files::read::ReadOptions;
+
+/// What to do without a file dialog.
+const NO_DIALOG: &str = "This system has no file dialog: install zenity or a desktop portal. Type a path here, or drop files \
+                         on the window.";
 
 impl App {
     pub(super) fn poll_readings(&mut self, ctx: &egui::Context) {
@@ -81,18 +89,40 @@ impl App {
     pub(super) fn poll_browsing(&mut self, ctx: &egui::Context) {
         let Some(result) = self.browsing.as_ref().and_then(|job| job.poll(ctx)) else { return };
         self.browsing = None;
+        if let Some(window) = &mut self.photograph_window {
+            match result {
+                Ok(Browsed::Chosen(paths)) => {
+                    paths.first().into_iter().for_each(|path| window.path = path.display().to_string());
+                }
+                Ok(Browsed::Cancelled) => {}
+                Ok(Browsed::Unavailable) => window.fail(NO_DIALOG.to_owned()),
+                Err(error) => window.fail(error.to_string()),
+            }
+            return;
+        }
         let window = self.open_window.get_or_insert_default();
         match result {
             Ok(Browsed::Chosen(paths)) => {
                 paths.iter().for_each(|path| window.add(&path.display().to_string()));
             }
             Ok(Browsed::Cancelled) => {}
-            Ok(Browsed::Unavailable) => window.fail(
-                "This system has no file dialog: install zenity or a desktop portal. Type a path here, or drop files \
-                 on the window."
-                    .to_owned(),
-            ),
+            Ok(Browsed::Unavailable) => window.fail(NO_DIALOG.to_owned()),
             Err(error) => window.fail(error.to_string()),
         }
+    }
+
+    /// Opens the files that were dropped on the window.
+    pub(super) fn dropped(&self, ctx: &egui::Context) -> Option<Command> {
+        let paths: Vec<PathBuf> =
+            ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
+        if let (Some(path), Some(_)) = (paths.first(), &self.photograph_window) {
+            return Some(PhotographCommand::Fill(path.clone()).into());
+        }
+        (!paths.is_empty()).then(|| self.opened_from_outside(paths).into())
+    }
+
+    /// Opens files that were dropped or pasted: in place of the built-in materials, otherwise as predictions.
+    pub(super) fn opened_from_outside(&self, paths: Vec<PathBuf>) -> MaterialsCommand {
+        MaterialsCommand::Open { paths, replace: self.slots.only_built_in(), read: ReadOptions::AUTO }
     }
 }

@@ -1,6 +1,7 @@
 //! Numbers of texels as text, in columns that do not move.
 
 use super::error_map_run::ErrorMaps;
+use super::photograph::Photographs;
 use super::slot::Slot;
 use super::state::ViewState;
 use crate::picture::difference::Difference;
@@ -33,26 +34,39 @@ pub(super) struct Readout<'a> {
     pub state: &'a ViewState,
     /// Where the difference is the error map, the maps once they are there.
     pub error_maps: Option<&'a ErrorMaps>,
+    /// Where renderings are compared with a photograph, the photograph beside every slot.
+    pub photographs: Option<&'a Photographs>,
 }
 
-/// The numbers of a slot's pane at a texel: its value, or its difference from the ground truth where the panes show that.
+/// The numbers of a slot's pane at a texel: its value, or its difference from the ground truth or the photograph where the panes
+/// show that.
 pub(super) fn shown(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2]) -> Vec<f64> {
-    let Readout { slots, state, error_maps } = read;
+    let Readout { slots, state, error_maps, photographs } = read;
     if difference && index > 0 && state.is_error_map() {
         return vec![error_maps.map_or(f64::NAN, |maps| maps.at(index, texel))];
     }
     let convention = state.convention();
     let value =
         |index: usize| state.quantity.at(&slots[index].loaded.material, &state.scene, &convention, texel);
+    if let (true, Some(photographs)) = (difference, photographs) {
+        let kind = state.difference_kind();
+        return vec![kind.of_texel(photographs.at(index, texel), value(index), convention.epsilon)];
+    }
     if difference && index > 0 {
         return vec![state.difference_kind().of_texel(value(0), value(index), convention.epsilon)];
     }
     value(index)[..state.quantity.channels()].iter().map(|v| f64::from(*v)).collect()
 }
 
+/// The photograph at a texel, at the exposure of slot `index`.
+pub(super) fn photograph(photographs: &Photographs, index: usize, texel: [usize; 2]) -> Vec<f64> {
+    photographs.at(index, texel).map(f64::from).to_vec()
+}
+
 /// How many numbers a column of the status line has.
-pub(super) fn count(state: &ViewState, index: usize) -> usize {
-    if state.difference && index > 0 { 1 } else { state.quantity.channels() }
+pub(super) fn count(read: Readout<'_>, index: usize) -> usize {
+    let compared = index > 0 || read.photographs.is_some();
+    if read.state.difference && compared { 1 } else { read.state.quantity.channels() }
 }
 
 /// The unit behind a number of a pane.

@@ -8,7 +8,7 @@ use super::app::App;
 use super::source::{Origin, Source};
 use super::state::ViewState;
 use crate::files::read::ReadOptions;
-use crate::files::session::{Session, SessionMaterial};
+use crate::files::session::{Session, SessionMaterial, SessionPhotograph};
 use crate::files::steps::RunId;
 
 /// The fields of the view that are in the session itself.
@@ -31,6 +31,10 @@ impl App {
         let state = &self.state;
         let convention = state.convention.clone();
         let mut session = Session::new(materials.collect(), state.scene, convention, state.exposure_ev);
+        session.photograph = self.photograph.source().map(|source| SessionPhotograph {
+            path: std::path::absolute(&source.path).unwrap_or_else(|_| source.path.clone()),
+            ..source.clone()
+        });
         let mut view = value(state);
         if let Some(view) = view.as_object_mut() {
             ELSEWHERE.iter().for_each(|key| drop(view.remove(*key)));
@@ -50,6 +54,7 @@ impl App {
         if let Some(loss) = session.window_part(Session::LOSS) {
             self.settings.loss = loss;
         }
+        self.photograph.set(session.photograph.clone());
         let sources: Vec<_> = session.materials.iter().filter_map(source).collect();
         // They show the step that was saved, whatever has come since.
         self.training.held.extend(sources.iter().filter_map(|source| source.run.clone()));

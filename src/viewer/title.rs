@@ -3,7 +3,7 @@
 use eframe::egui::{self, FontId, Rect, Sense, vec2};
 
 use super::command::{Command, DisplayCommand};
-use super::panes::{Content, Scenery};
+use super::panes::{Content, PhotographUse, Scenery};
 use super::state::Layout;
 use super::theme;
 use crate::gpu::DisplayMode;
@@ -19,19 +19,20 @@ pub(super) fn title_bar(
     content: Content,
     rect: Rect,
 ) -> Option<Command> {
-    let prediction = content.slot.checked_sub(1);
-    let chosen = content.slot == scenery.chosen() && content.slot != 0;
+    let is_material = content.photograph != PhotographUse::Shown;
+    let prediction = content.slot.checked_sub(1).filter(|_| is_material);
+    let chosen = is_material && content.slot == scenery.chosen() && content.slot != 0;
     let difference = scenery.state.difference_name();
     let text = match content.mode {
         DisplayMode::Value if content.difference => {
-            format!("{}: {difference}", scenery.title(content.slot))
+            format!("{}: {difference}", scenery.name_of(content))
         }
         DisplayMode::Wipe(_) if content.difference => {
-            format!("{}   |   {}: {difference}", scenery.title(0), scenery.title(content.slot))
+            format!("{}   |   {}: {difference}", scenery.name_of_reference(content), scenery.name_of(content))
         }
-        DisplayMode::Value => scenery.title(content.slot),
+        DisplayMode::Value => scenery.name_of(content),
         DisplayMode::Wipe(_) => {
-            format!("{}   |   {}", scenery.title(content.reference), scenery.title(content.slot))
+            format!("{}   |   {}", scenery.name_of_reference(content), scenery.name_of(content))
         }
     };
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
@@ -39,7 +40,11 @@ pub(super) fn title_bar(
     let mixed = chosen && scenery.state.isolated.is_some();
     let back = Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()).shrink(2.0);
     let painter = ui.painter_at(rect);
-    let colour = if content.slot == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
+    let colour = if content.slot == 0 || !is_material {
+        theme::accent(ui.visuals())
+    } else {
+        ui.visuals().text_color()
+    };
     let width = rect.width() - 16.0 - if mixed { BACK } else { 0.0 };
     let font = FontId::proportional(13.5);
     let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))

@@ -10,8 +10,9 @@ use super::gpu_view::{GpuView, ShadedPart};
 use super::handles;
 use super::marks::Placed;
 use super::pace::{Pace, REST};
+use super::pane_texels::{slot_at, texels};
 use super::pane_text::{note, paint_hint};
-use super::panes::{Content, Hovered, Scenery};
+use super::panes::{Content, Hovered, PhotographUse, Scenery};
 use super::readout::{self, Readout};
 use super::sight;
 use super::state::{Projection, ViewState};
@@ -105,7 +106,7 @@ impl Viewport {
             (false, true) => "Difference pane",
             (false, false) => "Value pane",
         };
-        let label = format!("{kind} {}", scenery.title(content.slot));
+        let label = format!("{kind} {}", scenery.name_of(content));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let camera = scenery.camera(scenery.slots[0].loaded.material.grid(), rect.width() / rect.height());
         self.paint(ui, scenery, gpu, (number, content), rect, camera);
@@ -151,16 +152,14 @@ impl Viewport {
             false_colour: state.false_colour,
             background: [background[0], background[1], background[2]],
         };
-        let ids = [content.slot, content.reference].map(|i| scenery.slots[i].id);
-        if content.difference && state.is_error_map() {
-            let Some(map) = scenery.error_maps.and_then(|maps| maps.shaded(content.slot)) else {
+        let drawn = match texels(gpu, scenery, content) {
+            Ok(drawn) => drawn,
+            Err(hint) => {
                 painter.rect_filled(rect, 0.0, theme::surround(scenery.dark));
-                paint_hint(&painter, rect, "Averaging over the scenes of the loss...");
-                return;
-            };
-            gpu.give(ids[0], map);
-        }
-        gpu.paint(&painter, rect, number, ids, params);
+                return paint_hint(&painter, rect, hint);
+            }
+        };
+        gpu.paint(&painter, rect, number, drawn, params);
         self.paint_marks(&painter, scenery, content, rect, &camera);
         if state.quantity == Quantity::Rendering {
             paint_handles(&painter, rect, &camera, state, scenery.view_handle);
@@ -179,8 +178,9 @@ impl Viewport {
         let convention = state.convention();
         let params = ShadeParams { scene: state.scene, convention, quantity: state.quantity };
         let (now, seconds) = ui.input(|i| (i.time, i.unstable_dt));
-        // An error map is never shaded in part, nor is what a wipe shows beside it.
-        let part = if self.pace.frame(params, now, seconds) && !state.is_error_map() {
+        // What is compared with an error map or a photograph is never shaded in part.
+        let is_whole = state.is_error_map() || scenery.photograph.is_some();
+        let part = if self.pace.frame(params, now, seconds) && !is_whole {
             ui.ctx().request_repaint_after_secs(REST as f32 + 0.01);
             let grid = scenery.slots[0].loaded.material.grid();
             shaded_part(state, grid, self.aspect(), self.magnification(grid, state))
@@ -215,9 +215,11 @@ impl Viewport {
         }
         if state.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (slot, difference) = (content.slot, content.difference);
-            placed.paint_numbers(painter, |texel| {
-                let error_maps = scenery.error_maps;
-                readout::shown(Readout { slots: scenery.slots, state, error_maps }, slot, difference, texel)
+            let photographs = scenery.photograph.and_then(|photograph| photograph.all).map(AsRef::as_ref);
+            let read = Readout { slots: scenery.slots, state, error_maps: scenery.error_maps, photographs };
+            placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
+                (PhotographUse::Shown, Some(photographs)) => readout::photograph(photographs, slot, texel),
+                _ => readout::shown(read, slot, difference, texel),
             });
         }
         placed.paint_inspected(painter, scenery.inspect);
@@ -268,15 +270,8 @@ fn hovered(ui: &egui::Ui, scenery: &Scenery<'_>, content: Content, cell: Rect) -
     let [x, y] = handles::ndc_from_pos(rect, pos);
     let grid = scenery.slots[0].loaded.material.grid();
     let camera = scenery.camera(grid, rect.width() / rect.height());
-    camera.plane_from_ndc(x, y).map(|point| Hovered { slot: slot_at(content, x), point })
-}
-
-/// The slot whose value is shown at this x of a pane, from -1 to 1.
-fn slot_at(content: Content, x: f32) -> usize {
-    match content.mode {
-        DisplayMode::Wipe(line) if x < line => content.reference,
-        DisplayMode::Wipe(_) | DisplayMode::Value => content.slot,
-    }
+    let slot = slot_at(scenery, content, x);
+    camera.plane_from_ndc(x, y).map(|point| Hovered { slot, point })
 }
 
 fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState, view_handle: bool) {

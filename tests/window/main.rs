@@ -11,6 +11,7 @@ mod gestures;
 mod key_presses;
 mod loss_panel;
 mod panels;
+mod photograph;
 mod reading;
 mod saving;
 mod scene_files;

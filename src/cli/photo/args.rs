@@ -1,9 +1,11 @@
-//! The options of `svbrdf photo`.
+//! The options of `svbrdf photo`; the window shares those of the photograph.
 
 use std::path::{Path, PathBuf};
 
 use svbrdf::error::Error;
 use svbrdf::files::read::{PhotographOptions, Transfer};
+#[cfg(feature = "viewer")]
+use svbrdf::files::session::SessionPhotograph;
 use svbrdf::model::scene::Scene;
 use svbrdf::model::scene_file;
 use svbrdf::photograph::{Corners, flash};
@@ -138,6 +140,13 @@ impl PhotoSceneArgs {
 impl PhotoReadingArgs {
     pub fn options(&self) -> PhotographOptions {
         PhotographOptions { transfer: self.transfer, clip: self.clip }
+    }
+
+    /// What the window opens.
+    #[cfg(feature = "viewer")]
+    pub fn of_session(&self, path: PathBuf) -> SessionPhotograph {
+        let corners = self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok());
+        SessionPhotograph { path, read: self.options(), corners, falloff: self.falloff }
     }
 
     /// The corners in a photograph of `size`.

@@ -15,7 +15,7 @@ use super::materials;
 use super::render::check_heights;
 use super::session::SessionSettings;
 use super::stop::stoppable;
-pub use args::PhotoArgs;
+pub use args::{PhotoArgs, PhotoReadingArgs, PhotoSceneArgs};
 use results::{PhotoResult, Setting, results};
 
 /// Compares, prints the differences to stdout and writes the file.

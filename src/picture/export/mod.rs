@@ -57,8 +57,26 @@ impl Destination<PictureFormat> {
         provenance: &Provenance,
         progress: &Progress,
     ) -> Result<(), Error> {
+        self.write_described(panes, provenance, None, progress)
+    }
+
+    /// As [`Self::write`], with this text of what is shown in place of the one of `provenance`.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub(crate) fn write_described(
+        &self,
+        panes: &[Image<f32>],
+        provenance: &Provenance,
+        shows: Option<String>,
+        progress: &Progress,
+    ) -> Result<(), Error> {
         let colour = |rgb| provenance.shown.colour(rgb, provenance.exposure_ev);
-        self.write_as(panes, colour, &provenance.entries(), progress)
+        let mut entries = provenance.entries();
+        if let Some(shows) = shows {
+            Provenance::describe(&mut entries, shows);
+        }
+        self.write_as(panes, colour, &entries, progress)
     }
 
     /// Writes maps of numbers, which are equally high, side by side: an EXR has the numbers, a PNG the colours of the means of

@@ -25,6 +25,15 @@ impl Provenance {
     /// The program and its version.
     pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
 
+    /// Replaces the text of what a picture shows.
+    pub(crate) fn describe(entries: &mut [(&'static str, String)], shows: String) {
+        if let Some(entry) = entries.iter_mut().find(|(key, _)| *key == Self::SHOWS) {
+            entry.1 = shows;
+        }
+    }
+
+    const SHOWS: &str = "svbrdf:shows";
+
     /// Everything but the program as (keyword, text), in a fixed order.
     pub fn entries(&self) -> Vec<(&'static str, String)> {
         let [view, light] = [self.scene.view, self.scene.light].map(|[x, y, z]| format!("{x},{y},{z}"));
@@ -33,7 +42,7 @@ impl Provenance {
             Kind::Distant => "distant",
         };
         vec![
-            ("svbrdf:shows", self.shown.text(self.convention.epsilon)),
+            (Self::SHOWS, self.shown.text(self.convention.epsilon)),
             ("svbrdf:sources", self.sources.join(" | ")),
             ("svbrdf:convention", self.convention.name.to_owned()),
             ("svbrdf:kind", kind.to_owned()),

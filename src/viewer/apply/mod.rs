@@ -3,6 +3,7 @@
 mod display;
 mod inspect;
 mod materials;
+mod photograph;
 mod saving;
 pub(super) mod scene;
 mod training;
@@ -30,6 +31,7 @@ impl App {
             Command::Inspect(command) => self.apply_to_inspect(ctx, command),
             Command::Why(command) => self.apply_to_why(ctx, command),
             Command::Training(command) => self.apply_to_training(ctx, command),
+            Command::Photograph(command) => self.apply_to_photograph(command),
         }
         ctx.request_repaint();
     }

@@ -7,6 +7,7 @@ use eframe::egui;
 
 use crate::error::Error;
 use crate::files::atomic;
+use crate::picture::export::Provenance;
 use crate::viewer::app::App;
 use crate::viewer::message::Message;
 use crate::viewer::save;
@@ -31,6 +32,9 @@ impl App {
             SaveKind::Renderings if self.state.difference && self.state.is_error_map() => {
                 self.save_error_maps(ctx, path)
             }
+            SaveKind::Renderings if self.photograph_scene().is_some() => {
+                self.save_against_photograph(ctx, path)
+            }
             SaveKind::Renderings => save::renderings(ctx, &self.seen, &self.state, shown, path),
             SaveKind::Strip => save::strip(ctx, &self.seen, &self.state, path),
             SaveKind::Session => self.save_session(ctx, path),
@@ -39,10 +43,8 @@ impl App {
                 Ok(picture) => {
                     let mut entries = save::provenance(&self.seen, &self.state, shown).entries();
                     entries.extend(self.view_entries());
-                    if let Some(text) = self.error_map_text()
-                        && let Some(entry) = entries.iter_mut().find(|(key, _)| *key == "svbrdf:shows")
-                    {
-                        entry.1 = text;
+                    if let Some(text) = self.error_map_text().or_else(|| self.photograph_text()) {
+                        Provenance::describe(&mut entries, text);
                     }
                     save::view(ctx, picture, entries, path)
                 }

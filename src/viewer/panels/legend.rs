@@ -7,7 +7,7 @@ use eframe::egui::{
 use crate::picture::colour_map::{diverging, heat};
 use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
-use crate::picture::statistics::{Distributions, Histogram, Statistics};
+use crate::picture::statistics::{Distributions, Histogram};
 use crate::viewer::command::{Command, DisplayCommand};
 use crate::viewer::error_map_run::ErrorMapSummary;
 use crate::viewer::theme;
@@ -15,15 +15,13 @@ use crate::viewer::theme;
 /// The error map in the drop-down of differences.
 const ERROR_MAP: &str = "error map (all scenes)";
 /// Height of the histograms and of the colour bar below them, in points.
-const HISTOGRAM: f32 = 54.0;
-const BAR: f32 = 12.0;
+pub(super) const HISTOGRAM: f32 = 54.0;
+pub(super) const BAR: f32 = 12.0;
 /// Colours in the bar.
 const STEPS: usize = 128;
 /// Widths of the controls and of the statistics, in points.
 const CONTROLS: f32 = 170.0;
-const STATISTICS: f32 = 360.0;
-/// Width of a name in the statistics, in points.
-const NAME: f32 = 110.0;
+pub(super) const STATISTICS: f32 = 360.0;
 /// How far from 0 the axis goes in units of the range, before there are histograms.
 const AXIS: f64 = 1.5;
 
@@ -41,8 +39,11 @@ pub(crate) struct LegendStrip<'a> {
     pub distributions: Option<&'a Distributions>,
     /// Whether the distributions are up to date.
     pub current: bool,
-    /// Of the predictions.
+    /// Of the materials with a difference.
     pub names: Vec<&'a str>,
+    /// The slot of the first of them: 1, or 0 where they are compared with a photograph.
+    pub first: usize,
+    /// The chosen one of them.
     pub chosen: usize,
 }
 
@@ -81,7 +82,12 @@ impl LegendStrip<'_> {
             }
         });
         combo.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Difference"));
-        combo.response.on_hover_text("Which difference of a prediction p from the ground truth g");
+        let of = if self.first == 0 {
+            "a rendering p from the photograph g"
+        } else {
+            "a prediction p from the ground truth g"
+        };
+        combo.response.on_hover_text(format!("Which difference of {of}"));
         ui.horizontal(|ui| {
             ui.label("Range");
             let mut range = self.range;
@@ -134,7 +140,7 @@ impl LegendStrip<'_> {
         let fade = if self.current { 1.0 } else { 0.5 };
         let histograms = self.distributions.map_or(&[][..], |distributions| &distributions.histograms);
         for (index, histogram) in histograms.iter().enumerate() {
-            let colour = theme::series(index, ui.visuals().dark_mode).gamma_multiply(fade);
+            let colour = theme::series(self.series(index), ui.visuals().dark_mode).gamma_multiply(fade);
             let stroke = Stroke::new(if index == self.chosen { 2.0 } else { 1.0 }, colour);
             painter.add(Shape::line(outline(histogram, area.with_max_y(bar.top())), stroke));
         }
@@ -179,76 +185,6 @@ impl LegendStrip<'_> {
         ];
         for (align, at, value) in numbers {
             painter.text(at, align, format!("{}{unit}", digits(value)), FontId::monospace(11.0), ink);
-        }
-    }
-
-    /// A row of numbers for each prediction.
-    fn statistics(&self, ui: &mut egui::Ui) {
-        let Some(distributions) = self.distributions else {
-            match &self.error_map {
-                Some(ErrorMapSummary { progress: Some(fraction), scenes }) => {
-                    let text = format!("{:.0}% of {scenes} scenes", 100.0 * fraction);
-                    ui.add(egui::ProgressBar::new(*fraction).text(text).desired_width(STATISTICS * 0.6));
-                }
-                _ => {
-                    ui.weak("Computing statistics...");
-                }
-            }
-            return;
-        };
-        if !self.current {
-            ui.set_opacity(0.5);
-        }
-        let loss = match self.error_map {
-            Some(_) => "Mean over the texels: the rendering loss over these scenes",
-            None => "Mean over the texels: the rendering loss of this scene",
-        };
-        let mean = match self.kind == Difference::Log && self.quantity == Quantity::Rendering {
-            true => ("mean = loss", loss),
-            false => ("mean", "Mean over the texels"),
-        };
-        let heads = [mean, ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
-        egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {
-            egui::Grid::new("difference statistics").num_columns(5).spacing([10.0, 2.0]).show(ui, |ui| {
-                ui.label("");
-                for (head, hover) in heads {
-                    ui.label(RichText::new(head).small().weak()).on_hover_text(hover);
-                }
-                ui.end_row();
-                for (index, statistics) in distributions.statistics.iter().enumerate() {
-                    self.row(ui, index, statistics.as_ref(), distributions.histograms.get(index));
-                    ui.end_row();
-                }
-            });
-        });
-    }
-
-    fn row(
-        &self,
-        ui: &mut egui::Ui,
-        index: usize,
-        statistics: Option<&Statistics>,
-        histogram: Option<&Histogram>,
-    ) {
-        let colour = theme::series(index, ui.visuals().dark_mode);
-        let name = self.names.get(index).copied().unwrap_or_default();
-        let text = RichText::new(format!("{}  {name}", index + 1)).color(colour);
-        let text = if index == self.chosen { text.strong().underline() } else { text };
-        let label = ui.scope(|ui| {
-            ui.set_max_width(NAME);
-            ui.add(egui::Label::new(text).truncate())
-        });
-        let Some(Statistics { mean, minimum, median, p95, maximum, not_finite }) = statistics else {
-            ui.label("not finite");
-            return;
-        };
-        let beyond = histogram.map_or(0, |histogram| histogram.below + histogram.above);
-        label.inner.on_hover_text(format!(
-            "{name}\nminimum {}; {beyond} texels beyond the axis, {not_finite} not finite",
-            digits(*minimum)
-        ));
-        for value in [mean, median, p95, maximum] {
-            ui.label(RichText::new(digits(*value)).monospace());
         }
     }
 }

@@ -1,12 +1,16 @@
 //! The parts of the window around the panes. Each draws what it is given and returns commands.
 
+mod bar_item;
 pub(super) mod help;
 pub(super) mod legend;
+mod legend_statistics;
 pub(super) mod loss;
 mod loss_results;
 pub(super) mod materials;
 pub(super) mod messages;
 pub(super) mod open;
+pub(super) mod photograph;
+pub(super) mod photograph_open;
 pub(super) mod pins;
 pub(super) mod save;
 pub(super) mod scene;

@@ -5,6 +5,7 @@ use eframe::egui::{self, RichText};
 use crate::gpu::AdapterReport;
 use crate::viewer::command::{Command, InspectCommand};
 use crate::viewer::error_map_run::ErrorMaps;
+use crate::viewer::photograph::Photographs;
 use crate::viewer::readout::{self, Readout};
 use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
@@ -24,6 +25,8 @@ pub(crate) struct StatusBar<'a> {
     pub slots: &'a [Slot],
     /// Where the difference is the error map, the maps once they are there.
     pub error_maps: Option<&'a ErrorMaps>,
+    /// Where renderings are compared with a photograph, the photograph beside every slot.
+    pub photographs: Option<&'a Photographs>,
     /// The texel under the pointer.
     pub texel: Option<[usize; 2]>,
     /// The slot of the pane under the pointer.
@@ -88,6 +91,9 @@ impl StatusBar<'_> {
         ui.label(mono(format!("texel {place:<PLACE$}")));
         ui.label(mono(magnification(self.magnification)).weak())
             .on_hover_text("Magnification: screen pixels per texel");
+        if let Some(photographs) = self.photographs {
+            self.photograph(ui, photographs, mono);
+        }
         for index in self.order() {
             let name = if index == 0 { "gt".to_owned() } else { index.to_string() };
             let text = format!("{name} {}", self.numbers(index));
@@ -101,6 +107,21 @@ impl StatusBar<'_> {
             let text = if self.hovered == Some(index) { text.strong() } else { text };
             ui.label(text).on_hover_text(self.slots[index].name());
         }
+    }
+
+    /// The column of the photograph, at the exposure of the chosen material.
+    fn photograph(&self, ui: &mut egui::Ui, photographs: &Photographs, mono: impl Fn(String) -> RichText) {
+        let slot = (self.state.prediction + 1).min(self.slots.len().saturating_sub(1));
+        let numbers: Vec<String> = match self.texel {
+            Some(texel) => {
+                readout::photograph(photographs, slot, texel).into_iter().map(readout::fixed).collect()
+            }
+            None => vec![format!("{:>1$}", "-", readout::WIDTH); 3],
+        };
+        ui.separator();
+        let text = mono(format!("photo {}", numbers.join(" "))).color(theme::accent(ui.visuals()));
+        let hover = format!("The photograph at the exposure of {}", self.slots[slot].name());
+        ui.label(text).on_hover_text(hover);
     }
 
     /// The slots in the order of their columns: the ground truth, the chosen prediction, then the others. It does not depend
@@ -120,13 +141,14 @@ impl StatusBar<'_> {
     /// The numbers of slot `index` at the texel, always of the same width.
     fn numbers(&self, index: usize) -> String {
         let unit = readout::unit(self.state, index);
-        let read = Readout { slots: self.slots, state: self.state, error_maps: self.error_maps };
+        let Self { slots, state, error_maps, photographs, .. } = *self;
+        let read = Readout { slots, state, error_maps, photographs };
         let numbers: Vec<String> = match self.texel {
             Some(texel) => readout::shown(read, index, self.state.difference, texel)
                 .into_iter()
                 .map(readout::fixed)
                 .collect(),
-            None => vec![format!("{:>1$}", "-", readout::WIDTH); readout::count(self.state, index)],
+            None => vec![format!("{:>1$}", "-", readout::WIDTH); readout::count(read, index)],
         };
         format!("{}{unit}", numbers.join(" "))
     }

@@ -3,8 +3,9 @@
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{self, PopupCloseBehavior};
 
+use super::bar_item::{BarItem, Room};
 use crate::picture::quantity::Quantity;
-use crate::viewer::command::{Command, DisplayCommand, LossCommand, WindowCommand};
+use crate::viewer::command::{Command, DisplayCommand, LossCommand, PhotographCommand, WindowCommand};
 use crate::viewer::state::{Layout, Projection, ViewState};
 
 /// What the bar shows.
@@ -19,72 +20,8 @@ pub(crate) struct TopBar<'a> {
     /// Size of text and controls.
     pub scale: f32,
     pub has_predictions: bool,
-}
-
-/// How much room the bar has: what does not fit into one line is in the menu.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Room {
-    Little,
-    Some,
-    Full,
-}
-
-impl Room {
-    /// Of a bar of this width, in points.
-    fn of(width: f32) -> Self {
-        match width {
-            1320.0.. => Self::Full,
-            870.0.. => Self::Some,
-            _ => Self::Little,
-        }
-    }
-}
-
-/// A control that is in the bar where there is room, and in the menu otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum BarItem {
-    Copy,
-    Histogram,
-    Perspective,
-    Tile,
-    FalseColour,
-    Swap,
-    Exposure,
-    AutoExposure,
-    Clip,
-    Fit,
-    OneToOne,
-    Reset,
-    Undo,
-    Redo,
-}
-
-impl BarItem {
-    const ALL: [Self; 14] = [
-        Self::Copy,
-        Self::Histogram,
-        Self::Perspective,
-        Self::Tile,
-        Self::FalseColour,
-        Self::Swap,
-        Self::Exposure,
-        Self::AutoExposure,
-        Self::Clip,
-        Self::Fit,
-        Self::OneToOne,
-        Self::Reset,
-        Self::Undo,
-        Self::Redo,
-    ];
-
-    /// The least room in which it is in the bar.
-    fn needs(self) -> Room {
-        match self {
-            Self::Perspective => Room::Little,
-            Self::Swap | Self::Exposure | Self::AutoExposure | Self::Fit | Self::Reset => Room::Some,
-            _ => Room::Full,
-        }
-    }
+    /// Whether renderings are compared with a photograph.
+    pub has_photograph: bool,
 }
 
 impl TopBar<'_> {
@@ -230,7 +167,9 @@ impl TopBar<'_> {
         // Several of its controls may be used in a row.
         let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
         let (menu, _) = MenuButton::new("Menu").config(config).ui(ui, |ui| self.menu(ui, room, commands));
-        menu.on_hover_text("Study, theme, size of the window's text, and what does not fit into this line");
+        menu.on_hover_text(
+            "Study, photograph, theme, size of the window's text, and what does not fit into this line",
+        );
         let panel = ui.selectable_label(self.side_panel, "Panel").on_hover_text("Side panel (B)");
         if panel.clicked() {
             commands.push(WindowCommand::ToggleSidePanel.into());
@@ -248,6 +187,17 @@ impl TopBar<'_> {
         let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
         if study.on_hover_text(hover).clicked() {
             commands.push(LossCommand::ShowStudy(true).into());
+            ui.close();
+        }
+        ui.separator();
+        let (text, hover, command) = if self.has_photograph {
+            ("Close photograph", "Compare with the ground truth again", PhotographCommand::Close)
+        } else {
+            let hover = "Compare renderings with a photograph, under its light and view";
+            ("Open photograph...", hover, PhotographCommand::ShowOpen(true))
+        };
+        if ui.button(text).on_hover_text(hover).clicked() {
+            commands.push(command.into());
             ui.close();
         }
         ui.separator();

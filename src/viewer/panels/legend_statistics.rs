@@ -1,0 +1,98 @@
+//! The statistics of the differences beside their histogram.
+
+use eframe::egui::{self, RichText};
+
+use super::legend::{BAR, HISTOGRAM, LegendStrip, STATISTICS, digits};
+use crate::picture::difference::Difference;
+use crate::picture::quantity::Quantity;
+use crate::picture::statistics::{Histogram, Statistics};
+use crate::viewer::error_map_run::ErrorMapSummary;
+use crate::viewer::theme;
+
+/// Width of a name, in points.
+const NAME: f32 = 110.0;
+
+impl LegendStrip<'_> {
+    /// A row of numbers for each prediction.
+    pub(super) fn statistics(&self, ui: &mut egui::Ui) {
+        let Some(distributions) = self.distributions else {
+            match &self.error_map {
+                Some(ErrorMapSummary { progress: Some(fraction), scenes }) => {
+                    let text = format!("{:.0}% of {scenes} scenes", 100.0 * fraction);
+                    ui.add(egui::ProgressBar::new(*fraction).text(text).desired_width(STATISTICS * 0.6));
+                }
+                _ => {
+                    ui.weak("Computing statistics...");
+                }
+            }
+            return;
+        };
+        if !self.current {
+            ui.set_opacity(0.5);
+        }
+        let loss = match self.error_map {
+            Some(_) => "Mean over the texels: the rendering loss over these scenes",
+            None => "Mean over the texels: the rendering loss of this scene",
+        };
+        let is_loss = self.kind == Difference::Log && self.quantity == Quantity::Rendering && self.first == 1;
+        let mean = match is_loss {
+            true => ("mean = loss", loss),
+            false if self.first == 0 => {
+                ("mean", "Mean over the texels that are not clipped in the photograph")
+            }
+            false => ("mean", "Mean over the texels"),
+        };
+        let heads = [mean, ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
+        egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {
+            egui::Grid::new("difference statistics").num_columns(5).spacing([10.0, 2.0]).show(ui, |ui| {
+                ui.label("");
+                for (head, hover) in heads {
+                    ui.label(RichText::new(head).small().weak()).on_hover_text(hover);
+                }
+                ui.end_row();
+                for (index, statistics) in distributions.statistics.iter().enumerate() {
+                    self.row(ui, index, statistics.as_ref(), distributions.histograms.get(index));
+                    ui.end_row();
+                }
+            });
+        });
+    }
+
+    /// The colour of the difference in place `index`: that of its prediction, and one of its own for the ground truth.
+    pub(super) fn series(&self, index: usize) -> usize {
+        match index + self.first {
+            0 => self.names.len().saturating_sub(1),
+            slot => slot - 1,
+        }
+    }
+
+    fn row(
+        &self,
+        ui: &mut egui::Ui,
+        index: usize,
+        statistics: Option<&Statistics>,
+        histogram: Option<&Histogram>,
+    ) {
+        let colour = theme::series(self.series(index), ui.visuals().dark_mode);
+        let name = self.names.get(index).copied().unwrap_or_default();
+        let number = if index + self.first == 0 { "gt".to_owned() } else { (index + self.first).to_string() };
+        let text = RichText::new(format!("{number}  {name}")).color(colour);
+        let text = if index == self.chosen { text.strong().underline() } else { text };
+        let label = ui.scope(|ui| {
+            ui.set_max_width(NAME);
+            ui.add(egui::Label::new(text).truncate())
+        });
+        let Some(Statistics { mean, minimum, median, p95, maximum, not_finite }) = statistics else {
+            ui.label("not finite");
+            return;
+        };
+        let beyond = histogram.map_or(0, |histogram| histogram.below + histogram.above);
+        label.inner.on_hover_text(format!(
+            "{name}\nminimum {}; {beyond} texels beyond the axis, {not_finite} not finite",
+            digits(*minimum)
+        ));
+        for value in [mean, median, p95, maximum] {
+            ui.label(RichText::new(digits(*value)).monospace());
+        }
+    }
+}

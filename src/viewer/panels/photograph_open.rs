@@ -1,0 +1,144 @@
+//! The dialog that opens a photograph with its light and view.
+
+use std::path::PathBuf;
+
+use eframe::egui::{self, RichText};
+
+use crate::files::session::SessionPhotograph;
+use crate::viewer::command::{Command, PhotographCommand, PhotographLight, WindowCommand};
+use crate::viewer::theme;
+
+/// The choices so far.
+#[derive(Debug)]
+pub(crate) struct PhotographWindow {
+    pub path: String,
+    light: LightChoice,
+    /// Of a flash, in degrees.
+    fov: f64,
+    scenes: String,
+    number: usize,
+    falloff: bool,
+    /// What went wrong.
+    problem: Option<String>,
+    /// Whether the path field has been given the focus.
+    focused: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum LightChoice {
+    AsNow,
+    Flash,
+    File,
+}
+
+impl Default for PhotographWindow {
+    fn default() -> Self {
+        Self {
+            path: String::new(),
+            light: LightChoice::AsNow,
+            fov: 45.0,
+            scenes: String::new(),
+            number: 0,
+            falloff: false,
+            problem: None,
+            focused: false,
+        }
+    }
+}
+
+impl PhotographWindow {
+    pub(crate) fn ui(&mut self, ctx: &egui::Context) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let mut open = true;
+        egui::Window::new("Open photograph")
+            .open(&mut open)
+            .collapsible(false)
+            .default_width(440.0)
+            .anchor(egui::Align2::CENTER_TOP, [0.0, 40.0])
+            .show(ctx, |ui| self.contents(ui, &mut commands));
+        if !open {
+            commands.push(PhotographCommand::ShowOpen(false).into());
+        }
+        commands
+    }
+
+    /// Shows what went wrong, and puts the cursor into the path field.
+    pub(crate) fn fail(&mut self, problem: String) {
+        (self.problem, self.focused) = (Some(problem), false);
+    }
+
+    fn contents(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let label = ui.label("Photograph: PNG, JPEG, EXR or another picture format");
+        let field = egui::TextEdit::singleline(&mut self.path)
+            .desired_width(f32::INFINITY)
+            .hint_text("photo.jpg, or drop a file here");
+        let field = ui.add(field).labelled_by(label.id);
+        if !std::mem::replace(&mut self.focused, true) {
+            field.request_focus();
+        }
+        if let Some(problem) = &self.problem {
+            ui.label(RichText::new(problem).color(theme::problem(ui.visuals())));
+        }
+        if ui.button("Browse...").clicked() {
+            commands.push(WindowCommand::Browse { folder: false }.into());
+        }
+        ui.separator();
+        ui.label("Light and view of the photograph");
+        self.light(ui);
+        ui.checkbox(&mut self.falloff, "Divide out falloff").on_hover_text(
+            "For photographs with a flash or lamp near the material: the renderings have no falloff of light with distance",
+        );
+        ui.separator();
+        let path = self.path.trim();
+        let button = ui.add_enabled(!path.is_empty(), egui::Button::new("Open photograph"));
+        let entered = ui.input(|i| i.key_pressed(egui::Key::Enter)) && !path.is_empty();
+        if button.clicked() || entered {
+            let photograph = SessionPhotograph {
+                path: PathBuf::from(path),
+                read: Default::default(),
+                corners: None,
+                falloff: self.falloff,
+            };
+            self.problem = None;
+            commands.push(PhotographCommand::Open { photograph, light: self.chosen() }.into());
+        }
+    }
+
+    fn light(&mut self, ui: &mut egui::Ui) {
+        ui.radio_value(&mut self.light, LightChoice::AsNow, "As they are in the window");
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut self.light, LightChoice::Flash, "Flash at the camera, field of view");
+            let fov = super::number(ui, "Field of view", &mut self.fov, 45.0, |drag| {
+                drag.range(0.1..=179.0).speed(0.2).max_decimals(2).suffix(" degrees")
+            });
+            let hover =
+                "The angle that the width of the material spans at the camera, straight above its middle";
+            if fov.on_hover_text(hover).changed() {
+                self.light = LightChoice::Flash;
+            }
+        });
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut self.light, LightChoice::File, "Scene file");
+            let number = super::number(ui, "Scene number", &mut self.number, 0, |drag| {
+                drag.range(0..=9999).speed(0.05).prefix("scene ")
+            });
+            let number = number.on_hover_text("Number of the scene in a file of several, from 0");
+            let field = egui::TextEdit::singleline(&mut self.scenes).hint_text("scene.json or render.json");
+            let field = ui.add(field);
+            field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Scene file"));
+            if field.changed() || number.changed() {
+                self.light = LightChoice::File;
+            }
+        });
+    }
+
+    fn chosen(&self) -> PhotographLight {
+        match self.light {
+            LightChoice::AsNow => PhotographLight::AsNow,
+            LightChoice::Flash => PhotographLight::Flash { fov_degrees: self.fov },
+            LightChoice::File => {
+                PhotographLight::File { path: PathBuf::from(self.scenes.trim()), number: self.number }
+            }
+        }
+    }
+}

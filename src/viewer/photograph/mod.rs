@@ -1,0 +1,174 @@
+//! A photograph in the place of the ground truth: read, brought onto the texels, and compared with every material, on workers.
+
+mod compared;
+mod keys;
+
+use std::sync::Arc;
+
+use eframe::egui;
+
+pub(super) use compared::Photographs;
+use compared::{ComparedKey, compare, key};
+use keys::{ReadKey, RectifiedKey};
+
+use super::latest::Latest;
+use super::slot::Slot;
+use super::source::file_name;
+use super::state::ViewState;
+use super::worker::Task;
+use crate::error::Error;
+use crate::files::read::{Photograph, read_photograph};
+use crate::files::session::SessionPhotograph;
+use crate::gpu::Gpu;
+use crate::photograph::{Corners, Rectified};
+use crate::picture::statistics::Distributions;
+
+/// The photograph that renderings are compared with, and the work on it.
+#[derive(Debug, Default)]
+pub(super) struct PhotographRun {
+    source: Option<SessionPhotograph>,
+    read: Latest<ReadKey, Arc<Photograph>>,
+    rectified: Latest<RectifiedKey, Arc<Rectified>>,
+    compared: Latest<ComparedKey, Arc<Photographs>>,
+}
+
+/// The photograph as the panes and the panel show it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PhotographScene<'a> {
+    pub source: &'a SessionPhotograph,
+    /// Once it has been read.
+    pub photograph: Option<&'a Photograph>,
+    /// The share of the texels that are left out, once it is on the texels.
+    pub clipped: Option<f64>,
+    /// Beside every material, once they are there.
+    pub all: Option<&'a Arc<Photographs>>,
+}
+
+impl PhotographScene<'_> {
+    /// The name of its file.
+    pub(super) fn name(&self) -> String {
+        file_name(&self.source.path)
+    }
+
+    /// The title of a pane that shows it at the exposure of slot `slot`.
+    pub(super) fn title(&self, slot: usize) -> String {
+        let ev = self.all.and_then(|all| all.get(slot)).map(|one| format!("  {:+.2} EV", one.exposure_ev()));
+        format!("PHOTOGRAPH  {}{}", self.name(), ev.unwrap_or_default())
+    }
+}
+
+impl PhotographRun {
+    /// Opens another photograph, or closes the one that is open.
+    pub(super) fn set(&mut self, source: Option<SessionPhotograph>) {
+        self.source = source;
+    }
+
+    /// What is open.
+    pub(super) fn source(&self) -> Option<&SessionPhotograph> {
+        self.source.as_ref()
+    }
+
+    /// What is open, to change how it is used.
+    pub(super) fn source_mut(&mut self) -> Option<&mut SessionPhotograph> {
+        self.source.as_mut()
+    }
+
+    /// The photograph, once it has been read.
+    pub(super) fn photograph(&self) -> Option<&Arc<Photograph>> {
+        let (of, photograph) = self.read.get()?;
+        (Some(of) == self.read_key().as_ref()).then_some(photograph)
+    }
+
+    fn read_key(&self) -> Option<ReadKey> {
+        self.source.as_ref().map(|source| (source.path.clone(), source.read))
+    }
+
+    /// Takes over results, and computes what is wanted now. Without a photograph that can be read, there is none.
+    pub(super) fn follow(
+        &mut self,
+        ctx: &egui::Context,
+        gpu: Option<&Gpu>,
+        slots: &[Slot],
+        state: &ViewState,
+    ) -> Option<Error> {
+        let wanted = self.read_key();
+        let error = self.read.follow(ctx, wanted, |(path, options)| {
+            let (path, options) = (path.clone(), *options);
+            Task::start(ctx, move |_| read_photograph(&path, &options).map(Arc::new))
+        });
+        if error.is_some() {
+            *self = Self::default();
+            return error;
+        }
+        let error = self.rectify(ctx, slots);
+        error.or_else(|| self.compare(ctx, gpu, slots, state))
+    }
+
+    fn rectify(&mut self, ctx: &egui::Context, slots: &[Slot]) -> Option<Error> {
+        let (Some(source), Some(slot)) = (&self.source, slots.first()) else {
+            self.rectified = Latest::default();
+            return None;
+        };
+        let photograph = self.photograph()?.clone();
+        let corners = source.corners.map_or_else(|| Corners::whole(photograph.size()), Corners);
+        let size = slot.loaded.material.size();
+        let wanted = RectifiedKey { read: self.read_key()?, corners, size };
+        self.rectified.follow(ctx, Some(wanted), |_| {
+            Task::start(ctx, move |progress| {
+                Rectified::new(&photograph, &corners, size, progress).map(Arc::new)
+            })
+        })
+    }
+
+    fn compare(
+        &mut self,
+        ctx: &egui::Context,
+        gpu: Option<&Gpu>,
+        slots: &[Slot],
+        state: &ViewState,
+    ) -> Option<Error> {
+        let (Some(source), Some((of, rectified))) = (&self.source, self.rectified.get()) else {
+            self.compared = Latest::default();
+            return None;
+        };
+        // A photograph on the texels of closed materials waits for that of now.
+        if slots.first().is_none_or(|slot| slot.loaded.material.size() != of.size) {
+            return None;
+        }
+        let wanted = key(of.clone(), source.falloff, slots, state);
+        let rectified = rectified.clone();
+        self.compared.follow(ctx, Some(wanted), |key| {
+            let (key, gpu, convention) = (key.clone(), gpu.cloned(), state.convention());
+            let materials: Vec<_> = slots.iter().map(|slot| slot.loaded.clone()).collect();
+            Task::start(ctx, move |progress| {
+                compare(&key, &rectified, &materials, &convention, gpu.as_ref(), progress).map(Arc::new)
+            })
+        })
+    }
+
+    /// The photograph as it is shown beside `slots`, perhaps at the exposures of an earlier scene.
+    pub(super) fn scene(&self, slots: &[Slot]) -> Option<PhotographScene<'_>> {
+        let source = self.source.as_ref()?;
+        let photograph = self.photograph().map(AsRef::as_ref);
+        let of_now = |key: &ReadKey| Some(key) == self.read_key().as_ref();
+        let rectified = self.rectified.get().filter(|(of, _)| of_now(&of.read));
+        let all = self.compared.get().filter(|(of, _)| of.is_of(slots) && of_now(&of.rectified.read));
+        Some(PhotographScene {
+            source,
+            photograph,
+            clipped: rectified.map(|(_, rectified)| rectified.clipped_share()),
+            all: all.map(|(_, all)| all),
+        })
+    }
+
+    /// The distributions of the chosen difference of every material, and whether they are up to date.
+    pub(super) fn distributions(&self, slots: &[Slot], state: &ViewState) -> Option<(&Distributions, bool)> {
+        let source = self.source.as_ref()?;
+        let (of, all) = self.compared.get()?;
+        let (rectified, _) = self.rectified.get()?;
+        let now = key(rectified.clone(), source.falloff, slots, state);
+        let of_now = Some(&rectified.read) == self.read_key().as_ref()
+            && source.corners.is_none_or(|corners| rectified.corners == Corners(corners));
+        (of.is_of(slots) && of.kind == now.kind).then_some((&all.distributions, *of == now && of_now))
+    }
+}
