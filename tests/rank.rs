@@ -181,7 +181,7 @@ fn the_best_of_a_metric_ties_with_what_the_materials_cannot_separate() {
     // or smaller than those of a; d has no predictions.
     let of = |material: usize| {
         let base = 1.0 + material as f64;
-        let off = if material % 2 == 0 { 0.011 } else { -0.01 };
+        let off = if material.is_multiple_of(2) { 0.011 } else { -0.01 };
         let mut result =
             result(material, &[("a", Some(base)), ("b", Some(base + 0.1)), ("c", Some(base + off))]);
         for prediction in &mut result.predictions {

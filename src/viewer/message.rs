@@ -26,7 +26,7 @@ pub enum Message {
     Closed(Box<SizeMismatch>),
     /// A material could not be read, in this opening.
     NotRead {
-        source: Source,
+        source: Box<Source>,
         error: Error,
         opening: u64,
     },
@@ -90,7 +90,10 @@ impl Message {
     /// The file that it is about: the message is settled once that has been read.
     pub fn path(&self) -> Option<&Path> {
         match self {
-            Self::NotRead { source: Source { origin: Origin::Path(path), .. }, .. } => Some(path),
+            Self::NotRead { source, .. } => match &source.origin {
+                Origin::Path(path) => Some(path),
+                Origin::BuiltIn(_) => None,
+            },
             Self::Refused(sizes) | Self::Closed(sizes) => match &sizes.source.origin {
                 Origin::Path(path) => Some(path),
                 Origin::BuiltIn(_) => None,

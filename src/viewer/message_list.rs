@@ -76,7 +76,7 @@ mod tests {
     use crate::viewer::source::Source;
 
     fn not_read(path: &str) -> Message {
-        let source = Source::file(path.into(), ReadOptions::AUTO);
+        let source = Box::new(Source::file(path.into(), ReadOptions::AUTO));
         Message::NotRead { source, error: Error::Usage(format!("{path} is broken")), opening: 1 }
     }
 

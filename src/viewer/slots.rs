@@ -141,7 +141,7 @@ impl Slots {
             (Arrival::Failed(_, Error::Cancelled), _) => return false,
             (Arrival::Failed(source, error), target) => {
                 self.mark(target, &error);
-                problems.push(Message::NotRead { source: *source, error, opening: opening.id });
+                problems.push(Message::NotRead { source, error, opening: opening.id });
                 // Predictions need their ground truth: the materials in the window stay.
                 let others = opening.names_after(1);
                 if everything && is_first && !others.is_empty() {

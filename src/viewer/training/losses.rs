@@ -44,11 +44,14 @@ pub(crate) struct WantedRun<'a> {
 pub(crate) struct RunLosses {
     of: Option<RunLossesKey>,
     runs: HashMap<RunId, KnownLosses>,
-    running: Option<(Task<()>, Receiver<(RunId, StepKey, StepLoss)>)>,
+    running: Option<(Task<()>, Receiver<Computed>)>,
 }
 
 /// A file that has changed is another step.
 type StepKey = (PathBuf, Stamp);
+
+/// The loss of a step of a run.
+type Computed = (RunId, StepKey, StepLoss);
 
 #[derive(Debug)]
 struct KnownLosses {
@@ -133,11 +136,7 @@ impl RunLosses {
     }
 }
 
-fn start(
-    ctx: &egui::Context,
-    of: RunLossesKey,
-    jobs: Vec<Job>,
-) -> (Task<()>, Receiver<(RunId, StepKey, StepLoss)>) {
+fn start(ctx: &egui::Context, of: RunLossesKey, jobs: Vec<Job>) -> (Task<()>, Receiver<Computed>) {
     let (sender, results) = mpsc::channel();
     let seen = ctx.clone();
     let task = Task::start(ctx, move |progress| {
