@@ -89,7 +89,7 @@ fn a_larger_photograph_is_averaged_over_each_texel_and_ranks_the_right_material_
         if column > 63 || row > 63 {
             return [99.0; 3];
         }
-        let sign = if (column + row) % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if (column + row).is_multiple_of(2) { 1.0 } else { -1.0 };
         let pattern = 1.0 + sign * if (x % 3, y % 3) == (1, 1) { 0.8 } else { -0.1 };
         rendering.pixels[row * 64 + column].map(|value| 4.0 * pattern * value)
     });
