@@ -62,7 +62,7 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
     let options = ViewerOptions {
         ground_truth: Some(save("gt.png".to_owned())),
         predictions: (0..14)
-            .map(|i| save(format!("a_long_name_of_an_experiment_epoch_{i:03}.png")))
+            .map(|i| save(format!("a_long_name_of_an_experiment_seed_{i:03}.png")))
             .collect(),
         ..ViewerOptions::default()
     };
@@ -77,7 +77,7 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
     assert!(window.query_by_label_contains("4  \u{2026}003").is_some(), "names end with what differs");
     window.get_by_role(egui::accesskit::Role::TextInput).click();
     window.run_steps(3);
-    window.get_by_role(egui::accesskit::Role::TextInput).type_text("epoch_007");
+    window.get_by_role(egui::accesskit::Role::TextInput).type_text("seed_007");
     window.run_steps(4);
     assert!(window.query_by_label_contains("4  \u{2026}003").is_none());
     window.get_by_label_contains("8  \u{2026}007").click();
