@@ -4,9 +4,9 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use crate::render::simd::lanes::V;
+use crate::render::simd::lanes::{V, three};
 use crate::render::simd::shade::TileRadiance;
-use crate::render::simd::tile::vectors;
+use crate::render::simd::tile::{TilePlane, vectors};
 
 /// Unsigned integers as wide as the floats of [`V`].
 type Bits<S> = <V<S> as SimdFloat<S>>::Bits;
@@ -81,10 +81,8 @@ impl<S: Simd> LogDifferences<S> for LogProducts<S> {
         let mut products = *self;
         for pair in 0..vectors::<S>() / 2 {
             for i in [2 * pair, 2 * pair + 1] {
-                let load = |radiance: &TileRadiance| radiance.0.each_ref().map(|plane| plane.load(simd, i));
-                let (a, b): ([V<S>; 3], [V<S>; 3]) = (load(a), load(b));
-                let larger: [V<S>; 3] = std::array::from_fn(|c| a[c].max(b[c]));
-                let smaller: [V<S>; 3] = std::array::from_fn(|c| a[c].min(b[c]));
+                let (a, b) = (TilePlane::load_three(&a.0, simd, i), TilePlane::load_three(&b.0, simd, i));
+                let (larger, smaller) = (three!(C => a[C].max(b[C])), three!(C => a[C].min(b[C])));
                 if SAFE {
                     for c in 0..3 {
                         products.multiply(larger[c], smaller[c]);

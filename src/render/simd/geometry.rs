@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, prelude::*};
 use glam::DVec3;
 
-use super::lanes::{Lanes, V, neg_mul_add};
+use super::lanes::{Lanes, V, neg_mul_add, three};
 use super::tile::{Positions, TilePlane, vectors};
 use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
@@ -74,8 +74,8 @@ impl KernelScene {
         if self.near {
             return None;
         }
-        let splat = |p: [f32; 3]| p.map(|c| V::<S>::splat(simd, 2.0 * c));
-        let (light, view) = (splat(self.light), splat(self.view));
+        let light = three!(C => V::<S>::splat(simd, 2.0 * self.light[C]));
+        let view = three!(C => V::<S>::splat(simd, 2.0 * self.view[C]));
         let light_scale = V::<S>::splat(simd, self.light_scale.min(self.light_scale_limit));
         let (square, fresnel_weight) = half_way(simd, sum(light, view));
         Some(Geometry { light, view, square, fresnel_weight, light_scale })
@@ -86,8 +86,8 @@ impl KernelScene {
     fn splat<S: Simd>(&self, simd: S) -> NearScene<V<S>> {
         let splat = |c| V::<S>::splat(simd, c);
         NearScene {
-            light: self.light.map(splat),
-            view: self.view.map(splat),
+            light: three!(C => splat(self.light[C])),
+            view: three!(C => splat(self.view[C])),
             light_scale: splat(self.light_scale),
             light_scale_limit: splat(self.light_scale_limit),
         }
@@ -111,7 +111,7 @@ fn near<S: Lanes>(simd: S, scene: &NearScene<V<S>>, x: V<S>, y: V<S>) -> ([V<S>;
     let per_light = twice_rsqrt(simd, light_square);
     let per_view = twice_rsqrt(simd, dot(to_view, to_view));
     let light_scale = (light_square * per_light * scene.light_scale).min(scene.light_scale_limit);
-    (to_light.map(|c| c * per_light), to_view.map(|c| c * per_view), light_scale)
+    (three!(C => to_light[C] * per_light), three!(C => to_view[C] * per_view), light_scale)
 }
 
 /// a . b.
@@ -130,14 +130,14 @@ pub(crate) fn cross<S: Simd>(a: [V<S>; 3], b: [V<S>; 3]) -> [V<S>; 3] {
 /// a + b.
 #[inline(always)]
 pub(crate) fn sum<S: Simd, F: SimdFloat<S>>(a: [F; 3], b: [F; 3]) -> [F; 3] {
-    std::array::from_fn(|i| a[i] + b[i])
+    three!(C => a[C] + b[C])
 }
 
 /// (|q|^2, Schlick's power).
 #[inline(always)]
 fn half_way<S: Lanes>(simd: S, q: [V<S>; 3]) -> (V<S>, V<S>) {
     let least = V::<S>::splat(simd, LEAST_SQUARE);
-    let square = q.iter().fold(least, |sum, &c| c.mul_add(c, sum));
+    let square = q[2].mul_add(q[2], q[1].mul_add(q[1], q[0].mul_add(q[0], least)));
     (square, exp2(simd, fresnel_power(simd, square)))
 }
 
@@ -213,8 +213,9 @@ impl TileGeometry {
             self.light_scale.store::<S>(i, light_scale);
         }
         for i in 0..vectors::<S>() {
-            let load = |direction: &[TilePlane; 3]| direction.each_ref().map(|p| p.load(simd, i));
-            let (square, fresnel_weight) = half_way(simd, sum(load(&self.light), load(&self.view)));
+            let light = TilePlane::load_three(&self.light, simd, i);
+            let view = TilePlane::load_three(&self.view, simd, i);
+            let (square, fresnel_weight) = half_way(simd, sum(light, view));
             self.square.store::<S>(i, square);
             self.fresnel_weight.store::<S>(i, fresnel_weight);
         }
@@ -223,8 +224,8 @@ impl TileGeometry {
     #[inline(always)]
     pub(crate) fn load<S: Simd>(&self, simd: S, i: usize) -> Geometry<V<S>> {
         Geometry {
-            light: self.light.each_ref().map(|p| p.load(simd, i)),
-            view: self.view.each_ref().map(|p| p.load(simd, i)),
+            light: TilePlane::load_three(&self.light, simd, i),
+            view: TilePlane::load_three(&self.view, simd, i),
             square: self.square.load(simd, i),
             fresnel_weight: self.fresnel_weight.load(simd, i),
             light_scale: self.light_scale.load(simd, i),

@@ -35,6 +35,31 @@ pub(crate) trait Lanes: Simd {
     fn prefetch(self, _values: &[f32; TEXELS]) {}
 }
 
+/// An array of `$value` for each channel or component `$c` in 0..3.
+///
+/// Not `array::map` or `array::from_fn`: how the crate is divided for code generation decides whether these are calls, and
+/// where they are, all vectors go through memory and the loss takes twice as long.
+macro_rules! three {
+    ($c:ident => $value:expr) => {
+        [
+            {
+                const $c: usize = 0;
+                $value
+            },
+            {
+                const $c: usize = 1;
+                $value
+            },
+            {
+                const $c: usize = 2;
+                $value
+            },
+        ]
+    };
+}
+
+pub(crate) use three;
+
 /// c - a b.
 #[inline(always)]
 pub(crate) fn neg_mul_add<S: Simd>(a: V<S>, b: V<S>, c: V<S>) -> V<S> {

@@ -7,7 +7,7 @@
 use fearless_simd::prelude::*;
 
 use super::geometry::{Geometry, KernelScene, cross, dot, sum};
-use super::lanes::{Lanes, V, neg_mul_add};
+use super::lanes::{Lanes, V, neg_mul_add, three};
 use super::tile::{MaterialTerms, TilePlane, vectors};
 use crate::model::convention::Convention;
 
@@ -146,7 +146,7 @@ fn lobe<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
     i: usize,
 ) -> (V<S>, V<S>) {
     let splat = |c| V::<S>::splat(simd, c);
-    let n = terms.normal.each_ref().map(|p| p.load(simd, i));
+    let n = TilePlane::load_three(&terms.normal, simd, i);
     let a = terms.a.load(simd, i);
     let q = sum(geometry.light, geometry.view);
     let n_dot_l = dot(n, geometry.light).max(splat(0.0));
@@ -155,14 +155,12 @@ fn lobe<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
     let n_dot_q = dot(n, q);
     let e = n_dot_l * geometry.light_scale;
 
-    let across: [V<S>; 3] = if NARROW {
-        cross::<S>(n, q)
-    } else {
-        std::array::from_fn(|c| neg_mul_add::<S>(n_dot_q, n[c], q[c]))
-    };
+    let across: [V<S>; 3] =
+        if NARROW { cross::<S>(n, q) } else { three!(C => neg_mul_add::<S>(n_dot_q, n[C], q[C])) };
     let along = a * n_dot_q;
     // In this order only three additions wait for `across`.
-    let mut d = across.iter().fold(along * along, |sum, &c| c.mul_add(c, sum));
+    let [x, y, z] = across;
+    let mut d = z.mul_add(z, y.mul_add(y, x.mul_add(x, along * along)));
     let mut factor_l = n_dot_l.mul_add(terms.one_minus_k.load(simd, i), a);
     let mut factor_v = n_dot_v.mul_add(terms.one_minus_k.load(simd, i), a);
     let peak = a * geometry.square;

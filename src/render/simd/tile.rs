@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
-use super::lanes::{Lanes, V};
+use super::lanes::{Lanes, V, three};
 use super::size::TEXELS;
 use crate::material::{Grid, Planes};
 
@@ -24,6 +24,12 @@ impl TilePlane {
     pub(crate) fn load<S: Simd>(&self, simd: S, index: usize) -> V<S> {
         let at = index * V::<S>::LEN;
         V::<S>::from_slice(simd, &self.0[at..at + V::<S>::LEN])
+    }
+
+    /// Vector number `index` of each of three planes.
+    #[inline(always)]
+    pub(crate) fn load_three<S: Simd>(planes: &[Self; 3], simd: S, index: usize) -> [V<S>; 3] {
+        three!(C => planes[C].load(simd, index))
     }
 
     #[inline(always)]
