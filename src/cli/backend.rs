@@ -18,7 +18,7 @@ const LONG: Duration = Duration::from_millis(500);
 
 /// The requested device.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum Device {
+pub enum DeviceChoice {
     /// The CPU, which the window uses, too
     #[default]
     Cpu,
@@ -32,11 +32,15 @@ pub enum Device {
 ///
 /// # Errors
 /// Those of the loss, and [`Error::NoAdapter`] where the GPU is asked for and there is none.
-pub fn run(choice: Device, comparison: Comparison<'_, f32>, request: &Request) -> Result<Report, Error> {
+pub fn run(
+    choice: DeviceChoice,
+    comparison: Comparison<'_, f32>,
+    request: &Request,
+) -> Result<Report, Error> {
     let gpu = match (choice, on_all_texels(&comparison, request)?) {
-        (Device::Cpu, _) | (Device::Auto, None) => None,
-        (Device::Gpu, _) => Some(Adapter::start()?),
-        (Device::Auto, Some(scenes)) => {
+        (DeviceChoice::Cpu, _) | (DeviceChoice::Auto, None) => None,
+        (DeviceChoice::Gpu, _) => Some(Adapter::start()?),
+        (DeviceChoice::Auto, Some(scenes)) => {
             let (gpu, why) = faster(&comparison, &scenes)?;
             tell(&format!("note: computed on the {}: {why}", if gpu.is_some() { "GPU" } else { "CPU" }));
             gpu

@@ -9,7 +9,7 @@ use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene_file;
 use svbrdf::report::Report;
 
-use super::backend::{self, Device};
+use super::backend::{self, DeviceChoice};
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
 use super::report::{Printed, ReportFormat};
@@ -66,7 +66,7 @@ pub struct LossArgs {
 
     /// Device that computes the loss
     #[arg(long, value_enum, default_value_t)]
-    backend: Device,
+    backend: DeviceChoice,
 
     /// Output format
     #[arg(long, value_enum, default_value_t)]
@@ -160,11 +160,15 @@ fn chooses_scenes(args: &LossArgs) -> bool {
 /// A graphics adapter compares all texels, in f32.
 fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
     let problem = match (args.backend, args.precision, request) {
-        (Device::Cpu | Device::Auto, ..) => return Ok(()),
-        (Device::Gpu, Precision::F64, _) => {
+        (DeviceChoice::Cpu | DeviceChoice::Auto, ..) => return Ok(()),
+        (DeviceChoice::Gpu, Precision::F64, _) => {
             "graphics adapters compute in f32; leave out --backend gpu, or --precision f64"
         }
-        (Device::Gpu, _, Request::Listed(_) | Request::Scenes(Sampling { texels: Texels::All, .. })) => {
+        (
+            DeviceChoice::Gpu,
+            _,
+            Request::Listed(_) | Request::Scenes(Sampling { texels: Texels::All, .. }),
+        ) => {
             return Ok(());
         }
         _ => {

@@ -11,7 +11,7 @@ use svbrdf::model::scene::Scene;
 use svbrdf::picture::difference::Difference;
 use svbrdf::picture::export::{Destination, Provenance};
 use svbrdf::picture::quantity::Quantity;
-use svbrdf::picture::shown::{Pictures, Shown, ShownDifference};
+use svbrdf::picture::shown::{Shown, ShownDifference, ShownPictures};
 
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
@@ -83,7 +83,7 @@ pub fn run(args: &RenderArgs) -> Result<(), Error> {
     }
     check_heights(&materials)?;
     let (values, renderer) = values(args, shown.quantity, &materials, &scene)?;
-    let Pictures { images, shown } = shown.of_values(values, &args.comparison.convention());
+    let ShownPictures { images, shown } = shown.of_values(values, &args.comparison.convention());
     let exposure_ev = args.exposure.or(saved.map(|saved| saved.exposure_ev)).unwrap_or(0.0);
     let provenance = Provenance {
         shown,

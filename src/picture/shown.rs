@@ -36,7 +36,7 @@ pub struct ShownDifference {
 
 /// Pictures of materials, and how their numbers become colours.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pictures {
+pub struct ShownPictures {
     /// Linear RGB; of normals (x, y, z); of differences each channel's.
     pub images: Vec<Image<f32>>,
     /// As asked, with the range that was found.
@@ -54,16 +54,16 @@ impl Shown {
         scene: &Scene,
         convention: &Convention,
         progress: &Progress,
-    ) -> Result<Pictures, Error> {
+    ) -> Result<ShownPictures, Error> {
         let image = |material: &&Material<f32>| self.quantity.image(material, scene, convention, progress);
         let values = materials.iter().map(image).collect::<Result<Vec<_>, _>>()?;
         Ok(self.of_values(values, convention))
     }
 
     /// As [`Shown::pictures`], of values that have been computed.
-    pub fn of_values(self, values: Vec<Image<f32>>, convention: &Convention) -> Pictures {
+    pub fn of_values(self, values: Vec<Image<f32>>, convention: &Convention) -> ShownPictures {
         let (Some(shown), Some((ground_truth, predictions))) = (self.difference, values.split_first()) else {
-            return Pictures { images: values, shown: self };
+            return ShownPictures { images: values, shown: self };
         };
         let epsilon = convention.epsilon;
         let auto = || {
@@ -73,7 +73,7 @@ impl Shown {
         };
         let range = Some(shown.range.unwrap_or_else(auto));
         let images = predictions.iter().map(|p| shown.kind.picture(ground_truth, p, epsilon)).collect();
-        Pictures { images, shown: Self { difference: Some(ShownDifference { range, ..shown }), ..self } }
+        ShownPictures { images, shown: Self { difference: Some(ShownDifference { range, ..shown }), ..self } }
     }
 
     /// The 8-bit colours of a number: of a rendering exposed and sRGB-encoded, of an albedo sRGB-encoded, of a normal

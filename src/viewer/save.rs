@@ -14,7 +14,7 @@ use crate::image::Image;
 use crate::material::Material;
 use crate::picture::export::{PngDestination, Provenance};
 use crate::picture::quantity::Quantity;
-use crate::picture::shown::{Pictures, Shown, ShownDifference};
+use crate::picture::shown::{Shown, ShownDifference, ShownPictures};
 use crate::picture::strip::{Column, Strip};
 
 /// What the panes show; `range` is the difference that has the last colour.
@@ -56,7 +56,7 @@ pub(super) fn renderings(
     Task::start(ctx, move |progress| {
         let destination = Destination::new(&path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
-        let Pictures { images, shown } =
+        let ShownPictures { images, shown } =
             shown.pictures(&all, &provenance.scene, &provenance.convention, progress)?;
         provenance.shown = shown;
         destination.write(&images, &provenance, progress)?;

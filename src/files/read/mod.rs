@@ -18,6 +18,7 @@ pub(crate) mod interpret;
 mod layered_options;
 mod locate;
 mod note;
+mod note_text;
 mod options;
 mod order;
 mod outside;
