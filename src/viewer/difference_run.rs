@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-
 use super::latest::Latest;
 use super::loaded::Loaded;
 use super::slot::Slot;
 use super::state::ViewState;
+use super::work_context::WorkContext;
 use super::worker::Task;
 use crate::error::Error;
 use crate::model::convention::Convention;
@@ -48,15 +47,9 @@ impl DifferenceRun {
     }
 
     /// Takes over a result, and computes what is needed now, where a difference is `shown`.
-    pub(super) fn follow(
-        &mut self,
-        ctx: &egui::Context,
-        shown: bool,
-        slots: &[Slot],
-        state: &ViewState,
-    ) -> Option<Error> {
-        let wanted = (shown && slots.len() > 1).then(|| key(slots, state));
-        self.0.follow(ctx, wanted, |_| start(ctx, slots, state))
+    pub(super) fn follow(&mut self, work: &WorkContext<'_>, shown: bool) -> Option<Error> {
+        let wanted = (shown && work.slots.len() > 1).then(|| key(work.slots, work.state));
+        self.0.follow(work.ctx, wanted, |_| start(work))
     }
 }
 
@@ -70,11 +63,13 @@ fn key(slots: &[Slot], state: &ViewState) -> DifferenceKey {
     }
 }
 
-fn start(ctx: &egui::Context, slots: &[Slot], state: &ViewState) -> Task<Distributions> {
-    let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
+fn start(work: &WorkContext<'_>) -> Task<Distributions> {
+    let (materials, state) = (work.materials(), work.state);
     let (quantity, kind) = (state.quantity, state.difference_kind());
     let (scene, convention) = (state.scene, state.convention());
-    Task::start(ctx, move |progress| distributions(&materials, quantity, kind, &scene, &convention, progress))
+    Task::start(work.ctx, move |progress| {
+        distributions(&materials, quantity, kind, &scene, &convention, progress)
+    })
 }
 
 fn distributions(

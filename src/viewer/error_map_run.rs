@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-
 use super::latest::Latest;
 use super::loaded::Loaded;
 use super::slot::Slot;
 use super::state::ViewState;
+use super::work_context::WorkContext;
 use super::worker::Task;
 use crate::error::Error;
 use crate::gpu::{Gpu, Shaded};
@@ -55,24 +54,20 @@ impl ErrorMapRun {
     /// Takes over a result, and computes what is wanted now; where none is `shown`, the latest is kept.
     pub(super) fn follow(
         &mut self,
-        ctx: &egui::Context,
-        gpu: Option<&Gpu>,
+        work: &WorkContext<'_>,
         shown: bool,
-        (slots, state): (&[Slot], &ViewState),
         scenes: Request,
     ) -> Option<Error> {
-        if !shown || slots.len() < 2 {
+        if !shown || work.slots.len() < 2 {
             self.0.rest();
             return None;
         }
-        let wanted = key(slots, state, scenes);
+        let wanted = key(work.slots, work.state, scenes);
         self.0.drop_other(&wanted);
-        let convention = state.convention();
-        self.0.follow(ctx, Some(wanted), |key| {
-            let scenes = key.scenes.clone();
-            let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
-            let gpu = gpu.cloned();
-            Task::start(ctx, move |progress| {
+        let convention = work.state.convention();
+        self.0.follow(work.ctx, Some(wanted), |key| {
+            let (scenes, materials, gpu) = (key.scenes.clone(), work.materials(), work.gpu.cloned());
+            Task::start(work.ctx, move |progress| {
                 maps(&materials, &scenes, &convention, gpu.as_ref(), progress).map(Arc::new)
             })
         })

@@ -12,6 +12,8 @@ use super::loss_run::{Asked, LossRun};
 use super::message::Message;
 use super::settings::Tab;
 use super::why::WhyAsked;
+use super::work_context::WorkContext;
+use crate::error::Error;
 
 impl App {
     /// Takes over the results of what is shown beside the loss, and computes what is needed now.
@@ -23,28 +25,28 @@ impl App {
         self.seen = self.mixture.seen(&self.slots.slots, &self.state);
         let why = self.settings.tab == Tab::Why && *self.side_panel(ctx);
         self.follow_why(ctx, why);
-        let error = self.scene_loss.follow(ctx, why, &self.slots, &self.state);
-        self.report(error.map(Message::Failed));
-        let shown = self.settings.histograms && !self.state.difference;
-        let error = self.values.follow(ctx, shown, &self.seen, &self.state);
-        self.report(error.map(Message::Failed));
-        let shown = self.state.difference || self.viewport.shows_extra;
-        let averages = shown && self.state.is_error_map();
-        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
-        let error = self.photograph.follow(ctx, gpu, &self.seen, &self.state);
-        self.report(error.map(Message::Failed));
-        let of_ground_truth = shown && !averages && self.photograph_scene().is_none();
-        let error = self.difference.follow(ctx, of_ground_truth, &self.seen, &self.state);
-        self.report(error.map(Message::Failed));
-        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
-        let scenes = self.settings.loss.listed_scenes();
-        let error = self.error_map.follow(ctx, gpu, averages, (&self.seen, &self.state), scenes);
-        self.report(error.map(Message::Failed));
         if let Some(slot) = self.slots.ground_truth() {
             self.inspect.keep_within(slot.loaded.material.size());
         }
-        let error = self.region.follow(ctx, self.inspect.region, &self.seen, &self.state);
-        self.report(error.map(Message::Failed));
+        let errors = self.follow_panes(ctx);
+        self.report(errors.into_iter().map(Message::Failed));
+    }
+
+    /// The work on what the panes show.
+    fn follow_panes(&mut self, ctx: &egui::Context) -> Vec<Error> {
+        let histograms = self.settings.histograms && !self.state.difference;
+        let differences = self.state.difference || self.viewport.shows_extra;
+        let averages = differences && self.state.is_error_map();
+        let scenes = self.settings.loss.listed_scenes();
+        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+        let work = WorkContext { ctx, gpu, slots: &self.seen, state: &self.state };
+        let mut errors =
+            vec![self.values.follow(&work, histograms), self.region.follow(&work, self.inspect.region)];
+        errors.push(self.photograph.follow(&work));
+        let of_ground_truth = differences && !averages && self.photograph_scene().is_none();
+        errors.push(self.difference.follow(&work, of_ground_truth));
+        errors.push(self.error_map.follow(&work, averages, scenes));
+        errors.into_iter().flatten().collect()
     }
 
     /// The work of the tab *Why*, where it is shown. The search for the worst scene goes on in other tabs, too.
@@ -52,10 +54,14 @@ impl App {
         let loss = &self.settings.loss;
         let asked = WhyAsked { sections: self.settings.why, scenes: loss.listed_scenes(), seed: loss.seed };
         // Materials that arrive one by one would be looked at in vain.
-        let shown = shown && !self.slots.expects_more();
-        let errors = self.why.follow(ctx, shown, &self.slots.slots, &self.state, asked);
+        let complete = !self.slots.expects_more();
+        let gpu = self.gpu.as_ref().map(|g| &g.gpu);
+        let work = WorkContext { ctx, gpu, slots: &self.slots.slots, state: &self.state };
+        let mut errors = self.why.follow(&work, shown && complete, asked);
+        errors.extend(self.scene_loss.follow(&work, shown));
+        let searched = self.why.poll_search(&work);
         self.report(errors.into_iter().map(Message::Failed));
-        match self.why.poll_search(ctx, &self.slots.slots, &self.state) {
+        match searched {
             Some(Ok(worst)) => self.state.scene = worst.scene,
             Some(Err(error)) => self.report([Message::Failed(error)]),
             None => {}

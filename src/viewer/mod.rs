@@ -87,6 +87,7 @@ mod viewport;
 mod visible;
 mod watch;
 mod why;
+mod work_context;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod worker;
 #[cfg(feature = "testing")]

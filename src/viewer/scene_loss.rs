@@ -1,13 +1,9 @@
 //! The loss of the current scene alone, computed on a worker.
 
-use std::sync::Arc;
-
-use eframe::egui;
-
 use super::latest::Latest;
-use super::loaded::Loaded;
-use super::slots::Slots;
+use super::slots::{Slot, Slots};
 use super::state::ViewState;
+use super::work_context::WorkContext;
 use super::worker::Task;
 use crate::error::Error;
 use crate::loss::{Comparison, Request};
@@ -28,19 +24,12 @@ pub(super) struct SceneLossRun(Latest<SceneLossKey, Vec<f64>>);
 
 impl SceneLossRun {
     /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
-    pub(super) fn follow(
-        &mut self,
-        ctx: &egui::Context,
-        shown: bool,
-        slots: &Slots,
-        state: &ViewState,
-    ) -> Option<Error> {
-        let wanted = (shown && !slots.predictions().is_empty()).then(|| key(slots, state));
-        let convention = state.convention();
-        self.0.follow(ctx, wanted, |key| {
-            let materials: Vec<Arc<Loaded>> = slots.slots.iter().map(|slot| slot.loaded.clone()).collect();
-            let request = Request::Listed(vec![key.scene]);
-            Task::start(ctx, move |progress| {
+    pub(super) fn follow(&mut self, work: &WorkContext<'_>, shown: bool) -> Option<Error> {
+        let wanted = (shown && work.slots.len() > 1).then(|| key(work.slots, work.state));
+        let convention = work.state.convention();
+        self.0.follow(work.ctx, wanted, |key| {
+            let (materials, request) = (work.materials(), Request::Listed(vec![key.scene]));
+            Task::start(work.ctx, move |progress| {
                 let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
                 let comparison = Comparison::new(materials[0], &materials[1..], convention)?;
                 let outcome = comparison.run(&request, progress)?;
@@ -52,12 +41,12 @@ impl SceneLossRun {
     /// The latest losses of these materials, and whether they are up to date.
     pub(super) fn get(&self, slots: &Slots, state: &ViewState) -> Option<(&[f64], bool)> {
         let (of, losses) = self.0.get()?;
-        let now = key(slots, state);
+        let now = key(&slots.slots, state);
         (of.ids == now.ids).then_some((losses.as_slice(), *of == now))
     }
 }
 
-fn key(slots: &Slots, state: &ViewState) -> SceneLossKey {
-    let ids = slots.slots.iter().map(|slot| slot.id).collect();
+fn key(slots: &[Slot], state: &ViewState) -> SceneLossKey {
+    let ids = slots.iter().map(|slot| slot.id).collect();
     SceneLossKey { ids, scene: state.scene, convention: state.convention().name }
 }

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use eframe::egui;
-
 use super::latest::Latest;
 use super::loaded::Loaded;
 use super::slot::Slot;
 use super::state::ViewState;
+use super::work_context::WorkContext;
 use super::worker::Task;
 use crate::error::Error;
 use crate::model::convention::Convention;
@@ -46,19 +45,12 @@ pub(super) struct ValuesRun(Latest<ValuesKey, Values>);
 
 impl ValuesRun {
     /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
-    pub(super) fn follow(
-        &mut self,
-        ctx: &egui::Context,
-        shown: bool,
-        slots: &[Slot],
-        state: &ViewState,
-    ) -> Option<Error> {
-        let wanted = (shown && !slots.is_empty()).then(|| key(slots, state));
-        let (scene, convention) = (state.scene, state.convention());
-        self.0.follow(ctx, wanted, |key| {
-            let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
-            let quantity = key.quantity;
-            Task::start(ctx, move |progress| values(&materials, quantity, &scene, &convention, progress))
+    pub(super) fn follow(&mut self, work: &WorkContext<'_>, shown: bool) -> Option<Error> {
+        let wanted = (shown && !work.slots.is_empty()).then(|| key(work.slots, work.state));
+        let (scene, convention) = (work.state.scene, work.state.convention());
+        self.0.follow(work.ctx, wanted, |key| {
+            let (materials, quantity) = (work.materials(), key.quantity);
+            Task::start(work.ctx, move |progress| values(&materials, quantity, &scene, &convention, progress))
         })
     }
 

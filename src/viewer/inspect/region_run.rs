@@ -1,8 +1,5 @@
 //! Statistics of the rectangle, computed on a worker.
 
-use std::sync::Arc;
-
-use eframe::egui;
 use rayon::prelude::*;
 
 use super::region::Region;
@@ -16,9 +13,9 @@ use crate::picture::quantity::Quantity;
 use crate::picture::statistics::Statistics;
 use crate::render::render_texel;
 use crate::viewer::latest::Latest;
-use crate::viewer::loaded::Loaded;
 use crate::viewer::slot::Slot;
 use crate::viewer::state::ViewState;
+use crate::viewer::work_context::WorkContext;
 use crate::viewer::worker::Task;
 
 /// What the statistics depend on.
@@ -46,19 +43,18 @@ pub(crate) struct RegionRun(Latest<RegionKey, Vec<RegionNumbers>>);
 
 impl RegionRun {
     /// Takes over a result, and computes what is needed now.
-    pub(crate) fn follow(
+    pub(in crate::viewer) fn follow(
         &mut self,
-        ctx: &egui::Context,
+        work: &WorkContext<'_>,
         region: Option<Region>,
-        slots: &[Slot],
-        state: &ViewState,
     ) -> Option<Error> {
-        let wanted = region.filter(|_| !slots.is_empty()).map(|region| key(region, slots, state));
-        let convention = state.convention();
-        self.0.follow(ctx, wanted, |key| {
-            let materials: Vec<Arc<Loaded>> = slots.iter().map(|slot| slot.loaded.clone()).collect();
+        let region = region.filter(|_| !work.slots.is_empty());
+        let wanted = region.map(|region| key(region, work.slots, work.state));
+        let convention = work.state.convention();
+        self.0.follow(work.ctx, wanted, |key| {
+            let materials = work.materials();
             let (region, quantity, scene) = (key.region, key.quantity, key.scene);
-            Task::start(ctx, move |_| {
+            Task::start(work.ctx, move |_| {
                 let materials = materials.iter().map(|loaded| &loaded.material);
                 Ok(numbers(materials, region, quantity, &scene, &convention))
             })

@@ -5,8 +5,6 @@ mod keys;
 
 use std::sync::Arc;
 
-use eframe::egui;
-
 pub(super) use compared::Photographs;
 use compared::{ComparedKey, compare, key};
 use keys::{ReadKey, RectifiedKey};
@@ -15,11 +13,11 @@ use super::latest::Latest;
 use super::slot::Slot;
 use super::source::file_name;
 use super::state::ViewState;
+use super::work_context::WorkContext;
 use super::worker::Task;
 use crate::error::Error;
 use crate::files::read::{Photograph, read_photograph};
 use crate::files::session::SessionPhotograph;
-use crate::gpu::Gpu;
 use crate::photograph::{Corners, Rectified};
 use crate::picture::statistics::Distributions;
 
@@ -84,28 +82,22 @@ impl PhotographRun {
     }
 
     /// Takes over results, and computes what is wanted now. Without a photograph that can be read, there is none.
-    pub(super) fn follow(
-        &mut self,
-        ctx: &egui::Context,
-        gpu: Option<&Gpu>,
-        slots: &[Slot],
-        state: &ViewState,
-    ) -> Option<Error> {
+    pub(super) fn follow(&mut self, work: &WorkContext<'_>) -> Option<Error> {
         let wanted = self.read_key();
-        let error = self.read.follow(ctx, wanted, |(path, options)| {
+        let error = self.read.follow(work.ctx, wanted, |(path, options)| {
             let (path, options) = (path.clone(), *options);
-            Task::start(ctx, move |_| read_photograph(&path, &options).map(Arc::new))
+            Task::start(work.ctx, move |_| read_photograph(&path, &options).map(Arc::new))
         });
         if error.is_some() {
             *self = Self::default();
             return error;
         }
-        let error = self.rectify(ctx, slots);
-        error.or_else(|| self.compare(ctx, gpu, slots, state))
+        let error = self.rectify(work);
+        error.or_else(|| self.compare(work))
     }
 
-    fn rectify(&mut self, ctx: &egui::Context, slots: &[Slot]) -> Option<Error> {
-        let (Some(source), Some(slot)) = (&self.source, slots.first()) else {
+    fn rectify(&mut self, work: &WorkContext<'_>) -> Option<Error> {
+        let (Some(source), Some(slot)) = (&self.source, work.slots.first()) else {
             self.rectified = Latest::default();
             return None;
         };
@@ -113,34 +105,28 @@ impl PhotographRun {
         let corners = source.corners.map_or_else(|| Corners::whole(photograph.size()), Corners);
         let size = slot.loaded.material.size();
         let wanted = RectifiedKey { read: self.read_key()?, corners, size };
-        self.rectified.follow(ctx, Some(wanted), |_| {
-            Task::start(ctx, move |progress| {
+        self.rectified.follow(work.ctx, Some(wanted), |_| {
+            Task::start(work.ctx, move |progress| {
                 Rectified::new(&photograph, &corners, size, progress).map(Arc::new)
             })
         })
     }
 
-    fn compare(
-        &mut self,
-        ctx: &egui::Context,
-        gpu: Option<&Gpu>,
-        slots: &[Slot],
-        state: &ViewState,
-    ) -> Option<Error> {
+    fn compare(&mut self, work: &WorkContext<'_>) -> Option<Error> {
         let (Some(source), Some((of, rectified))) = (&self.source, self.rectified.get()) else {
             self.compared = Latest::default();
             return None;
         };
-        // A photograph on the texels of closed materials waits for that of now.
-        if slots.first().is_none_or(|slot| slot.loaded.material.size() != of.size) {
+        // It is still on the texels of materials that have been closed.
+        if work.slots.first().is_none_or(|slot| slot.loaded.material.size() != of.size) {
             return None;
         }
-        let wanted = key(of.clone(), source.falloff, slots, state);
+        let wanted = key(of.clone(), source.falloff, work.slots, work.state);
         let rectified = rectified.clone();
-        self.compared.follow(ctx, Some(wanted), |key| {
-            let (key, gpu, convention) = (key.clone(), gpu.cloned(), state.convention());
-            let materials: Vec<_> = slots.iter().map(|slot| slot.loaded.clone()).collect();
-            Task::start(ctx, move |progress| {
+        self.compared.follow(work.ctx, Some(wanted), |key| {
+            let (key, gpu, convention) = (key.clone(), work.gpu.cloned(), work.state.convention());
+            let materials = work.materials();
+            Task::start(work.ctx, move |progress| {
                 compare(&key, &rectified, &materials, &convention, gpu.as_ref(), progress).map(Arc::new)
             })
         })

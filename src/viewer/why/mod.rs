@@ -9,12 +9,9 @@ mod sections;
 mod texture;
 mod thumbnails;
 
-use eframe::egui;
-
 use crate::error::Error;
 use crate::loss::Request;
-use crate::viewer::slot::Slot;
-use crate::viewer::state::ViewState;
+use crate::viewer::work_context::WorkContext;
 use crate::why::{Moved, Worst};
 
 pub(super) use attribution::{Attributed, AttributionRun};
@@ -68,30 +65,23 @@ impl Why {
     /// Takes over results, and computes what is wanted now; nothing new where the tab is not `shown`.
     pub(super) fn follow(
         &mut self,
-        ctx: &egui::Context,
+        work: &WorkContext<'_>,
         shown: bool,
-        slots: &[Slot],
-        state: &ViewState,
         asked: WhyAsked,
     ) -> Vec<Error> {
-        let pair = ComparedPair::of(slots, state);
-        let pair = pair.as_ref();
+        let pair = ComparedPair::of(work.slots, work.state);
+        let (ctx, pair, scene) = (work.ctx, pair.as_ref(), &work.state.scene);
         let shown = |section| shown && asked.sections.is_open(section);
         let errors = [
             self.attribution.follow(ctx, shown(WhySection::Maps), pair, asked.seed),
             self.scenes.follow(ctx, shown(WhySection::Scenes), pair, asked.scenes),
-            self.directions.follow(ctx, shown(WhySection::Directions), pair, self.moved, &state.scene),
+            self.directions.follow(ctx, shown(WhySection::Directions), pair, self.moved, scene),
         ];
         errors.into_iter().flatten().collect()
     }
 
     /// Takes over the result of the search for the worst scene, once.
-    pub(super) fn poll_search(
-        &mut self,
-        ctx: &egui::Context,
-        slots: &[Slot],
-        state: &ViewState,
-    ) -> Option<Result<Worst, Error>> {
-        self.search.poll(ctx, ComparedPair::of(slots, state).as_ref())
+    pub(super) fn poll_search(&mut self, work: &WorkContext<'_>) -> Option<Result<Worst, Error>> {
+        self.search.poll(work.ctx, ComparedPair::of(work.slots, work.state).as_ref())
     }
 }
