@@ -1,5 +1,6 @@
 //! The real program in a real window on a display without a screen (Xvfb), with a simulated mouse and keyboard.
 
+mod arguments;
 mod dialogs;
 mod sessions;
 

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use svbrdf::error::Error;
+#[cfg(feature = "viewer")]
+use svbrdf::loss::FileScenes;
 
 use super::exit::tell;
 use super::materials::MaterialArgs;
@@ -53,11 +55,13 @@ fn open_window(args: ViewArgs) -> Result<(), Error> {
         }
     };
     let photograph = photograph_of(&args)?;
-    let materials = args.materials;
+    let mut materials = args.materials;
+    let scenes = take_scenes(&mut materials)?;
     let session = session_of(&materials)?;
     svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
         session,
         photograph,
+        scenes,
         strict: materials.reading.both.strict,
         fit,
         ground_truth_read: materials.reading.of_ground_truth(),
@@ -75,6 +79,17 @@ fn photograph_of(
     let Some(path) = args.photo.clone() else { return Ok(None) };
     let scene = args.photo_scene.specified()?;
     Ok(Some((args.photo_reading.of_session(path), scene)))
+}
+
+/// Takes the scene file out of `materials`, and reads it.
+#[cfg(feature = "viewer")]
+fn take_scenes(materials: &mut MaterialArgs) -> Result<Option<FileScenes>, Error> {
+    let all = materials.ground_truth.take().into_iter().chain(std::mem::take(&mut materials.predictions));
+    let (files, others): (Vec<_>, Vec<_>) = all.partition(|path| FileScenes::is_named(path));
+    let mut others = others.into_iter();
+    materials.ground_truth = others.next();
+    materials.predictions = others.collect();
+    FileScenes::read_one(&files)
 }
 
 /// The session file that is given in place of a ground truth.

@@ -1,12 +1,17 @@
 //! How a loss is asked for, as settings that are saved: the fields of the window's loss section.
 
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use super::request::{Request, Sampling, Texels};
+use crate::error::Error;
+use crate::files::read::Sidecar;
+use crate::files::session::Session;
 use crate::model::sampler::Sampler;
 use crate::model::scene::Scene;
+use crate::model::scene_file;
 
 /// What decides how many scenes there are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -29,6 +34,39 @@ pub struct FileScenes {
     pub name: String,
     /// At least one.
     pub scenes: Vec<Scene>,
+}
+
+impl FileScenes {
+    /// Whether `path` is named like a scene file: JSON, but neither a session nor a sidecar file of a material.
+    pub fn is_named(path: &Path) -> bool {
+        let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+        is_json && !Session::is_named(path) && !Sidecar::is_named(path)
+    }
+
+    /// Reads the scenes of a file.
+    ///
+    /// # Errors
+    /// Those of [`scene_file::read`].
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        Ok(Self { name, scenes: scene_file::read(path)? })
+    }
+
+    /// Reads the only one of some scene files; `None` without any.
+    ///
+    /// # Errors
+    /// As [`FileScenes::read`], and [`Error::Usage`] where there are several.
+    pub fn read_one(paths: &[PathBuf]) -> Result<Option<Self>, Error> {
+        match paths {
+            [] => Ok(None),
+            [path] => Self::read(path).map(Some),
+            [first, second, ..] => Err(Error::Usage(format!(
+                "expected one scene file, found {} and {}",
+                first.display(),
+                second.display()
+            ))),
+        }
+    }
 }
 
 /// How a loss is asked for. What the other ways of asking need is kept.
@@ -160,6 +198,16 @@ mod tests {
             };
             assert_eq!(settings.request(), other.request());
             assert_ne!(settings.request(), request);
+        }
+    }
+
+    #[test]
+    fn a_scene_file_is_json_that_is_no_session_and_no_sidecar_file() {
+        for name in ["scenes.json", "a/render.JSON"] {
+            assert!(FileScenes::is_named(Path::new(name)), "{name}");
+        }
+        for name in ["a.png", "json", "a.svbrdf-session.json", "a.svbrdf.json", "maps/svbrdf.json"] {
+            assert!(!FileScenes::is_named(Path::new(name)), "{name}");
         }
     }
 

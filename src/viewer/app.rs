@@ -158,10 +158,11 @@ impl App {
             now: 0.0,
             frame_ms: 0.0,
         };
-        let photograph = options.photograph.clone();
+        let (photograph, scenes) = (options.photograph.clone(), options.scenes.clone());
         app.open_first(&cc.egui_ctx, options);
-        // After a session, which may have another one.
+        // After a session, which may have others.
         photograph.into_iter().for_each(|(photograph, scene)| app.show_photograph(photograph, scene));
+        scenes.into_iter().for_each(|file| app.use_scenes(file));
         app
     }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::files::read::ReadOptions;
 use crate::files::session::{Session, SessionPhotograph};
+use crate::loss::FileScenes;
 use crate::model::scene::Scene;
 
 /// The materials that the window opens, and how it reads them.
@@ -22,4 +23,6 @@ pub struct ViewerOptions {
     pub fit: bool,
     /// A photograph that renderings are compared with; its light and view, `None` for those of a session or the default.
     pub photograph: Option<(SessionPhotograph, Option<Scene>)>,
+    /// The scenes of the loss; `None` for those of the session or the settings.
+    pub scenes: Option<FileScenes>,
 }

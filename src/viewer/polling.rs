@@ -10,6 +10,7 @@ use super::command::{Command, MaterialsCommand, PhotographCommand};
 use super::message::Message;
 use super::watch::Change;
 use crate::files::read::ReadOptions;
+use crate::loss::FileScenes;
 
 /// What to do without a file dialog.
 const NO_DIALOG: &str = "This system has no file dialog: install zenity or a desktop portal. Type a path here, or drop files \
@@ -71,19 +72,24 @@ impl App {
         }
     }
 
-    /// Takes over the scenes of a file as those of the loss.
+    /// Takes over a scene file that has been read.
     pub(super) fn poll_scene_file(&mut self, ctx: &egui::Context) {
         let Some(result) = self.scene_file.as_ref().and_then(|job| job.poll(ctx)) else { return };
         self.scene_file = None;
         match (result, &mut self.open_window) {
             (Ok(file), _) => {
                 self.open_window = None;
-                self.report([Message::ScenesOpened(file.name.clone(), file.scenes.len())]);
-                self.settings.loss = self.settings.loss.with_file(Some(file));
+                self.use_scenes(file);
             }
             (Err(error), Some(window)) => window.fail(error.to_string()),
             (Err(error), None) => self.report([Message::Failed(error)]),
         }
+    }
+
+    /// Makes the scenes of a file those of the loss.
+    pub(super) fn use_scenes(&mut self, file: FileScenes) {
+        self.report([Message::ScenesOpened(file.name.clone(), file.scenes.len())]);
+        self.settings.loss = self.settings.loss.with_file(Some(file));
     }
 
     pub(super) fn poll_browsing(&mut self, ctx: &egui::Context) {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::files::read::ReadOptions;
-use svbrdf::loss::{Comparison, Outcome, Request};
+use svbrdf::loss::{Comparison, FileScenes, Outcome, Request};
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::Scene;
 use svbrdf::model::scene_file;
@@ -101,4 +101,35 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     let mut other = super::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });
     wait(&mut other, "the loss", |app| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 9));
     assert_eq!(other.state().losses().unwrap(), expected(&saved).losses);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = capture(&folder);
+    let scenes = Some(FileScenes::read(&path).unwrap());
+    let of_file = |app: &App| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 3);
+    let mut window = super::window(ViewerOptions { scenes: scenes.clone(), ..ViewerOptions::default() });
+    wait(&mut window, "the loss over the file", of_file);
+    assert_eq!(window.state().losses().unwrap(), expected(&scenes.unwrap().scenes).losses);
+    window.get_by_label("3 scenes of render.json");
+
+    let mut window = built_in();
+    let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/worn_tiles.png");
+    let dropped = [material.clone(), path.clone(), material].map(|path| std::sync::Arc::new(Dropped(path)) as _);
+    window.input_mut().dropped_files = dropped.into();
+    wait(&mut window, "materials and scenes", |app| app.names().len() == 2 && of_file(app));
+    assert_eq!(window.state().messages(), ["The loss is over the 3 scenes of render.json"]);
+
+    // Two of them are refused, and those of before stay.
+    let other = folder.path().join("other.json");
+    std::fs::write(&other, CAPTURE).unwrap();
+    apply(&mut window, WindowCommand::DismissMessages);
+    let two = [path, other].map(|path| std::sync::Arc::new(Dropped(path)) as _);
+    window.input_mut().dropped_files = two.into();
+    wait(&mut window, "the refusal", |app| !app.messages().is_empty());
+    let messages = window.state().messages();
+    assert!(messages[0].contains("expected one scene file, found"), "{messages:?}");
+    window.get_by_label("3 scenes of render.json");
 }

@@ -1,30 +1,36 @@
 //! Commands about files and materials.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use eframe::egui;
 
 use crate::error::Error;
-use crate::files::read::Sidecar;
 use crate::files::session::Session;
 use crate::loss::FileScenes;
-use crate::model::scene_file;
 use crate::viewer::app::App;
 use crate::viewer::command::MaterialsCommand;
 use crate::viewer::message::Message;
 use crate::viewer::slots::Target;
-use crate::viewer::source::{Source, file_name, sources};
+use crate::viewer::source::{Source, sources};
 use crate::viewer::worker::Task;
 
 impl App {
     pub(super) fn apply_to_materials(&mut self, ctx: &egui::Context, command: MaterialsCommand) {
         let gpu = self.gpu.as_ref().map(|g| &g.gpu);
         match command {
+            // First, since the scenes of a file take the place of those of a session.
+            MaterialsCommand::Open { paths, replace, read }
+                if paths.iter().any(|path| FileScenes::is_named(path)) =>
+            {
+                let (files, paths): (Vec<_>, Vec<_>) =
+                    paths.into_iter().partition(|path| FileScenes::is_named(path));
+                self.open_scene_file(ctx, files);
+                if !paths.is_empty() {
+                    self.apply_to_materials(ctx, MaterialsCommand::Open { paths, replace, read });
+                }
+            }
             MaterialsCommand::Open { paths, .. } if paths.iter().any(|path| Session::is_named(path)) => {
                 self.open_session_file(ctx, &paths);
-            }
-            MaterialsCommand::Open { paths, .. } if paths.iter().any(|path| is_scene_file(path)) => {
-                self.open_scene_file(ctx, paths);
             }
             MaterialsCommand::ReopenLast => match self.settings.last.clone() {
                 Some(session) => {
@@ -83,11 +89,11 @@ impl App {
         }
     }
 
-    /// Starts to read a scene file, which stands alone, too.
+    /// Starts to read a scene file.
     fn open_scene_file(&mut self, ctx: &egui::Context, paths: Vec<PathBuf>) {
-        self.scene_file = Some(Task::start(ctx, move |_| match paths.as_slice() {
-            [path] => Ok(FileScenes { name: file_name(path), scenes: scene_file::read(path)? }),
-            _ => Err(Error::Usage("open a scene file alone, and materials without it".to_owned())),
+        self.scene_file = Some(Task::start(ctx, move |_| {
+            let read = FileScenes::read_one(&paths)?;
+            read.ok_or_else(|| Error::Internal("there is no scene file".to_owned()))
         }));
     }
 
@@ -100,10 +106,4 @@ impl App {
         }
         state.prediction = state.prediction.min(self.slots.predictions().len().saturating_sub(1));
     }
-}
-
-/// Whether `path` is named like a scene file: JSON that says neither what a session is nor how a material is read.
-fn is_scene_file(path: &Path) -> bool {
-    let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
-    is_json && !Session::is_named(path) && !Sidecar::is_named(path)
 }
