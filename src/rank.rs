@@ -7,7 +7,7 @@ use crate::loss::{Estimate, Outcome};
 pub struct Ranked {
     /// The index of its loss in the outcome.
     pub index: usize,
-    /// Its loss - that of the best prediction, over the same scenes; `None` for the best one.
+    /// Its loss - the loss of the best prediction, over the same scenes; `None` for the best one.
     pub to_best: Option<Estimate>,
     /// Groups are counted from 1. A group begins with the first prediction whose difference to the first of the group before has a
     /// 95% interval without 0. Within a group, no prediction is separated from its first.

@@ -68,6 +68,7 @@ mod tests {
             let time = SystemTime::UNIX_EPOCH + Duration::from_secs(seconds);
             fs::File::options().write(true).open(path).unwrap().set_modified(time).unwrap();
         }
+        fs::create_dir(folder.path().join("inner")).unwrap();
         let stamp = Stamp::of(folder.path()).unwrap();
         let latest = SystemTime::UNIX_EPOCH + Duration::from_secs(2000);
         assert_eq!(stamp, Stamp { files: 2, bytes: 10, modified: Some(latest) });

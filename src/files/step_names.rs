@@ -41,8 +41,8 @@ impl fmt::Display for Counter {
 /// A name with the number of a step.
 #[derive(Debug)]
 pub(super) struct Counted {
-    /// The name without the number; empty where it is nothing else.
-    pub rest: String,
+    /// The name without the number; the name of the folder where nothing else is left.
+    pub run_name: String,
     pub counter: Counter,
     pub number: u64,
     /// Whether it is the name of one map of the step.
@@ -52,7 +52,8 @@ pub(super) struct Counted {
 }
 
 impl Counted {
-    pub(super) fn of(stem: &str) -> Option<Self> {
+    /// `stem` is the name of a file in `folder` without its extension, a folder in it, or a prefix.
+    pub(super) fn of(stem: &str, folder: &Path) -> Option<Self> {
         let found = numbers(stem);
         let (&(begin, ..), &(_, end, ..)) = (found.first()?, found.last()?);
         let &(_, _, counter, number) = found.iter().min_by_key(|(_, _, counter, _)| *counter)?;
@@ -65,18 +66,15 @@ impl Counted {
         let is_map = names_map(after);
         let parts = [before, if is_map { "" } else { after }];
         let rest = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_");
-        Some(Self { rest, counter, number, is_map, end })
+        let run_name = if rest.is_empty() { folder_name(folder) } else { rest };
+        Some(Self { run_name, counter, number, is_map, end })
     }
+}
 
-    /// The name of the run, whose steps are in `folder`.
-    pub(super) fn run_name(&self, folder: &Path) -> String {
-        if !self.rest.is_empty() {
-            return self.rest.clone();
-        }
-        let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
-        let last = absolute.components().next_back();
-        last.map_or(String::new(), |part| part.as_os_str().to_string_lossy().into_owned())
-    }
+fn folder_name(folder: &Path) -> String {
+    let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    let last = absolute.components().next_back();
+    last.map_or(String::new(), |part| part.as_os_str().to_string_lossy().into_owned())
 }
 
 /// The counted numbers of a name: where each begins and ends, and what is counted.
@@ -114,27 +112,33 @@ mod tests {
     use super::*;
 
     fn counted(stem: &str) -> Option<(String, String, bool)> {
-        let counted = Counted::of(stem)?;
-        Some((counted.rest, format!("{} {}", counted.counter, counted.number), counted.is_map))
+        let counted = Counted::of(stem, Path::new("/runs/exp1"))?;
+        Some((counted.run_name, format!("{} {}", counted.counter, counted.number), counted.is_map))
     }
 
     #[test]
     fn names_of_steps() {
-        for (name, rest, step) in [
+        for (name, run, step) in [
             ("wood_step000100", "wood", "step 100"),
             ("wood-step-7", "wood", "step 7"),
             ("wood.iter100", "wood", "iteration 100"),
             ("Wood_Iteration_20", "Wood", "iteration 20"),
-            ("epoch12", "", "epoch 12"),
+            ("epoch12", "exp1", "epoch 12"),
             ("my net_epoch012_pred", "my net_pred", "epoch 12"),
-            ("epoch=3-step=1200", "", "step 1200"),
-            ("ckpt_000500", "", "checkpoint 500"),
-            ("step0", "", "step 0"),
+            ("epoch=3-step=1200", "exp1", "step 1200"),
+            ("ckpt_000500", "exp1", "checkpoint 500"),
+            ("step0", "exp1", "step 0"),
             ("footstep_a_step5", "footstep_a", "step 5"),
             ("bäume_step5", "bäume", "step 5"),
         ] {
-            assert_eq!(counted(name), Some((rest.to_owned(), step.to_owned(), false)), "{name}");
+            assert_eq!(counted(name), Some((run.to_owned(), step.to_owned(), false)), "{name}");
         }
+        let two = Counted::of("wood_epoch3_step1200_normal", Path::new("x")).unwrap();
+        assert_eq!((two.run_name.as_str(), two.number, two.is_map), ("wood", 1200, true));
+        assert_eq!(two.end, "wood_epoch3_step1200".len());
+        let here = std::env::current_dir().unwrap();
+        let here = here.file_name().unwrap().to_string_lossy().into_owned();
+        assert_eq!(Counted::of("step1", Path::new(".")).unwrap().run_name, here);
         for name in [
             "wood",
             "wood_100",

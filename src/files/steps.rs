@@ -3,7 +3,6 @@
 //! `wood_step000100.png`, `wood_step000200/` and the files `wood_iter300_normal.png`, `wood_iter300_diffuse.png` and so on are
 //! steps of the run `wood`. Where the name says nothing else, as in `epoch_12.exr`, the run has the name of the folder.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -47,18 +46,33 @@ struct Listed {
     stamp: Stamp,
 }
 
+/// A name of a step, taken apart.
+#[derive(Debug)]
+struct NamedStep {
+    run: RunId,
+    number: u64,
+    /// Whether it is the name of one map of the step, which is then the prefix `path`.
+    is_map: bool,
+    path: PathBuf,
+}
+
+impl NamedStep {
+    /// `name` is a file, a folder or a prefix in `folder`.
+    fn of(folder: &Path, name: &str) -> Option<Self> {
+        let stem = without_extension(name).unwrap_or(name);
+        let Counted { run_name, counter, number, is_map, end } = Counted::of(stem, folder)?;
+        let run = RunId { folder: folder.to_owned(), name: run_name, counter };
+        let path = folder.join(if is_map { &stem[..end] } else { name });
+        Some(Self { run, number, is_map, path })
+    }
+}
+
 impl RunId {
     /// The run that the file, folder or prefix `path` is a step of, and the number of the step.
     pub fn of_step(path: &Path) -> Option<(Self, u64)> {
         let name = path.file_name()?.to_str()?;
-        let stem = match name.rsplit_once('.') {
-            Some((stem, extension)) if is_picture(extension) => stem,
-            _ => name,
-        };
-        let counted = Counted::of(stem)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let name = counted.run_name(folder);
-        Some((Self { folder: folder.to_owned(), name, counter: counted.counter }, counted.number))
+        NamedStep::of(folder, name).map(|named| (named.run, named.number))
     }
 
     /// A step of it, in words.
@@ -108,7 +122,7 @@ fn list(folder: &Path) -> std::io::Result<Vec<Listed>> {
         let is_folder = metadata.is_dir();
         let stamp = match is_folder {
             false => Stamp::of_file(&metadata),
-            true if Counted::of(&name).is_some() => Stamp::of(&entry.path()).unwrap_or_default(),
+            true if NamedStep::of(folder, &name).is_some() => Stamp::of(&entry.path()).unwrap_or_default(),
             true => Stamp::default(),
         };
         all.push(Listed { name, is_folder, stamp });
@@ -118,41 +132,40 @@ fn list(folder: &Path) -> std::io::Result<Vec<Listed>> {
 }
 
 /// The runs whose steps are among `listed`, which are in `folder`.
+///
+/// Under one number a folder comes first, whose preview a picture beside it may be, then a picture, then a set of maps.
 fn grouped(folder: &Path, listed: &[Listed]) -> Vec<TrainingRun> {
-    let mut runs: BTreeMap<RunId, BTreeMap<u64, (TrainingStep, bool)>> = BTreeMap::new();
-    for entry in listed {
-        let stem = match (entry.is_folder, entry.name.rsplit_once('.')) {
-            (true, _) => entry.name.as_str(),
-            (false, Some((stem, extension))) if is_picture(extension) => stem,
-            (false, _) => continue,
-        };
-        let Some(counted) = Counted::of(stem) else { continue };
-        let name = counted.run_name(folder);
-        let id = RunId { folder: folder.to_owned(), name, counter: counted.counter };
-        let steps = runs.entry(id).or_default();
-        let path = folder.join(if counted.is_map { &stem[..counted.end] } else { &entry.name });
-        let step = TrainingStep { number: counted.number, path, stamp: entry.stamp };
-        match steps.get_mut(&counted.number) {
-            // The maps of one step.
-            Some((known, true)) if counted.is_map && known.path == step.path => {
-                known.stamp = known.stamp.with(step.stamp)
-            }
-            // A folder has the maps of which a picture beside it is a preview.
-            Some(_) if !entry.is_folder => {}
-            _ => drop(steps.insert(counted.number, (step, counted.is_map))),
+    let opens = |entry: &&Listed| entry.is_folder || without_extension(&entry.name).is_some();
+    let named = |entry: &Listed| {
+        let NamedStep { run, number, is_map, path } = NamedStep::of(folder, &entry.name)?;
+        let order = (run, number, !entry.is_folder, is_map);
+        Some((order, TrainingStep { number, path, stamp: entry.stamp }))
+    };
+    let mut all: Vec<_> = listed.iter().filter(opens).filter_map(named).collect();
+    all.sort_by(|(a, step), (b, other)| (a, &step.path).cmp(&(b, &other.path)));
+    all.dedup_by(|((next_run, next_number, ..), next), ((run, number, _, is_map), step)| {
+        let is_same = next_run == run && next_number == number;
+        if is_same && *is_map && next.path == step.path {
+            // Another map of the same set.
+            step.stamp = step.stamp.with(next.stamp);
+        }
+        is_same
+    });
+    let mut runs: Vec<TrainingRun> = Vec::new();
+    for ((id, ..), step) in all {
+        match runs.last_mut().filter(|run| run.id == id) {
+            Some(run) => run.steps.push(step),
+            None => runs.push(TrainingRun { id, steps: vec![step] }),
         }
     }
-    let run = |(id, steps): (RunId, BTreeMap<u64, (TrainingStep, bool)>)| TrainingRun {
-        id,
-        steps: steps.into_values().map(|(step, _)| step).collect(),
-    };
-    runs.into_iter().map(run).collect()
+    runs
 }
 
-/// Whether files of this extension open as a material, or as a map of one.
-fn is_picture(extension: &str) -> bool {
+/// The name of a file that opens as a material, or as a map of one, without its extension.
+fn without_extension(name: &str) -> Option<&str> {
+    let (stem, extension) = name.rsplit_once('.')?;
     let extension = extension.to_lowercase();
-    extension != "json" && EXTENSIONS.contains(&extension.as_str())
+    (extension != "json" && EXTENSIONS.contains(&extension.as_str())).then_some(stem)
 }
 
 #[cfg(test)]
@@ -169,7 +182,7 @@ mod tests {
     }
 
     /// The runs as `name counter: file number, ...`.
-    fn told(names: &[&str]) -> Vec<String> {
+    fn described(names: &[&str]) -> Vec<String> {
         let one = |run: TrainingRun| {
             let file = |step: &TrainingStep| {
                 format!("{} {}", step.number, step.path.file_name().unwrap().to_string_lossy())
@@ -182,30 +195,42 @@ mod tests {
 
     #[test]
     fn steps_of_one_name_are_one_run_in_the_order_of_their_numbers() {
-        let files =
-            ["a_step10.png", "a_step9.png", "b_step000100/", "b_step000020/", "gt.png", "notes_step3.txt"];
+        let files = [
+            "a_step10.png",
+            "a_step9.png",
+            "b_step000100/",
+            "b_step000020/",
+            "gt.png",
+            "notes_step3.txt",
+            "a_step7.json",
+        ];
         assert_eq!(
-            told(&files),
+            described(&files),
             ["a step: 9 a_step9.png, 10 a_step10.png", "b step: 20 b_step000020, 100 b_step000100"]
         );
-        assert_eq!(told(&["epoch_1.exr", "epoch_2.exr"]), ["exp1 epoch: 1 epoch_1.exr, 2 epoch_2.exr"]);
+        assert_eq!(described(&["A_STEP3.PNG"]), ["A step: 3 A_STEP3.PNG"]);
+        assert_eq!(described(&["epoch_1.exr", "epoch_2.exr"]), ["exp1 epoch: 1 epoch_1.exr, 2 epoch_2.exr"]);
         assert_eq!(
-            told(&["a_step1.png", "a_epoch1.png"]),
+            described(&["a_step1.png", "a_epoch1.png"]),
             ["a step: 1 a_step1.png", "a epoch: 1 a_epoch1.png"]
         );
-        assert_eq!(told(&["normal.png", "diffuse.png", "roughness.png"]), [""; 0]);
-        assert_eq!(told(&["normal_step1.png", "diffuse_step1.png"]), [""; 0]);
+        assert_eq!(described(&["normal.png", "diffuse.png", "roughness.png"]), [""; 0]);
+        assert_eq!(described(&["normal_step1.png", "diffuse_step1.png"]), [""; 0]);
     }
 
     #[test]
     fn the_maps_of_a_step_are_one_prefix_and_a_folder_wins_over_its_preview() {
         let files = ["a_step1_diffuse.png", "a_step1_normal.png", "a_step2_normal.png"];
-        assert_eq!(told(&files), ["a step: 1 a_step1, 2 a_step2"]);
+        assert_eq!(described(&files), ["a step: 1 a_step1, 2 a_step2"]);
         let runs = grouped(Path::new("x"), &listed(&files));
         let expected = Stamp { files: 2, bytes: 37, modified: None };
         assert_eq!(runs[0].steps[0].stamp, expected);
-        assert_eq!(told(&["a_step1.png", "a_step1/"]), ["a step: 1 a_step1"]);
-        assert_eq!(told(&["a_step1/", "a_step1.png"]), ["a step: 1 a_step1"]);
+        assert_eq!(described(&["a_step1.png", "a_step1/"]), ["a step: 1 a_step1"]);
+        assert_eq!(described(&["a_step1/", "a_step1.png"]), ["a step: 1 a_step1"]);
+        let with_maps = ["a_step1.png", "a_step1_normal.png", "a_step1-diffuse.png"];
+        assert_eq!(described(&with_maps), ["a step: 1 a_step1.png"]);
+        let runs = grouped(Path::new("x"), &listed(&["a_step1/", "a_step1_normal.png"]));
+        assert_eq!(runs[0].steps[0].stamp.files, 1, "of the folder alone");
     }
 
     #[test]
@@ -215,6 +240,8 @@ mod tests {
         assert_eq!(id.step_name(number), "wood, step 100");
         let (id, _) = RunId::of_step(Path::new("/runs/exp1/epoch_3")).unwrap();
         assert_eq!(id.name, "exp1");
+        let (id, _) = RunId::of_step(Path::new("wood_step1_normal.png")).unwrap();
+        assert_eq!((id.name.as_str(), id.folder.as_path()), ("wood", Path::new(".")));
         assert_eq!(RunId::of_step(Path::new("out/wood.png")), None);
     }
 
@@ -226,9 +253,14 @@ mod tests {
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, "x").unwrap();
         };
-        ["l1/step_1.png", "l1/step_2.png", "rend/pred_step_1/maps.png", "other/a.png"]
-            .into_iter()
-            .for_each(write);
+        let files = [
+            "l1/step_1.png",
+            "l1/step_2.png",
+            "l1/.half_step_3.png",
+            "rend/pred_step_1/maps.png",
+            "other/a.png",
+        ];
+        files.into_iter().for_each(write);
         let names = |folder: &Path| -> Vec<(String, usize)> {
             let runs = runs_in(folder).unwrap();
             assert!(runs.iter().all(|run| run.id.folder == folder));
@@ -240,5 +272,7 @@ mod tests {
         let [step] = runs_in(&folder.path().join("rend")).unwrap()[0].steps.clone().try_into().unwrap();
         assert_eq!((step.stamp.files, step.stamp.bytes), (1, 1));
         assert!(runs_in(&folder.path().join("none")).is_err());
+        write("own_step_7.png");
+        assert_eq!(names(folder.path()), [("own".to_owned(), 1)], "runs in the folder itself come first");
     }
 }

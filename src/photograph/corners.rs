@@ -9,8 +9,8 @@ const LEAST: f64 = 1e-3;
 
 /// The corners of the plane in a photograph: top left, top right, bottom right and bottom left of the material.
 ///
-/// In pixels (x, y), y down: (0, 0) is the outer corner of the top left pixel, whose middle is (0.5, 0.5). The corners are
-/// those of the outermost texels, not their middles.
+/// In pixels (x, y), y down: (0, 0) is the outer corner of the top left pixel, whose middle is (0.5, 0.5). They are the
+/// outer corners of the outermost texels, not the middles of these.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Corners(pub [[f64; 2]; 4]);
 
@@ -95,10 +95,10 @@ mod tests {
         let map = corners.homography();
         let unit = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         for ([s, t], expected) in unit.into_iter().zip(corners.0) {
-            let got = map.at(s, t);
-            assert!((got[0] - expected[0]).hypot(got[1] - expected[1]) < 1e-12, "{got:?}");
+            let found = map.at(s, t);
+            assert!((found[0] - expected[0]).hypot(found[1] - expected[1]) < 1e-12, "{found:?}");
         }
-        // The diagonals meet where those of the quadrilateral do.
+        // The diagonals of the square meet where the diagonals of the quadrilateral meet.
         let [a, m, c] = [map.at(0.0, 0.0), map.at(0.5, 0.5), map.at(1.0, 1.0)];
         let [b, d] = [map.at(1.0, 0.0), map.at(0.0, 1.0)];
         let off = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]) * (m[1] - p[1]) - (q[1] - p[1]) * (m[0] - p[0]);

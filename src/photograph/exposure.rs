@@ -1,4 +1,4 @@
-//! One factor from the radiance of a photograph to that of a rendering.
+//! One factor that brings a photograph to the exposure of a rendering.
 
 use rayon::prelude::*;
 
@@ -7,7 +7,7 @@ use crate::image::Image;
 /// The factor k that brings `photograph` to the exposure of `rendering`: the median of p / g over texels and channels, each with
 /// the weight p / (p + epsilon), for a photograph g and a rendering p.
 ///
-/// It minimizes the mean of w |ln (k g) - ln p|, to first order in the deviations that of the log difference
+/// It minimizes the mean of w |ln (k g) - ln p|, which to first order in the deviations is the mean of the log difference
 /// |ln (k g + epsilon) - ln (p + epsilon)|. As a median it is exact where all ratios agree, and highlights that one of the two lacks
 /// hardly move it. Texels that are NaN are left out. `None` where nothing is lit in both.
 pub(super) fn factor(photograph: &Image<f32>, rendering: &Image<f32>, epsilon: f64) -> Option<f64> {

@@ -52,12 +52,7 @@ pub(super) struct ErrorMapRun(Latest<ErrorMapKey, Arc<ErrorMaps>>);
 
 impl ErrorMapRun {
     /// Takes over a result, and computes what is wanted now; where none is `shown`, the latest is kept.
-    pub(super) fn follow(
-        &mut self,
-        work: &WorkContext<'_>,
-        shown: bool,
-        scenes: Request,
-    ) -> Option<Error> {
+    pub(super) fn follow(&mut self, work: &WorkContext<'_>, shown: bool, scenes: Request) -> Option<Error> {
         if !shown || work.slots.len() < 2 {
             self.0.rest();
             return None;
@@ -73,7 +68,7 @@ impl ErrorMapRun {
         })
     }
 
-    /// The error maps of now, once they are there.
+    /// The error maps of the current materials and scenes, once they are there.
     pub(super) fn get(&self, slots: &[Slot], state: &ViewState, scenes: Request) -> Option<&Arc<ErrorMaps>> {
         let (of, maps) = self.0.get()?;
         (*of == key(slots, state, scenes)).then_some(maps)

@@ -32,7 +32,7 @@ pub enum Message {
     },
     /// Something is on the clipboard.
     Copied(&'static str),
-    /// The scenes of the file of this name, so many, are those of the loss.
+    /// The loss is over the n scenes of the file of this name.
     ScenesOpened(String, usize),
     /// These predictions were not opened: their ground truth could not be read.
     NotOpened(Vec<String>),

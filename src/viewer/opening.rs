@@ -117,7 +117,7 @@ fn read_path(
     reader.take(&path, Source { origin: Origin::Path(path.clone()), ..source }, read)
 }
 
-/// Reads the newest step of a run that can be read. Those that were written a moment ago come last: the window moves on to them.
+/// Reads the newest step of a run that can be read. Steps that were written a moment ago come last: the window moves on to them.
 fn read_newest(
     run: &RunId,
     source: &Source,
@@ -190,7 +190,7 @@ impl Opening {
         let (sender, arrivals) = mpsc::channel();
         let (seen, each, now) = (ctx.clone(), parts.clone(), current.clone());
         let alone = match &target {
-            // The ground truth is one material, and so is what is read again.
+            // The ground truth is one material, and so is a material that is read again.
             Target::Everything => 1,
             Target::Predictions => 0,
             Target::Again(_) => items.len(),

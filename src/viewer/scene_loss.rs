@@ -18,7 +18,7 @@ struct SceneLossKey {
     convention: &'static str,
 }
 
-/// The loss of each prediction under the light and view of now.
+/// The loss of each prediction under the current light and view.
 #[derive(Debug, Default)]
 pub(super) struct SceneLossRun(Latest<SceneLossKey, Vec<f64>>);
 

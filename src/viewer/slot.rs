@@ -51,7 +51,7 @@ pub(super) fn rename(slots: &mut [Slot]) {
     slots.iter_mut().zip(names).for_each(|(slot, name)| slot.name = name);
 }
 
-/// The two sizes, where `prediction` has not that of the ground truth.
+/// The two sizes, where `prediction` has another size than the ground truth.
 pub(super) fn mismatch(ground_truth: &Slot, prediction: &Loaded) -> Option<SizeMismatch> {
     let [gt, material] = [&ground_truth.loaded.material, &prediction.material];
     (gt.size() != material.size()).then(|| SizeMismatch {

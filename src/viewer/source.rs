@@ -92,7 +92,7 @@ mod tests {
         let paths =
             ["x/a_step1.png", "b.png", "x/a_step3.png", "x/c_step3.png", "y/a_step2.png"].map(PathBuf::from);
         let all = sources(&paths, ReadOptions::AUTO);
-        let told: Vec<_> =
+        let found: Vec<_> =
             all.iter().map(|s| (s.origin.clone(), s.run.as_ref().map(|r| r.name.as_str()))).collect();
         let path = |path: &str| Origin::Path(path.into());
         let expected = [
@@ -101,6 +101,6 @@ mod tests {
             (path("x/c_step3.png"), None),
             (path("y/a_step2.png"), None),
         ];
-        assert_eq!(told, expected);
+        assert_eq!(found, expected);
     }
 }

@@ -125,7 +125,7 @@ impl ViewState {
         self.differences.kind(self.quantity)
     }
 
-    /// Whether differences are those of the error map, which averages over scenes.
+    /// Whether the difference is the error map, which averages over scenes.
     pub fn is_error_map(&self) -> bool {
         self.differences.is_error_map(self.quantity)
     }
@@ -148,7 +148,7 @@ impl ViewState {
         if self.tiled { grid.repeated_texel_at(point) } else { grid.texel_at(point) }
     }
 
-    /// The default light, view and display, with the prediction, layout and convention of now.
+    /// The default light, view and display, with the current prediction, layout and convention.
     #[must_use]
     pub fn reset(&self) -> Self {
         Self {

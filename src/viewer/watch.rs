@@ -166,7 +166,7 @@ mod tests {
         std::fs::File::options().write(true).open(path).unwrap().set_modified(time).unwrap();
     }
 
-    /// A file of time 1000 s that was read at that time, watched as that of material 7.
+    /// A file written and read at 1000 s, watched for material 7.
     fn watched(folder: &tempfile::TempDir) -> (PathBuf, Files) {
         let path = folder.path().join("map.png");
         std::fs::write(&path, "a").unwrap();

@@ -42,9 +42,9 @@ pub struct MapShare {
     pub map: Map,
     /// The Shapley value.
     pub shapley: Estimate,
-    /// The loss where only this map is wrong: all others are those of the ground truth.
+    /// The loss where only this map is wrong: the others are the maps of the ground truth.
     pub only_wrong: Estimate,
-    /// The loss where only this map is right: all others are those of the prediction.
+    /// The loss where only this map is right: the others are the maps of the prediction.
     pub only_right: Estimate,
 }
 
@@ -161,10 +161,10 @@ mod tests {
         let value = |set: usize| ((set & 3).count_ones().min((set >> 2).count_ones())) as f64;
         let values: Vec<Vec<f64>> =
             (0..SETS).map(|set| vec![value(set), if set & 1 == 1 { 3.0 } else { 0.0 }]).collect();
-        let got = Map::ALL.map(|map| shapley(&values, map));
-        for (i, shares) in got.iter().enumerate() {
-            assert!((shares[0] - 0.5).abs() < 1e-15, "{got:?}");
-            assert!((shares[1] - if i == 0 { 3.0 } else { 0.0 }).abs() < 1e-15, "{got:?}");
+        let found = Map::ALL.map(|map| shapley(&values, map));
+        for (i, shares) in found.iter().enumerate() {
+            assert!((shares[0] - 0.5).abs() < 1e-15, "{found:?}");
+            assert!((shares[1] - if i == 0 { 3.0 } else { 0.0 }).abs() < 1e-15, "{found:?}");
         }
     }
 }

@@ -51,7 +51,7 @@ struct CubePoint {
     at: [f64; 6],
 }
 
-/// The scene, among those that the loss samples, in which the loss of `prediction` is largest.
+/// The scene with the largest loss of `prediction`, searched over all scenes that the loss samples from.
 ///
 /// The search is deterministic; `seed` names the scenes that it starts from. It may miss a maximum that is narrower than the gaps
 /// between these. A step of `progress` is a scene.

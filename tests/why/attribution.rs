@@ -34,15 +34,15 @@ fn gap(attribution: &Attribution) -> f64 {
 #[test]
 fn shapley_values_add_up_to_the_loss_that_is_reported_elsewhere() {
     let [truth, wrong] = all_wrong();
-    let got = blame(&truth, &wrong);
+    let found = blame(&truth, &wrong);
     let comparison = Comparison::new(&truth, &[&wrong], printed()).unwrap();
     let loss = comparison.run(&COARSE, &Progress::default()).unwrap().losses.remove(0);
-    assert_eq!(got.loss, loss.estimate);
-    assert!(gap(&got) < SHAPLEY_SUM_F32, "{}", gap(&got));
-    let shares = got.maps.map(|share| share.shapley.mean / got.loss.mean);
+    assert_eq!(found.loss, loss.estimate);
+    assert!(gap(&found) < SHAPLEY_SUM_F32, "{}", gap(&found));
+    let shares = found.maps.map(|share| share.shapley.mean / found.loss.mean);
     assert!(shares.iter().all(|share| *share > 0.02), "every map is wrong: {shares:?}");
 
-    let mut faulty = got;
+    let mut faulty = found;
     faulty.maps[2].shapley.mean *= 1.001;
     assert!(gap(&faulty) > SHAPLEY_SUM_F32, "a planted fault is not seen");
 }
@@ -51,8 +51,8 @@ fn shapley_values_add_up_to_the_loss_that_is_reported_elsewhere() {
 fn in_f64_they_add_up_to_rounding() {
     let [truth, wrong] = all_wrong().map(|material| material.resized([16, 16]).unwrap().cast::<f64>());
     let request = Request::Listed(Sampler::Random.scenes(1, 4, 2, &printed()));
-    let got = attribute(&truth, &wrong, &printed(), &request, &Progress::default()).unwrap();
-    assert!(gap(&got) < SHAPLEY_SUM, "{}", gap(&got));
+    let found = attribute(&truth, &wrong, &printed(), &request, &Progress::default()).unwrap();
+    assert!(gap(&found) < SHAPLEY_SUM, "{}", gap(&found));
 }
 
 #[test]
@@ -60,16 +60,21 @@ fn a_map_that_alone_is_wrong_gets_all_the_blame() {
     let [truth, wrong] = all_wrong();
     for map in Map::ALL {
         let prediction = truth.with_maps_of(&wrong, |taken| taken == map).unwrap();
-        let got = blame(&truth, &prediction);
-        assert!(got.loss.mean > 0.001, "{map:?}");
-        for share in got.maps {
+        let found = blame(&truth, &prediction);
+        assert!(found.loss.mean > 0.001, "{map:?}");
+        for share in found.maps {
             let [shapley, alone, without] =
                 [share.shapley, share.only_wrong, share.only_right].map(|e| e.mean);
             if share.map == map {
-                assert!((shapley / got.loss.mean - 1.0).abs() < SHAPLEY_SUM_F32, "{map:?}: {shapley}");
-                assert_eq!([alone, without], [got.loss.mean, 0.0], "{map:?}");
+                assert!((shapley / found.loss.mean - 1.0).abs() < SHAPLEY_SUM_F32, "{map:?}: {shapley}");
+                assert_eq!([alone, without], [found.loss.mean, 0.0], "{map:?}");
             } else {
-                assert_eq!([shapley, alone, without], [0.0, 0.0, got.loss.mean], "{map:?}: {:?}", share.map);
+                assert_eq!(
+                    [shapley, alone, without],
+                    [0.0, 0.0, found.loss.mean],
+                    "{map:?}: {:?}",
+                    share.map
+                );
             }
         }
     }
@@ -80,8 +85,8 @@ fn only_wrong_and_only_right_are_the_losses_of_these_mixtures() {
     let [truth, wrong] = all_wrong();
     let scenes = Sampler::Random.scenes(5, 4, 2, &printed());
     let request = Request::Listed(scenes);
-    let got = attribute(&truth, &wrong, &printed(), &request, &Progress::default()).unwrap();
-    for share in got.maps {
+    let found = attribute(&truth, &wrong, &printed(), &request, &Progress::default()).unwrap();
+    for share in found.maps {
         let only_wrong = truth.with_maps_of(&wrong, |map| map == share.map).unwrap();
         let only_right = wrong.with_maps_of(&truth, |map| map == share.map).unwrap();
         let comparison = Comparison::new(&truth, &[&only_wrong, &only_right], printed()).unwrap();
@@ -100,9 +105,9 @@ fn intervals_of_shapley_values_hold_the_values_over_far_more_scenes() {
     let mut held = 0;
     for seed in 0..25 {
         let request = Request::Accuracy { target: 0.05, seed };
-        let got = attribute(&truth, &wrong, &printed(), &request, &Progress::default()).unwrap();
-        for (got, expected) in got.maps.iter().zip(&expected.maps) {
-            let [low, high] = got.shapley.interval95.unwrap();
+        let found = attribute(&truth, &wrong, &printed(), &request, &Progress::default()).unwrap();
+        for (found, expected) in found.maps.iter().zip(&expected.maps) {
+            let [low, high] = found.shapley.interval95.unwrap();
             held += usize::from(low <= expected.shapley.mean && expected.shapley.mean <= high);
         }
     }

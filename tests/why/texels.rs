@@ -62,7 +62,7 @@ fn every_texel_of_the_error_map_is_its_mean_log_difference() {
         let expected = by_definition(&comparison, &scenes);
         let off = |map: &Image<f32>| {
             let pairs = map.pixels.as_flattened().iter().zip(expected.as_flattened());
-            pairs.map(|(got, expected)| (f64::from(*got) - expected).abs()).fold(0.0, f64::max)
+            pairs.map(|(found, expected)| (f64::from(*found) - expected).abs()).fold(0.0, f64::max)
         };
         let off_by = off(&map);
         println!("{}: off by {off_by:e}", prediction.name());

@@ -1,4 +1,4 @@
-//! The options of `svbrdf photo`; the window shares those of the photograph.
+//! The options of `svbrdf photo`; the window shares the options of the photograph.
 
 use std::path::{Path, PathBuf};
 
@@ -97,10 +97,10 @@ pub struct PhotoReadingArgs {
 }
 
 impl PhotoSceneArgs {
-    /// Light and view as specified, or else those of a session.
+    /// Light and view as specified, or else of a session.
     ///
     /// # Errors
-    /// [`Error::Usage`] where nothing specifies them; those of reading a scene file.
+    /// [`Error::Usage`] where nothing specifies them; or where a scene file cannot be read.
     pub fn scene(&self, saved: Option<Scene>) -> Result<Scene, Error> {
         self.specified()?.or(saved).ok_or_else(|| {
             Error::Usage(
@@ -113,7 +113,7 @@ impl PhotoSceneArgs {
     /// Light and view, where they are specified.
     ///
     /// # Errors
-    /// Those of reading a scene file.
+    /// Where a scene file cannot be read.
     pub fn specified(&self) -> Result<Option<Scene>, Error> {
         match &self.scene {
             Some(path) => self.of_file(path).map(Some),

@@ -142,12 +142,12 @@ mod tests {
         let all = Region { first: [0, 0], last: [255, 255] };
         let part = Region { first: [200, 10], last: [255, 12] };
         for region in [all, part] {
-            let got = numbers(materials.iter(), region, Quantity::Roughness, &scene, &PRINTED);
-            assert!(got[0].loss.is_none());
-            assert!((got[1].loss.unwrap() - of(region)).abs() < 1e-5, "{got:?}, expected {}", of(region));
+            let found = numbers(materials.iter(), region, Quantity::Roughness, &scene, &PRINTED);
+            assert!(found[0].loss.is_none());
+            assert!((found[1].loss.unwrap() - of(region)).abs() < 1e-5, "{found:?}, expected {}", of(region));
             let rough: Vec<f32> =
                 region.texels().map(|[c, r]| materials[1].texel(r * 256 + c).roughness).collect();
-            assert_eq!(got[1].channels[0], Statistics::of(&rough));
+            assert_eq!(found[1].channels[0], Statistics::of(&rough));
         }
         assert!((of(all) - of(part)).abs() > 1e-3, "the planted fault differs");
     }

@@ -58,7 +58,7 @@ impl LegendStrip<'_> {
         });
     }
 
-    /// The colour of the difference in place `index`: that of its prediction, and one of its own for the ground truth.
+    /// The colour of the difference in place `index`: the colour of its prediction, or one of its own for the ground truth.
     pub(super) fn series(&self, index: usize) -> usize {
         match index + self.first {
             0 => self.names.len().saturating_sub(1),

@@ -1,6 +1,7 @@
 //! The parts of the window around the panes. Each draws what it is given and returns commands.
 
 mod bar_item;
+mod dialog;
 pub(super) mod help;
 pub(super) mod legend;
 mod legend_statistics;
@@ -12,6 +13,7 @@ pub(super) mod open;
 pub(super) mod photograph;
 pub(super) mod photograph_open;
 pub(super) mod pins;
+mod plot;
 pub(super) mod save;
 pub(super) mod scene;
 pub(super) mod status;

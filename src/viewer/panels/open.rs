@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
+use super::dialog::{PathField, dialog};
 use crate::files::read::ReadOptions;
 use crate::files::session::Session;
 use crate::viewer::command::{Command, MaterialsCommand, WindowCommand};
 use crate::viewer::source::file_name;
-use crate::viewer::theme;
 
 /// The paths and choices so far.
 #[derive(Debug, Default)]
@@ -21,10 +21,7 @@ pub(crate) struct OpenWindow {
     pub submitted: bool,
     /// The number of the opening that reads its materials.
     pub opening: Option<u64>,
-    /// What went wrong.
-    problem: Option<String>,
-    /// Whether the path field has been given the focus.
-    focused: bool,
+    field: PathField,
 }
 
 /// Height below the list of recent materials, and least height of the list.
@@ -68,25 +65,19 @@ impl OpenWindow {
         last: Option<&Session>,
     ) -> Vec<Command> {
         let mut commands = Vec::new();
-        let mut open = true;
-        egui::Window::new("Open materials")
-            .open(&mut open)
-            .collapsible(false)
-            .default_width(460.0)
-            .anchor(egui::Align2::CENTER_TOP, [0.0, 40.0])
-            .show(ctx, |ui| {
-                self.paths(ui, &mut commands);
-                if let Some(last) = last {
-                    reopen(ui, last, &mut commands);
-                }
-                // The buttons stay visible, however long the list is.
-                let rest = ui.ctx().content_rect().bottom() - ui.cursor().top() - BELOW_RECENT;
-                egui::ScrollArea::vertical()
-                    .max_height(rest.max(LEAST_RECENT))
-                    .show(ui, |ui| self.recent(ui, recent));
-                ui.separator();
-                self.choices(ui, &mut commands);
-            });
+        let open = dialog(ctx, "Open materials", 460.0, |ui| {
+            self.paths(ui, &mut commands);
+            if let Some(last) = last {
+                reopen(ui, last, &mut commands);
+            }
+            // The buttons stay visible, however long the list is.
+            let rest = ui.ctx().content_rect().bottom() - ui.cursor().top() - BELOW_RECENT;
+            egui::ScrollArea::vertical()
+                .max_height(rest.max(LEAST_RECENT))
+                .show(ui, |ui| self.recent(ui, recent));
+            ui.separator();
+            self.choices(ui, &mut commands);
+        });
         if !open {
             commands.push(WindowCommand::ShowOpen(false).into());
         }
@@ -95,23 +86,15 @@ impl OpenWindow {
 
     /// Shows what went wrong, and puts the cursor into the path field.
     pub(crate) fn fail(&mut self, problem: String) {
-        self.problem = Some(problem);
-        (self.submitted, self.opening, self.focused) = (false, None, false);
+        self.field.fail(problem);
+        (self.submitted, self.opening) = (false, None);
     }
 
     fn paths(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let label = ui.label("Files, folders or name prefixes, one a line:");
-        let field = egui::TextEdit::multiline(&mut self.text)
-            .desired_rows(3)
-            .desired_width(f32::INFINITY)
-            .hint_text("materials/brick.png");
-        let field = ui.add(field).labelled_by(label.id);
-        if !std::mem::replace(&mut self.focused, true) {
-            field.request_focus();
-        }
-        if let Some(problem) = &self.problem {
-            ui.label(RichText::new(problem).color(theme::problem(ui.visuals())));
-        }
+        let field =
+            egui::TextEdit::multiline(&mut self.text).desired_rows(3).hint_text("materials/brick.png");
+        self.field.ui(ui, "Files, folders or name prefixes, one a line:", field);
+        self.field.problem(ui);
         ui.horizontal(|ui| {
             if ui.button("Browse files...").clicked() {
                 commands.push(WindowCommand::Browse { folder: false }.into());
@@ -161,7 +144,8 @@ impl OpenWindow {
         let button = ui.add_enabled(ready, egui::Button::new(text));
         let entered = ui.input_mut(|i| i.consume_key(egui::Modifiers::COMMAND, egui::Key::Enter));
         if button.on_hover_text("Ctrl+Enter").clicked() || (entered && ready) {
-            (self.submitted, self.problem) = (true, None);
+            self.submitted = true;
+            self.field.clear();
             commands.push(
                 MaterialsCommand::Open { paths, replace: !self.as_predictions, read: self.read }.into(),
             );

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{self, RichText};
+use eframe::egui;
 
+use super::dialog::{PathField, dialog};
 use crate::files::session::SessionPhotograph;
 use crate::viewer::command::{Command, PhotographCommand, PhotographLight, WindowCommand};
-use crate::viewer::theme;
 
 /// The choices so far.
 #[derive(Debug)]
@@ -18,10 +18,7 @@ pub(crate) struct PhotographWindow {
     scenes: String,
     number: usize,
     falloff: bool,
-    /// What went wrong.
-    problem: Option<String>,
-    /// Whether the path field has been given the focus.
-    focused: bool,
+    field: PathField,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,8 +37,7 @@ impl Default for PhotographWindow {
             scenes: String::new(),
             number: 0,
             falloff: false,
-            problem: None,
-            focused: false,
+            field: PathField::default(),
         }
     }
 }
@@ -49,13 +45,7 @@ impl Default for PhotographWindow {
 impl PhotographWindow {
     pub(crate) fn ui(&mut self, ctx: &egui::Context) -> Vec<Command> {
         let mut commands = Vec::new();
-        let mut open = true;
-        egui::Window::new("Open photograph")
-            .open(&mut open)
-            .collapsible(false)
-            .default_width(440.0)
-            .anchor(egui::Align2::CENTER_TOP, [0.0, 40.0])
-            .show(ctx, |ui| self.contents(ui, &mut commands));
+        let open = dialog(ctx, "Open photograph", 440.0, |ui| self.contents(ui, &mut commands));
         if !open {
             commands.push(PhotographCommand::ShowOpen(false).into());
         }
@@ -64,21 +54,13 @@ impl PhotographWindow {
 
     /// Shows what went wrong, and puts the cursor into the path field.
     pub(crate) fn fail(&mut self, problem: String) {
-        (self.problem, self.focused) = (Some(problem), false);
+        self.field.fail(problem);
     }
 
     fn contents(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let label = ui.label("Photograph: PNG, JPEG, EXR or another picture format");
-        let field = egui::TextEdit::singleline(&mut self.path)
-            .desired_width(f32::INFINITY)
-            .hint_text("photo.jpg, or drop a file here");
-        let field = ui.add(field).labelled_by(label.id);
-        if !std::mem::replace(&mut self.focused, true) {
-            field.request_focus();
-        }
-        if let Some(problem) = &self.problem {
-            ui.label(RichText::new(problem).color(theme::problem(ui.visuals())));
-        }
+        let field = egui::TextEdit::singleline(&mut self.path).hint_text("photo.jpg, or drop a file here");
+        self.field.ui(ui, "Photograph: PNG, JPEG, EXR or another picture format", field);
+        self.field.problem(ui);
         if ui.button("Browse...").clicked() {
             commands.push(WindowCommand::Browse { folder: false }.into());
         }
@@ -99,7 +81,7 @@ impl PhotographWindow {
                 corners: None,
                 falloff: self.falloff,
             };
-            self.problem = None;
+            self.field.clear();
             commands.push(PhotographCommand::Open { photograph, light: self.chosen() }.into());
         }
     }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
+use super::dialog::{PathField, dialog};
 use crate::viewer::command::{Command, WindowCommand};
 use crate::viewer::save_kind::SaveKind;
 use crate::viewer::theme;
@@ -17,64 +18,50 @@ pub(crate) struct SaveWindow {
     size: [u32; 2],
     /// The path of an existing file, once the dialog has said that it exists.
     replaces: Option<String>,
-    /// Whether the path field has been given the focus.
-    focused: bool,
     /// Whether the file is being written.
     saving: bool,
-    /// What went wrong.
-    problem: Option<String>,
+    field: PathField,
 }
 
 impl SaveWindow {
     /// `what` is chosen at first; `size` is the size of the view in the window, in pixels.
     pub(crate) fn new(what: SaveKind, size: [u32; 2]) -> Self {
         let path = what.proposal().to_owned();
-        Self { path, what, size, replaces: None, focused: false, saving: false, problem: None }
+        Self { path, what, size, replaces: None, saving: false, field: PathField::default() }
     }
 
     /// `seen` is the size of the view in the window, in pixels.
     pub(crate) fn ui(&mut self, ctx: &egui::Context, seen: [u32; 2]) -> Vec<Command> {
         let mut commands = Vec::new();
-        let mut open = true;
-        egui::Window::new("Save")
-            .open(&mut open)
-            .collapsible(false)
-            .default_width(420.0)
-            .anchor(egui::Align2::CENTER_TOP, [0.0, 60.0])
-            .show(ctx, |ui| {
-                self.choice(ui);
-                let label = ui.label("To file:");
-                let field = egui::TextEdit::singleline(&mut self.path).desired_width(f32::INFINITY);
-                let field = ui.add(field).labelled_by(label.id);
-                if !std::mem::replace(&mut self.focused, true) {
-                    field.request_focus();
-                }
-                let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
-                ui.label(RichText::new(self.what.explanation()).small().weak());
-                if self.what == SaveKind::View {
-                    self.sizes(ui, seen);
-                }
-                let told = self.replaces.as_deref() == Some(self.path.trim());
-                if told {
-                    ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
-                }
-                if let Some(problem) = &self.problem {
-                    ui.colored_label(theme::problem(ui.visuals()), problem);
-                }
-                let text = match (self.saving, told) {
-                    (true, _) => "Saving...",
-                    (_, true) => "Replace it",
-                    _ => "Save file",
-                };
-                let clicked = ui.add_enabled(!self.saving, egui::Button::new(text)).clicked();
-                if clicked || (entered && !self.saving) {
-                    self.save(&mut commands);
-                }
-            });
+        let open = dialog(ctx, "Save", 420.0, |ui| self.contents(ui, seen, &mut commands));
         if !open {
             commands.push(WindowCommand::ShowSave(false).into());
         }
         commands
+    }
+
+    fn contents(&mut self, ui: &mut egui::Ui, seen: [u32; 2], commands: &mut Vec<Command>) {
+        self.choice(ui);
+        let field = self.field.ui(ui, "To file:", egui::TextEdit::singleline(&mut self.path));
+        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+        ui.label(RichText::new(self.what.explanation()).small().weak());
+        if self.what == SaveKind::View {
+            self.sizes(ui, seen);
+        }
+        let replaces = self.replaces.as_deref() == Some(self.path.trim());
+        if replaces {
+            ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
+        }
+        self.field.problem(ui);
+        let text = match (self.saving, replaces) {
+            (true, _) => "Saving...",
+            (_, true) => "Replace it",
+            _ => "Save file",
+        };
+        let clicked = ui.add_enabled(!self.saving, egui::Button::new(text)).clicked();
+        if clicked || (entered && !self.saving) {
+            self.save(commands);
+        }
     }
 
     /// What is saved; a name that was proposed follows.
@@ -106,8 +93,8 @@ impl SaveWindow {
 
     /// Shows what went wrong, and puts the cursor into the path field.
     pub(crate) fn fail(&mut self, problem: String) {
-        self.problem = Some(problem);
-        (self.saving, self.focused) = (false, false);
+        self.field.fail(problem);
+        self.saving = false;
     }
 
     /// Saves, unless that replaces a file and the dialog has not said so yet.
@@ -117,7 +104,8 @@ impl SaveWindow {
             self.replaces = Some(self.path.trim().to_owned());
             return;
         }
-        (self.saving, self.problem) = (true, None);
+        self.saving = true;
+        self.field.clear();
         commands.push(WindowCommand::Save { what: self.what, path, size: self.size }.into());
     }
 }

@@ -1,10 +1,9 @@
 //! Time against error of the settings of the loss; a click on a point uses its setting.
 
 use eframe::egui::{self, Color32, Pos2, Rect, RichText, Sense, Vec2, vec2};
-use egui_plot::{
-    Corner, GridInput, GridMark, Legend, Line, MarkerShape, Plot, PlotPoint, PlotPoints, Points,
-};
+use egui_plot::{Corner, GridInput, GridMark, Legend, Line, MarkerShape, PlotPoint, PlotPoints, Points};
 
+use super::plot::still_plot;
 use crate::files::write::Depth;
 use crate::loss::Sampling;
 use crate::study::{Choice, Family, Point, Study};
@@ -112,17 +111,8 @@ impl StudyWindow<'_> {
     /// Draws the plot; returns where on the screen each point is.
     fn plot<'s>(&self, ui: &mut egui::Ui, study: &'s Study, height: f32) -> Vec<(&'s Point, Pos2)> {
         let (ink, dark) = (ui.visuals().text_color(), ui.visuals().dark_mode);
-        let response = Plot::new("study")
-            .height(height)
+        let response = still_plot(ui, "study", height)
             .legend(Legend::default().position(Corner::LeftBottom).follow_insertion_order(true))
-            .show_background(false)
-            .grid_color(ink.gamma_multiply(0.25))
-            .allow_zoom(false)
-            .allow_drag(false)
-            .allow_scroll(false)
-            .allow_boxed_zoom(false)
-            .show_crosshair(false)
-            .label_formatter(|_| None)
             .x_grid_spacer(decades)
             .y_grid_spacer(decades)
             .x_axis_label("time of one loss")

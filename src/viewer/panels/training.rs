@@ -2,11 +2,11 @@
 
 use eframe::egui::{self, RichText, Slider};
 use egui_plot::{
-    FilledArea, GridInput, GridMark, Line, MarkerShape, Plot, PlotPoint, PlotPoints, PlotResponse, Points,
-    VLine,
+    FilledArea, GridInput, GridMark, Line, MarkerShape, PlotPoint, PlotPoints, PlotResponse, Points, VLine,
 };
 
 use super::loss_results::significant;
+use super::plot::still_plot;
 use crate::loss::Estimate;
 use crate::viewer::command::{Command, DisplayCommand, MaterialsCommand, TrainingCommand};
 use crate::viewer::theme;
@@ -56,7 +56,7 @@ impl TrainingPanel<'_> {
         }
         let plot = self.plot(ui);
         if let Some((run, index)) = self.pointed(&plot) {
-            let text = told(run, index);
+            let text = step_and_loss(run, index);
             if plot.response.clicked() {
                 commands.push(DisplayCommand::ChoosePrediction(run.slot - 1).into());
                 let number = run.run.steps[index].number;
@@ -76,18 +76,7 @@ impl TrainingPanel<'_> {
     fn plot(&self, ui: &mut egui::Ui) -> PlotResponse<()> {
         let (ink, dark) = (ui.visuals().text_color(), ui.visuals().dark_mode);
         let counter = self.runs.first().map_or(String::new(), |run| run.run.id.counter.to_string());
-        Plot::new("training")
-            .height(HEIGHT)
-            .show_background(false)
-            .grid_color(ink.gamma_multiply(0.25))
-            .allow_zoom(false)
-            .allow_drag(false)
-            .allow_scroll(false)
-            .allow_boxed_zoom(false)
-            .allow_axis_zoom_drag(false)
-            .allow_double_click_reset(false)
-            .show_crosshair(false)
-            .label_formatter(|_| None)
+        still_plot(ui, "training", HEIGHT)
             .include_y(0.0)
             .x_axis_label(counter)
             .x_grid_spacer(few_marks)
@@ -219,7 +208,7 @@ fn few_marks(input: GridInput) -> Vec<GridMark> {
 }
 
 /// A step and its loss, in words.
-fn told(run: &RunView<'_>, index: usize) -> String {
+fn step_and_loss(run: &RunView<'_>, index: usize) -> String {
     let name = run.run.id.step_name(run.run.steps[index].number);
     let Some(Ok(loss)) = run.losses[index] else { return name };
     let [mean, interval] = significant(loss);

@@ -68,7 +68,7 @@ struct Job {
 }
 
 impl RunLosses {
-    /// Takes over losses and, where `wanted`, computes those that are missing.
+    /// Takes over losses and, where `wanted`, computes the missing ones.
     pub(crate) fn follow(
         &mut self,
         ctx: &egui::Context,

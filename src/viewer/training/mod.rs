@@ -68,3 +68,21 @@ impl Training {
         self.scan.runs(&id.folder).iter().find(|run| run.id == *id)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::stamp::Stamp;
+    use crate::files::steps::{Counter, TrainingStep};
+
+    #[test]
+    fn the_step_before_one_that_is_gone_is_shown() {
+        let id = RunId { folder: "x".into(), name: "a".to_owned(), counter: Counter::Step };
+        let step = |number| TrainingStep { number, path: "a".into(), stamp: Stamp::default() };
+        let run = TrainingRun { id, steps: [100, 200, 300].map(step).into() };
+        let index =
+            |shown| RunView { slot: 1, run: &run, shown, is_reading: false, losses: Vec::new() }.index();
+        assert_eq!([100, 200, 300].map(index), [0, 1, 2]);
+        assert_eq!([50, 250, 999].map(index), [0, 1, 2]);
+    }
+}

@@ -11,7 +11,7 @@ use crate::files::stamp::Stamp;
 use crate::files::steps::{TrainingRun, TrainingStep, runs_in};
 use crate::viewer::watch::{INTERVAL, QUIET};
 
-/// The training runs in some folders: those that were there once, or those of now where the folders are watched.
+/// The training runs in some folders. Folders are listed once, or again and again where they are watched.
 #[derive(Debug, Default)]
 pub(crate) struct RunScan {
     scanner: Option<Scanner>,
@@ -76,7 +76,7 @@ impl Scanner {
         let ctx = ctx.clone();
         std::thread::spawn(move || {
             let mut settling = Settling::default();
-            let mut told: HashMap<PathBuf, Vec<TrainingRun>> = HashMap::new();
+            let mut sent: HashMap<PathBuf, Vec<TrainingRun>> = HashMap::new();
             loop {
                 let mut all_settled = true;
                 for folder in &folders {
@@ -85,11 +85,11 @@ impl Scanner {
                     let (runs, settled) = settling.settled(runs, SystemTime::now());
                     all_settled &= settled;
                     // Steps that are all being written are nothing new yet.
-                    let is_known = told.get(folder).map_or(runs.is_empty(), |told| *told == runs);
+                    let is_known = sent.get(folder).map_or(runs.is_empty(), |sent| *sent == runs);
                     if is_known {
                         continue;
                     }
-                    told.insert(folder.clone(), runs.clone());
+                    sent.insert(folder.clone(), runs.clone());
                     if sender.send((folder.clone(), runs)).is_err() {
                         return;
                     }
@@ -184,6 +184,8 @@ mod tests {
         // It is written anew, and stays as it was until it stands still again.
         assert_eq!(look(&mut settling, &[(2, 3, 1)]), (vec![(2, 7)], false));
         assert_eq!(look(&mut settling, &[(2, 3, 1)]), (vec![(2, 3)], true));
+        let two = look(&mut Settling::default(), &[(1, 5, 0), (2, 9, 100)]);
+        assert_eq!(two, (vec![(2, 9)], false), "not all, whichever comes last");
         assert_eq!(look(&mut settling, &[(3, 0, 0)]).0, [], "an empty folder");
         assert_eq!(look(&mut settling, &[(3, 0, 0)]).0, []);
     }

@@ -49,18 +49,18 @@ fn statistics(window: &Window<'_>) -> Vec<Statistics> {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
     let mut window = shown();
-    let got = statistics(&window);
+    let found = statistics(&window);
     let maps = expected();
     let materials = materials();
     let predictions: Vec<_> = materials[1..].iter().collect();
     let comparison = Comparison::new(&materials[0], &predictions, PRINTED).unwrap();
     let losses = comparison.run(&Request::Scenes(SAMPLING), &Progress::default()).unwrap().losses;
-    for (index, (got, map)) in got.iter().zip(&maps).enumerate() {
+    for (index, (found, map)) in found.iter().zip(&maps).enumerate() {
         let values: Vec<f32> = map.pixels.iter().map(value).collect();
-        assert_eq!(Some(*got), Statistics::of(&values), "{index}");
+        assert_eq!(Some(*found), Statistics::of(&values), "{index}");
         let [loss, other] = [index, 1 - index].map(|index| losses[index].estimate.mean);
-        assert!((got.mean / loss - 1.0).abs() < 1e-5, "{}, expected {loss}", got.mean);
-        assert!((got.mean / other - 1.0).abs() > 0.1, "a planted fault");
+        assert!((found.mean / loss - 1.0).abs() < 1e-5, "{}, expected {loss}", found.mean);
+        assert!((found.mean / other - 1.0).abs() > 0.1, "a planted fault");
     }
     for label in ["Title 1  blurred normals: error map", "Title 2  wrong roughness: error map", "mean = loss"]
     {
@@ -72,11 +72,11 @@ fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
     let before = window.state().state.scene;
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.7, 0.3), vec2(0.2, 0.8));
     assert_ne!(window.state().state.scene, before);
-    assert_eq!(statistics(&window), got);
+    assert_eq!(statistics(&window), found);
     // Another difference is of the scene again.
     apply(&mut window, DisplayCommand::SetDifference(svbrdf::picture::difference::Difference::Log));
     wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
-    assert_ne!(statistics(&window), got);
+    assert_ne!(statistics(&window), found);
     window.get_by_label("Title 1  blurred normals: log difference");
 }
 

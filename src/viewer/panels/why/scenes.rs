@@ -135,7 +135,7 @@ impl WhyPanel<'_> {
         }
         ui.horizontal_wrapped(|ui| {
             let hover =
-                "Searches the scene with the largest loss among those that the loss samples, and shows it";
+                "Searches all scenes that the loss samples from for the largest loss, and shows the scene";
             if ui.button("Find worst scene").on_hover_text(hover).clicked() {
                 commands.push(WhyCommand::FindWorst.into());
             }
