@@ -11,6 +11,8 @@ use super::materials::MaterialArgs;
 use super::photo::{PhotoReadingArgs, PhotoSceneArgs};
 
 #[derive(Debug, clap::Args)]
+#[command(mut_arg("predictions", |arg| arg.help("Predictions of it, of the same size. A scene file (JSON) among them has the \
+    scenes of the loss")))]
 #[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
 pub struct ViewArgs {
     /// Compares renderings with this photograph, in the place of the ground truth

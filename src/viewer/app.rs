@@ -12,7 +12,6 @@ use super::error_map_run::ErrorMapRun;
 use super::gpu_view::GpuView;
 use super::history::History;
 use super::inspect::{Inspect, RegionRun};
-use super::loaded::Rules;
 use super::loss_run::Asked;
 use super::loss_run::LossRun;
 use super::message::Message;
@@ -25,8 +24,7 @@ use super::panels::save::SaveWindow;
 use super::photograph::PhotographRun;
 use super::scene_loss::SceneLossRun;
 use super::settings::{self, Settings};
-use super::slots::{Slot, Slots, Target};
-use super::source::{self, Source};
+use super::slots::{Slot, Slots};
 use super::state::ViewState;
 use super::stop::Stop;
 use super::study::StudyRun;
@@ -158,11 +156,7 @@ impl App {
             now: 0.0,
             frame_ms: 0.0,
         };
-        let (photograph, scenes) = (options.photograph.clone(), options.scenes.clone());
         app.open_first(&cc.egui_ctx, options);
-        // After a session, which may have others.
-        photograph.into_iter().for_each(|(photograph, scene)| app.show_photograph(photograph, scene));
-        scenes.into_iter().for_each(|file| app.use_scenes(file));
         app
     }
 
@@ -170,20 +164,6 @@ impl App {
     pub(super) fn stop_at_signals(&mut self, ctx: &egui::Context, stop: &Stop) {
         stop.listen(ctx);
         self.stop = stop.clone();
-    }
-
-    fn open_first(&mut self, ctx: &egui::Context, options: ViewerOptions) {
-        self.slots.rules = Rules { strict: options.strict, fit: options.fit };
-        if let Some(session) = &options.session {
-            return self.open_session(ctx, session);
-        }
-        let Some(ground_truth) = options.ground_truth else {
-            return self.slots.open_built_in(ctx, self.gpu.as_ref().map(|g| &g.gpu));
-        };
-        let predictions = source::sources(&options.predictions, options.prediction_read);
-        let ground_truth = Source::file(ground_truth, options.ground_truth_read);
-        let sources = std::iter::once(ground_truth).chain(predictions).collect();
-        self.slots.open(ctx, self.gpu.as_ref().map(|g| &g.gpu), sources, Target::Everything);
     }
 
     /// Whether the side panel is shown. Narrow windows have a choice of their own, which starts with no panel.

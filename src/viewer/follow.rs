@@ -89,6 +89,7 @@ impl App {
             (true, _, _) => WindowCommand::ShowHelp(false).into(),
             (_, Some(_), _) => WindowCommand::ShowOpen(false).into(),
             (_, _, Some(_)) => WindowCommand::ShowSave(false).into(),
+            _ if self.photograph.edits_corners() => PhotographCommand::EditCorners(false).into(),
             _ if self.study_window => LossCommand::ShowStudy(false).into(),
             _ if self.inspect.armed => InspectCommand::Arm(false).into(),
             _ if self.inspect.region.is_some() => InspectCommand::SetRegion(None).into(),

@@ -1,9 +1,10 @@
-//! What undo returns to: the view, the set of materials, and the scenes of a file.
+//! What undo returns to: the view, the set of materials, the scenes of a file, and the photograph.
 
 use eframe::egui::util::undoer::{Settings, Undoer};
 
 use super::source::Source;
 use super::state::ViewState;
+use crate::files::session::SessionPhotograph;
 use crate::loss::FileScenes;
 
 /// How long nothing changes, in seconds, before it becomes a point to return to.
@@ -14,8 +15,10 @@ const STABLE: f32 = 0.4;
 pub(super) struct Moment {
     pub view: ViewState,
     pub materials: Vec<Source>,
-    /// The scenes of a file, where they are those of the loss.
+    /// The scenes of a file, where the loss is over them.
     pub scenes: Option<FileScenes>,
+    /// The photograph that renderings are compared with, and its corners.
+    pub photograph: Option<SessionPhotograph>,
 }
 
 /// The earlier and the later moments.

@@ -44,6 +44,7 @@ mod options;
 mod pace;
 mod pane_texels;
 mod pane_text;
+mod panel_texture;
 mod panels;
 mod panes;
 mod pasted;

@@ -40,6 +40,11 @@ impl App {
         self.photographs().map(|all| all.comparisons.as_slice())
     }
 
+    /// The corners of the material in the photograph; `None` for the whole picture, or without a photograph.
+    pub fn photograph_corners(&self) -> Option<[[f64; 2]; 4]> {
+        self.photograph.source().and_then(|source| source.corners)
+    }
+
     /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.
     pub fn seen(&self) -> Vec<(&str, &Material<f32>)> {
         self.seen.iter().map(|slot| (slot.name(), &slot.loaded.material)).collect()

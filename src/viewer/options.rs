@@ -21,8 +21,8 @@ pub struct ViewerOptions {
     pub strict: bool,
     /// Whether predictions of another size are resized to the ground truth.
     pub fit: bool,
-    /// A photograph that renderings are compared with; its light and view, `None` for those of a session or the default.
+    /// A photograph that renderings are compared with; with its light and view, `None` for the scene of the session or the default.
     pub photograph: Option<(SessionPhotograph, Option<Scene>)>,
-    /// The scenes of the loss; `None` for those of the session or the settings.
+    /// The scenes of the loss; `None` for the scenes of the session or the settings.
     pub scenes: Option<FileScenes>,
 }

@@ -2,7 +2,7 @@
 
 use super::error_map_run::ErrorMaps;
 use super::inspect::Inspect;
-use super::photograph::PhotographScene;
+use super::photograph::{CornerEditor, PhotographScene};
 use super::slot::Slot;
 use super::state::{Layout, ViewState};
 use crate::gpu::DisplayMode;
@@ -121,6 +121,7 @@ impl Scenery<'_> {
             Layout::SideBySide => {
                 std::iter::once(photograph).chain((0..self.slots.len()).map(material)).collect()
             }
+            Layout::Single | Layout::Wipe if self.corner_editor(photograph).is_some() => vec![photograph],
             Layout::Single => vec![if self.swapped { photograph } else { chosen }],
             Layout::Wipe => vec![Content { mode: DisplayMode::Wipe(self.state.wipe * 2.0 - 1.0), ..chosen }],
         };
@@ -130,6 +131,11 @@ impl Scenery<'_> {
             panes.swap(0, self.chosen() + 1);
         }
         panes
+    }
+
+    /// Where a pane shows the whole photograph, to edit the corners of the material in it.
+    pub(super) fn corner_editor(&self, content: Content) -> Option<CornerEditor<'_>> {
+        self.photograph?.editor.filter(|_| content.photograph == PhotographUse::Shown)
     }
 
     /// What fills an empty place beside the panes: of the chosen prediction, the difference where the others show values,

@@ -21,6 +21,8 @@ pub enum PhotographCommand {
     Close,
     /// `None`: by the file.
     SetTransfer(Option<Transfer>),
+    /// Shows the photograph as it was taken, with handles on the corners of the material, or as it is compared.
+    EditCorners(bool),
     /// `None`: the whole picture.
     SetCorners(Option<Corners>),
     /// Whether the falloff of the light is divided out.

@@ -86,7 +86,7 @@ impl App {
         }
     }
 
-    /// Makes the scenes of a file those of the loss.
+    /// Computes the loss over the scenes of a file.
     pub(super) fn use_scenes(&mut self, file: FileScenes) {
         self.report([Message::ScenesOpened(file.name.clone(), file.scenes.len())]);
         self.settings.loss = self.settings.loss.with_file(Some(file));

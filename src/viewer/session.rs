@@ -5,7 +5,10 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::app::App;
-use super::source::{Origin, Source};
+use super::loaded::Rules;
+use super::options::ViewerOptions;
+use super::slots::Target;
+use super::source::{Origin, Source, sources};
 use super::state::ViewState;
 use crate::files::read::ReadOptions;
 use crate::files::session::{Session, SessionMaterial, SessionPhotograph};
@@ -15,7 +18,30 @@ use crate::files::steps::RunId;
 const ELSEWHERE: [&str; 3] = ["scene", "convention", "exposure_ev"];
 
 impl App {
-    /// The session of now.
+    /// Starts to read what the window starts with.
+    pub(super) fn open_first(&mut self, ctx: &egui::Context, mut options: ViewerOptions) {
+        let (photograph, scenes) = (options.photograph.take(), options.scenes.take());
+        self.open_first_materials(ctx, options);
+        // After a session, which may have others.
+        photograph.into_iter().for_each(|(photograph, scene)| self.show_photograph(photograph, scene));
+        scenes.into_iter().for_each(|file| self.use_scenes(file));
+    }
+
+    fn open_first_materials(&mut self, ctx: &egui::Context, options: ViewerOptions) {
+        self.slots.rules = Rules { strict: options.strict, fit: options.fit };
+        if let Some(session) = &options.session {
+            return self.open_session(ctx, session);
+        }
+        let Some(ground_truth) = options.ground_truth else {
+            return self.slots.open_built_in(ctx, self.gpu.as_ref().map(|g| &g.gpu));
+        };
+        let predictions = sources(&options.predictions, options.prediction_read);
+        let ground_truth = Source::file(ground_truth, options.ground_truth_read);
+        let sources = std::iter::once(ground_truth).chain(predictions).collect();
+        self.slots.open(ctx, self.gpu.as_ref().map(|g| &g.gpu), sources, Target::Everything);
+    }
+
+    /// The current session.
     pub(super) fn session(&self) -> Session {
         let materials = self.slots.slots.iter().map(|slot| {
             let (path, built_in) = match &slot.loaded.origin {

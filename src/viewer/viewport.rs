@@ -74,7 +74,8 @@ impl Viewport {
         let extra = scenery.extra().zip(free);
         self.shows_extra = extra.is_some();
         panes.extend(extra);
-        self.hovered = panes.iter().find_map(|(content, cell)| hovered(ui, scenery, *content, *cell));
+        let mut on_material = panes.iter().filter(|(content, _)| scenery.corner_editor(*content).is_none());
+        self.hovered = on_material.find_map(|(content, cell)| hovered(ui, scenery, *content, *cell));
         if let Some(texel) = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point)) {
             self.last_texel = Some(texel);
         }
@@ -99,6 +100,10 @@ impl Viewport {
         commands.extend(title_bar(ui, scenery, number, content, title));
         let rect = picture_rect(ui, cell);
         self.pane_pixels = rect.size() * ui.pixels_per_point();
+        if let Some(editor) = scenery.corner_editor(content) {
+            commands.extend(editor.ui(ui, rect, number));
+            return commands;
+        }
 
         let response = ui.interact(rect, ui.scope_id().with(("pane", number)), Sense::drag());
         let kind = match (number < scenery.contents().len(), content.difference) {

@@ -17,18 +17,18 @@ use svbrdf::viewer::save_kind::SaveKind;
 
 use super::*;
 
-const FOV: f64 = 60.0;
-const CORNERS: [[f64; 2]; 4] = [[20.0, 10.0], [276.0, 10.0], [276.0, 266.0], [20.0, 266.0]];
+pub(super) const FOV: f64 = 60.0;
+pub(super) const CORNERS: [[f64; 2]; 4] = [[20.0, 10.0], [276.0, 10.0], [276.0, 266.0], [20.0, 266.0]];
 /// Of the photograph: 4 times as bright as the rendering of the ground truth, beside it a frame.
-const SIZE: [usize; 2] = [300, 280];
+pub(super) const SIZE: [usize; 2] = [300, 280];
 
-fn materials() -> Vec<Material<f32>> {
+pub(super) fn materials() -> Vec<Material<f32>> {
     let samples = samples::load::<f32>().unwrap();
     [samples.ground_truth].into_iter().chain(samples.predictions).map(|read| read.material).collect()
 }
 
 /// Writes the photograph; some of its pixels are not finite.
-fn photograph(folder: &Path) -> PathBuf {
+pub(super) fn photograph(folder: &Path) -> PathBuf {
     let scene = flash(FOV).unwrap();
     let rendering = render_f32(&materials()[0], &scene, &PRINTED, &Progress::default()).unwrap();
     let at = |i: usize| match ((i % SIZE[0]).checked_sub(20), (i / SIZE[0]).checked_sub(10)) {
@@ -49,9 +49,18 @@ fn source(path: &Path) -> SessionPhotograph {
 
 /// The comparisons of the core.
 fn expected(path: &Path, falloff: bool) -> Vec<PhotographComparison> {
+    expected_within(path, CORNERS, falloff)
+}
+
+/// The comparisons of the core with these corners.
+pub(super) fn expected_within(
+    path: &Path,
+    corners: [[f64; 2]; 4],
+    falloff: bool,
+) -> Vec<PhotographComparison> {
     let photograph = read_photograph(path, &PhotographOptions::default()).unwrap();
     let (scene, progress) = (flash(FOV).unwrap(), Progress::default());
-    let rectified = Rectified::new(&photograph, &Corners(CORNERS), [256, 256], &progress).unwrap();
+    let rectified = Rectified::new(&photograph, &Corners(corners), [256, 256], &progress).unwrap();
     let rectified = if falloff { rectified.without_falloff(&scene) } else { rectified };
     let one = |material| rectified.compare(material, &scene, &PRINTED, &progress).unwrap();
     materials().iter().map(one).collect()
@@ -67,24 +76,24 @@ fn bits(all: &[PhotographComparison]) -> Vec<(f64, Vec<u32>)> {
 }
 
 /// Whether the window compares as the core does.
-fn agrees(window: &Window<'_>, core: &[PhotographComparison]) -> bool {
+pub(super) fn agrees(window: &Window<'_>, core: &[PhotographComparison]) -> bool {
     bits(window.state().against_photograph().unwrap()) == bits(core)
 }
 
-fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
+pub(super) fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
     let (ctx, command) = (window.ctx.clone(), command.into());
     window.state_mut().apply(&ctx, command);
     window.run_steps(2);
 }
 
-fn wait_for_it(window: &mut Window<'_>) {
+pub(super) fn wait_for_it(window: &mut Window<'_>) {
     wait(window, "the photograph", |app| {
         app.against_photograph().is_some() && app.difference_statistics().is_some()
     });
 }
 
 /// The window with a photograph of a flash, and its folder.
-fn opened<'a>() -> (Window<'a>, tempfile::TempDir) {
+pub(super) fn opened<'a>() -> (Window<'a>, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let photograph = source(&photograph(folder.path()));
     let mut window = built_in();
@@ -173,10 +182,10 @@ fn panes_and_readout_have_the_numbers_of_the_photograph() {
         let seen = pixels(&mut window, rect);
         for (at, value) in reads {
             let [x, y] = [at.x - rect.left().floor(), at.y - rect.top().floor()];
-            let got = seen.get_pixel(x as u32, y as u32).0;
+            let found = seen.get_pixel(x as u32, y as u32).0;
             let expected = difference_to_display(value, range as f32, false);
-            let off = (0..3).map(|c| got[c].abs_diff(expected[c])).max().unwrap();
-            assert!(off <= 4, "{title}: {got:?} at {at:?}, expected {expected:?}");
+            let off = (0..3).map(|c| found[c].abs_diff(expected[c])).max().unwrap();
+            assert!(off <= 4, "{title}: {found:?} at {at:?}, expected {expected:?}");
         }
     }
 }
@@ -209,9 +218,9 @@ fn saved_differences_are_those_from_the_photograph_and_a_session_keeps_it() {
     assert_eq!(width, 3 * 256 + 2 * gap);
     let mut left_out = 0;
     for (i, expected) in core[2].difference(Difference::Log).pixels.iter().enumerate() {
-        let got = saved[i / 256 * width + i % 256 + 2 * (256 + gap)];
-        assert!(got == *expected || (got[0].is_nan() && expected[0].is_nan()), "{i}");
-        left_out += usize::from(got[0].is_nan());
+        let found = saved[i / 256 * width + i % 256 + 2 * (256 + gap)];
+        assert!(found == *expected || (found[0].is_nan() && expected[0].is_nan()), "{i}");
+        left_out += usize::from(found[0].is_nan());
     }
     assert_eq!(left_out, 100);
     let bytes = std::fs::read(&picture).unwrap();

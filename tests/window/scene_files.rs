@@ -117,7 +117,8 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
 
     let mut window = built_in();
     let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/worn_tiles.png");
-    let dropped = [material.clone(), path.clone(), material].map(|path| std::sync::Arc::new(Dropped(path)) as _);
+    let dropped =
+        [material.clone(), path.clone(), material].map(|path| std::sync::Arc::new(Dropped(path)) as _);
     window.input_mut().dropped_files = dropped.into();
     wait(&mut window, "materials and scenes", |app| app.names().len() == 2 && of_file(app));
     assert_eq!(window.state().messages(), ["The loss is over the 3 scenes of render.json"]);

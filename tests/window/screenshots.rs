@@ -3,7 +3,16 @@
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use svbrdf::files::session::SessionPhotograph;
+use svbrdf::model::convention::PRINTED;
+use svbrdf::photograph::flash;
+use svbrdf::picture::tone::to_display;
+use svbrdf::progress::Progress;
+use svbrdf::render::render_f32;
+use svbrdf::samples::{self, generate};
+use svbrdf::viewer::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
 
+use super::photograph::apply;
 use super::*;
 
 /// Size of a picture, in pixels.
@@ -43,7 +52,7 @@ fn write(window: &mut Window<'_>, name: &str) {
 }
 
 #[test]
-#[ignore = "writes assets/why.png and assets/where.png"]
+#[ignore = "writes why.png, where.png, training.png and photograph.png in assets"]
 fn the_pictures_of_the_readme() {
     let mut window = opened();
     window.get_by_label_contains("normal: ").click();
@@ -59,4 +68,98 @@ fn the_pictures_of_the_readme() {
         window.run_steps(12);
     }
     write(&mut window, "where.png");
+    training();
+    photographed();
+}
+
+/// Writes the steps of a training: strips of the ground truth whose normals and roughness are off by less and less.
+fn write_steps(folder: &Path, name: &str, start: f64, settles: f64) {
+    let (truth, wrong) = (generate::ground_truth(), generate::wrong_roughness(&generate::ground_truth()));
+    let blurred = generate::blurred_normals(&truth);
+    let side = generate::SIDE as u32;
+    let [truth, wrong, blurred] = [truth, wrong, blurred].map(|planes| generate::pack(&planes));
+    for number in 1..=10_u32 {
+        // A course with a little noise, of which some steps are a setback.
+        let off =
+            start * ((-f64::from(number) / 3.0).exp() + settles) * (1.0 + 0.12 * f64::from(number * 7 % 5));
+        let mixed = |i: usize| {
+            let [t, w, b] = [truth[i], wrong[i], blurred[i]].map(f64::from);
+            (t + off * (w - t) + off * (b - t)).clamp(0.0, 255.0).round() as u8
+        };
+        let picture = image::RgbImage::from_raw(4 * side, side, (0..truth.len()).map(mixed).collect());
+        picture.unwrap().save(folder.join(format!("run/{name}_step{:06}.png", 500 * number))).unwrap();
+    }
+}
+
+/// Two training runs, one of them at an earlier step.
+fn training() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("run")).unwrap();
+    let truth = folder.path().join("worn tiles.png");
+    std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/worn_tiles.png"), &truth).unwrap();
+    write_steps(folder.path(), "baseline", 0.9, 0.25);
+    write_steps(folder.path(), "ours", 1.0, 0.05);
+    let predictions = vec![folder.path().join("run")];
+    let mut window =
+        super::window(ViewerOptions { ground_truth: Some(truth), predictions, ..ViewerOptions::default() });
+    window.set_size(SIZE);
+    wait(&mut window, "both runs", |app| app.names().len() == 3 && app.training_runs().len() == 2);
+    apply(&mut window, MaterialsCommand::SetWatch(true));
+    apply(&mut window, TrainingCommand::Show { slot: 1, number: 2000 });
+    wait(&mut window, "the step", |app| app.names()[1].contains("step 2000"));
+    window.get_by_label("Light and view").click();
+    window.run_steps(12);
+    let known = |app: &App, slot| app.step_losses(slot).iter().all(Option::is_some);
+    wait(&mut window, "the losses", |app| known(app, 1) && known(app, 2) && app.losses().is_some());
+    write(&mut window, "training.png");
+}
+
+/// A photograph of the ground truth from the side, on a gray table, and the corners of the material in it.
+fn photograph_from_the_side(folder: &Path) -> (std::path::PathBuf, [[f64; 2]; 4]) {
+    const WIDTH: u32 = 900;
+    const HEIGHT: u32 = 760;
+    /// Samples along the side of the material.
+    const SAMPLES: usize = 1600;
+    let corners = [[190.0, 90.0], [790.0, 60.0], [840.0, 650.0], [100.0, 690.0]];
+    let material = samples::load::<f32>().unwrap().ground_truth.material;
+    let rendering = render_f32(&material, &flash(45.0).unwrap(), &PRINTED, &Progress::default()).unwrap();
+    let gray = |x: u32, y: u32| 92 + ((x * 13 + y * 7) % 11) as u8;
+    let mut picture = image::RgbImage::from_fn(WIDTH, HEIGHT, |x, y| image::Rgb([gray(x, y); 3]));
+    // The projective map of the unit square to the corners (Heckbert 1989).
+    let [[x0, y0], [x1, y1], [x2, y2], [x3, y3]]: [[f64; 2]; 4] = corners;
+    let ([dx1, dy1], [dx2, dy2]) = ([x1 - x2, y1 - y2], [x3 - x2, y3 - y2]);
+    let (sx, sy) = (x0 - x1 + x2 - x3, y0 - y1 + y2 - y3);
+    let determinant = dx1 * dy2 - dx2 * dy1;
+    let (g, h) = ((sx * dy2 - dx2 * sy) / determinant, (dx1 * sy - sx * dy1) / determinant);
+    for i in 0..SAMPLES * SAMPLES {
+        let [s, t] = [i % SAMPLES, i / SAMPLES].map(|n| (n as f64 + 0.5) / SAMPLES as f64);
+        let w = g * s + h * t + 1.0;
+        let x = ((x1 - x0 + g * x1) * s + (x3 - x0 + h * x3) * t + x0) / w;
+        let y = ((y1 - y0 + g * y1) * s + (y3 - y0 + h * y3) * t + y0) / w;
+        let [column, row] = [s, t].map(|at| (at * generate::SIDE as f64) as usize);
+        let colour = to_display(rendering.pixels[row * generate::SIDE + column], 0.6);
+        picture.put_pixel(x as u32, y as u32, image::Rgb(colour));
+    }
+    let path = folder.join("photo.png");
+    picture.save(&path).unwrap();
+    (path, corners)
+}
+
+/// The photograph, with handles on the corners of the material, beside the materials.
+fn photographed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, corners) = photograph_from_the_side(folder.path());
+    let mut window = built_in();
+    window.set_size(SIZE);
+    let photograph =
+        SessionPhotograph { path, read: Default::default(), corners: Some(corners), falloff: false };
+    let light = PhotographLight::Flash { fov_degrees: 45.0 };
+    apply(&mut window, PhotographCommand::Open { photograph, light });
+    window.get_by_label("Light and view").click();
+    wait(&mut window, "the photograph", |app| app.against_photograph().is_some());
+    window.get_by_label("Corners of the material").click();
+    press(&mut window, egui::Key::D);
+    wait(&mut window, "the differences", |app| app.difference_statistics().is_some());
+    window.run_steps(60);
+    write(&mut window, "photograph.png");
 }

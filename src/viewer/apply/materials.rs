@@ -18,7 +18,7 @@ impl App {
     pub(super) fn apply_to_materials(&mut self, ctx: &egui::Context, command: MaterialsCommand) {
         let gpu = self.gpu.as_ref().map(|g| &g.gpu);
         match command {
-            // First, since the scenes of a file take the place of those of a session.
+            // First: the scenes of a file replace the scenes of a session.
             MaterialsCommand::Open { paths, replace, read }
                 if paths.iter().any(|path| FileScenes::is_named(path)) =>
             {

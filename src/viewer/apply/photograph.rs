@@ -43,6 +43,12 @@ impl App {
                     source.falloff = on;
                 }
             }
+            PhotographCommand::EditCorners(on) => {
+                self.photograph.edit_corners(on);
+                if on {
+                    self.compare_with_photograph();
+                }
+            }
             PhotographCommand::SetCorners(corners) => {
                 if let Some(source) = self.photograph.source_mut() {
                     source.corners = corners.map(|corners| corners.0);
@@ -72,6 +78,11 @@ impl App {
     pub(in crate::viewer) fn show_photograph(&mut self, photograph: SessionPhotograph, scene: Option<Scene>) {
         self.photograph.set(Some(photograph));
         self.state.scene = scene.unwrap_or(self.state.scene);
+        self.compare_with_photograph();
+    }
+
+    /// Shows what is compared with a photograph: renderings in one scene.
+    fn compare_with_photograph(&mut self) {
         self.state.quantity = Quantity::Rendering;
         if self.state.is_error_map() {
             // It averages over scenes of which there is no photograph.

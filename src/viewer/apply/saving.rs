@@ -82,12 +82,15 @@ impl App {
             return Err(Error::Internal("there is no graphics adapter to draw the view".to_owned()));
         };
         let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), self.settings.dark);
-        // The gestures of the window are not those of the picture.
+        // Gestures and corner handles stay in the window.
         let viewport = std::mem::take(&mut self.viewport);
+        let edits_corners = self.photograph.edits_corners();
+        self.photograph.edit_corners(false);
         let picture = snapshot(&state, &gpu, Size { pixels, scale }, dark, |ui| {
             drop(self.content(ui));
         });
         self.viewport = viewport;
+        self.photograph.edit_corners(edits_corners);
         picture
     }
 

@@ -15,7 +15,8 @@ impl App {
                 self.remember_session();
             }
         }
-        if !self.history.materials.is_empty() {
+        // A photograph counts once it has been read, too.
+        if !self.history.materials.is_empty() && self.photograph.is_settled() {
             let now = self.moment();
             self.history.undoer.feed_state(ctx.input(|i| i.time), &now);
         }
@@ -35,14 +36,18 @@ impl App {
 
     fn moment(&self) -> Moment {
         let scenes = self.settings.loss.file_scenes().cloned();
-        Moment { view: self.state.clone(), materials: self.history.materials.clone(), scenes }
+        let photograph = self.photograph.source().cloned();
+        Moment { view: self.state.clone(), materials: self.history.materials.clone(), scenes, photograph }
     }
 
     fn return_to(&mut self, ctx: &egui::Context, moment: Option<Moment>) {
-        let Some(Moment { view, materials, scenes }) = moment else { return };
+        let Some(Moment { view, materials, scenes, photograph }) = moment else { return };
         self.state = view;
         if scenes.as_ref() != self.settings.loss.file_scenes() {
             self.settings.loss = self.settings.loss.with_file(scenes);
+        }
+        if photograph.as_ref() != self.photograph.source() {
+            self.photograph.set(photograph);
         }
         if materials != self.history.materials {
             let gpu = self.gpu.as_ref().map(|g| &g.gpu);

@@ -199,7 +199,8 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings, commands: &mut Vec<Co
         }
         if settings.ask == Ask::Scenes {
             let open = ui.small_button("Scene file...");
-            let hover = "Open a scene file (JSON, or render.json of a MaterialGAN capture), whose scenes are those of the loss";
+            let hover =
+                "Compute the loss over the scenes of a file (JSON, or render.json of a MaterialGAN capture)";
             if open.on_hover_text(hover).clicked() {
                 commands.push(WindowCommand::ShowOpen(true).into());
             }

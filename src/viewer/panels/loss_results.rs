@@ -169,7 +169,7 @@ impl Results<'_> {
 /// An estimate as a person reads it: its mean in significant digits only, and its 95% interval with one digit more.
 pub(super) fn significant(estimate: &Estimate) -> [String; 2] {
     let Estimate { mean, interval95, .. } = *estimate;
-    let Some([low, high]) = interval95 else { return [format!("{mean:.2}"), "[unknown]".to_owned()] };
+    let Some([low, high]) = interval95 else { return [format!("{mean:.4}"), "[unknown]".to_owned()] };
     let half = 0.5 * (high - low);
     let decimals = if half > 0.0 { (-half.log10().floor()).clamp(0.0, 12.0) as usize } else { 6 };
     let more = decimals + usize::from(half > 0.0);
@@ -284,7 +284,7 @@ mod tests {
         assert_eq!(of(0.371_2, Some([0.284, 0.473])), ["0.37", "[0.284, 0.473]"]);
         assert_eq!(of(-0.117, Some([-0.119_365, -0.114_891])), ["-0.117", "[-0.1194, -0.1149]"]);
         assert_eq!(of(0.0, Some([0.0, 0.0])), ["0.000000", "[0.000000, 0.000000]"]);
-        assert_eq!(of(0.5, None), ["0.50", "[unknown]"]);
+        assert_eq!(of(0.5, None), ["0.5000", "[unknown]"]);
     }
 
     #[test]

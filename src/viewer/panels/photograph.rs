@@ -5,11 +5,9 @@ use eframe::egui::{self, RichText};
 use crate::files::read::Transfer;
 use crate::photograph::Corners;
 use crate::viewer::command::{Command, PhotographCommand};
-use crate::viewer::photograph::PhotographScene;
+use crate::viewer::photograph::{CORNER_NAMES, PhotographScene};
 use crate::viewer::theme;
 
-/// Names of the corners, in their order.
-const NAMES: [&str; 4] = ["Top left", "Top right", "Bottom right", "Bottom left"];
 /// Height of the list of factors, in points.
 const FACTORS: f32 = 76.0;
 
@@ -64,7 +62,13 @@ impl PhotographCard<'_> {
         if falloff != source.falloff {
             commands.push(PhotographCommand::SetFalloff(falloff).into());
         }
-        ui.collapsing("Corners of the material", |ui| self.corners(ui, photograph.size(), &mut commands));
+        let edits = self.photograph.editor.is_some();
+        let header = egui::CollapsingHeader::new("Corners of the material").open(Some(edits));
+        let header = header.show(ui, |ui| self.corners(ui, photograph.size(), &mut commands));
+        let hover = "Shows the photograph as it was taken, with handles to drag";
+        if header.header_response.on_hover_text(hover).clicked() {
+            commands.push(PhotographCommand::EditCorners(!edits).into());
+        }
         commands
     }
 
@@ -97,16 +101,15 @@ impl PhotographCard<'_> {
         let hover = "Factor on the photograph: the median of rendering / photograph. It brings the photograph to the exposure \
                      of the rendering.";
         egui::ScrollArea::vertical().id_salt("photograph factors").max_height(FACTORS).show(ui, |ui| {
-            egui::Grid::new("photograph factors").num_columns(3).spacing([10.0, 1.0]).show(ui, |ui| {
-                for (name, one) in self.names.iter().zip(&all.comparisons) {
-                    ui.add(egui::Label::new(RichText::new(*name).small()).truncate());
-                    let factor = RichText::new(format!("x {:.4}", one.factor)).monospace().size(11.5);
-                    ui.label(factor).on_hover_text(hover);
-                    let stops = RichText::new(format!("{:+.2} EV", one.exposure_ev())).monospace().size(11.5);
-                    ui.label(stops).on_hover_text(hover);
-                    ui.end_row();
-                }
-            });
+            for (name, one) in self.names.iter().zip(&all.comparisons) {
+                let left = |ui: &mut egui::Ui| drop(ui.label(RichText::new(*name).small()));
+                let right = |ui: &mut egui::Ui| {
+                    for text in [format!("{:+.2} EV", one.exposure_ev()), format!("x {:.4}", one.factor)] {
+                        ui.label(RichText::new(text).monospace().size(11.5)).on_hover_text(hover);
+                    }
+                };
+                egui::Sides::new().shrink_left().truncate().show(ui, left, right);
+            }
         });
         if let Some(clipped) = self.photograph.clipped {
             let text = RichText::new(format!("{:.2}% of the texels are clipped", 100.0 * clipped)).small();
@@ -123,7 +126,7 @@ impl PhotographCard<'_> {
         let set = self.photograph.source.corners.map_or(whole, Corners);
         let mut corners = set;
         egui::Grid::new("photograph corners").num_columns(3).spacing([8.0, 2.0]).show(ui, |ui| {
-            for (index, name) in NAMES.into_iter().enumerate() {
+            for (index, name) in CORNER_NAMES.into_iter().enumerate() {
                 ui.label(name);
                 for (axis, letter) in ["x", "y"].into_iter().enumerate() {
                     let label = format!("{name} {letter}");

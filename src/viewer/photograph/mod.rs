@@ -1,15 +1,19 @@
 //! A photograph in the place of the ground truth: read, brought onto the texels, and compared with every material, on workers.
 
 mod compared;
+mod corner_editor;
 mod keys;
+mod picture;
 
 use std::sync::Arc;
 
 pub(super) use compared::Photographs;
 use compared::{ComparedKey, compare, key};
+pub(super) use corner_editor::{CornerEditor, NAMES as CORNER_NAMES};
 use keys::{ReadKey, RectifiedKey};
 
 use super::latest::Latest;
+use super::panel_texture::PanelTexture;
 use super::slot::Slot;
 use super::source::file_name;
 use super::state::ViewState;
@@ -28,6 +32,9 @@ pub(super) struct PhotographRun {
     read: Latest<ReadKey, Arc<Photograph>>,
     rectified: Latest<RectifiedKey, Arc<Rectified>>,
     compared: Latest<ComparedKey, Arc<Photographs>>,
+    /// Whether the corners are edited: its pane then shows the photograph as it was taken.
+    edits_corners: bool,
+    picture: Latest<ReadKey, PanelTexture>,
 }
 
 /// The photograph as the panes and the panel show it.
@@ -40,6 +47,8 @@ pub(super) struct PhotographScene<'a> {
     pub clipped: Option<f64>,
     /// Beside every material, once they are there.
     pub all: Option<&'a Arc<Photographs>>,
+    /// While the corners are edited.
+    pub editor: Option<CornerEditor<'a>>,
 }
 
 impl PhotographScene<'_> {
@@ -50,6 +59,9 @@ impl PhotographScene<'_> {
 
     /// The title of a pane that shows it at the exposure of slot `slot`.
     pub(super) fn title(&self, slot: usize) -> String {
+        if self.editor.is_some() {
+            return format!("PHOTOGRAPH  {}  as it was taken", self.name());
+        }
         let ev = self.all.and_then(|all| all.get(slot)).map(|one| format!("  {:+.2} EV", one.exposure_ev()));
         format!("PHOTOGRAPH  {}{}", self.name(), ev.unwrap_or_default())
     }
@@ -59,6 +71,22 @@ impl PhotographRun {
     /// Opens another photograph, or closes the one that is open.
     pub(super) fn set(&mut self, source: Option<SessionPhotograph>) {
         self.source = source;
+        self.edits_corners &= self.source.is_some();
+    }
+
+    /// Starts or ends to edit the corners.
+    pub(super) fn edit_corners(&mut self, on: bool) {
+        self.edits_corners = on && self.source.is_some();
+    }
+
+    /// Whether the corners are edited.
+    pub(super) fn edits_corners(&self) -> bool {
+        self.edits_corners
+    }
+
+    /// Whether what is open has been read.
+    pub(super) fn is_settled(&self) -> bool {
+        self.source.is_none() || self.photograph().is_some()
     }
 
     /// What is open.
@@ -93,7 +121,21 @@ impl PhotographRun {
             return error;
         }
         let error = self.rectify(work);
-        error.or_else(|| self.compare(work))
+        let error = error.or_else(|| self.compare(work));
+        error.or_else(|| self.draw(work))
+    }
+
+    /// The photograph as it was taken, while the corners are edited.
+    fn draw(&mut self, work: &WorkContext<'_>) -> Option<Error> {
+        let photograph = self.photograph().filter(|_| self.edits_corners).cloned();
+        let (ctx, longest) = (work.ctx.clone(), work.ctx.input(|i| i.max_texture_side));
+        let wanted = photograph.is_some().then(|| self.read_key()).flatten();
+        self.picture.follow(work.ctx, wanted, |_| {
+            Task::start(work.ctx, move |_| {
+                let photograph = photograph.ok_or_else(|| Error::Internal("no photograph".to_owned()))?;
+                Ok(picture::texture(&ctx, &photograph, longest))
+            })
+        })
     }
 
     fn rectify(&mut self, work: &WorkContext<'_>) -> Option<Error> {
@@ -138,12 +180,19 @@ impl PhotographRun {
         let photograph = self.photograph().map(AsRef::as_ref);
         let of_now = |key: &ReadKey| Some(key) == self.read_key().as_ref();
         let rectified = self.rectified.get().filter(|(of, _)| of_now(&of.read));
+        let picture = self.picture.get().filter(|(of, _)| of_now(of)).map(|(_, picture)| picture);
+        let editor = photograph.filter(|_| self.edits_corners).map(|photograph| {
+            let size = photograph.size();
+            let corners = source.corners.map_or_else(|| Corners::whole(size), Corners);
+            CornerEditor { picture, size, corners }
+        });
         let all = self.compared.get().filter(|(of, _)| of.is_of(slots) && of_now(&of.rectified.read));
         Some(PhotographScene {
             source,
             photograph,
             clipped: rectified.map(|(_, rectified)| rectified.clipped_share()),
             all: all.map(|(_, all)| all),
+            editor,
         })
     }
 

@@ -6,11 +6,11 @@ use eframe::egui::{self, Color32, ColorImage};
 use glam::DVec3;
 
 use super::pair::{ComparedPair, PairKey};
-use super::texture::PanelTexture;
 use crate::error::Error;
 use crate::model::scene::Scene;
 use crate::picture::colour_map::difference_to_display;
 use crate::viewer::latest::Latest;
+use crate::viewer::panel_texture::PanelTexture;
 use crate::viewer::worker::Task;
 use crate::why::{Hemisphere, Moved, hemisphere};
 
@@ -22,7 +22,7 @@ pub(super) const SIDE: usize = 64;
 struct DirectionsKey {
     pair: PairKey,
     moved: Moved,
-    /// The unit direction of what is not moved.
+    /// The unit direction of the light or view that stays.
     fixed: [f64; 3],
 }
 

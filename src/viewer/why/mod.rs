@@ -6,7 +6,6 @@ mod pair;
 mod scenes;
 mod search;
 mod sections;
-mod texture;
 mod thumbnails;
 
 use crate::error::Error;
@@ -63,12 +62,7 @@ impl Default for Why {
 
 impl Why {
     /// Takes over results, and computes what is wanted now; nothing new where the tab is not `shown`.
-    pub(super) fn follow(
-        &mut self,
-        work: &WorkContext<'_>,
-        shown: bool,
-        asked: WhyAsked,
-    ) -> Vec<Error> {
+    pub(super) fn follow(&mut self, work: &WorkContext<'_>, shown: bool, asked: WhyAsked) -> Vec<Error> {
         let pair = ComparedPair::of(work.slots, work.state);
         let (ctx, pair, scene) = (work.ctx, pair.as_ref(), &work.state.scene);
         let shown = |section| shown && asked.sections.is_open(section);

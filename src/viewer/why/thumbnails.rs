@@ -3,7 +3,6 @@
 use eframe::egui::{self, Color32, ColorImage, Rect, pos2};
 
 use super::pair::ComparedPair;
-use super::texture::PanelTexture;
 use crate::error::Error;
 use crate::material::{Material, Planes};
 use crate::model::scene::Scene;
@@ -11,6 +10,7 @@ use crate::picture::colour_map::difference_to_display;
 use crate::picture::difference::Difference;
 use crate::progress::Progress;
 use crate::render;
+use crate::viewer::panel_texture::PanelTexture;
 use crate::why::RankedScene;
 
 /// Side of a thumbnail, in pixels.

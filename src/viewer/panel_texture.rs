@@ -1,4 +1,4 @@
-//! A picture in a panel.
+//! A picture in a panel or a pane.
 
 use eframe::egui;
 
