@@ -5,8 +5,12 @@
     benches/frames.py target/release/svbrdf [GT PRED...]
 
 Needs Xvfb and xdotool, and a machine that does nothing else. The window has 1360 x 860 points. The pointer hovers over a pane, then
-drags the light; then both again with magnified materials, and with differences. The screen is read from the memory of Xvfb every millisecond; a frame is a change of it.
-Prints the median and the 95th percentile of the times between frames, and the processor time per frame.
+drags the light; then both again with magnified materials, and with differences. The screen is read from the memory of Xvfb every
+millisecond; a frame is a change of it. Prints the median and the 95th percentile of the times between frames, and the processor time
+per frame. With materials also the time from the start to the first picture and to the last one, beside that of `svbrdf info`, which
+reads them and does no more. A large material, here of 2048 x 2048 texels, of a small one:
+
+    convert assets/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
 """
 
 import math
@@ -28,6 +32,9 @@ ONE_FRAME = 0.004
 # What is compared: rows of the other panes. The server itself draws the pointer, which is not a frame.
 ROWS = range(8, HEIGHT, 9)
 COLUMNS = (530, 1030)
+# The panes, and from how many colours on they show a picture.
+PANES = (10, 1010)
+COLOURS = 500
 
 
 class Screen:
@@ -45,10 +52,14 @@ class Screen:
         # Of an X window dump: the header, then the colours of 12 bytes each, then the rows.
         self.start, self.stride = fields[0] + 12 * fields[19], fields[12]
 
-    def rows(self):
-        left, right = (4 * column for column in COLUMNS)
+    def rows(self, columns=COLUMNS, rows=ROWS):
+        left, right = (4 * column for column in columns)
         place = lambda row: self.start + row * self.stride
-        return b"".join(self.memory[place(row) + left : place(row) + right] for row in ROWS)
+        return b"".join(self.memory[place(row) + left : place(row) + right] for row in rows)
+
+    def shows_picture(self):
+        pixels = self.rows(PANES, range(60, 800, 20))
+        return len(set(struct.unpack(f"{len(pixels) // 4}I", pixels))) > COLOURS
 
 
 def processor_seconds(process):
@@ -91,21 +102,40 @@ def measure(screen, process, environment, name, button, centre, radius):
     print(f"{name:<28} {len(times):4} frames, p50 {at(0.5):6.1f} ms, p95 {at(0.95):6.1f} ms, {cost:6.1f} ms of processor a frame")
 
 
+def until_still(screen, start):
+    """Waits until nothing has changed for a while: the materials are there, and the loss is computed. The times of the first picture and
+    of the last change."""
+    still, since, first = screen.rows(PANES), time.perf_counter(), None
+    while time.perf_counter() - since < 8 or first is None:
+        time.sleep(0.01)
+        if first is None and screen.shows_picture():
+            first = time.perf_counter() - start
+        if (now := screen.rows(PANES)) != still:
+            still, since = now, time.perf_counter()
+    return first, since - start
+
+
+def reading(program, material):
+    start = time.perf_counter()
+    subprocess.run([program, "info", material], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return time.perf_counter() - start
+
+
 def main():
     program, materials = pathlib.Path(sys.argv[1]).resolve(), [str(pathlib.Path(p).resolve()) for p in sys.argv[2:]]
     with tempfile.TemporaryDirectory() as folder:
         screen = Screen(folder)
         environment = {**os.environ, "DISPLAY": screen.display, "HOME": folder, "XDG_RUNTIME_DIR": folder, "WGPU_BACKEND": "vulkan"}
         environment.pop("WAYLAND_DISPLAY", None)
+        # Twice: the first time the files come from the disk.
+        alone = [[reading(program, material) for material in materials] for _ in range(2)][1]
+        start = time.perf_counter()
         process = subprocess.Popen([program, *materials], env=environment, cwd=folder, stderr=subprocess.DEVNULL)
         try:
+            first, last = until_still(screen, start)
+            if materials:
+                print(f"first picture {first:.2f} s (reading it alone {alone[0]:.2f} s), all {last:.2f} s ({sum(alone):.2f} s)")
             subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "svbrdf", "windowfocus"], env=environment, check=True, stdout=subprocess.DEVNULL)
-            still, since = screen.rows(), time.monotonic()
-            # The materials are there, and the loss is computed, when nothing has changed for a while.
-            while time.monotonic() - since < 8:
-                time.sleep(0.1)
-                if screen.rows() != still:
-                    still, since = screen.rows(), time.monotonic()
             print(f"load {os.getloadavg()[0]:.1f} before the measurement")
             pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
             measure(screen, process, environment, "hover", False, pane, 90)

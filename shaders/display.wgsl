@@ -3,24 +3,27 @@
 const MODE_VALUE = 0u;
 const MODE_WIPE = 1u;
 
+// Constants of the pipeline: drivers compile and run what is needed and no more. As uniforms they make Mesa's lavapipe compile the
+// shader anew for every pane of every frame.
+override MODE: u32 = MODE_VALUE;
+override DIFFERENCE: u32 = DIFFERENCE_NONE;
+override ENCODING: u32 = ENCODING_RADIANCE;
+override SHOW_CLIPPING: bool = false;
+override TILED: bool = false;
+override FALSE_COLOUR: bool = false;
+
 struct Display {
     camera: Camera,
     background: vec3f,
-    encoding: u32,
     exposure: f32,
     epsilon: f32,
     wipe: f32,
-    mode: u32,
-    show_clipping: u32,
-    difference: u32,
     // The difference that has the last colour.
     range: f32,
     // How many texels along an axis of the material one of the pictures stands for.
     stride: u32,
     // Of the material, in texels.
     size: vec2u,
-    tiled: u32,
-    false_colour: u32,
 }
 
 @group(0) @binding(0) var<uniform> params: Display;
@@ -32,13 +35,13 @@ fn load(place: vec2i, from_reference: bool) -> vec3f {
         return textureLoad(reference, place, 0).rgb;
     }
     let value = textureLoad(shown, place, 0).rgb;
-    if params.difference == DIFFERENCE_NONE {
+    if DIFFERENCE == DIFFERENCE_NONE {
         return value;
     }
-    if params.difference == DIFFERENCE_COMPUTED {
+    if DIFFERENCE == DIFFERENCE_COMPUTED {
         return vec3f(mean(value));
     }
-    return vec3f(difference(params.difference, textureLoad(reference, place, 0).rgb, value, params.epsilon));
+    return vec3f(difference(DIFFERENCE, textureLoad(reference, place, 0).rgb, value, params.epsilon));
 }
 
 // The mean of what the pixel covers. Scaled down before it is summed, so that no sum overflows.
@@ -60,19 +63,19 @@ fn colour(value: vec3f, from_reference: bool, pixel: vec2u) -> vec3f {
     if !is_finite(value) {
         return MARK_NOT_FINITE;
     }
-    if params.difference != DIFFERENCE_NONE && !from_reference {
-        return difference_colour(params.difference, value.x / params.range);
+    if DIFFERENCE != DIFFERENCE_NONE && !from_reference {
+        return difference_colour(DIFFERENCE, value.x / params.range);
     }
-    if params.false_colour != 0u && params.encoding == ENCODING_DATA {
+    if FALSE_COLOUR && ENCODING == ENCODING_DATA {
         return heat(value.x);
     }
-    return encode(value, params.encoding, params.exposure, params.show_clipping != 0u, pixel);
+    return encode(value, ENCODING, params.exposure, SHOW_CLIPPING, pixel);
 }
 
 // The texel that is shown in the place of `texel`: another one where the material is repeated. The twin of
 // Grid::repeated_texel_at in src/material/grid.rs.
 fn repeated(texel: vec2f) -> vec2f {
-    if params.tiled == 0u {
+    if !TILED {
         return texel;
     }
     let size = vec2f(params.size);
@@ -85,14 +88,14 @@ fn display(corner: Corner) -> @location(0) vec4f {
     let seen = plane_from_ndc(params.camera, corner.ndc);
     let extent = abs(dpdx(seen.point)) + abs(dpdy(seen.point));
 
-    let from_reference = params.mode == MODE_WIPE && corner.ndc.x < params.wipe;
+    let from_reference = MODE == MODE_WIPE && corner.ndc.x < params.wipe;
     let size = textureDimensions(shown);
     let texel = texel_from_plane(seen.point, params.size);
     let inside = all(texel >= vec2f(0.0)) && all(texel < vec2f(params.size));
     if !(seen.hit && inside) {
         return vec4f(params.background, 1.0);
     }
-    let repeats = select(1.0, 2.0, params.tiled != 0u);
+    let repeats = select(1.0, 2.0, TILED);
     let scale = repeats / f32(params.stride);
     let place = repeated(texel) / f32(params.stride);
     let covered = texels_from_plane_extent(extent, params.size) * scale;

@@ -6,10 +6,12 @@ const QUANTITY_DIFFUSE = 2u;
 const QUANTITY_SPECULAR = 3u;
 const QUANTITY_ROUGHNESS = 4u;
 
+// What is shaded: a constant of the pipeline, so that no driver compiles or runs the rest.
+override QUANTITY: u32 = QUANTITY_RENDERING;
+
 struct Shading {
     rays: Rays,
     model: Model,
-    quantity: u32,
     // The largest number that the target holds.
     largest: f32,
     // How many texels along an axis one fragment stands for.
@@ -28,7 +30,7 @@ fn load_texel(place: vec2u) -> Texel {
 
 fn shade_texel(place: vec2u) -> vec3f {
     let texel = load_texel(place);
-    switch shading.quantity {
+    switch QUANTITY {
         case QUANTITY_NORMAL { return texel.normal * 0.5 + 0.5; }
         case QUANTITY_DIFFUSE { return texel.diffuse; }
         case QUANTITY_SPECULAR { return texel.specular; }

@@ -34,9 +34,9 @@ fn layouts() -> Vec<Layout> {
     vec![
         layout!(ModelUniforms is Model { intensity, roughness_floor, light_z_floor, clamp_n_dot_h, d_floor, g_floor }),
         layout!(SceneUniforms is Rays { view, near, light }),
-        layout!(ShadingUniforms is Shading { rays, model, quantity, largest, stride }),
+        layout!(ShadingUniforms is Shading { rays, model, largest, stride }),
         layout!(CameraUniforms is Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
-        layout!(DisplayUniforms is Display { camera, background, encoding, exposure, epsilon, wipe, mode, show_clipping, difference, range, stride, size, tiled, false_colour }),
+        layout!(DisplayUniforms is Display { camera, background, exposure, epsilon, wipe, range, stride, size }),
         layout!(Band is Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
         layout!(LogSum is LogSum { larger, smaller, exponent }),
         layout!(ProbePoint is Point { normal, roughness, diffuse, specular, w_l, w_v }),

@@ -1,43 +1,26 @@
 //! Pass 2: what the camera sees of shaded texels, encoded for the screen, one fragment per pixel.
 
-use wgpu::{
-    BindGroup, BindGroupLayout, BindingResource, Buffer, BufferBindingType, Queue, RenderPass,
-    RenderPipeline, ShaderStages, TextureFormat,
-};
+use wgpu::{BindGroup, BindingResource, BufferBindingType, RenderPass, RenderPipeline, TextureFormat};
 
 use super::fault::scoped;
-use super::params::DisplayParams;
-use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
+use super::params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding};
+use super::pipeline::{Constants, Fullscreen, bind, buffer_type, texture_type, uniform_buffer};
 use super::uniforms::DisplayUniforms;
 use super::{Gpu, Shaded, shaders};
 use crate::error::Error;
+use crate::picture::difference::Difference;
 
-/// The pipeline of pass 2.
+/// The pipelines of pass 2.
 #[derive(Debug)]
 pub struct Display {
-    pipeline: RenderPipeline,
-    layout: BindGroupLayout,
+    pipelines: Fullscreen,
 }
 
-/// Two pictures and how they are shown; as many as there are panes.
+/// Two pictures and how they are shown.
 #[derive(Debug)]
 pub struct Pane {
-    /// Of the materials, and how many of their texels along an axis make one of the pictures.
-    size: [usize; 2],
-    stride: usize,
-    uniforms: Buffer,
+    pipeline: RenderPipeline,
     group: BindGroup,
-}
-
-impl Pane {
-    /// Sets how the next frame shows the pane.
-    pub fn write(&self, queue: &Queue, params: &DisplayParams) {
-        queue.write_buffer(
-            &self.uniforms,
-            0,
-            bytemuck::bytes_of(&DisplayUniforms::new(params, self.size, self.stride)),
-        );
-    }
 }
 
 impl Display {
@@ -56,29 +39,70 @@ impl Display {
         }
         scoped(&gpu.device, "compiling the display pass", || {
             let types = [buffer_type(BufferBindingType::Uniform), texture_type(), texture_type()];
-            let layout = layout(&gpu.device, ShaderStages::FRAGMENT, &types);
-            let pipeline = fullscreen(&gpu.device, &shaders::DISPLAY, &layout, target_format);
-            Self { pipeline, layout }
+            let device = &gpu.device;
+            Self {
+                pipelines: Fullscreen::new(
+                    device,
+                    &shaders::DISPLAY,
+                    &types,
+                    target_format,
+                    Constants::new(),
+                ),
+            }
         })
     }
 
-    /// A pane of two pictures of one size and stride; the same one twice where there is no reference. Shows nothing before
-    /// [`Pane::write`]. A failure waits in [`Gpu::take_fault`].
-    pub fn pane(&self, gpu: &Gpu, shown: &Shaded, reference: &Shaded) -> Pane {
-        let uniforms = uniform_buffer(&gpu.device, &[0; size_of::<DisplayUniforms>()]);
+    /// A pane of two pictures of one size and stride; the same one twice where there is no reference. A failure waits in
+    /// [`Gpu::take_fault`].
+    pub fn pane(&self, gpu: &Gpu, shown: &Shaded, reference: &Shaded, params: &DisplayParams) -> Pane {
+        let uniforms = DisplayUniforms::new(params, shown.size(), shown.stride());
+        let uniforms = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
         let resources = [
             uniforms.as_entire_binding(),
             BindingResource::TextureView(&shown.view),
             BindingResource::TextureView(&reference.view),
         ];
-        let group = bind(&gpu.device, &self.layout, &resources);
-        Pane { size: shown.size(), stride: shown.stride(), uniforms, group }
+        let group = bind(&gpu.device, &self.pipelines.layout, &resources);
+        Pane { pipeline: self.pipelines.with(&gpu.device, constants(params)), group }
     }
 
     /// Draws `pane` over the viewport of `pass`, which is the pane's rectangle.
     pub fn draw(&self, pass: &mut RenderPass<'_>, pane: &Pane) {
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&pane.pipeline);
         pass.set_bind_group(0, &pane.group, &[]);
         pass.draw(0..3, 0..1);
     }
+}
+
+/// The constants of the pipeline that shows pictures in this way.
+fn constants(params: &DisplayParams) -> Constants {
+    let mode = match params.mode {
+        DisplayMode::Value => 0,
+        DisplayMode::Wipe(_) => 1,
+    };
+    let difference = match params.difference {
+        None => 0,
+        Some(DisplayedDifference { is_computed: true, .. }) => 7,
+        Some(DisplayedDifference { kind, .. }) => match kind {
+            Difference::Log => 1,
+            Difference::SignedLog => 2,
+            Difference::Absolute => 3,
+            Difference::Signed => 4,
+            Difference::Relative => 5,
+            Difference::Angle => 6,
+        },
+    };
+    let encoding = match params.encoding {
+        Encoding::Radiance => 0,
+        Encoding::Albedo => 1,
+        Encoding::Data => 2,
+    };
+    vec![
+        ("MODE", mode),
+        ("DIFFERENCE", difference),
+        ("ENCODING", encoding),
+        ("SHOW_CLIPPING", params.show_clipping.into()),
+        ("TILED", params.tiled.into()),
+        ("FALSE_COLOUR", params.false_colour.into()),
+    ]
 }

@@ -1,11 +1,13 @@
 //! The parts of a pipeline that the passes and the probe share.
 
+use std::sync::{Mutex, PoisonError};
+
 use wgpu::util::DeviceExt as _;
 use wgpu::{
     BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
     BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, ComputePipeline, Device,
-    PipelineLayout, PipelineLayoutDescriptor, RenderPipeline, ShaderModule, ShaderModuleDescriptor,
-    ShaderSource, ShaderStages, TextureFormat,
+    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, RenderPipeline, ShaderModule,
+    ShaderModuleDescriptor, ShaderSource, ShaderStages, TextureFormat,
 };
 
 use super::shaders::Shader;
@@ -92,34 +94,72 @@ fn pipeline_layout(device: &Device, label: &str, layout: &BindGroupLayout) -> Pi
     })
 }
 
-/// A pipeline that covers its target with one triangle and runs the fragment function called like `shader`.
-pub(super) fn fullscreen(
-    device: &Device,
-    shader: &Shader,
-    layout: &BindGroupLayout,
+/// The constants of a pipeline: what its shader overrides, and with what.
+pub(super) type Constants = Vec<(&'static str, u32)>;
+
+/// Pipelines that cover their target with one triangle and run the fragment function called like their shader; one for each choice
+/// of the shader's constants, compiled when it is first needed.
+#[derive(Debug)]
+pub(super) struct Fullscreen {
+    shader: &'static Shader,
+    pub layout: BindGroupLayout,
     target: TextureFormat,
-) -> RenderPipeline {
-    let module = module(device, shader);
-    let layout = pipeline_layout(device, shader.name, layout);
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(shader.name),
-        layout: Some(&layout),
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("cover"),
-            compilation_options: Default::default(),
-            buffers: &[],
-        },
-        primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
-        multisample: wgpu::MultisampleState::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: Some(shader.name),
-            compilation_options: Default::default(),
-            targets: &[Some(target.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    compiled: Mutex<Vec<(Constants, RenderPipeline)>>,
+}
+
+impl Fullscreen {
+    /// For groups whose bindings are `types`. A choice is compiled at once, whose faults are those of all.
+    pub(super) fn new(
+        device: &Device,
+        shader: &'static Shader,
+        types: &[BindingType],
+        target: TextureFormat,
+        first: Constants,
+    ) -> Self {
+        let layout = layout(device, ShaderStages::FRAGMENT, types);
+        let all = Self { shader, layout, target, compiled: Mutex::default() };
+        all.with(device, first);
+        all
+    }
+
+    /// The pipeline with these constants.
+    pub(super) fn with(&self, device: &Device, constants: Constants) -> RenderPipeline {
+        let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, pipeline)) = compiled.iter().find(|(of, _)| *of == constants) {
+            return pipeline.clone();
+        }
+        let pipeline = self.compile(device, &constants);
+        compiled.push((constants, pipeline.clone()));
+        pipeline
+    }
+
+    fn compile(&self, device: &Device, constants: &Constants) -> RenderPipeline {
+        let name = self.shader.name;
+        let module = module(device, self.shader);
+        let layout = pipeline_layout(device, name, &self.layout);
+        let constants: Vec<(&str, f64)> = constants.iter().map(|(name, v)| (*name, f64::from(*v))).collect();
+        let fragment_options =
+            PipelineCompilationOptions { constants: &constants, ..PipelineCompilationOptions::default() };
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(name),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some("cover"),
+                compilation_options: Default::default(),
+                buffers: &[],
+            },
+            primitive: wgpu::PrimitiveState::default(),
+            depth_stencil: None,
+            multisample: wgpu::MultisampleState::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: Some(name),
+                compilation_options: fragment_options,
+                targets: &[Some(self.target.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
 }

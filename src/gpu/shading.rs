@@ -1,28 +1,27 @@
 //! Pass 1: Algorithm 3, or one of the maps, one fragment per texel.
 
 use wgpu::{
-    BindGroupLayout, BufferBindingType, LoadOp, Operations, RenderPassColorAttachment, RenderPassDescriptor,
-    RenderPipeline, ShaderStages, StoreOp, Texture, TextureDescriptor, TextureFormat, TextureUsages,
-    TextureView,
+    BufferBindingType, LoadOp, Operations, RenderPassColorAttachment, RenderPassDescriptor, StoreOp, Texture,
+    TextureDescriptor, TextureFormat, TextureUsages, TextureView,
 };
 
 use super::fault::scoped;
 use super::params::ShadeParams;
-use super::pipeline::{bind, buffer_type, fullscreen, layout, texture_type, uniform_buffer};
+use super::pipeline::{Constants, Fullscreen, bind, buffer_type, texture_type, uniform_buffer};
 use super::textures::{descriptor, extent, write};
 use super::uniforms::ShadingUniforms;
 use super::{Gpu, MaterialTextures, shaders};
 use crate::error::Error;
 use crate::image::Image;
+use crate::picture::quantity::Quantity;
 
 /// The largest 16-bit float.
 const LARGEST_F16: f32 = 65504.0;
 
-/// The pipeline of pass 1.
+/// The pipelines of pass 1.
 #[derive(Debug)]
 pub struct Shading {
-    pipeline: RenderPipeline,
-    layout: BindGroupLayout,
+    pipelines: Fullscreen,
 }
 
 /// What pass 1 writes: linear floats, a texel each, row 0 on top.
@@ -73,9 +72,8 @@ impl Shading {
         scoped(&gpu.device, "compiling the shading pass", || {
             let uniform = buffer_type(BufferBindingType::Uniform);
             let types = [uniform, texture_type(), texture_type(), texture_type()];
-            let layout = layout(&gpu.device, ShaderStages::FRAGMENT, &types);
-            let pipeline = fullscreen(&gpu.device, &shaders::SHADE, &layout, gpu.report.shading_format);
-            Self { pipeline, layout }
+            let (format, first) = (gpu.report.shading_format, constants(Quantity::Rendering));
+            Self { pipelines: Fullscreen::new(&gpu.device, &shaders::SHADE, &types, format, first) }
         })
     }
 
@@ -138,7 +136,7 @@ impl Shading {
         let [normal_roughness, diffuse, specular] = &textures.views;
         let maps = [normal_roughness, diffuse, specular].map(wgpu::BindingResource::TextureView);
         let [a, b, c] = maps;
-        let group = bind(&gpu.device, &self.layout, &[buffer.as_entire_binding(), a, b, c]);
+        let group = bind(&gpu.device, &self.pipelines.layout, &[buffer.as_entire_binding(), a, b, c]);
 
         let load = part.map_or(LoadOp::Clear(wgpu::Color::BLACK), |_| LoadOp::Load);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
@@ -155,10 +153,22 @@ impl Shading {
         if let Some([left, top, width, height]) = part {
             pass.set_scissor_rect(left, top, width, height);
         }
-        pass.set_pipeline(&self.pipeline);
+        pass.set_pipeline(&self.pipelines.with(&gpu.device, constants(params.quantity)));
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
     }
+}
+
+/// The constants of the pipeline that shades this quantity.
+fn constants(quantity: Quantity) -> Constants {
+    let number = match quantity {
+        Quantity::Rendering => 0,
+        Quantity::Normal => 1,
+        Quantity::Diffuse => 2,
+        Quantity::Specular => 3,
+        Quantity::Roughness => 4,
+    };
+    vec![("QUANTITY", number)]
 }

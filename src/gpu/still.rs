@@ -2,12 +2,12 @@
 
 use wgpu::{
     BindGroup, BindGroupLayout, BindingResource, Extent3d, LoadOp, Operations, RenderPass,
-    RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, ShaderStages, StoreOp, Texture,
-    TextureDescriptor, TextureFormat, TextureUsages,
+    RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, StoreOp, Texture, TextureDescriptor,
+    TextureFormat, TextureUsages,
 };
 
 use super::fault::scoped;
-use super::pipeline::{bind, fullscreen, layout, texture_type};
+use super::pipeline::{Constants, Fullscreen, bind, texture_type};
 use super::{Display, Gpu, Pane, shaders};
 use crate::error::Error;
 
@@ -59,9 +59,9 @@ impl Blit {
     /// [`Error::Gpu`] where the driver refuses.
     pub fn new(gpu: &Gpu, format: TextureFormat) -> Result<Self, Error> {
         scoped(&gpu.device, "compiling the copy of panes", || {
-            let layout = layout(&gpu.device, ShaderStages::FRAGMENT, &[texture_type()]);
-            let pipeline = fullscreen(&gpu.device, &shaders::BLIT, &layout, format);
-            Self { pipeline, layout, format }
+            let none = Constants::new;
+            let pipelines = Fullscreen::new(&gpu.device, &shaders::BLIT, &[texture_type()], format, none());
+            Self { pipeline: pipelines.with(&gpu.device, none()), layout: pipelines.layout, format }
         })
     }
 

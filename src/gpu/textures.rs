@@ -1,5 +1,6 @@
 //! A material on the device: the core's f32 numbers, exactly.
 
+use rayon::prelude::*;
 use wgpu::{Extent3d, Origin3d, Texture, TextureDescriptor, TextureFormat, TextureUsages, TextureView};
 
 use super::Gpu;
@@ -72,18 +73,23 @@ pub(super) fn write(
     gpu: &Gpu,
     texture: &Texture,
     [width, height]: [usize; 2],
-    texel: impl Fn(usize) -> [f32; 4],
+    texel: impl Fn(usize) -> [f32; 4] + Sync,
 ) {
-    let rows_per_band = (BAND_BYTES / (width * TEXEL_BYTES)).max(1);
+    let rows_per_band = (BAND_BYTES / (width * TEXEL_BYTES)).clamp(1, height);
+    let mut texels = vec![[0.0; 4]; rows_per_band * width];
     for top in (0..height).step_by(rows_per_band) {
         let rows = rows_per_band.min(height - top);
-        let band: Vec<[f32; 4]> = (top * width..(top + rows) * width).map(&texel).collect();
+        let band = &mut texels[..rows * width];
+        band.par_chunks_mut(width).enumerate().for_each(|(row, values)| {
+            let first = (top + row) * width;
+            values.iter_mut().zip(first..).for_each(|(value, index)| *value = texel(index));
+        });
         gpu.queue.write_texture(
             wgpu::TexelCopyTextureInfo {
                 origin: Origin3d { x: 0, y: top as u32, z: 0 },
                 ..texture.as_image_copy()
             },
-            bytemuck::cast_slice(&band),
+            bytemuck::cast_slice(band),
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some((width * TEXEL_BYTES) as u32),

@@ -5,12 +5,10 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::params::{DisplayMode, DisplayParams, Encoding, ShadeParams};
+use super::params::{DisplayMode, DisplayParams, ShadeParams};
 use crate::model::brdf::Model;
 use crate::model::scene::{Kind, Scene};
 use crate::picture::camera::Camera;
-use crate::picture::difference::Difference;
-use crate::picture::quantity::Quantity;
 
 /// `Model` of brdf.wgsl.
 #[repr(C)]
@@ -68,32 +66,17 @@ impl From<&Scene> for SceneUniforms {
 pub struct ShadingUniforms {
     pub rays: SceneUniforms,
     pub model: ModelUniforms,
-    pub quantity: u32,
     pub largest: f32,
     pub stride: u32,
-    pub pad: u32,
+    pub pad: [u32; 2],
 }
 
 impl ShadingUniforms {
     /// For a target whose largest number is `largest`.
     /// It shades every `stride`-th texel along both axes.
     pub(super) fn new(params: &ShadeParams, largest: f32, stride: usize) -> Self {
-        let quantity = match params.quantity {
-            Quantity::Rendering => 0,
-            Quantity::Normal => 1,
-            Quantity::Diffuse => 2,
-            Quantity::Specular => 3,
-            Quantity::Roughness => 4,
-        };
         let model = ModelUniforms::from(&Model::from(&params.convention));
-        Self {
-            rays: SceneUniforms::from(&params.scene),
-            model,
-            quantity,
-            largest,
-            stride: stride as u32,
-            pad: 0,
-        }
+        Self { rays: SceneUniforms::from(&params.scene), model, largest, stride: stride as u32, pad: [0; 2] }
     }
 }
 
@@ -179,57 +162,32 @@ impl From<&Camera> for CameraUniforms {
 pub struct DisplayUniforms {
     pub camera: CameraUniforms,
     pub background: [f32; 3],
-    pub encoding: u32,
     pub exposure: f32,
     pub epsilon: f32,
     pub wipe: f32,
-    pub mode: u32,
-    pub show_clipping: u32,
-    pub difference: u32,
     pub range: f32,
     pub stride: u32,
     pub size: [u32; 2],
-    pub tiled: u32,
-    pub false_colour: u32,
+    pub pad: [u32; 2],
 }
 
 impl DisplayUniforms {
     /// For pictures of every `stride`-th texel of materials of `size` = (width, height).
     pub(super) fn new(p: &DisplayParams, size: [usize; 2], stride: usize) -> Self {
-        let (mode, wipe) = match p.mode {
-            DisplayMode::Value => (0, 0.0),
-            DisplayMode::Wipe(x) => (1, x),
-        };
-        let difference = match p.difference.map(|difference| difference.kind) {
-            None => 0,
-            _ if p.difference.is_some_and(|difference| difference.is_computed) => 7,
-            Some(Difference::Log) => 1,
-            Some(Difference::SignedLog) => 2,
-            Some(Difference::Absolute) => 3,
-            Some(Difference::Signed) => 4,
-            Some(Difference::Relative) => 5,
-            Some(Difference::Angle) => 6,
-        };
-        let encoding = match p.encoding {
-            Encoding::Radiance => 0,
-            Encoding::Albedo => 1,
-            Encoding::Data => 2,
+        let wipe = match p.mode {
+            DisplayMode::Value => 0.0,
+            DisplayMode::Wipe(x) => x,
         };
         Self {
             camera: CameraUniforms::from(&p.camera),
             background: p.background,
-            encoding,
             exposure: p.exposure_ev.exp2(),
             epsilon: p.epsilon,
             wipe,
-            mode,
-            show_clipping: p.show_clipping.into(),
-            difference,
             range: p.difference.map_or(1.0, |difference| difference.range),
             stride: stride as u32,
             size: size.map(|side| side as u32),
-            tiled: p.tiled.into(),
-            false_colour: p.false_colour.into(),
+            pad: [0; 2],
         }
     }
 }

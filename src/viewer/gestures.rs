@@ -217,7 +217,10 @@ pub(super) fn commands(
     if response.dragged()
         && let (Some(gesture), Some(pos)) = (*current, response.interact_pointer_pos())
     {
-        commands.extend(target.carry_on(gesture, pos, response.drag_delta()));
+        let origin = ui.input(|i| i.pointer.press_origin()).filter(|_| response.drag_started());
+        // A frame may have movements from before the press, too.
+        let delta = origin.map_or(response.drag_delta(), |origin| pos - origin);
+        commands.extend(target.carry_on(gesture, pos, delta));
     }
     if response.drag_stopped() {
         *current = None;

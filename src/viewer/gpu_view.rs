@@ -5,43 +5,10 @@ use std::sync::Arc;
 
 use eframe::{egui, egui_wgpu, wgpu};
 
-use super::inspect::Region;
+use super::shaded::{ShadedMaterial, ShadedPart, ShadingDevice, ShadingRequest};
 use super::slot::Slot;
 use crate::error::Error;
-use crate::gpu::{Blit, Display, DisplayParams, Gpu, ShadeParams, Shaded, Shading, Still};
-
-/// How much of a material is shaded.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum ShadedPart {
-    Whole,
-    /// Every n-th texel along both axes.
-    EveryNth(usize),
-    /// The texels that are seen.
-    Visible(Region),
-}
-
-/// Shaded texels and what they were shaded with.
-struct ShadedTexels {
-    shaded: Shaded,
-    /// With a region, only its texels.
-    drawn: Option<(ShadeParams, Option<Region>)>,
-    /// Changes whenever the texels do.
-    version: u64,
-}
-
-/// The shaded texels of one material: all of them, and every n-th one while something moves on a slow adapter.
-#[derive(Default)]
-struct ShadedMaterial {
-    full: Option<ShadedTexels>,
-    quick: Option<ShadedTexels>,
-    shows_quick: bool,
-}
-
-impl ShadedMaterial {
-    fn shown(&self) -> Option<&ShadedTexels> {
-        if self.shows_quick { self.quick.as_ref() } else { self.full.as_ref() }
-    }
-}
+use crate::gpu::{Blit, Display, DisplayParams, Gpu, Shaded, Shading, Still};
 
 /// The texels of a pane, or those that they are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,39 +68,33 @@ impl GpuView {
         })
     }
 
-    /// Shades a part of the material of `slot`, unless it or all texels have been shaded with these parameters.
+    /// Shades what is `asked` of the materials in these slots, and is not there yet. Returns whether another frame is needed to
+    /// show all texels of all of them.
     ///
     /// # Errors
-    /// A text for the pane, where the adapter cannot hold the material.
-    pub(super) fn shade(&mut self, slot: &Slot, params: ShadeParams, part: ShadedPart) -> Result<(), String> {
-        let textures = match &slot.loaded.textures {
-            Some(Ok(textures)) => textures,
-            Some(Err(problem)) => return Err(problem.clone()),
-            None => return Err("This material has no textures: reload it".to_owned()),
+    /// A text for the pane, where the adapter cannot hold a material.
+    pub(super) fn shade(&mut self, slots: &[&Slot], asked: ShadingRequest) -> Result<bool, String> {
+        let is_whole = |slot: &&Slot| self.shaded.get(&slot.id).is_some_and(|one| one.is_whole(asked.params));
+        // A pane compares texels of one size: all materials are shown in full, or none.
+        let is_left = asked.sharpens && !slots.iter().all(is_whole);
+        let asked = if asked.sharpens && !is_left {
+            ShadingRequest { part: ShadedPart::Whole, ..asked }
+        } else {
+            asked
         };
-        let entry = self.shaded.entry(slot.id).or_default();
-        let whole = Some((params, None));
-        let is_whole = entry.full.as_ref().is_some_and(|full| full.drawn == whole);
-        let (place, stride, asked) = match part {
-            ShadedPart::EveryNth(stride) if !is_whole => (&mut entry.quick, stride, whole),
-            ShadedPart::Visible(region) if !is_whole => (&mut entry.full, 1, Some((params, Some(region)))),
-            _ => (&mut entry.full, 1, whole),
-        };
-        entry.shows_quick = stride > 1;
-        let fits = place.as_ref().is_some_and(|target| target.shaded.stride() == stride);
-        if !fits {
-            let size = slot.loaded.material.size();
-            let shaded =
-                self.shading.reduced_target(&self.gpu, size, stride).map_err(|error| error.to_string())?;
-            *place = Some(ShadedTexels { shaded, drawn: None, version: 0 });
+        for slot in slots {
+            let textures = match &slot.loaded.textures {
+                Some(Ok(textures)) => textures,
+                Some(Err(problem)) => return Err(problem.clone()),
+                None => return Err("This material has no textures: reload it".to_owned()),
+            };
+            let Self { gpu, shading, versions, .. } = self;
+            let mut device = ShadingDevice { gpu, shading, textures, versions };
+            let material = self.shaded.entry(slot.id).or_default();
+            let shaded = material.shade(&mut device, slot.loaded.material.size(), asked);
+            shaded.map_err(|error| error.to_string())?;
         }
-        if let Some(target) = place.as_mut().filter(|target| target.drawn != asked) {
-            let region = asked.and_then(|(_, region)| region).map(Region::rectangle);
-            self.shading.draw_part(&self.gpu, textures, &params, &target.shaded, region);
-            self.versions += 1;
-            (target.drawn, target.version) = (asked, self.versions);
-        }
-        Ok(())
+        Ok(is_left)
     }
 
     /// Takes the differences of the material `id`, for panes whose difference is computed elsewhere.
@@ -191,8 +152,7 @@ impl GpuView {
             old => {
                 let still =
                     old.map_or_else(|| Arc::new(self.blit.still(&self.gpu, size)), |(_, still)| still);
-                let pane = self.display.pane(&self.gpu, shown.0, reference.0);
-                pane.write(&self.gpu.queue, &params);
+                let pane = self.display.pane(&self.gpu, shown.0, reference.0, &params);
                 still.draw(&self.gpu, &self.display, &pane);
                 still
             }

@@ -3,6 +3,8 @@
 use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2};
 use glam::Vec3;
 
+use super::endpoint::{self, Endpoint};
+use super::state::{Projection, ViewState};
 use super::theme;
 use crate::picture::camera::Camera;
 
@@ -20,6 +22,20 @@ pub(super) fn pos_from_ndc(rect: Rect, [x, y]: [f32; 2]) -> Pos2 {
 pub(super) fn ndc_from_pos(rect: Rect, pos: Pos2) -> [f32; 2] {
     let offset = (pos - rect.center()) / (rect.size() * 0.5);
     [offset.x, -offset.y]
+}
+
+/// Draws the handles of a scene: the sun, and in flat panes the eye where it is shown.
+pub(super) fn paint_endpoints(painter: &Painter, rect: Rect, camera: &Camera, state: &ViewState, eye: bool) {
+    let place = |which| pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, which));
+    if eye
+        && state.projection == Projection::Flat
+        && let Some((at, outside)) = place(Endpoint::View)
+    {
+        paint_eye(painter, at, outside);
+    }
+    if let Some((at, outside)) = place(Endpoint::Light) {
+        paint_sun(painter, at, outside);
+    }
 }
 
 /// The point (x, y) of the plane on the screen, clamped to the pane; and whether it lies outside of it.

@@ -9,6 +9,7 @@ pub(crate) mod app;
 pub mod app;
 mod apply;
 mod assumed;
+mod background;
 mod browse;
 mod cells;
 #[cfg(not(feature = "testing"))]
@@ -65,6 +66,7 @@ pub mod save_kind;
 mod scene_loss;
 mod session;
 mod settings;
+mod shaded;
 mod shown_difference;
 mod sight;
 mod slot;
@@ -120,6 +122,7 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
     }));
     let stop = stop::Stop::default();
     let signals = stop.clone();
+    background::lower_parallel_threads();
     let start = || {
         let create = |cc: &eframe::CreationContext<'_>| {
             let mut app = app::App::new(cc, options);

@@ -6,7 +6,7 @@ use super::training::RunView;
 use crate::loss::{Estimate, Loss};
 use crate::material::Material;
 use crate::photograph::PhotographComparison;
-use crate::picture::statistics::Statistics;
+use crate::picture::statistics::{Distributions, Histogram, Statistics};
 use crate::study::Study;
 use crate::viewer::why::ComparedPair;
 use crate::why::{Attribution, Hemisphere, RankedScene, Worst};
@@ -28,6 +28,21 @@ impl App {
     pub fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {
         let (distributions, current) = self.distributions()?;
         current.then_some(distributions.statistics.as_slice())
+    }
+
+    /// The statistics, histograms and automatic range of the difference in the panes, once they are up to date.
+    pub fn difference_distributions(&self) -> Option<&Distributions> {
+        let (distributions, current) = self.distributions()?;
+        current.then_some(distributions)
+    }
+
+    /// For each channel of the quantity, histogram and statistics of the values of every material, once they are up to date.
+    pub fn value_distributions(&self) -> Option<Vec<Vec<(&Histogram, Option<Statistics>)>>> {
+        let (values, current) = self.values.get(&self.seen, &self.state)?;
+        current.then(|| {
+            let channel = values.iter();
+            channel.map(|all| all.iter().map(|one| (&one.histogram, one.statistics)).collect()).collect()
+        })
     }
 
     /// The difference that has the last colour.

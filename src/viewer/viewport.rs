@@ -1,20 +1,23 @@
 //! The panes, drawn, and what the mouse does in them.
 
+use std::collections::BTreeSet;
+
 use eframe::egui::{self, Rect, Sense, Vec2};
 
 use super::cells::{TITLE, cells, free_cell, pixel_aligned};
 use super::command::Command;
-use super::endpoint::{self, Endpoint};
 use super::gestures::{self, Gesture, PaneTarget};
-use super::gpu_view::{GpuView, ShadedPart};
+use super::gpu_view::GpuView;
 use super::handles;
 use super::marks::Placed;
-use super::pace::{Pace, REST};
+use super::pace::{Pace, PaneView, REST};
 use super::pane_texels::{slot_at, texels};
 use super::pane_text::{note, paint_hint};
 use super::panes::{Content, Hovered, PhotographUse, Scenery};
 use super::readout::{self, Readout};
+use super::shaded::{BAND, ShadedPart, ShadingRequest};
 use super::sight;
+use super::slot::Slot;
 use super::state::{Projection, ViewState};
 use super::theme;
 use super::title::title_bar;
@@ -33,6 +36,8 @@ pub(super) struct Viewport {
     /// The texel that was under the pointer last.
     pub last_texel: Option<[usize; 2]>,
     pace: Pace,
+    /// Whether everything is shaded in full at once, for pictures that are saved.
+    exact: bool,
     /// Whether the difference or the value of the chosen prediction fills an empty place.
     pub shows_extra: bool,
     /// Size of a pane in physical pixels.
@@ -40,6 +45,11 @@ pub(super) struct Viewport {
 }
 
 impl Viewport {
+    /// Panes that are shaded in full before they are drawn.
+    pub(super) fn exact() -> Self {
+        Self { exact: true, ..Self::default() }
+    }
+
     /// Draws the panes and returns the commands of the mouse in them.
     pub(super) fn ui(
         &mut self,
@@ -62,13 +72,16 @@ impl Viewport {
             note(ui, area, text);
             return Vec::new();
         }
-        if let Err(problem) = self.shade(ui, gpu, scenery) {
-            note(ui, area, &problem);
-            return Vec::new();
-        }
         let contents = scenery.contents();
         let grid = scenery.slots[0].loaded.material.grid();
         let cells = cells(area, scenery.undivided, contents.len(), grid, ui.pixels_per_point());
+        if let Some(cell) = cells.first() {
+            self.pane_pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
+        }
+        if let Err(problem) = self.shade(ui, gpu, scenery, &contents) {
+            note(ui, area, &problem);
+            return Vec::new();
+        }
         let free = free_cell(area, &cells);
         let mut panes: Vec<(Content, Rect)> = contents.into_iter().zip(cells).collect();
         let extra = scenery.extra().zip(free);
@@ -99,7 +112,6 @@ impl Viewport {
         let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
         commands.extend(title_bar(ui, scenery, number, content, title));
         let rect = picture_rect(ui, cell);
-        self.pane_pixels = rect.size() * ui.pixels_per_point();
         if let Some(editor) = scenery.corner_editor(content) {
             commands.extend(editor.ui(ui, rect, number));
             return commands;
@@ -167,7 +179,7 @@ impl Viewport {
         gpu.paint(&painter, rect, number, drawn, params);
         self.paint_marks(&painter, scenery, content, rect, &camera);
         if state.quantity == Quantity::Rendering {
-            paint_handles(&painter, rect, &camera, state, scenery.view_handle);
+            handles::paint_endpoints(&painter, rect, &camera, state, scenery.view_handle);
         }
         if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.wipe);
@@ -177,27 +189,40 @@ impl Viewport {
         }
     }
 
-    /// Shades every material in a pane; while something moves on a slow adapter, only what the screen needs.
-    fn shade(&mut self, ui: &egui::Ui, gpu: &mut GpuView, scenery: &Scenery<'_>) -> Result<(), String> {
+    /// Shades every material in a pane; on a slow adapter only what the screen needs while something moves, and the rest bit by
+    /// bit.
+    fn shade(
+        &mut self,
+        ui: &egui::Ui,
+        gpu: &mut GpuView,
+        scenery: &Scenery<'_>,
+        contents: &[Content],
+    ) -> Result<(), String> {
         let state = scenery.state;
-        let convention = state.convention();
-        let params = ShadeParams { scene: state.scene, convention, quantity: state.quantity };
+        let params =
+            ShadeParams { scene: state.scene, convention: state.convention(), quantity: state.quantity };
         let (now, seconds) = ui.input(|i| (i.time, i.unstable_dt));
-        // What is compared with an error map or a photograph is never shaded in part.
-        let is_whole = state.is_error_map() || scenery.photograph.is_some();
-        let part = if self.pace.frame(params, now, seconds) && !is_whole {
+        let software = gpu.gpu.report.software;
+        let seen = PaneView { params, zoom: state.zoom, pan: state.pan };
+        let moves = self.pace.frame(seen, now, seconds, software);
+        if moves {
             ui.ctx().request_repaint_after_secs(REST as f32 + 0.01);
-            let grid = scenery.slots[0].loaded.material.grid();
+        }
+        let grid = scenery.slots[0].loaded.material.grid();
+        let is_large = grid.width * grid.height > BAND && (software || self.pace.is_slow());
+        // What is compared with an error map or a photograph, and what is saved, is never shaded in part.
+        let is_exact = self.exact || state.is_error_map() || scenery.photograph.is_some();
+        let part = if !is_exact && (moves || is_large) {
             shaded_part(state, grid, self.aspect(), self.magnification(grid, state))
         } else {
             ShadedPart::Whole
         };
-        let contents = scenery.contents();
+        let asked = ShadingRequest { params, part, sharpens: !moves && part != ShadedPart::Whole };
         gpu.keep_only(scenery.slots, contents.len() + 1);
-        for content in contents {
-            for index in [content.slot, content.reference] {
-                gpu.shade(&scenery.slots[index], params, part)?;
-            }
+        let shown: BTreeSet<usize> = contents.iter().flat_map(|one| [one.slot, one.reference]).collect();
+        let slots: Vec<&Slot> = shown.into_iter().map(|index| &scenery.slots[index]).collect();
+        if gpu.shade(&slots, asked)? {
+            ui.ctx().request_repaint();
         }
         Ok(())
     }
@@ -277,19 +302,4 @@ fn hovered(ui: &egui::Ui, scenery: &Scenery<'_>, content: Content, cell: Rect) -
     let camera = scenery.camera(grid, rect.width() / rect.height());
     let slot = slot_at(scenery, content, x);
     camera.plane_from_ndc(x, y).map(|point| Hovered { slot, point })
-}
-
-fn paint_handles(painter: &egui::Painter, rect: Rect, camera: &Camera, state: &ViewState, view_handle: bool) {
-    if view_handle
-        && state.projection == Projection::Flat
-        && let Some((at, outside)) =
-            handles::pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, Endpoint::View))
-    {
-        handles::paint_eye(painter, at, outside);
-    }
-    if let Some((at, outside)) =
-        handles::pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, Endpoint::Light))
-    {
-        handles::paint_sun(painter, at, outside);
-    }
 }

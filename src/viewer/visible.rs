@@ -1,7 +1,7 @@
 //! Which part of a material is shaded while something moves on a slow adapter.
 
-use super::gpu_view::ShadedPart;
 use super::inspect::Region;
+use super::shaded::ShadedPart;
 use super::state::ViewState;
 use crate::material::Grid;
 use crate::picture::camera::Camera;
@@ -19,7 +19,8 @@ pub(super) fn shaded_part(state: &ViewState, grid: Grid, aspect: f32, pixels_per
         return ShadedPart::EveryNth(stride);
     }
     let camera = state.fitted_camera(grid, aspect).zoomed(state.zoom, state.pan);
-    let seen = visible(&camera, grid).filter(|_| !state.tiled);
+    let all = [grid.width, grid.height];
+    let seen = visible(&camera, grid).filter(|seen| !state.tiled && seen.size() != all);
     seen.map_or(ShadedPart::Whole, ShadedPart::Visible)
 }
 

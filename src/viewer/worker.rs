@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
+use super::background;
 use crate::error::Error;
 use crate::progress::Progress;
 
@@ -40,6 +41,7 @@ impl<T: Send + 'static> Task<T> {
         let (ctx, seen) = (ctx.clone(), progress.clone());
         ctx.request_repaint_after(LOOK_AGAIN);
         std::thread::spawn(move || {
+            background::lower_this_thread();
             // Where the window has dropped this task, the result is not wanted.
             let _ = sender.send(work(&seen));
             ctx.request_repaint();

@@ -98,8 +98,7 @@ impl Screen {
     ) -> Self {
         let format = wgpu::TextureFormat::Rgba8Unorm;
         let display = Display::new(gpu, format).expect("the display pass compiles");
-        let pane = display.pane(gpu, shown, reference);
-        pane.write(&gpu.queue, params);
+        let pane = display.pane(gpu, shown, reference, params);
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("window"),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },

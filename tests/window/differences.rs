@@ -3,6 +3,8 @@
 use svbrdf::material::Material;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::Scene;
+use svbrdf::picture::difference::Difference;
+use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::statistics::Statistics;
 use svbrdf::progress::Progress;
 use svbrdf::viewer::state::Layout;
@@ -177,6 +179,25 @@ fn the_range_is_dragged_and_automatic_again() {
     window.run_steps(3);
     assert_eq!(window.state().difference_range(), auto);
     assert!(pixels(&mut window, before) == automatic);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_range_of_a_signed_difference_is_dragged_at_either_end() {
+    let mut window = built_in();
+    window.state_mut().state.differences.choose(Quantity::Rendering, Difference::SignedLog);
+    press(&mut window, egui::Key::D);
+    statistics(&mut window);
+    let auto = window.state().difference_range();
+    // The axis goes from -1.5 to 1.5 times the automatic range, between margins of 8 points.
+    let scale = window.get_by_label("Difference range").rect().shrink2(vec2(8.0, 0.0));
+    let at = |value: f32| vec2((value + 1.5) / 3.0, 0.5);
+    for (from, to) in [(-1.0, -0.75), (0.75, 1.2), (-1.2, -0.5)] {
+        drag(&mut window, egui::PointerButton::Primary, scale, at(from), at(to));
+        let range = window.state().difference_range();
+        let expected = f64::from(to.abs()) * auto;
+        assert!((range - expected).abs() < 0.01 * auto, "from {from} to {to}: {range}, expected {expected}");
+    }
 }
 
 #[test]

@@ -57,3 +57,31 @@ fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
     turn(&mut window, egui::Modifiers::ALT);
     assert!(window.state().state.scene.view[2] > 2.7, "{:?}", window.state().state.scene);
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn movements_before_the_press_are_no_part_of_a_drag() {
+    let mut window = built_in();
+    press(&mut window, egui::Key::P);
+    let rect = pane(&window, GROUND_TRUTH);
+    window.event(egui::Event::PointerMoved(rect.right_bottom()));
+    window.run_steps(2);
+    let before = window.state().state.scene;
+    // All within one frame, as where frames are slow.
+    let at = rect.center();
+    let button = |pressed| egui::Event::PointerButton {
+        pos: at,
+        button: egui::PointerButton::Secondary,
+        pressed,
+        modifiers: egui::Modifiers::NONE,
+    };
+    window.input_mut().events.extend([egui::Event::PointerMoved(at), button(true)]);
+    window.run_steps(2);
+    window.event(egui::Event::PointerMoved(at + vec2(0.0, 10.0)));
+    window.run_steps(2);
+    window.event(button(false));
+    window.run_steps(2);
+    let view = window.state().state.scene.view;
+    let turned = (view[1] / before.view[2]).asin().abs();
+    assert!((0.05..0.12).contains(&turned), "10 points turn the view by 0.08, not by {turned}");
+}

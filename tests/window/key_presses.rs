@@ -27,6 +27,17 @@ fn every_letter_does_what_the_help_says() {
     expect(&mut window, egui::Key::H, "highlight", &|a| a.settings.highlight_follows);
     expect(&mut window, egui::Key::R, "reset", &|a| a.state.exposure_ev == 0.0 && !a.state.show_clipping);
     expect(&mut window, egui::Key::B, "no panel", &|a| !a.settings.side_panel);
+    expect(&mut window, egui::Key::N, "automatic exposure", &|a| a.state.exposure_ev != 0.0);
+    expect(&mut window, egui::Key::T, "repeated", &|a| a.state.tiled);
+    expect(&mut window, egui::Key::J, "histograms", &|a| a.settings.histograms);
+    expect(&mut window, egui::Key::V, "false colours", &|a| a.state.false_colour);
+    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| a.state.zoom != 1.0);
+    expect(&mut window, egui::Key::F, "fitted", &|a| a.state.zoom == 1.0 && a.state.pan == [0.0; 2]);
+    // There are two predictions.
+    for key in [egui::Key::Num3, egui::Key::Num5, egui::Key::Num8, egui::Key::Num9] {
+        expect(&mut window, key, "no such prediction", &|a| a.state.prediction == 1);
+    }
+    expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.state.prediction == 0);
 }
 
 #[test]
@@ -61,12 +72,18 @@ fn undo_and_redo_go_through_the_changes() {
     window.run_steps(30);
     press(&mut window, egui::Key::E);
     window.run_steps(30);
-    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    window.run_steps(3);
-    assert_eq!(window.state().state.exposure_ev, 0.0);
-    window.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
-    window.run_steps(3);
-    assert_eq!(window.state().state.exposure_ev, 0.5);
+    let redo = [
+        (egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z),
+        (egui::Modifiers::COMMAND, egui::Key::Y),
+    ];
+    for (modifiers, key) in redo {
+        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        window.run_steps(3);
+        assert_eq!(window.state().state.exposure_ev, 0.0);
+        window.key_press_modifiers(modifiers, key);
+        window.run_steps(3);
+        assert_eq!(window.state().state.exposure_ev, 0.5, "{key:?}");
+    }
 }
 
 #[test]

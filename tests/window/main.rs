@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod animation;
 mod bar;
 mod corners;
 mod differences;
@@ -13,6 +14,7 @@ mod key_presses;
 mod loss_panel;
 mod panels;
 mod photograph;
+mod quantities;
 mod reading;
 mod saving;
 mod scene_files;

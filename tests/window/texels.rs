@@ -146,6 +146,29 @@ fn the_colours_of_texels_are_told_apart() {
 
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(numbered(folder.path()));
+    window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
+    let fitted = (rect.width() / SIZE[0] as f32).min(rect.height() / SIZE[1] as f32);
+    hover(&mut window, Pos2::ZERO);
+    for (side, has_numbers) in [(30.0, false), (44.0, false), (52.0, true), (90.0, true)] {
+        window.state_mut().state.zoom = side / fitted;
+        window.run_steps(3);
+        // The middle of the pane is a corner of four texels: most of the one to the right of and below it.
+        let texel =
+            egui::Rect::from_center_size(rect.center() + vec2(side, side) / 2.0, vec2(side, side) * 0.8);
+        let picture = pixels(&mut window, texel);
+        let first = picture.get_pixel(0, 0);
+        let ink = picture.pixels().filter(|pixel| *pixel != first).count();
+        assert_eq!(ink > 40, has_numbers, "{side} pixels: {ink} of them have another colour");
+        assert!(has_numbers || ink == 0, "{side} pixels: {ink}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_columns_of_the_status_line_do_not_move_with_the_pointer() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);

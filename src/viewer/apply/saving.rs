@@ -13,6 +13,7 @@ use crate::viewer::message::Message;
 use crate::viewer::save;
 use crate::viewer::save_kind::SaveKind;
 use crate::viewer::snapshot::{Size, snapshot};
+use crate::viewer::viewport::Viewport;
 use crate::viewer::why::ComparedPair;
 use crate::viewer::worker::Task;
 use crate::why::{SceneReport, worst_first};
@@ -83,7 +84,7 @@ impl App {
         };
         let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), self.settings.dark);
         // Gestures and corner handles stay in the window.
-        let viewport = std::mem::take(&mut self.viewport);
+        let viewport = std::mem::replace(&mut self.viewport, Viewport::exact());
         let edits_corners = self.photograph.edits_corners();
         self.photograph.edit_corners(false);
         let picture = snapshot(&state, &gpu, Size { pixels, scale }, dark, |ui| {

@@ -21,7 +21,7 @@ pub(super) const BAR: f32 = 12.0;
 const STEPS: usize = 128;
 /// Widths of the controls and of the statistics, in points.
 const CONTROLS: f32 = 170.0;
-pub(super) const STATISTICS: f32 = 360.0;
+pub(super) const STATISTICS: f32 = 396.0;
 /// How far from 0 the axis goes in units of the range, before there are histograms.
 const AXIS: f64 = 1.5;
 

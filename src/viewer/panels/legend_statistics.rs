@@ -7,10 +7,12 @@ use crate::picture::difference::Difference;
 use crate::picture::quantity::Quantity;
 use crate::picture::statistics::{Histogram, Statistics};
 use crate::viewer::error_map_run::ErrorMapSummary;
+use crate::viewer::names::shortened;
 use crate::viewer::theme;
 
-/// Width of a name, in points.
-const NAME: f32 = 110.0;
+/// Width of a name, in points, and its characters.
+const NAME: f32 = 146.0;
+const CHARACTERS: usize = 18;
 
 impl LegendStrip<'_> {
     /// A row of numbers for each prediction.
@@ -42,6 +44,7 @@ impl LegendStrip<'_> {
             }
             false => ("mean", "Mean over the texels"),
         };
+        let short = shortened(&self.names, CHARACTERS);
         let heads = [mean, ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
         egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {
             egui::Grid::new("difference statistics").num_columns(5).spacing([10.0, 2.0]).show(ui, |ui| {
@@ -51,7 +54,8 @@ impl LegendStrip<'_> {
                 }
                 ui.end_row();
                 for (index, statistics) in distributions.statistics.iter().enumerate() {
-                    self.row(ui, index, statistics.as_ref(), distributions.histograms.get(index));
+                    let name = short.get(index).map_or("", String::as_str);
+                    self.row(ui, (index, name), statistics.as_ref(), distributions.histograms.get(index));
                     ui.end_row();
                 }
             });
@@ -69,14 +73,14 @@ impl LegendStrip<'_> {
     fn row(
         &self,
         ui: &mut egui::Ui,
-        index: usize,
+        (index, short): (usize, &str),
         statistics: Option<&Statistics>,
         histogram: Option<&Histogram>,
     ) {
         let colour = theme::series(self.series(index), ui.visuals().dark_mode);
         let name = self.names.get(index).copied().unwrap_or_default();
         let number = if index + self.first == 0 { "gt".to_owned() } else { (index + self.first).to_string() };
-        let text = RichText::new(format!("{number}  {name}")).color(colour);
+        let text = RichText::new(format!("{number}  {short}")).color(colour);
         let text = if index == self.chosen { text.strong().underline() } else { text };
         let label = ui.scope(|ui| {
             ui.set_max_width(NAME);

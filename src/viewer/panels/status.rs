@@ -54,7 +54,7 @@ impl StatusBar<'_> {
     }
 
     fn adapter(&self, ui: &mut egui::Ui) {
-        ui.label(RichText::new(format!("{:5.1} ms", self.frame_ms)).monospace().weak())
+        ui.label(RichText::new(milliseconds(self.frame_ms)).monospace().weak())
             .on_hover_text("CPU time of the last frame");
         if let Some(adapter) = self.adapter {
             let name = egui::Label::new(RichText::new(&adapter.name).weak()).truncate();
@@ -163,9 +163,21 @@ fn magnification(pixels: f32) -> String {
     }
 }
 
+/// A time in 8 characters, also where a frame takes seconds: its column must not push others out of the line.
+fn milliseconds(time: f32) -> String {
+    if time < 999.95 { format!("{time:5.1} ms") } else { format!("{:5.0} ms", time.min(99_999.0)) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_time_of_a_frame_keeps_its_width() {
+        let times = [0.0, 9.96, 99.96, 999.94, 999.96, 1234.5, 1e7].map(milliseconds);
+        assert!(times.iter().all(|text| text.chars().count() == 8), "{times:?}");
+        assert_eq!([&times[1], &times[5]], [" 10.0 ms", " 1234 ms"]);
+    }
 
     #[test]
     fn the_magnification_keeps_its_width() {

@@ -146,10 +146,9 @@ fn reading(moved: Moved, direction: [f64; 3], found: Option<&DirectionMap>) -> S
     let [x, y, z] = direction;
     let place = format!("{name} {x:5.2} {y:5.2} {z:4.2}");
     let read = |map: &DirectionMap| {
-        let [column, row] = map.map.cell(direction)?;
-        let index = row * map.map.side + column;
+        let index = map.map.nearest_cell(direction)?;
         let [loss, error] = [map.map.losses[0][index], map.map.standard_errors[0][index]];
-        (!loss.is_nan()).then(|| format!("{place}: {loss:.4} +- {error:.4}"))
+        Some(format!("{place}: {loss:.4} +- {error:.4}"))
     };
     found.and_then(read).unwrap_or_else(|| format!("{place}: -"))
 }

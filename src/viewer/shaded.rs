@@ -1,0 +1,167 @@
+//! The shaded texels of one material, and how much of them is shaded in a frame.
+
+use super::inspect::Region;
+use crate::error::Error;
+use crate::gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
+
+/// Texels of a material that are shaded in a frame while a picture sharpens.
+pub(super) const BAND: usize = 1 << 19;
+
+/// How much of a material is shaded before it is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum ShadedPart {
+    Whole,
+    /// Every n-th texel along both axes.
+    EveryNth(usize),
+    /// The texels that are seen.
+    Visible(Region),
+}
+
+/// What is asked of a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ShadingRequest {
+    pub params: ShadeParams,
+    pub part: ShadedPart,
+    /// Whether the rest is shaded in bands, one in a frame.
+    pub sharpens: bool,
+}
+
+/// Where and with what texels are shaded.
+pub(super) struct ShadingDevice<'a> {
+    pub gpu: &'a Gpu,
+    pub shading: &'a Shading,
+    pub textures: &'a MaterialTextures,
+    /// The number of the latest version of any texels.
+    pub versions: &'a mut u64,
+}
+
+/// Shaded texels and what they were shaded with.
+pub(super) struct ShadedTexels {
+    pub shaded: Shaded,
+    /// With a region, only its texels.
+    drawn: Option<(ShadeParams, Option<Region>)>,
+    /// Changes whenever the texels that are seen do.
+    pub version: u64,
+}
+
+/// All texels of a material, and every n-th one while something moves on a slow adapter.
+#[derive(Default)]
+pub(super) struct ShadedMaterial {
+    full: Option<ShadedTexels>,
+    quick: Option<ShadedTexels>,
+    shows_quick: bool,
+    /// The rows of `full` that are shaded so far, and with what.
+    sharpened: Option<(ShadeParams, usize)>,
+}
+
+impl ShadedMaterial {
+    /// The texels to show.
+    pub(super) fn shown(&self) -> Option<&ShadedTexels> {
+        if self.shows_quick { self.quick.as_ref() } else { self.full.as_ref() }
+    }
+
+    /// Whether all texels are shaded with these parameters.
+    pub(super) fn is_whole(&self, params: ShadeParams) -> bool {
+        self.full.as_ref().is_some_and(|full| full.drawn == Some((params, None)))
+    }
+
+    /// Shades what is asked for and not there yet.
+    ///
+    /// # Errors
+    /// Where the adapter cannot hold the texels.
+    pub(super) fn shade(
+        &mut self,
+        device: &mut ShadingDevice<'_>,
+        size: [usize; 2],
+        ShadingRequest { params, part, sharpens }: ShadingRequest,
+    ) -> Result<(), Error> {
+        let is_whole = self.is_whole(params);
+        self.shows_quick = matches!(part, ShadedPart::EveryNth(_));
+        match part {
+            ShadedPart::EveryNth(stride) => {
+                with_stride(&mut self.quick, device, size, stride)?.draw(device, params, None);
+            }
+            ShadedPart::Visible(region) if !is_whole => {
+                let full = with_stride(&mut self.full, device, size, 1)?;
+                if !full.has(params, region) {
+                    full.draw(device, params, Some(region));
+                }
+            }
+            ShadedPart::Whole if !is_whole => {
+                with_stride(&mut self.full, device, size, 1)?.draw(device, params, None);
+                return Ok(());
+            }
+            _ => {}
+        }
+        if sharpens && !is_whole { self.sharpen(device, size, params) } else { Ok(()) }
+    }
+
+    /// Shades the next band of all texels.
+    fn sharpen(
+        &mut self,
+        device: &mut ShadingDevice<'_>,
+        [width, height]: [usize; 2],
+        params: ShadeParams,
+    ) -> Result<(), Error> {
+        let top = self.sharpened.filter(|(of, _)| *of == params).map_or(0, |(_, rows)| rows);
+        let full = with_stride(&mut self.full, device, [width, height], 1)?;
+        if self.shows_quick {
+            // Its texels are a mixture from now on.
+            full.drawn = None;
+        }
+        let rows = (BAND / width).max(1).min(height - top);
+        let band = [0, top, width, rows].map(|side| side as u32);
+        device.shading.draw_part(device.gpu, device.textures, &params, &full.shaded, Some(band));
+        self.sharpened = Some((params, top + rows));
+        if top + rows == height {
+            (full.drawn, full.version) = (Some((params, None)), next(device.versions));
+            self.sharpened = None;
+        }
+        Ok(())
+    }
+}
+
+impl ShadedTexels {
+    /// Whether the texels of a region are there.
+    fn has(&self, params: ShadeParams, region: Region) -> bool {
+        let holds = |drawn: &Region| {
+            (0..2)
+                .all(|axis| drawn.first[axis] <= region.first[axis] && region.last[axis] <= drawn.last[axis])
+        };
+        matches!(&self.drawn, Some((of, Some(drawn))) if *of == params && holds(drawn))
+    }
+
+    /// Shades a region, or all texels, unless that is what is there.
+    fn draw(&mut self, device: &mut ShadingDevice<'_>, params: ShadeParams, region: Option<Region>) {
+        let asked = Some((params, region));
+        if self.drawn == asked {
+            return;
+        }
+        let ShadingDevice { gpu, shading, textures, versions } = device;
+        shading.draw_part(gpu, textures, &params, &self.shaded, region.map(Region::rectangle));
+        (self.drawn, self.version) = (asked, next(versions));
+    }
+}
+
+fn next(versions: &mut u64) -> u64 {
+    *versions += 1;
+    *versions
+}
+
+/// The texels in `place`, which are made where there are none of this stride.
+fn with_stride<'a>(
+    place: &'a mut Option<ShadedTexels>,
+    device: &ShadingDevice<'_>,
+    size: [usize; 2],
+    stride: usize,
+) -> Result<&'a mut ShadedTexels, Error> {
+    let kept = place.take().filter(|texels| texels.shaded.stride() == stride);
+    let texels = match kept {
+        Some(texels) => texels,
+        None => {
+            let shaded = device.shading.reduced_target(device.gpu, size, stride)?;
+            ShadedTexels { shaded, drawn: None, version: 0 }
+        }
+    };
+    Ok(place.insert(texels))
+}

@@ -1,0 +1,30 @@
+//! What moves by itself.
+
+use super::*;
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_turntable_turns_the_view_until_space_pauses_it() {
+    let mut window = built_in();
+    let before = window.state().state.scene;
+    window.get_by_label("Turntable").click();
+    window.run_steps(4);
+    let first = window.state().state.scene;
+    window.run_steps(4);
+    let second = window.state().state.scene;
+    assert!(first.view != before.view && second.view != first.view, "{first:?}, {second:?}");
+    assert_eq!(second.view[2], before.view[2], "the height stays");
+    assert_eq!(second.light, before.light, "the light stays");
+    press(&mut window, egui::Key::Space);
+    let paused = window.state().state.scene;
+    window.run_steps(6);
+    assert_eq!(window.state().state.scene, paused);
+    window.get_by_label("Resume").click();
+    window.run_steps(4);
+    assert!(window.state().state.scene.view != paused.view);
+    window.get_by_label("Turntable").click();
+    window.run_steps(4);
+    let stopped = window.state().state.scene;
+    window.run_steps(4);
+    assert_eq!(window.state().state.scene, stopped);
+}

@@ -1,0 +1,158 @@
+//! The numbers of every quantity below the panes: statistics and histograms, against values written out in f64.
+
+use svbrdf::material::Material;
+use svbrdf::model::convention::PRINTED;
+use svbrdf::picture::difference::Difference;
+use svbrdf::picture::quantity::Quantity;
+use svbrdf::picture::statistics::{Histogram, Statistics};
+use svbrdf::progress::Progress;
+use svbrdf::viewer::state::ViewState;
+use svbrdf::{render, samples};
+
+use super::*;
+
+/// How far numbers from f32 may be off, in units of 1 + the number.
+const CLOSE: f64 = 1e-4;
+
+/// The quantity of every texel of the built-in materials, the ground truth first.
+fn values(quantity: Quantity) -> Vec<Vec<[f64; 3]>> {
+    let samples = samples::load::<f32>().unwrap();
+    let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
+    let scene = ViewState::default().scene;
+    let of = |material: Material<f64>| match quantity {
+        Quantity::Rendering => {
+            render::render(&material, &scene, &PRINTED, &Progress::default()).unwrap().pixels
+        }
+        _ => (0..material.width() * material.height())
+            .map(|i| {
+                let texel = material.texel(i);
+                match quantity {
+                    Quantity::Normal => texel.normal.to_array(),
+                    Quantity::Diffuse => texel.diffuse,
+                    Quantity::Specular => texel.specular,
+                    _ => [texel.roughness; 3],
+                }
+            })
+            .collect(),
+    };
+    all.map(|read| of(read.material.cast())).collect()
+}
+
+/// The difference of one texel, written out.
+fn difference(kind: Difference, g: [f64; 3], p: [f64; 3]) -> f64 {
+    let mean = |of: &dyn Fn(f64, f64) -> f64| (0..3).map(|c| of(g[c], p[c])).sum::<f64>() / 3.0;
+    let epsilon = PRINTED.epsilon;
+    let log = |g: f64, p: f64| ((p + epsilon) / (g + epsilon)).ln();
+    match kind {
+        Difference::Log => mean(&|g, p| log(g, p).abs()),
+        Difference::SignedLog => mean(&log),
+        Difference::Absolute => mean(&|g, p| (p - g).abs()),
+        Difference::Signed => mean(&|g, p| p - g),
+        Difference::Relative => mean(&|g, p| (p - g).abs() / (g + epsilon)),
+        Difference::Angle => {
+            let dot: f64 = (0..3).map(|c| g[c] * p[c]).sum();
+            let chord: f64 = (0..3).map(|c| (g[c] - p[c]).powi(2)).sum::<f64>().sqrt();
+            // Of unit vectors: the arc cosine loses half of the digits where they are close.
+            if dot > 0.0 { 2.0 * (chord / 2.0).asin().to_degrees() } else { dot.acos().to_degrees() }
+        }
+    }
+}
+
+fn is_close(got: f64, expected: f64) -> bool {
+    (got - expected).abs() <= CLOSE * (1.0 + expected.abs())
+}
+
+/// Whether these are the statistics of `sorted`.
+fn are_statistics_of(got: &Statistics, sorted: &[f64]) -> bool {
+    let at = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
+    let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
+    let expected = [mean, at(0.0), at(0.5), at(0.95), at(1.0)];
+    let got = [got.mean, got.minimum, got.median, got.p95, got.maximum];
+    got.iter().zip(expected).all(|(got, expected)| is_close(*got, expected))
+}
+
+/// Whether as many of `sorted` are below each edge of the histogram as it says, up to values next to the edge.
+fn is_histogram_of(got: &Histogram, sorted: &[f64]) -> bool {
+    let below = |edge: f64| sorted.partition_point(|value| *value < edge) as u64;
+    let width = (got.high - got.low) / got.counts.len() as f64;
+    let mut seen = got.below;
+    let mut edges = got.counts.iter().enumerate().map(|(bin, count)| {
+        let edge = got.low + bin as f64 * width;
+        let near = CLOSE * (1.0 + edge.abs());
+        let holds = (below(edge - near)..=below(edge + near)).contains(&seen);
+        seen += count;
+        holds
+    });
+    let holds = edges.by_ref().all(|holds| holds);
+    holds && got.counts.iter().sum::<u64>() + got.below + got.above == sorted.len() as u64
+}
+
+fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
+    let mut window = built_in();
+    press(&mut window, egui::Key::D);
+    for quantity in Quantity::ALL {
+        let values = values(quantity);
+        for &kind in Difference::all(quantity) {
+            let state = &mut window.state_mut().state;
+            state.quantity = quantity;
+            state.differences.choose(quantity, kind);
+            window.run_steps(2);
+            wait(&mut window, "the statistics", |app| app.difference_distributions().is_some());
+            let got = window.state().difference_distributions().unwrap();
+            let mut largest = 0.0_f64;
+            let what = format!("{} of {}", kind.name(), quantity.name());
+            for prediction in [1, 2] {
+                let texels = values[0].iter().zip(&values[prediction]);
+                let expected = sorted(texels.map(|(g, p)| difference(kind, *g, *p)));
+                let magnitudes = sorted(expected.iter().map(|value| value.abs()));
+                largest = largest.max(magnitudes[(0.99 * magnitudes.len() as f64).ceil() as usize - 1]);
+                let index = prediction - 1;
+                let statistics = got.statistics[index].as_ref().unwrap();
+                assert!(are_statistics_of(statistics, &expected), "{what} of {prediction}: {statistics:?}");
+                assert!(is_histogram_of(&got.histograms[index], &expected), "{what} of {prediction}");
+                // Planted faults: everything a little larger.
+                let faulty: Vec<f64> = expected.iter().map(|value| value * 1.01 + 2e-3).collect();
+                assert!(!are_statistics_of(statistics, &faulty), "{what} of {prediction}");
+                assert!(!is_histogram_of(&got.histograms[index], &faulty), "{what} of {prediction}");
+            }
+            let largest = if largest > 0.0 { largest } else { 1.0 };
+            assert!(is_close(got.auto_range, largest), "{what}: {} for {largest}", got.auto_range);
+            assert_eq!(window.state().difference_range(), got.auto_range, "{what}");
+        }
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn every_channel_of_every_value_has_its_statistics_and_histogram() {
+    let mut window = built_in();
+    press(&mut window, egui::Key::J);
+    for quantity in Quantity::ALL {
+        let values = values(quantity);
+        window.state_mut().state.quantity = quantity;
+        window.run_steps(2);
+        wait(&mut window, "the histograms", |app| app.value_distributions().is_some());
+        let got = window.state().value_distributions().unwrap();
+        assert_eq!(got.len(), quantity.channels(), "{}", quantity.name());
+        for (channel, materials) in got.iter().enumerate() {
+            assert_eq!(materials.len(), 3);
+            for (material, (histogram, statistics)) in materials.iter().enumerate() {
+                let expected = sorted(values[material].iter().map(|value| value[channel]));
+                let what = format!("channel {channel} of {} of material {material}", quantity.name());
+                let statistics = statistics.unwrap();
+                assert!(are_statistics_of(&statistics, &expected), "{what}: {statistics:?}");
+                assert!(is_histogram_of(histogram, &expected), "{what}");
+                let faulty: Vec<f64> = expected.iter().map(|value| value * 1.01 + 2e-3).collect();
+                assert!(!are_statistics_of(&statistics, &faulty), "{what}: a planted fault");
+            }
+        }
+    }
+}
