@@ -16,31 +16,24 @@ pub(super) fn lower_this_thread() {
     let _ = rustix::process::setpriority_process(None, NICE);
 }
 
+/// The priority of the thread that calls it, as `nice` counts.
+#[cfg(all(test, target_os = "linux"))]
+pub(super) fn nice_of_this_thread() -> i32 {
+    let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap_or_default();
+    // The 19th field; the second is a name in parentheses.
+    let after_name = stat.rsplit_once(") ").map_or("", |(_, rest)| rest);
+    after_name.split(' ').nth(16).and_then(|field| field.parse().ok()).unwrap_or(i32::MAX)
+}
+
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
     use super::*;
-    use crate::viewer::worker::Task;
-
-    /// The priority of the thread that calls it, as `nice` counts.
-    fn nice() -> i32 {
-        let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap();
-        let (_, after_name) = stat.rsplit_once(") ").unwrap();
-        // The 19th field; the name is the second.
-        after_name.split(' ').nth(16).unwrap().parse().unwrap()
-    }
 
     #[test]
-    fn workers_yield_to_the_thread_that_starts_them() {
-        let before = nice();
-        let task = Task::start(&eframe::egui::Context::default(), |_| Ok(nice()));
-        assert_eq!(task.wait().unwrap(), before.max(NICE));
-        assert_eq!(nice(), before, "the window's thread");
-    }
-
-    #[test]
-    fn parallel_work_yields() {
-        let before = nice();
+    fn a_lowered_thread_yields_and_others_do_not() {
+        let before = nice_of_this_thread();
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).start_handler(|_| lower_this_thread());
-        assert_eq!(pool.build().unwrap().install(nice), before.max(NICE));
+        assert_eq!(pool.build().unwrap().install(nice_of_this_thread), before.max(NICE));
+        assert_eq!(nice_of_this_thread(), before);
     }
 }
