@@ -1,17 +1,30 @@
 //! Threads that yield to those of the window and of its driver: slow work must not make frames late.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 /// Their priority on the scale of `nice`: they get a tenth of a processor that others want, and all of an idle one.
 #[cfg(target_os = "linux")]
 const NICE: i32 = 10;
 
-/// Lowers the priority of the threads that compute in parallel, unless they run already.
-pub(super) fn lower_parallel_threads() {
-    let _ = rayon::ThreadPoolBuilder::new().start_handler(|_| lower_this_thread()).build_global();
+/// Whether slow work yields: in the window of a person. Tests drive many windows at once, and wait for its results.
+static YIELDS: AtomicBool = AtomicBool::new(false);
+
+/// Lowers the priority of tasks from now on, and of the threads that compute in parallel, unless they run already.
+pub(super) fn yield_to_window() {
+    YIELDS.store(true, Ordering::Relaxed);
+    let _ = rayon::ThreadPoolBuilder::new().start_handler(|_| lower()).build_global();
 }
 
-/// Lowers the priority of the thread that calls it. Elsewhere than on Linux it does nothing: there a process has one priority, or
-/// adapters are not software.
+/// Lowers the priority of the thread that calls it, where slow work yields.
 pub(super) fn lower_this_thread() {
+    if YIELDS.load(Ordering::Relaxed) {
+        lower();
+    }
+}
+
+/// Lowers the priority of this thread. Elsewhere than on Linux it does nothing: there priorities are those of whole processes, or
+/// adapters are not software.
+fn lower() {
     #[cfg(target_os = "linux")]
     let _ = rustix::process::setpriority_process(None, NICE);
 }
@@ -30,10 +43,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_lowered_thread_yields_and_others_do_not() {
+    fn only_in_the_window_of_a_person_does_work_yield_and_the_window_never() {
         let before = nice_of_this_thread();
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(2).start_handler(|_| lower_this_thread());
-        assert_eq!(pool.build().unwrap().install(nice_of_this_thread), before.max(NICE));
-        assert_eq!(nice_of_this_thread(), before);
+        let worker = || {
+            lower_this_thread();
+            nice_of_this_thread()
+        };
+        let run = || std::thread::spawn(worker).join().unwrap();
+        assert_eq!(run(), before);
+        YIELDS.store(true, Ordering::Relaxed);
+        let lowered = run();
+        YIELDS.store(false, Ordering::Relaxed);
+        assert_eq!((lowered, nice_of_this_thread()), (before.max(NICE), before));
     }
 }

@@ -122,7 +122,7 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
     }));
     let stop = stop::Stop::default();
     let signals = stop.clone();
-    background::lower_parallel_threads();
+    background::yield_to_window();
     let start = || {
         let create = |cc: &eframe::CreationContext<'_>| {
             let mut app = app::App::new(cc, options);

@@ -98,15 +98,3 @@ impl<T> Drop for Task<T> {
         self.progress.cancel();
     }
 }
-
-#[cfg(all(test, target_os = "linux"))]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_task_yields_to_the_thread_that_starts_it() {
-        let task = Task::start(&egui::Context::default(), |_| Ok(background::nice_of_this_thread()));
-        let window = background::nice_of_this_thread();
-        assert!(task.wait().unwrap() > window || window >= 10, "the window's thread has {window}");
-    }
-}
