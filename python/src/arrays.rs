@@ -1,7 +1,6 @@
 //! Maps between numpy arrays, which are interleaved, and the planes of the crate.
 
 use pyo3::buffer::{Element, PyBuffer};
-use pyo3::exceptions::PyBufferError;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 
@@ -13,20 +12,38 @@ pub fn values<T: Element>(array: &Bound<'_, PyAny>) -> PyResult<Vec<T>> {
     PyBuffer::get(array)?.to_vec(array.py())
 }
 
-/// The planes of a C-contiguous array, 3xHxW where `is_planar` says so and HxWx3 otherwise: one copy.
-///
-/// # Errors
-/// `BufferError` where the array has another type or layout.
-pub fn planes<T: Element>(array: &Bound<'_, PyAny>, is_planar: bool) -> PyResult<[Vec<T>; 3]> {
-    if is_planar {
+/// The values of a map of three channels.
+#[derive(Debug)]
+pub enum Channels<T> {
+    /// As the crate has them.
+    Planes([Vec<T>; 3]),
+    /// RGB by RGB.
+    Interleaved(Vec<T>),
+}
+
+impl<T: Element> Channels<T> {
+    /// Those of a C-contiguous array, 3xHxW or HxWx3: one copy.
+    ///
+    /// # Errors
+    /// `BufferError` where the array has another type or layout.
+    pub fn of(array: &Bound<'_, PyAny>, is_planar: bool) -> PyResult<Self> {
+        if !is_planar {
+            return values(array).map(Self::Interleaved);
+        }
         let plane = |channel: usize| array.get_item(channel).and_then(|plane| values(&plane));
-        return Ok([plane(0)?, plane(1)?, plane(2)?]);
+        Ok(Self::Planes([plane(0)?, plane(1)?, plane(2)?]))
     }
-    let buffer = PyBuffer::<T>::get(array)?;
-    let interleaved = buffer.as_slice(array.py());
-    let values = interleaved.ok_or_else(|| PyBufferError::new_err("the array is not C-contiguous"))?;
-    let texels = values.as_chunks::<3>().0;
-    Ok(std::array::from_fn(|channel| texels.iter().map(|texel| texel[channel].get()).collect()))
+
+    /// The planes: another copy of values that are interleaved.
+    pub fn planes(self) -> [Vec<T>; 3] {
+        match self {
+            Self::Planes(planes) => planes,
+            Self::Interleaved(values) => {
+                let values = values.as_chunks::<3>().0;
+                std::array::from_fn(|channel| values.iter().map(|rgb| rgb[channel]).collect())
+            }
+        }
+    }
 }
 
 /// A number as the bytes of an array.

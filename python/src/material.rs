@@ -17,7 +17,7 @@ use svbrdf::math::real::Real;
 use svbrdf::progress::Progress;
 use svbrdf::{render as renderer, report, samples};
 
-use crate::arrays::{self, Bytes};
+use crate::arrays::{self, Bytes, Channels};
 use crate::errors::exception;
 use crate::model::SceneTuple;
 use crate::work;
@@ -53,14 +53,16 @@ pub struct Arrays<'py> {
 impl Arrays<'_> {
     fn material<T: Element + Real>(&self, py: Python<'_>) -> PyResult<Material<T>> {
         let [of_normal, of_diffuse, of_specular] = self.planar;
-        let planes = Planes {
-            normal: arrays::planes::<T>(&self.normal, of_normal)?,
-            diffuse: arrays::planes(&self.diffuse, of_diffuse)?,
-            specular: arrays::planes(&self.specular, of_specular)?,
-            roughness: arrays::values(&self.roughness)?,
-        };
+        let normal = Channels::<T>::of(&self.normal, of_normal)?;
+        let diffuse = Channels::of(&self.diffuse, of_diffuse)?;
+        let specular = Channels::of(&self.specular, of_specular)?;
+        let roughness = arrays::values(&self.roughness)?;
         let (name, [width, height]) = (&self.name, self.size);
-        work::at_once(py, move || Material::new(name, width, height, planes))
+        work::at_once(py, move || {
+            let (normal, (diffuse, specular)) =
+                rayon::join(|| normal.planes(), || rayon::join(|| diffuse.planes(), || specular.planes()));
+            Material::new(name, width, height, Planes { normal, diffuse, specular, roughness })
+        })
     }
 }
 
