@@ -160,6 +160,15 @@ fn photographed() {
     window.get_by_label("Corners of the material").click();
     press(&mut window, egui::Key::D);
     wait(&mut window, "the differences", |app| app.difference_statistics().is_some());
-    window.run_steps(60);
+    // Until the photograph as it was taken is there, its place is black.
+    let pane = window.get_by_label("Corner pane").rect();
+    let middle = |window: &mut Window<'_>| {
+        let seen = pixels(window, pane);
+        seen.get_pixel(seen.width() / 2, seen.height() / 3).0
+    };
+    while middle(&mut window)[..3] == [0; 3] {
+        window.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
     write(&mut window, "photograph.png");
 }
