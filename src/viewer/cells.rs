@@ -56,10 +56,15 @@ fn cell_size(area: Vec2, columns: usize, rows: usize) -> Vec2 {
 }
 
 /// The rectangle rounded to whole physical pixels, so that the shader's pixels are the screen's.
-pub(super) fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
+fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
     let scale = ui.pixels_per_point();
     let round = |p: egui::Pos2| (p.to_vec2() * scale).round() / scale;
     Rect::from_min_max(round(rect.min).to_pos2(), round(rect.max).to_pos2())
+}
+
+/// The rectangle of a pane's picture: its cell without the title.
+pub(super) fn picture_rect(ui: &egui::Ui, cell: Rect) -> Rect {
+    pixel_aligned(ui, cell.split_top_bottom_at_y(cell.top() + TITLE).1)
 }
 
 #[cfg(test)]

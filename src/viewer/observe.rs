@@ -11,6 +11,9 @@ use crate::study::Study;
 use crate::viewer::why::ComparedPair;
 use crate::why::{Attribution, Hemisphere, RankedScene, Worst};
 
+/// How the values of one channel of a material are distributed.
+type ValueDistribution<'a> = (&'a Histogram, Option<Statistics>);
+
 impl App {
     /// The losses of the predictions, once they are complete for the current materials and settings.
     pub fn losses(&self) -> Option<&[Loss]> {
@@ -37,7 +40,7 @@ impl App {
     }
 
     /// For each channel of the quantity, histogram and statistics of the values of every material, once they are up to date.
-    pub fn value_distributions(&self) -> Option<Vec<Vec<(&Histogram, Option<Statistics>)>>> {
+    pub fn value_distributions(&self) -> Option<Vec<Vec<ValueDistribution<'_>>>> {
         let (values, current) = self.values.get(&self.seen, &self.state)?;
         current.then(|| {
             let channel = values.iter();

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use eframe::egui::{self, Rect, Sense, Vec2};
 
-use super::cells::{TITLE, cells, free_cell, pixel_aligned};
+use super::cells::{TITLE, cells, free_cell, picture_rect};
 use super::command::Command;
 use super::gestures::{self, Gesture, PaneTarget};
 use super::gpu_view::GpuView;
@@ -282,11 +282,6 @@ impl Viewport {
         let pixels_per_texel = self.pane_pixels.x * half_width / fitted / grid.width as f32;
         if pixels_per_texel.is_finite() && pixels_per_texel > 0.0 { pixels_per_texel.recip() } else { 1.0 }
     }
-}
-
-/// The rectangle of a pane's picture: its cell without the title.
-fn picture_rect(ui: &egui::Ui, cell: Rect) -> Rect {
-    pixel_aligned(ui, cell.split_top_bottom_at_y(cell.top() + TITLE).1)
 }
 
 /// The point under the pointer, if it is over this pane and nothing lies in between.

@@ -108,11 +108,12 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
 fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     let folder = tempfile::tempdir().unwrap();
     let path = capture(&folder);
-    let scenes = Some(FileScenes::read(&path).unwrap());
+    let scenes = FileScenes::read(&path).unwrap();
     let of_file = |app: &App| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 3);
-    let mut window = super::window(ViewerOptions { scenes: scenes.clone(), ..ViewerOptions::default() });
+    let options = ViewerOptions { scenes: Some(scenes.clone()), ..ViewerOptions::default() };
+    let mut window = super::window(options);
     wait(&mut window, "the loss over the file", of_file);
-    assert_eq!(window.state().losses().unwrap(), expected(&scenes.unwrap().scenes).losses);
+    assert_eq!(window.state().losses().unwrap(), expected(&scenes.scenes).losses);
     window.get_by_label("3 scenes of render.json");
 
     let mut window = built_in();
