@@ -65,6 +65,11 @@ impl App {
                 continue;
             }
             let before = news.before.iter().flatten().find(|run| run.id == *id);
+            // A step that is shown and not listed yet is still young; one that was listed is gone.
+            let was_listed = before.is_some_and(|run| run.steps.iter().any(|step| step.number == number));
+            if newest.number < number && !was_listed {
+                continue;
+            }
             let is_known = before.and_then(|run| run.steps.last()) == Some(&newest);
             if !is_known && !self.training.held.contains(id) {
                 self.read_step(ctx, slot, &newest);

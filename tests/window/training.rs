@@ -118,3 +118,32 @@ fn new_steps_appear_when_they_are_complete_and_are_shown_unless_the_person_went_
     wait(&mut window, "the new run", |app| app.names() == expected);
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
 }
+
+/// Where only an old step has stood still yet, the window does not go back to it.
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_young_step_that_is_shown_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("run")).unwrap();
+    for (number, seconds) in [(100, 3600), (200, 0)] {
+        let path = step(folder.path(), number);
+        std::fs::write(&path, strip(50)).unwrap();
+        let time = std::time::SystemTime::now() - std::time::Duration::from_secs(seconds);
+        std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
+    }
+    std::fs::write(folder.path().join("gt.png"), strip(0)).unwrap();
+    let options = ViewerOptions {
+        ground_truth: Some(folder.path().join("gt.png")),
+        predictions: vec![folder.path().join("run")],
+        ..ViewerOptions::default()
+    };
+    let mut window = window(options);
+    wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 200"]);
+    wait(&mut window, "both steps", |app| {
+        assert_eq!(app.names(), ["gt", "pred, step 200"]);
+        steps(app) == [100, 200]
+    });
+    apply(&mut window, MaterialsCommand::SetWatch(true));
+    window.run_steps(20);
+    assert_eq!(window.state().names(), ["gt", "pred, step 200"]);
+}

@@ -37,7 +37,8 @@ impl RunScan {
         }
         if self.scanner.is_none() || self.folders != folders || self.watch != watch {
             self.known.retain(|folder, _| folders.contains(folder));
-            self.scanner = Some(Scanner::start(ctx, folders.clone(), watch, INTERVAL));
+            let settling = Settling::of(self.known.values().flatten());
+            self.scanner = Some(Scanner::start(ctx, folders.clone(), watch, INTERVAL, settling));
             (self.folders, self.watch) = (folders, watch);
         }
         let found: Vec<_> = self.scanner.iter().flat_map(|scanner| scanner.found.try_iter()).collect();
@@ -70,12 +71,17 @@ struct Scanner {
 }
 
 impl Scanner {
-    fn start(ctx: &egui::Context, folders: Vec<PathBuf>, watch: bool, interval: Duration) -> Self {
+    fn start(
+        ctx: &egui::Context,
+        folders: Vec<PathBuf>,
+        watch: bool,
+        interval: Duration,
+        mut settling: Settling,
+    ) -> Self {
         let (running, stopped) = mpsc::channel();
         let (sender, found) = mpsc::channel();
         let ctx = ctx.clone();
         std::thread::spawn(move || {
-            let mut settling = Settling::default();
             let mut sent: HashMap<PathBuf, Vec<TrainingRun>> = HashMap::new();
             loop {
                 let mut all_settled = true;
@@ -118,6 +124,12 @@ struct SeenStep {
 }
 
 impl Settling {
+    /// The steps of `runs` have stood still.
+    fn of<'a>(runs: impl Iterator<Item = &'a TrainingRun>) -> Self {
+        let seen = |step: &TrainingStep| SeenStep { latest: step.stamp, settled: Some(step.stamp) };
+        Self(runs.flat_map(|run| &run.steps).map(|step| (step.path.clone(), seen(step))).collect())
+    }
+
     /// The runs without the steps that have not stood still yet, and whether these are all. A step stands still that has the same
     /// stamp as in the last call, or was written a while ago; one that is written anew stays as it was.
     fn settled(&mut self, runs: Vec<TrainingRun>, now: SystemTime) -> (Vec<TrainingRun>, bool) {
@@ -186,6 +198,8 @@ mod tests {
         assert_eq!(look(&mut settling, &[(2, 3, 1)]), (vec![(2, 3)], true));
         let two = look(&mut Settling::default(), &[(1, 5, 0), (2, 9, 100)]);
         assert_eq!(two, (vec![(2, 9)], false), "not all, whichever comes last");
+        let mut known = Settling::of(run(&[(1, 9, 0)]).iter());
+        assert_eq!(look(&mut known, &[(1, 9, 0), (2, 5, 0)]), (vec![(1, 9)], false), "known before");
         assert_eq!(look(&mut settling, &[(3, 0, 0)]).0, [], "an empty folder");
         assert_eq!(look(&mut settling, &[(3, 0, 0)]).0, []);
     }
@@ -201,7 +215,7 @@ mod tests {
         let ctx = egui::Context::default();
         for watch in [true, false] {
             let folders = vec![folder.path().to_owned()];
-            let scanner = Scanner::start(&ctx, folders, watch, Duration::from_millis(1));
+            let scanner = Scanner::start(&ctx, folders, watch, Duration::from_millis(1), Settling::default());
             let mut found = Vec::new();
             while found.is_empty() {
                 found = steps(&scanner.found.recv().unwrap().1);
