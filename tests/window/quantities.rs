@@ -58,33 +58,33 @@ fn difference(kind: Difference, g: [f64; 3], p: [f64; 3]) -> f64 {
     }
 }
 
-fn is_close(got: f64, expected: f64) -> bool {
-    (got - expected).abs() <= CLOSE * (1.0 + expected.abs())
+fn is_close(measured: f64, expected: f64) -> bool {
+    (measured - expected).abs() <= CLOSE * (1.0 + expected.abs())
 }
 
 /// Whether these are the statistics of `sorted`.
-fn are_statistics_of(got: &Statistics, sorted: &[f64]) -> bool {
+fn are_statistics_of(measured: &Statistics, sorted: &[f64]) -> bool {
     let at = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
     let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
     let expected = [mean, at(0.0), at(0.5), at(0.95), at(1.0)];
-    let got = [got.mean, got.minimum, got.median, got.p95, got.maximum];
-    got.iter().zip(expected).all(|(got, expected)| is_close(*got, expected))
+    let measured = [measured.mean, measured.minimum, measured.median, measured.p95, measured.maximum];
+    measured.iter().zip(expected).all(|(measured, expected)| is_close(*measured, expected))
 }
 
 /// Whether as many of `sorted` are below each edge of the histogram as it says, up to values next to the edge.
-fn is_histogram_of(got: &Histogram, sorted: &[f64]) -> bool {
+fn is_histogram_of(measured: &Histogram, sorted: &[f64]) -> bool {
     let below = |edge: f64| sorted.partition_point(|value| *value < edge) as u64;
-    let width = (got.high - got.low) / got.counts.len() as f64;
-    let mut seen = got.below;
-    let mut edges = got.counts.iter().enumerate().map(|(bin, count)| {
-        let edge = got.low + bin as f64 * width;
+    let width = (measured.high - measured.low) / measured.counts.len() as f64;
+    let mut seen = measured.below;
+    let mut edges = measured.counts.iter().enumerate().map(|(bin, count)| {
+        let edge = measured.low + bin as f64 * width;
         let near = CLOSE * (1.0 + edge.abs());
         let holds = (below(edge - near)..=below(edge + near)).contains(&seen);
         seen += count;
         holds
     });
     let holds = edges.by_ref().all(|holds| holds);
-    holds && got.counts.iter().sum::<u64>() + got.below + got.above == sorted.len() as u64
+    holds && measured.counts.iter().sum::<u64>() + measured.below + measured.above == sorted.len() as u64
 }
 
 fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -106,7 +106,7 @@ fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
             state.differences.choose(quantity, kind);
             window.run_steps(2);
             wait(&mut window, "the statistics", |app| app.difference_distributions().is_some());
-            let got = window.state().difference_distributions().unwrap();
+            let measured = window.state().difference_distributions().unwrap();
             let mut largest = 0.0_f64;
             let what = format!("{} of {}", kind.name(), quantity.name());
             for prediction in [1, 2] {
@@ -115,9 +115,9 @@ fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
                 let magnitudes = sorted(expected.iter().map(|value| value.abs()));
                 largest = largest.max(magnitudes[(0.99 * magnitudes.len() as f64).ceil() as usize - 1]);
                 let index = prediction - 1;
-                let statistics = got.statistics[index].as_ref().unwrap();
+                let statistics = measured.statistics[index].as_ref().unwrap();
                 assert!(are_statistics_of(statistics, &expected), "{what} of {prediction}: {statistics:?}");
-                let histogram = &got.histograms[index];
+                let histogram = &measured.histograms[index];
                 assert!(is_histogram_of(histogram, &expected), "{what} of {prediction}");
                 // Planted faults: everything a little larger, or more than a bin further.
                 let faulty: Vec<f64> = expected.iter().map(|value| value * 1.01 + 2e-3).collect();
@@ -127,8 +127,8 @@ fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
                 assert!(!is_histogram_of(histogram, &moved), "{what} of {prediction}");
             }
             let largest = if largest > 0.0 { largest } else { 1.0 };
-            assert!(is_close(got.auto_range, largest), "{what}: {} for {largest}", got.auto_range);
-            assert_eq!(window.state().difference_range(), got.auto_range, "{what}");
+            assert!(is_close(measured.auto_range, largest), "{what}: {} for {largest}", measured.auto_range);
+            assert_eq!(window.state().difference_range(), measured.auto_range, "{what}");
         }
     }
 }
@@ -143,9 +143,9 @@ fn every_channel_of_every_value_has_its_statistics_and_histogram() {
         window.state_mut().state.quantity = quantity;
         window.run_steps(2);
         wait(&mut window, "the histograms", |app| app.value_distributions().is_some());
-        let got = window.state().value_distributions().unwrap();
-        assert_eq!(got.len(), quantity.channels(), "{}", quantity.name());
-        for (channel, materials) in got.iter().enumerate() {
+        let measured = window.state().value_distributions().unwrap();
+        assert_eq!(measured.len(), quantity.channels(), "{}", quantity.name());
+        for (channel, materials) in measured.iter().enumerate() {
             assert_eq!(materials.len(), 3);
             for (material, (histogram, statistics)) in materials.iter().enumerate() {
                 let expected = sorted(values[material].iter().map(|value| value[channel]));

@@ -140,7 +140,7 @@ fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
     let expected = comparison.run(&request, &Progress::default()).unwrap().losses[0].estimate.mean;
     let found = window.state().difference_statistics().unwrap()[0].unwrap().mean;
     assert!((found / expected - 1.0).abs() < 1e-5, "{found}, expected {expected}");
-    assert!((found / loss_in(scene, 1) - 1.0).abs() > 0.1, "that of the prediction is another");
+    assert!((found / loss_in(scene, 1) - 1.0).abs() > 0.1, "the prediction has another loss");
     // The losses of the tab stay those of the predictions.
     assert_eq!(wait_for_scene_losses(&mut window)[0], loss_in(scene, 1));
 }
