@@ -30,12 +30,12 @@ impl LossTile {
     }
 
     #[inline(always)]
-    pub(super) fn fill(&mut self, inputs: &LossInputs<'_>, span: &TexelSpan<'_>) {
+    pub(super) fn fill<S: Lanes>(&mut self, simd: S, inputs: &LossInputs<'_>, span: &TexelSpan<'_>) {
         self.positions.fill(&inputs.axes, span);
-        let floor = inputs.params.roughness_floor;
-        self.ground_truth.fill(inputs.ground_truth.planes(), span, floor);
+        let ShadingParams { roughness_floor, narrow, .. } = inputs.params;
+        self.ground_truth.fill(simd, inputs.ground_truth.planes(), span, roughness_floor, narrow);
         for (terms, material) in self.predictions.iter_mut().zip(inputs.predictions) {
-            terms.fill(material.planes(), span, floor);
+            terms.fill(simd, material.planes(), span, roughness_floor, narrow);
         }
     }
 

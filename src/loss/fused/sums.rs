@@ -72,7 +72,7 @@ impl LossInputs<'_> {
         let distant: Vec<_> = scenes.iter().map(|scene| scene.distant(simd)).collect();
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
-            tile.fill(self, &self.span(start..end.min(start + TEXELS)));
+            tile.fill(simd, self, &self.span(start..end.min(start + TEXELS)));
             for (i, sums) in sums.chunks_mut(self.predictions.len()).enumerate() {
                 self.prefetch_part(simd, start + AHEAD, i, scenes.len());
                 tile.add(simd, &self.params, &scenes[i], distant[i], sums);

@@ -53,7 +53,7 @@ impl LossInputs<'_> {
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
             let span = start..end.min(start + TEXELS);
-            tile.fill(self, &self.span(span.clone()));
+            tile.fill(simd, self, &self.span(span.clone()));
             sums.fill(TexelLogProducts::new(simd));
             for (scene, distant) in scenes.iter().zip(&distant) {
                 tile.add(simd, &self.params, scene, *distant, &mut sums);

@@ -95,7 +95,7 @@ impl ImageTile {
     #[inline(always)]
     fn render<S: Lanes>(&mut self, simd: S, inputs: &ImageInputs<'_>, span: &TexelSpan<'_>) {
         let (params, scene) = (&inputs.params, &inputs.scene);
-        self.terms.fill(inputs.material, span, params.roughness_floor);
+        self.terms.fill(simd, inputs.material, span, params.roughness_floor, params.narrow);
         if let Some(geometry) = scene.distant(simd) {
             self.radiance.render(
                 simd,

@@ -42,7 +42,7 @@ pub(crate) struct ShadingParams {
     epsilon: f32,
     pub(crate) roughness_floor: f32,
     /// A tile with a smaller GGX width takes the narrow path.
-    narrow: f32,
+    pub(crate) narrow: f32,
 }
 
 impl ShadingParams {
@@ -84,7 +84,7 @@ impl TileRadiance {
         terms: &MaterialTerms,
         geometry: impl Fn(usize) -> Geometry<V<S>>,
     ) -> bool {
-        let below_limit = match (params.clamps.any, terms.least_a < params.narrow) {
+        let below_limit = match (params.clamps.any, terms.is_narrow) {
             (false, false) => self.fill::<S, false, false, false>(simd, params, terms, &geometry),
             (false, true) => self.fill::<S, false, true, false>(simd, params, terms, &geometry),
             (true, false) => self.fill::<S, true, false, false>(simd, params, terms, &geometry),

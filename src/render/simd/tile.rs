@@ -82,8 +82,8 @@ pub(crate) struct MaterialTerms {
     pub(crate) normal: [TilePlane; 3],
     /// The GGX width a = rough^2; k = a / 2.
     pub(crate) a: TilePlane,
-    /// The smallest a of the tile.
-    pub(crate) least_a: f32,
+    /// Whether an a of the tile is below the limit that [`Self::fill`] was given.
+    pub(crate) is_narrow: bool,
     /// 1 - k.
     pub(crate) one_minus_k: TilePlane,
     pub(crate) specular: [TilePlane; 3],
@@ -95,29 +95,37 @@ impl MaterialTerms {
     pub(crate) const ZERO: Self = Self {
         normal: [TilePlane::ZERO; 3],
         a: TilePlane::ZERO,
-        least_a: 0.0,
+        is_narrow: false,
         one_minus_k: TilePlane::ZERO,
         specular: [TilePlane::ZERO; 3],
         lambert: [TilePlane::ZERO; 3],
     };
 
     /// Computes the terms of the texels `span`. The rest of the tile gets n = 0, so that R = 0 in every material and
-    /// it adds nothing to a loss.
+    /// it adds nothing to a loss. A tile is narrow where an a is below `narrow`.
     #[inline(always)]
-    pub(crate) fn fill(&mut self, planes: &Planes<f32>, span: &TexelSpan<'_>, roughness_floor: f32) {
+    pub(crate) fn fill<S: Simd>(
+        &mut self,
+        simd: S,
+        planes: &Planes<f32>,
+        span: &TexelSpan<'_>,
+        roughness_floor: f32,
+        narrow: f32,
+    ) {
         for (tile, plane) in self.normal.iter_mut().zip(&planes.normal) {
             tile.fill(plane, span, 0.0);
         }
         self.a.fill(&planes.roughness, span, 1.0);
-        // Positive floats are ordered as their bits are. A minimum of integers vectorizes, a minimum of floats does not.
-        let mut least = 1.0f32.to_bits();
-        for (a, other) in self.a.0.iter_mut().zip(&mut self.one_minus_k.0) {
-            let rough = a.max(roughness_floor);
-            *a = rough * rough;
-            *other = 1.0 - 0.5 * *a;
-            least = least.min(a.to_bits());
+        let splat = |c| V::<S>::splat(simd, c);
+        let mut least = splat(1.0);
+        for i in 0..vectors::<S>() {
+            let rough = self.a.load(simd, i).max(splat(roughness_floor));
+            let a = rough * rough;
+            least = least.min(a);
+            self.a.store::<S>(i, a);
+            self.one_minus_k.store::<S>(i, splat(1.0) - a * 0.5);
         }
-        self.least_a = f32::from_bits(least);
+        self.is_narrow = least.simd_lt(splat(narrow)).any_true();
         for channel in 0..3 {
             let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
             specular.fill(&planes.specular[channel], span, 0.0);
