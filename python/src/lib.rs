@@ -15,7 +15,8 @@ mod work;
 
 use pyo3::prelude::*;
 
-#[pymodule]
+// Arrays are read under the interpreter lock, which a free-threaded interpreter then has, too.
+#[pymodule(gil_used = true)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("Error", module.py().get_type::<errors::Error>())?;

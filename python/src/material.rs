@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use pyo3::buffer::Element;
+use numpy::Element;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use svbrdf::error::Error;
@@ -17,7 +17,7 @@ use svbrdf::math::real::Real;
 use svbrdf::progress::Progress;
 use svbrdf::{render as renderer, report, samples};
 
-use crate::arrays::{self, Bytes, Channels};
+use crate::arrays::{self, Bytes};
 use crate::errors::exception;
 use crate::model::SceneTuple;
 use crate::work;
@@ -51,18 +51,18 @@ pub struct Arrays<'py> {
 }
 
 impl Arrays<'_> {
+    /// The values go from the memory of numpy into the planes of the material without a copy between. The interpreter lock
+    /// is held so long, and released for checking and normalizing them.
     fn material<T: Element + Real>(&self, py: Python<'_>) -> PyResult<Material<T>> {
         let [of_normal, of_diffuse, of_specular] = self.planar;
-        let normal = Channels::<T>::of(&self.normal, of_normal)?;
-        let diffuse = Channels::of(&self.diffuse, of_diffuse)?;
-        let specular = Channels::of(&self.specular, of_specular)?;
-        let roughness = arrays::values(&self.roughness)?;
+        let planes = Planes {
+            normal: arrays::planes(&self.normal, of_normal)?,
+            diffuse: arrays::planes(&self.diffuse, of_diffuse)?,
+            specular: arrays::planes(&self.specular, of_specular)?,
+            roughness: arrays::plane(&self.roughness)?,
+        };
         let (name, [width, height]) = (&self.name, self.size);
-        work::at_once(py, move || {
-            let (normal, (diffuse, specular)) =
-                rayon::join(|| normal.planes(), || rayon::join(|| diffuse.planes(), || specular.planes()));
-            Material::new(name, width, height, Planes { normal, diffuse, specular, roughness })
-        })
+        work::at_once(py, || Material::new(name, width, height, planes))
     }
 }
 

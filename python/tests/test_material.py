@@ -1,5 +1,7 @@
 """Materials: arrays in, arrays out, files."""
 
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +30,12 @@ def test_arrays_come_back_as_they_went_in(precision: Any) -> None:
 def test_every_memory_layout_gives_the_same_material() -> None:
     given = maps(5, 7)
     expected = svbrdf.Material(**given)
+
+    def unaligned(x: Any) -> Any:
+        moved = np.frombuffer(b"-" + x.tobytes(), np.uint8)[1:].view(x.dtype).reshape(x.shape)
+        assert not moved.flags.aligned
+        return moved
+
     layouts: dict[str, Any] = {
         "planes": lambda x: np.ascontiguousarray(np.moveaxis(x, -1, 0)).transpose(1, 2, 0) if x.ndim == 3 else x,
         "columns first": np.asfortranarray,
@@ -35,6 +43,8 @@ def test_every_memory_layout_gives_the_same_material() -> None:
         "mirrored twice": lambda x: x[::-1].copy()[::-1],
         "float64": lambda x: x.astype(np.float64),
         "read only": lambda x: np.broadcast_to(x, x.shape),
+        "unaligned": unaligned,
+        "bytes swapped": lambda x: x.astype(x.dtype.newbyteorder()),
         "lists": lambda x: x.astype(np.float64).tolist(),
     }
     for layout, convert in layouts.items():
@@ -43,6 +53,51 @@ def test_every_memory_layout_gives_the_same_material() -> None:
             np.testing.assert_array_equal(getattr(material, name), getattr(expected, name), layout)
     square = maps(3, 3)
     assert not np.array_equal(svbrdf.Material(**square).diffuse, square["diffuse"].transpose(1, 0, 2))
+
+
+READ = """
+import sys
+from pathlib import Path
+
+import numpy as np
+import svbrdf
+
+
+def kilobytes(name):
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith(name))
+
+
+def maps(side):
+    def colour():
+        if sys.argv[1] == "channels last":
+            return np.full((side, side, 3), 0.5, sys.argv[2])
+        return np.full((3, side, side), 0.5, sys.argv[2]).transpose(1, 2, 0)
+
+    roughness = np.full((side, side), 0.5, sys.argv[2])
+    return {"normal": colour(), "diffuse": colour(), "specular": colour(), "roughness": roughness}
+
+
+# What the first call of all needs, such as threads.
+svbrdf.Material(**maps(1))
+given = maps(2048)
+before = kilobytes("VmRSS")
+material = svbrdf.Material(**given)
+print((kilobytes("VmHWM") - before) / (10 * 4 * 2048**2 / 1024))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="/proc tells the peak of memory on Linux only")
+@pytest.mark.parametrize("layout", ["channels last", "channels first"])
+def test_arrays_are_read_without_a_copy(layout: str) -> None:
+    def memory(dtype: str) -> float:
+        """The peak of memory while a material is made, in sizes of its maps."""
+        command = [sys.executable, "-c", READ, layout, dtype]
+        return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+    assert memory("float32") == pytest.approx(1, abs=0.05)
+    # What is measured is seen: numbers of another precision are converted.
+    assert memory("float64") > 1.9
 
 
 def test_shapes_types_and_values_are_checked_by_the_name_of_the_map() -> None:

@@ -42,9 +42,10 @@ def as_array(name: str, given: object, channels: int, precision: str) -> tuple[N
     if channels == 3:
         # The memory of a tensor of 3 x height x width whose channels were moved to the end.
         planes = array.transpose(2, 0, 1)
-        if planes.flags.c_contiguous:
+        if planes.flags.c_contiguous and planes.flags.aligned:
             return planes, True
-    return np.ascontiguousarray(array), False
+    # A copy only where the array has not this layout.
+    return np.require(array, requirements=["C_CONTIGUOUS", "ALIGNED"]), False
 
 
 def _numpy(name: str, given: object) -> NDArray[Any]:

@@ -47,8 +47,9 @@ class Material:
         precision: What the values are kept in: "f32" or "f64".
 
     Row 0 is the top row. Anything with `__array__` or `__dlpack__` in the memory of the CPU will do, such as a tensor
-    of PyTorch. Arrays are copied: the core keeps planes of checked values and normalized normals, and shares no memory
-    with numpy.
+    of PyTorch. Arrays are read without a copy where they have numbers of the precision and are C-contiguous, or are
+    3 x height x width in memory with the channels moved to the end; of others, numpy makes such a copy. The core
+    keeps checked values and normalized normals in memory of its own: arrays can be changed afterwards.
 
     Raises:
         TypeError: A map is not an array of floating-point numbers.
