@@ -119,6 +119,7 @@ fn display_params() -> DisplayParams {
         epsilon: 0.01,
         tiled: false,
         false_colour: false,
+        nearest: false,
         background: [0.0; 3],
     }
 }

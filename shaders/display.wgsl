@@ -11,6 +11,8 @@ override ENCODING: u32 = ENCODING_RADIANCE;
 override SHOW_CLIPPING: bool = false;
 override TILED: bool = false;
 override FALSE_COLOUR: bool = false;
+// Whether pixels show the nearest texel: none covers more than one, or a draft is enough.
+override NEAREST: bool = false;
 
 struct Display {
     camera: Camera,
@@ -24,6 +26,8 @@ struct Display {
     stride: u32,
     // Of the material, in texels.
     size: vec2u,
+    // The upper left pixel of the pane in the target.
+    corner: vec2u,
 }
 
 @group(0) @binding(0) var<uniform> params: Display;
@@ -98,9 +102,14 @@ fn display(corner: Corner) -> @location(0) vec4f {
     let repeats = select(1.0, 2.0, TILED);
     let scale = repeats / f32(params.stride);
     let place = repeated(texel) / f32(params.stride);
+    let pixel = vec2u(corner.position.xy) - params.corner;
+    if NEAREST {
+        let value = load(vec2i(floor(place)), from_reference);
+        return vec4f(colour(value, from_reference, pixel), 1.0);
+    }
     let covered = texels_from_plane_extent(extent, params.size) * scale;
     let columns = span(place.x, covered.x, size.x);
     let rows = span(place.y, covered.y, size.y);
     let value = average(columns, rows, from_reference);
-    return vec4f(colour(value, from_reference, vec2u(corner.position.xy)), 1.0);
+    return vec4f(colour(value, from_reference, pixel), 1.0);
 }

@@ -36,7 +36,7 @@ fn layouts() -> Vec<Layout> {
         layout!(SceneUniforms is Rays { view, near, light }),
         layout!(ShadingUniforms is Shading { rays, model, largest, stride }),
         layout!(CameraUniforms is Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
-        layout!(DisplayUniforms is Display { camera, background, exposure, epsilon, wipe, range, stride, size }),
+        layout!(DisplayUniforms is Display { camera, background, exposure, epsilon, wipe, range, stride, size, corner }),
         layout!(Band is Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
         layout!(LogSum is LogSum { larger, smaller, exponent }),
         layout!(ProbePoint is Point { normal, roughness, diffuse, specular, w_l, w_v }),

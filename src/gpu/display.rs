@@ -1,5 +1,6 @@
 //! Pass 2: what the camera sees of shaded texels, encoded for the screen, one fragment per pixel.
 
+use glam::{Vec2, Vec3};
 use wgpu::{BindGroup, BindingResource, BufferBindingType, RenderPass, RenderPipeline, TextureFormat};
 
 use super::fault::scoped;
@@ -8,12 +9,23 @@ use super::pipeline::{Constants, Fullscreen, bind, buffer_type, texture_type, un
 use super::uniforms::DisplayUniforms;
 use super::{Gpu, Shaded, shaders};
 use crate::error::Error;
+use crate::material::Grid;
+use crate::picture::camera::Camera;
 use crate::picture::difference::Difference;
 
 /// The pipelines of pass 2.
 #[derive(Debug)]
 pub struct Display {
     pipelines: Fullscreen,
+}
+
+/// Where a pane is drawn, in pixels of the target.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PanePlace {
+    /// The upper left pixel.
+    pub corner: [u32; 2],
+    /// (width, height).
+    pub size: [u32; 2],
 }
 
 /// Two pictures and how they are shown.
@@ -52,10 +64,17 @@ impl Display {
         })
     }
 
-    /// A pane of two pictures of one size and stride; the same one twice where there is no reference. A failure waits in
-    /// [`Gpu::take_fault`].
-    pub fn pane(&self, gpu: &Gpu, shown: &Shaded, reference: &Shaded, params: &DisplayParams) -> Pane {
-        let uniforms = DisplayUniforms::new(params, shown.size(), shown.stride());
+    /// A pane of two pictures of one size and stride; the same one twice where there is no reference. It is drawn into the
+    /// rectangle `place` of the target. A failure waits in [`Gpu::take_fault`].
+    pub fn pane(
+        &self,
+        gpu: &Gpu,
+        shown: &Shaded,
+        reference: &Shaded,
+        params: &DisplayParams,
+        place: PanePlace,
+    ) -> Pane {
+        let uniforms = DisplayUniforms::new(params, shown.size(), shown.stride(), place.corner);
         let uniforms = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
         let resources = [
             uniforms.as_entire_binding(),
@@ -63,19 +82,38 @@ impl Display {
             BindingResource::TextureView(&reference.view),
         ];
         let group = bind(&gpu.device, &self.pipelines.layout, &resources);
-        Pane { pipeline: self.pipelines.with(&gpu.device, constants(params)), group }
+        let nearest = params.nearest || is_magnified(params, shown, place.size);
+        Pane { pipeline: self.pipelines.with(&gpu.device, constants(params, nearest)), group }
     }
+}
 
-    /// Draws `pane` over the viewport of `pass`, which is the pane's rectangle.
-    pub fn draw(&self, pass: &mut RenderPass<'_>, pane: &Pane) {
-        pass.set_pipeline(&pane.pipeline);
-        pass.set_bind_group(0, &pane.group, &[]);
+impl Pane {
+    /// Draws it over the viewport of `pass`, which is its rectangle.
+    pub fn draw(&self, pass: &mut RenderPass<'_>) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &self.group, &[]);
         pass.draw(0..3, 0..1);
     }
 }
 
+/// Whether every pixel of a pane covers one texel at most along either axis: then it shows the nearest one. Known of parallel rays
+/// only, whose pixels cover as much everywhere.
+fn is_magnified(params: &DisplayParams, shown: &Shaded, [across, down]: [u32; 2]) -> bool {
+    let Camera { origin_right, origin_up, direction, direction_right, direction_up, .. } = params.camera;
+    if direction_right != Vec3::ZERO || direction_up != Vec3::ZERO {
+        return false;
+    }
+    let on_plane = |step: Vec3| (step - direction * (step.z / direction.z)).truncate().abs();
+    let extent = on_plane(origin_right * (2.0 / across as f32)) + on_plane(origin_up * (2.0 / down as f32));
+    let [width, height] = shown.size();
+    let [half_width, half_height] = Grid { width, height }.half_extent();
+    let texel = 2.0 * Vec2::new(half_width / width as f32, half_height / height as f32);
+    let repeats = if params.tiled { 2.0 } else { 1.0 };
+    (extent * repeats / shown.stride() as f32).cmple(texel).all()
+}
+
 /// The constants of the pipeline that shows pictures in this way.
-fn constants(params: &DisplayParams) -> Constants {
+fn constants(params: &DisplayParams, nearest: bool) -> Constants {
     let mode = match params.mode {
         DisplayMode::Value => 0,
         DisplayMode::Wipe(_) => 1,
@@ -104,5 +142,6 @@ fn constants(params: &DisplayParams) -> Constants {
         ("SHOW_CLIPPING", params.show_clipping.into()),
         ("TILED", params.tiled.into()),
         ("FALSE_COLOUR", params.false_colour.into()),
+        ("NEAREST", nearest.into()),
     ]
 }

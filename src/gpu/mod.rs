@@ -44,7 +44,7 @@ pub(crate) use read_back::read_rgba;
 #[cfg(not(feature = "testing"))]
 #[allow(unused_imports, reason = "the window uses them all")]
 pub(crate) use {
-    display::{Display, Pane},
+    display::{Display, Pane, PanePlace},
     params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
     still::{Blit, Still},
@@ -52,7 +52,7 @@ pub(crate) use {
 };
 #[cfg(feature = "testing")]
 pub use {
-    display::{Display, Pane},
+    display::{Display, Pane, PanePlace},
     params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams},
     shading::{Shaded, Shading},
     still::{Blit, Still},

@@ -33,6 +33,8 @@ pub struct DisplayParams {
     /// Whether [`Encoding::Data`] shows its first channel, in [0, 1], in the colours of
     /// [`heat`](crate::picture::colour_map::heat).
     pub false_colour: bool,
+    /// Whether a pixel that covers several texels shows the nearest one in place of their mean: for drafts.
+    pub nearest: bool,
     /// What is shown beside the material, already encoded for the screen.
     pub background: [f32; 3],
 }

@@ -8,7 +8,7 @@ use wgpu::{
 
 use super::fault::scoped;
 use super::pipeline::{Constants, Fullscreen, bind, texture_type};
-use super::{Display, Gpu, Pane, shaders};
+use super::{Gpu, Pane, shaders};
 use crate::error::Error;
 
 /// The pipeline that copies kept pixels to the window.
@@ -27,13 +27,8 @@ pub struct Still {
 }
 
 impl Still {
-    /// (width, height) in pixels.
-    pub fn size(&self) -> [u32; 2] {
-        [self.texture.width(), self.texture.height()]
-    }
-
     /// Draws `pane` into these pixels, and submits that.
-    pub fn draw(&self, gpu: &Gpu, display: &Display, pane: &Pane) {
+    pub fn draw(&self, gpu: &Gpu, pane: &Pane) {
         let view = self.texture.create_view(&Default::default());
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
@@ -46,7 +41,7 @@ impl Still {
             })],
             ..RenderPassDescriptor::default()
         });
-        display.draw(&mut pass, pane);
+        pane.draw(&mut pass);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
     }

@@ -168,12 +168,12 @@ pub struct DisplayUniforms {
     pub range: f32,
     pub stride: u32,
     pub size: [u32; 2],
-    pub pad: [u32; 2],
+    pub corner: [u32; 2],
 }
 
 impl DisplayUniforms {
-    /// For pictures of every `stride`-th texel of materials of `size` = (width, height).
-    pub(super) fn new(p: &DisplayParams, size: [usize; 2], stride: usize) -> Self {
+    /// For pictures of every `stride`-th texel of materials of `size` = (width, height), in a pane with this upper left pixel.
+    pub(super) fn new(p: &DisplayParams, size: [usize; 2], stride: usize, corner: [u32; 2]) -> Self {
         let wipe = match p.mode {
             DisplayMode::Value => 0.0,
             DisplayMode::Wipe(x) => x,
@@ -187,7 +187,7 @@ impl DisplayUniforms {
             range: p.difference.map_or(1.0, |difference| difference.range),
             stride: stride as u32,
             size: size.map(|side| side as u32),
-            pad: [0; 2],
+            corner,
         }
     }
 }

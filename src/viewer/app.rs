@@ -113,6 +113,9 @@ impl App {
             }
             None => None,
         };
+        if gpu.as_ref().is_some_and(|gpu| gpu.gpu.report.software) {
+            theme::simplify(&cc.egui_ctx);
+        }
         let mut app = Self {
             state: ViewState::default(),
             stored: settings.clone(),

@@ -8,7 +8,7 @@ use eframe::{egui, egui_wgpu, wgpu};
 use super::shaded::{ShadedMaterial, ShadedPart, ShadingDevice, ShadingRequest};
 use super::slot::Slot;
 use crate::error::Error;
-use crate::gpu::{Blit, Display, DisplayParams, Gpu, Shaded, Shading, Still};
+use crate::gpu::{Blit, Display, DisplayParams, Gpu, Pane, PanePlace, Shaded, Shading, Still};
 
 /// The texels of a pane, or those that they are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,14 @@ struct PaneKey {
     texels: [PaneTexels; 2],
     versions: [u64; 2],
     params: DisplayParams,
+    place: PanePlace,
+}
+
+/// What a pane showed last.
+struct KeptPane {
+    of: PaneKey,
+    /// Its pixels, from the second frame on that shows them.
+    still: Option<Arc<Still>>,
 }
 
 /// The passes, the shaded materials and the pixels of the panes. The materials' textures are part of the materials.
@@ -43,7 +51,7 @@ pub(super) struct GpuView {
     /// The photograph at the exposure of materials by their ids, each with its version.
     photographs: HashMap<u64, (Arc<Shaded>, u64)>,
     versions: u64,
-    stills: Vec<Option<(PaneKey, Arc<Still>)>>,
+    panes: Vec<Option<KeptPane>>,
 }
 
 impl GpuView {
@@ -64,7 +72,7 @@ impl GpuView {
             given: HashMap::new(),
             photographs: HashMap::new(),
             versions: 0,
-            stills: Vec::new(),
+            panes: Vec::new(),
         })
     }
 
@@ -125,11 +133,13 @@ impl GpuView {
         self.shaded.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
         self.given.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
         self.photographs.retain(|id, _| slots.iter().any(|slot| slot.id == *id));
-        self.stills.truncate(panes);
+        self.panes.truncate(panes);
     }
 
-    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded or given. The pixels of pane
-    /// `number` are drawn anew only where they change.
+    /// Draws `shown` into `rect`, with `reference` where the mode compares; both must have been shaded or given.
+    ///
+    /// Where pane `number` shows what it showed in the frame before, its pixels are kept and copied from then on. A pane that
+    /// changes is drawn into the window at once: its pixels would be copied only once.
     pub(super) fn paint(
         &mut self,
         painter: &egui::Painter,
@@ -138,29 +148,35 @@ impl GpuView {
         texels: [PaneTexels; 2],
         params: DisplayParams,
     ) {
-        if self.stills.len() <= number {
-            self.stills.resize_with(number + 1, || None);
+        if self.panes.len() <= number {
+            self.panes.resize_with(number + 1, || None);
         }
-        let kept = self.stills[number].take();
+        let kept = self.panes[number].take();
         let [Some(shown), Some(reference)] = texels.map(|texels| self.texels(texels)) else { return };
-        let size = (rect.size() * painter.ctx().pixels_per_point()).round().max(egui::Vec2::splat(1.0));
-        let size = [size.x as u32, size.y as u32];
-        let key = PaneKey { texels, versions: [shown.1, reference.1], params };
-        let kept = kept.filter(|(_, still)| still.size() == size);
-        let still = match kept {
-            Some((of, still)) if of == key => still,
-            old => {
-                let still =
-                    old.map_or_else(|| Arc::new(self.blit.still(&self.gpu, size)), |(_, still)| still);
-                let pane = self.display.pane(&self.gpu, shown.0, reference.0, &params);
-                still.draw(&self.gpu, &self.display, &pane);
-                still
+        let place = place(rect, painter.ctx().pixels_per_point());
+        let key = PaneKey { texels, versions: [shown.1, reference.1], params, place };
+        let pane = |place| Arc::new(self.display.pane(&self.gpu, shown.0, reference.0, &params, place));
+        let (still, drawn) = match kept {
+            Some(KeptPane { of, still: Some(still) }) if of == key => {
+                (Some(still.clone()), PaneDrawing::Copied(self.blit.clone(), still))
             }
+            Some(KeptPane { of, still: None }) if of == key => {
+                let still = Arc::new(self.blit.still(&self.gpu, place.size));
+                still.draw(&self.gpu, &pane(PanePlace { corner: [0; 2], ..place }));
+                (Some(still.clone()), PaneDrawing::Copied(self.blit.clone(), still))
+            }
+            _ => (None, PaneDrawing::Direct(pane(place))),
         };
-        self.stills[number] = Some((key, still.clone()));
-        let copy = CopyPane { blit: self.blit.clone(), still };
-        painter.add(egui_wgpu::Callback::new_paint_callback(rect, copy));
+        self.panes[number] = Some(KeptPane { of: key, still });
+        painter.add(egui_wgpu::Callback::new_paint_callback(rect, drawn));
     }
+}
+
+/// The pixels that a rectangle of the window covers.
+fn place(rect: egui::Rect, pixels_per_point: f32) -> PanePlace {
+    let [first, end] =
+        [rect.min, rect.max].map(|p| [p.x, p.y].map(|c| (c * pixels_per_point).round().max(0.0) as u32));
+    PanePlace { corner: first, size: [0, 1].map(|axis| end[axis].saturating_sub(first[axis]).max(1)) }
 }
 
 /// Puts texels that were computed elsewhere in the place of `id`, with a new version where they are others.
@@ -172,20 +188,25 @@ fn put(all: &mut HashMap<u64, (Arc<Shaded>, u64)>, versions: &mut u64, id: u64, 
     all.insert(id, (texels.clone(), *versions));
 }
 
-/// The pixels of one pane, in egui's render pass.
-struct CopyPane {
-    blit: Arc<Blit>,
-    still: Arc<Still>,
+/// How a pane comes into egui's render pass.
+enum PaneDrawing {
+    /// Its pixels are computed.
+    Direct(Arc<Pane>),
+    /// Its kept pixels are copied.
+    Copied(Arc<Blit>, Arc<Still>),
 }
 
-impl egui_wgpu::CallbackTrait for CopyPane {
+impl egui_wgpu::CallbackTrait for PaneDrawing {
     fn paint(
         &self,
         _info: egui::PaintCallbackInfo,
         pass: &mut wgpu::RenderPass<'static>,
         _resources: &egui_wgpu::CallbackResources,
     ) {
-        self.blit.draw(pass, &self.still);
+        match self {
+            Self::Direct(pane) => pane.draw(pass),
+            Self::Copied(blit, still) => blit.draw(pass, still),
+        }
     }
 }
 

@@ -60,6 +60,18 @@ pub(super) fn install(ctx: &egui::Context) {
     });
 }
 
+/// Right angles and hard edges, for adapters that compute on the CPU. They pay for every block of pixels that a triangle touches:
+/// round corners and soft edges make ten times as many triangles, and took a quarter of a frame.
+pub(super) fn simplify(ctx: &egui::Context) {
+    ctx.options_mut(|options| options.tessellation_options.feathering = false);
+    ctx.all_styles_mut(|style| {
+        let widgets = &mut style.visuals.widgets;
+        let all = [&mut widgets.noninteractive, &mut widgets.inactive, &mut widgets.hovered];
+        let all = all.into_iter().chain([&mut widgets.active, &mut widgets.open]);
+        all.for_each(|widget| widget.corner_radius = egui::CornerRadius::ZERO);
+    });
+}
+
 pub(super) fn choose(ctx: &egui::Context, dark: bool) {
     ctx.set_theme(if dark { Theme::Dark } else { Theme::Light });
 }

@@ -36,6 +36,8 @@ pub(super) struct Viewport {
     /// The texel that was under the pointer last.
     pub last_texel: Option<[usize; 2]>,
     pace: Pace,
+    /// Whether pixels show the nearest of their texels: while something moves on a slow adapter.
+    is_draft: bool,
     /// Whether everything is shaded in full at once, for pictures that are saved.
     exact: bool,
     /// Whether the difference or the value of the chosen prediction fills an empty place.
@@ -167,6 +169,7 @@ impl Viewport {
             epsilon: state.convention().epsilon as f32,
             tiled: state.tiled,
             false_colour: state.false_colour,
+            nearest: self.is_draft,
             background: [background[0], background[1], background[2]],
         };
         let drawn = match texels(gpu, scenery, content) {
@@ -212,7 +215,8 @@ impl Viewport {
         let is_large = grid.width * grid.height > BAND && (software || self.pace.is_slow());
         // What is compared with an error map or a photograph, and what is saved, is never shaded in part.
         let is_exact = self.exact || state.is_error_map() || scenery.photograph.is_some();
-        let part = if !is_exact && (moves || is_large) {
+        self.is_draft = moves && !is_exact;
+        let part = if self.is_draft || is_large && !is_exact {
             shaded_part(state, grid, self.aspect(), self.magnification(grid, state))
         } else {
             ShadedPart::Whole

@@ -14,7 +14,7 @@ const AROUND: f32 = 0.04;
 /// About one texel a pixel where several fall into one, the visible texels otherwise. `pixels_per_texel` is the
 /// magnification in panes of `aspect` = width / height.
 pub(super) fn shaded_part(state: &ViewState, grid: Grid, aspect: f32, pixels_per_texel: f32) -> ShadedPart {
-    let stride = (pixels_per_texel.recip() as usize).clamp(1, MOST);
+    let stride = (pixels_per_texel.recip().round() as usize).clamp(1, MOST);
     if stride > 1 {
         return ShadedPart::EveryNth(stride);
     }
@@ -85,6 +85,7 @@ mod tests {
     fn minified_materials_have_about_a_texel_a_pixel_and_tiled_ones_are_shaded_whole() {
         let mut state = ViewState::default();
         assert_eq!(shaded_part(&state, GRID, 1.0, 0.3), ShadedPart::EveryNth(3));
+        assert_eq!(shaded_part(&state, GRID, 1.0, 0.252), ShadedPart::EveryNth(4));
         assert_eq!(shaded_part(&state, GRID, 1.0, 1e-9), ShadedPart::EveryNth(MOST));
         state.tiled = true;
         assert_eq!(shaded_part(&state, GRID, 1.0, 2.0), ShadedPart::Whole);

@@ -33,6 +33,8 @@ pub struct Pair {
     pub prediction: Material<f32>,
     /// The loss over all scenes, in the weights 2 : 1.
     pub reference: f64,
+    /// Standard error of `reference`, in percent of it.
+    pub reference_error: f64,
 }
 
 /// What many seeds have shown, in percent: of the seeds, and of the reference.
@@ -72,11 +74,13 @@ impl Pair {
         log_points: u32,
     ) -> Self {
         let [ground_truth, prediction] = [ground_truth, prediction].map(|m| thinned(m, step));
-        let mut pair = Self { ground_truth, prediction, reference: 0.0 };
+        let mut pair = Self { ground_truth, prediction, reference: 0.0, reference_error: 0.0 };
         let (near, distant) = (16 << log_points, 8 << log_points);
         let sampling =
             Sampling { near, distant, seed: 1 << 40, sampler: Sampler::Sobol, texels: Texels::All };
-        pair.reference = pair.loss(sampling).estimate.mean;
+        let estimate = pair.loss(sampling).estimate;
+        pair.reference = estimate.mean;
+        pair.reference_error = 100.0 * estimate.standard_error.unwrap() / estimate.mean;
         pair
     }
 

@@ -22,8 +22,10 @@ impl Table {
         [least, most]: [f64; 2],
         estimate: impl Fn(u64) -> (Estimate, usize) + Sync + Send,
     ) {
-        let is_right =
-            |seen: &Seen| (least..=most).contains(&seen.coverage) && seen.bias.abs() <= 4.0 * seen.bias_error;
+        let is_right = |seen: &Seen| {
+            let error = seen.bias_error.hypot(pair.reference_error);
+            (least..=most).contains(&seen.coverage) && seen.bias.abs() <= 4.0 * error
+        };
         let (mut seeds, mut seen) = (SEEDS, pair.seen(SEEDS, &estimate));
         if !is_right(&seen) {
             println!("more seeds for {}, {what}: {seen:.3?}", pair.name());

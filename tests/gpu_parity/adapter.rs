@@ -124,6 +124,7 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
         epsilon: 0.01,
         tiled: false,
         false_colour: false,
+        nearest: false,
         background: [0.0; 3],
     };
     let picture = picture(&half, [2, 2], &target, &target, &params);

@@ -58,6 +58,7 @@ fn params(camera: Camera, quantity: Quantity) -> DisplayParams {
         epsilon: 0.01,
         tiled: false,
         false_colour: false,
+        nearest: false,
         background: BACKGROUND,
     }
 }
@@ -274,4 +275,22 @@ fn clipped_pixels_are_striped_on_demand() {
     assert_eq!(striped(0.9, 0.0, true), 0);
     assert_eq!(striped(0.9, 9.0, false), 0);
     assert_eq!(striped(0.9, 9.0, true), 128);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_draft_shows_the_nearest_texel_where_a_pixel_covers_several() {
+    let gpu = gpu();
+    let size = [15, 9];
+    let material = bumpy(size[0], size[1]);
+    let shaded = shaded(gpu, &material, Quantity::Diffuse);
+    let faults = |nearest| {
+        let params = DisplayParams { nearest, ..params(whole(size), Quantity::Diffuse) };
+        let picture = picture(gpu, [5, 3], &shaded, &shaded, &params);
+        faults(&picture, |column, row| {
+            Some(levels(diffuse(&material, 3 * column + 1, 3 * row + 1).map(srgb)))
+        })
+    };
+    assert_eq!(faults(true), Vec::<String>::new());
+    assert!(faults(false).len() > 7, "means are shown otherwise");
 }

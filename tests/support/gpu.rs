@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use svbrdf::gpu::{Display, DisplayParams, Gpu, Pane, Shaded};
+use svbrdf::gpu::{Display, DisplayParams, Gpu, Pane, PanePlace, Shaded};
 use svbrdf::material::{Material, Planes};
 
 /// What to do where the tests and the build disagree on what is there.
@@ -83,7 +83,6 @@ pub fn picture(
 
 /// What stands for a window: a pane and the texture it is drawn into.
 pub struct Screen {
-    display: Display,
     pane: Pane,
     texture: wgpu::Texture,
 }
@@ -98,7 +97,8 @@ impl Screen {
     ) -> Self {
         let format = wgpu::TextureFormat::Rgba8Unorm;
         let display = Display::new(gpu, format).expect("the display pass compiles");
-        let pane = display.pane(gpu, shown, reference, params);
+        let place = PanePlace { corner: [0; 2], size: [width, height] };
+        let pane = display.pane(gpu, shown, reference, params, place);
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("window"),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -109,7 +109,7 @@ impl Screen {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
-        Self { display, pane, texture }
+        Self { pane, texture }
     }
 
     pub fn draw(&self, gpu: &Gpu) {
@@ -124,7 +124,7 @@ impl Screen {
             })],
             ..Default::default()
         });
-        self.display.draw(&mut pass, &self.pane);
+        self.pane.draw(&mut pass);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
     }

@@ -139,3 +139,31 @@ fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
     window.get_by_label("Copy scene");
     assert!(window.state().settings.side_panel, "the choice of wide windows is their own");
 }
+
+/// The pane that changes is drawn into the window, and from the next frame on its kept pixels are copied.
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_pane_that_changes_has_the_pixels_that_are_kept_of_it() {
+    for scale in [1.0, 1.25] {
+        let mut window = scaled_window(ViewerOptions::default(), scale);
+        press(&mut window, egui::Key::L);
+        window.run_steps(8);
+        let rect = pane(&window, GROUND_TRUTH);
+        let [left, top, right, bottom] = [rect.left(), rect.top(), rect.right(), rect.bottom()];
+        let [left, top, right, bottom] = [left, top, right, bottom].map(|side| (side * scale).round() as u32);
+        let pixels = |window: &mut Window<'_>| {
+            let picture = window.render().unwrap();
+            image::imageops::crop_imm(&picture, left, top, right - left, bottom - top).to_image()
+        };
+        let mut seen = vec![pixels(&mut window)];
+        for exposure in [2.0, 3.5] {
+            window.state_mut().state.exposure_ev = exposure;
+            for _ in 0..4 {
+                window.step();
+                seen.push(pixels(&mut window));
+            }
+        }
+        let changes = seen.windows(2).filter(|two| two[0] != two[1]).count();
+        assert_eq!(changes, 2, "scale {scale}");
+    }
+}
