@@ -167,8 +167,8 @@ pub enum Error {
     TooLarge { width: usize, height: usize, bytes: usize, max_side: usize, max_bytes: usize },
 
     /// An accuracy that was asked for needs more scenes than are drawn.
-    #[error("{prediction} is known to +-{}, not to the +-{} that was asked for: {scenes} scenes, the most there are, \
-        are not enough; ask for less, or go by the interval", percent(*reached), percent(*target))]
+    #[error("{prediction} is known to +-{}, not to the target of +-{}: {scenes} scenes, the limit, are not enough; \
+        go by the interval, or set a larger target", percent(*reached), percent(*target))]
     Inaccurate { prediction: String, reached: f64, target: f64, scenes: usize },
 
     /// A result cannot be written.

@@ -1,6 +1,12 @@
 //! Many predictions of one ground truth, best first, with what the data can separate.
 
-use crate::loss::{Estimate, Outcome};
+use crate::loss::{Estimate, MOST_SCENES, Outcome};
+
+/// Most scenes for a ranking of `predictions`, which are compared in the same ones: half as many renderings as a loss may take, and
+/// at least 24,576 scenes.
+pub fn most_scenes(predictions: usize) -> usize {
+    (MOST_SCENES / (1 + predictions)).max(24_576)
+}
 
 /// A prediction in its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,4 +40,14 @@ pub fn places(outcome: &Outcome) -> Vec<Ranked> {
 /// Whether a difference is larger than 0 at 95% confidence.
 fn separated(difference: &Estimate) -> bool {
     difference.interval95.is_some_and(|[low, _]| low > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_predictions_share_the_work_of_one_down_to_a_least_number_of_scenes() {
+        assert_eq!([1, 3, 31, 32, 1000].map(most_scenes), [393_216, 196_608, 24_576, 24_576, 24_576]);
+    }
 }

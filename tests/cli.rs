@@ -74,13 +74,17 @@ fn files(folder: &Path) -> Vec<String> {
 
 /// A packed strip: normal | diffuse | roughness | specular, `side` texels each.
 fn write_material(path: &Path, side: u32, roughness: u8) {
-    let tile = |x: u32, y: u32| match x / side {
+    write_tiles(path, side, |x, y| match x / side {
         0 => [128, 140, 250],
         1 => [200, (8 * (x % side)) as u8, (8 * y) as u8],
         2 => [roughness; 3],
         _ => [12; 3],
-    };
-    RgbImage::from_fn(4 * side, side, |x, y| Rgb(tile(x, y))).save(path).unwrap();
+    });
+}
+
+/// Writes a packed material of four tiles.
+fn write_tiles(path: &Path, side: u32, at: impl Fn(u32, u32) -> [u8; 3]) {
+    RgbImage::from_fn(4 * side, side, |x, y| Rgb(at(x, y))).save(path).unwrap();
 }
 
 /// A folder with materials of one size and of others, and scene files.

@@ -191,7 +191,7 @@ def test_a_target_that_is_not_reached_is_a_warning(monkeypatch: pytest.MonkeyPat
     real = _core.loss
     monkeypatch.setattr(_core, "loss", missed)
     ground_truth, prediction, _ = svbrdf.built_in()
-    with pytest.warns(UserWarning, match=r"known to \+-50.00%, not to the \+-30.00% that was asked for"):
+    with pytest.warns(UserWarning, match=r"known to \+-50.00%, not to the target of \+-30.00%"):
         report = svbrdf.loss(ground_truth, prediction, target_error=0.3)
     assert report.target_reached is False
     monkeypatch.undo()

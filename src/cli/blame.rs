@@ -13,17 +13,17 @@ use svbrdf::why::{Attribution, MapShare, attribute};
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
 use super::report::{EstimateEntry, ReportFormat};
-use super::{exit, loss, materials, table};
+use super::{exit, loss, materials, table, target};
 
 /// Prints how much of the rendering loss comes from each map
 ///
 /// Renders all 16 mixtures of the maps of the ground truth and of the prediction in the same scenes on the same texels. The Shapley
 /// value of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; the four
-/// values add up to the loss. Beside them stands the loss where only this map is wrong, and where only this map is right.
-/// Without GT and PRED: the built-in materials.
+/// values add up to the loss. Beside them stands the loss where only this map is wrong, and where only this map is right. A share
+/// below 0%: the error of this map hides errors of others. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 pub struct BlameArgs {
-    /// Samples as many scenes as this relative error of the loss needs at 95% confidence
+    /// Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152
     #[arg(long, value_name = "PERCENT", value_parser = loss::percent, allow_hyphen_values = true, default_value = "1%")]
     target_error: f64,
 
@@ -46,7 +46,8 @@ pub struct BlameArgs {
 /// Prints the attributions to stdout.
 ///
 /// # Errors
-/// Where a material or the scenes cannot be read or used.
+/// Where a material or the scenes cannot be read or used; with `--strict` where the target error is not reached, after the results
+/// are printed.
 pub fn run(args: &BlameArgs) -> Result<(), Error> {
     table::check_predictions(&args.comparison.materials)?;
     let request = match &args.scenes {
@@ -60,14 +61,24 @@ pub fn run(args: &BlameArgs) -> Result<(), Error> {
         })
     };
     let attributions = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    let target = args.scenes.is_none().then_some(args.target_error);
     exit::put(&match args.format {
         ReportFormat::Text => {
             let one = |a| text(a, &opened.ground_truth, &args.comparison.convention());
             attributions.iter().map(one).collect::<Vec<_>>().join("\n")
         }
-        ReportFormat::Json => json(&attributions, &opened.ground_truth, &args.comparison.convention())?,
-        ReportFormat::Csv => csv(&attributions)?,
-    })
+        ReportFormat::Json => {
+            json(&attributions, &opened.ground_truth, &args.comparison.convention(), target)?
+        }
+        ReportFormat::Csv => csv(&attributions, target)?,
+    })?;
+    let missed = |a: &Attribution| target::missed(target?, &a.prediction, &a.loss, a.scenes.len());
+    target::warn_of(attributions.iter().filter_map(missed), args.comparison.materials.reading.both.strict)
+}
+
+/// Whether the loss is known as well as the target error asks for.
+fn is_reached(attribution: &Attribution, target: f64) -> bool {
+    attribution.loss.relative_error95() <= target
 }
 
 fn text(attribution: &Attribution, ground_truth: &Material<f32>, convention: &Convention) -> String {
@@ -86,14 +97,16 @@ fn text(attribution: &Attribution, ground_truth: &Material<f32>, convention: &Co
     }));
     let [mean, error, interval] = loss.texts();
     rows.push(vec!["all".to_owned(), percent(loss.mean, loss.mean), mean, error, interval]);
-    format!("{heading}{}\n{}", table::scenes_line(sampling.as_ref(), scenes), table::aligned(&rows))
+    let scenes = table::scenes_line(sampling.as_ref(), scenes);
+    let note = attribution.note().map_or(String::new(), |note| format!("\n{note}\n"));
+    format!("{heading}{scenes}\n{}{note}", table::aligned(&rows))
 }
 
 fn percent(part: f64, whole: f64) -> String {
     if whole > 0.0 { format!("{:.1}%", 100.0 * part / whole) } else { "-".to_owned() }
 }
 
-fn csv(attributions: &[Attribution]) -> Result<String, Error> {
+fn csv(attributions: &[Attribution], target: Option<f64>) -> Result<String, Error> {
     let heading = [
         "prediction",
         "map",
@@ -104,6 +117,8 @@ fn csv(attributions: &[Attribution]) -> Result<String, Error> {
         "only_wrong",
         "only_right",
         "loss",
+        "target_error",
+        "target_reached",
     ];
     let row = |a: &Attribution, share: &MapShare| {
         let [error, low, high] = table::errors(&share.shapley);
@@ -116,7 +131,9 @@ fn csv(attributions: &[Attribution]) -> Result<String, Error> {
             low,
             high,
         ];
-        start.into_iter().chain(numbers).collect()
+        let error = target.map_or(String::new(), |target| target.to_string());
+        let reached = target.map_or(String::new(), |target| is_reached(a, target).to_string());
+        start.into_iter().chain(numbers).chain([error, reached]).collect()
     };
     let rows = attributions.iter().flat_map(|a| a.maps.iter().map(move |share| row(a, share)));
     table::csv([heading.map(str::to_owned).to_vec()].into_iter().chain(rows))
@@ -127,6 +144,7 @@ struct BlameJson<'a> {
     ground_truth: &'a str,
     convention: &'a str,
     epsilon: f64,
+    target_error: Option<f64>,
     attributions: Vec<BlameEntry<'a>>,
 }
 
@@ -135,6 +153,7 @@ struct BlameEntry<'a> {
     prediction: &'a str,
     scenes: usize,
     seed: Option<u64>,
+    target_reached: Option<bool>,
     loss: EstimateEntry,
     maps: Vec<Share>,
 }
@@ -151,6 +170,7 @@ fn json(
     attributions: &[Attribution],
     ground_truth: &Material<f32>,
     convention: &Convention,
+    target: Option<f64>,
 ) -> Result<String, Error> {
     let share = |s: &MapShare| Share {
         map: s.map,
@@ -162,6 +182,7 @@ fn json(
         prediction: &a.prediction,
         scenes: a.scenes.len(),
         seed: a.sampling.map(|sampling| sampling.seed),
+        target_reached: target.map(|target| is_reached(a, target)),
         loss: a.loss.into(),
         maps: a.maps.iter().map(share).collect(),
     });
@@ -169,6 +190,7 @@ fn json(
         ground_truth: ground_truth.name(),
         convention: convention.name,
         epsilon: convention.epsilon,
+        target_error: target,
         attributions: entries.collect(),
     })
 }

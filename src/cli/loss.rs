@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use svbrdf::error::Error;
-use svbrdf::loss::{Comparison, Compute, Loss, Precision, Request, Sampling, Texels};
+use svbrdf::loss::{ALL_SCENES_TARGET, Comparison, Compute, Precision, Request, Sampling, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene_file;
 use svbrdf::report::Report;
@@ -14,7 +14,7 @@ use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
 use super::report::{Printed, ReportFormat};
 use super::session::SessionSettings;
-use super::{exit, materials, table};
+use super::{exit, materials, table, target};
 
 /// Prints the rendering loss of predictions against a ground truth
 ///
@@ -98,26 +98,18 @@ pub fn run(mut args: LossArgs) -> Result<(), Error> {
             Ok(Report::new(&comparison, outcome))
         })?,
     };
+    let all_scenes = report.all_scenes.as_ref();
+    let missed_by_all_scenes = all_scenes.and_then(|known| target::missed_by_any(ALL_SCENES_TARGET, known));
     let printed = Printed { missed: missed(&request, &report), report, request, paths: paths(args), steps };
     exit::put(&args.format.write(&printed).map_err(exit::unwritable)?)?;
-    match printed.missed {
-        Some(missed) if args.comparison.materials.reading.both.strict => Err(missed),
-        Some(missed) => {
-            exit::tell(&format!("warning: {missed}"));
-            Ok(())
-        }
-        None => Ok(()),
-    }
+    let missed = printed.missed.into_iter().chain(missed_by_all_scenes);
+    target::warn_of(missed, args.comparison.materials.reading.both.strict)
 }
 
 /// The error of a target that is not reached.
 fn missed(request: &Request, report: &Report) -> Option<Error> {
     let Request::Accuracy { target, .. } = *request else { return None };
-    let error = |loss: &Loss| loss.estimate.relative_error95();
-    let worst = report.outcome.losses.iter().max_by(|a, b| error(a).total_cmp(&error(b)))?;
-    let (prediction, scenes) = (worst.prediction.clone(), report.outcome.scenes.len());
-    let reached = error(worst);
-    (reached > target).then_some(Error::Inaccurate { prediction, reached, target, scenes })
+    target::missed_by_any(target, &report.outcome)
 }
 
 /// The paths of the ground truth and of the predictions; none of the built-in ones.

@@ -26,6 +26,7 @@ mod stop;
 mod strip;
 mod study;
 mod table;
+mod target;
 mod view;
 mod wildcards;
 mod worst;

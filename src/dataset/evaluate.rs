@@ -12,6 +12,7 @@ use crate::material::Material;
 use crate::metrics::of_maps;
 use crate::model::convention::Convention;
 use crate::progress::Progress;
+use crate::rank::most_scenes;
 
 /// What is read: a ground truth or a prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +23,8 @@ pub enum Side {
 
 /// Computes the losses of `tasks`, in parallel; `done` sees each result as soon as it is there, in any order.
 ///
-/// All predictions of a material are compared in the same scenes, as many as the target error of every one needs. What cannot be read or
+/// All predictions of a material are compared in the same scenes, as many as the target error of every one needs, at
+/// most [`most_scenes`]. What cannot be read or
 /// compared is a result, too: it says why. A material is one step of `progress`. The results do not depend on the number
 /// of threads, nor on which other materials there are.
 ///
@@ -64,7 +66,8 @@ fn one(
     let outcome = match &truth {
         Ok(truth) if !readable.is_empty() => {
             let request = Request::Accuracy { target: settings.target_error, seed };
-            Some(Comparison::new(truth, &readable, *convention)?.run(&request, &progress.part())?)
+            let comparison = Comparison::new(truth, &readable, *convention)?;
+            Some(comparison.at_most(most_scenes(readable.len())).run(&request, &progress.part())?)
         }
         _ => None,
     };

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::loss::Estimate;
+
 /// A material: its ground truth, and the predictions of all methods.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Case {
@@ -93,4 +95,12 @@ pub struct KnownLoss {
     /// Due to the sampling of scenes and texels.
     pub standard_error: f64,
     pub interval95: [f64; 2],
+}
+
+impl KnownLoss {
+    /// The loss as an estimate.
+    pub fn estimate(&self) -> Estimate {
+        let Self { loss, standard_error, interval95 } = *self;
+        Estimate { mean: loss, standard_error: Some(standard_error), interval95: Some(interval95) }
+    }
 }

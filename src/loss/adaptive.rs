@@ -29,7 +29,7 @@ const NEAR_PER_DISTANT: usize = 2;
 const PILOT: usize = 8;
 /// Most distant scenes of each scrambling.
 const MOST: usize = 1 << 15;
-/// Most scenes of a loss.
+/// Most scenes of a loss, unless a comparison has a limit of its own.
 pub const MOST_SCENES: usize = MOST * REPLICATES * (1 + NEAR_PER_DISTANT);
 /// The variance of a run is assumed to fall as this power of its size. Where it falls more slowly, it goes on.
 const RATE: f64 = 1.5;
@@ -60,11 +60,12 @@ pub(super) fn run<T: Compute>(
     mut update: impl FnMut(&Outcome),
 ) -> Result<Outcome, Error> {
     let start = Instant::now();
+    let most = largest_size(comparison.most_scenes().unwrap_or(MOST_SCENES));
     let (mut size, mut best) = match goal {
         Goal::RelativeError(target) => {
             let pilot = step(comparison, pilot_seed(seed), PILOT, None, progress)?;
             update(&pilot);
-            (planned_size(PILOT, target, &pilot), Some(pilot))
+            (planned_size(PILOT, target, &pilot).min(most), Some(pilot))
         }
         Goal::Time(_) => (1, None),
     };
@@ -86,7 +87,7 @@ pub(super) fn run<T: Compute>(
             // To double the size takes as long as all so far, twice as long as the last doubling.
             Goal::Time(time) => (start.elapsed() + 2 * step_start.elapsed() <= time).then_some(2 * size),
         };
-        match next.map(|next| next.min(MOST)).filter(|next| *next > size) {
+        match next.map(|next| next.min(most)).filter(|next| *next > size) {
             None => return Ok(outcome),
             Some(next) => size = next,
         }
@@ -132,9 +133,39 @@ fn rounded(size: usize) -> usize {
     if size <= power / 4 * 3 { power / 4 * 3 } else { power }
 }
 
+/// The largest size of a run with at most `scenes` scenes.
+fn largest_size(scenes: usize) -> usize {
+    let size = (scenes / (REPLICATES * (1 + NEAR_PER_DISTANT))).clamp(1, MOST);
+    match rounded(size) {
+        even if even == size => size,
+        above if above.is_power_of_two() => above / 4 * 3,
+        above => above / 3 * 2,
+    }
+}
+
 /// The seed of the pilot of a run: its scenes are independent of those of the run.
 fn pilot_seed(seed: u64) -> u64 {
     /// 2^64 over the golden ratio: the step of SplitMix64.
     const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
     seed.wrapping_add(STEP)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_of_scenes_is_the_largest_even_size_below() {
+        for scenes in
+            [1, 24, 25, 47, 48, 71, 72, 95, 96, 10_000, 24_575, 24_576, 49_152, MOST_SCENES, usize::MAX]
+        {
+            let size = largest_size(scenes);
+            let next = rounded(size + 1);
+            assert_eq!(rounded(size), size, "{scenes}");
+            assert!(
+                24 * size <= scenes.max(24) && (24 * next > scenes || next > MOST),
+                "{scenes}: {size}, {next}"
+            );
+        }
+    }
 }

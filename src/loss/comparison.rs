@@ -35,6 +35,7 @@ pub struct Comparison<'a, T> {
     convention: Convention,
     backend: &'a dyn Backend<T>,
     pilot: bool,
+    most_scenes: Option<usize>,
 }
 
 /// What computes the loss of each scene.
@@ -87,6 +88,7 @@ impl<'a, T: Compute> Comparison<'a, T> {
             convention,
             backend: T::cpu(),
             pilot: true,
+            most_scenes: None,
         })
     }
 }
@@ -102,6 +104,18 @@ impl<'a, T> Comparison<'a, T> {
     #[must_use]
     pub fn without_pilot(self) -> Self {
         Self { pilot: false, ..self }
+    }
+
+    /// The same comparison, where an accuracy or a time samples at most `count` scenes instead of [`MOST_SCENES`](super::MOST_SCENES), rounded down to
+    /// a number that Sobol sequences are even with; at least 24.
+    #[must_use]
+    pub fn at_most(self, count: usize) -> Self {
+        Self { most_scenes: Some(count), ..self }
+    }
+
+    /// The most scenes that an accuracy or a time samples, where this comparison has a limit of its own.
+    pub(super) fn most_scenes(&self) -> Option<usize> {
+        self.most_scenes
     }
 
     /// Whether a pilot gives the intervals of few sampled scenes.

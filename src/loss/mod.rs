@@ -26,6 +26,7 @@ pub use fused::Fused;
 pub use outcome::{IntervalSource, Loss, Outcome};
 pub use plain::Plain;
 pub use request::{Precision, Request, Sampling, Texels};
+pub use run::ALL_SCENES_TARGET;
 pub use settings::{Ask, FileScenes, LossSettings};
 pub(crate) use shared_texels::SharedTexels;
 pub use statistics::Estimate;

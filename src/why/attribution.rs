@@ -9,7 +9,7 @@
 //! variance that the mixtures have in common cancels.
 
 use crate::error::Error;
-use crate::loss::{Comparison, Compute, Estimate, Request, Sampling};
+use crate::loss::{self, Comparison, Compute, Estimate, Request, Sampling};
 use crate::material::{Map, Material};
 use crate::model::convention::Convention;
 use crate::model::sampler::Sampler;
@@ -20,6 +20,9 @@ use crate::progress::Progress;
 const MOST_BYTES: usize = 1 << 30;
 /// Number of sets of maps.
 const SETS: usize = 16;
+/// Most scenes of an attribution, and of the mean beside a worst scene: an attribution renders 16 mixtures in each, and should take no
+/// longer than a loss.
+pub const MOST_SCENES: usize = loss::MOST_SCENES / SETS;
 
 /// The loss of a prediction, and what each map adds to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,11 +56,24 @@ impl Attribution {
     pub fn of(&self, map: Map) -> &MapShare {
         &self.maps[index(map)]
     }
+
+    /// What shares below 0% mean, where there are any: a sentence for people.
+    pub fn note(&self) -> Option<String> {
+        let is_below = |e: &Estimate| e.interval95.map_or(e.mean, |[_, high]| high) < 0.0;
+        let below = self.maps.iter().filter(|share| is_below(&share.shapley));
+        let names: Vec<_> = below.map(|share| share.map.name()).collect();
+        let verb = if names.len() == 1 { "hides" } else { "hide" };
+        let names = (!names.is_empty()).then(|| names.join(" and "))?;
+        Some(format!(
+            "A share below 0%: the wrong {names} {verb} errors of other maps, whose shares add up to more than 100%."
+        ))
+    }
 }
 
 /// How much of the loss of `prediction` comes from each of its maps, over the scenes of `request`.
 ///
-/// Intervals come from the scenes alone, so `request` should sample many, as [`Request::Accuracy`] does.
+/// Intervals come from the scenes alone, so `request` should sample many, as [`Request::Accuracy`] does. An accuracy or a time
+/// samples at most [`MOST_SCENES`]; the interval of the loss tells whether an accuracy is reached.
 ///
 /// # Errors
 /// [`Error::SizesDiffer`], and those of [`Comparison::run`].
@@ -68,7 +84,8 @@ pub fn attribute<T: Compute>(
     request: &Request,
     progress: &Progress,
 ) -> Result<Attribution, Error> {
-    let comparison = Comparison::new(ground_truth, &[prediction], *convention)?.without_pilot();
+    let comparison =
+        Comparison::new(ground_truth, &[prediction], *convention)?.without_pilot().at_most(MOST_SCENES);
     let mut outcome = comparison.run(request, progress)?;
     let mut values = vec![Vec::new(); SETS];
     values[0] = vec![0.0; outcome.scenes.len()];
@@ -154,6 +171,26 @@ fn bit(map: Map) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn attribution(shares: [(f64, [f64; 2]); 4]) -> Attribution {
+        let estimate = |(mean, ends)| Estimate { mean, standard_error: Some(0.1), interval95: Some(ends) };
+        let loss = estimate((1.0, [0.9, 1.1]));
+        let share =
+            |map| MapShare { map, shapley: estimate(shares[index(map)]), only_wrong: loss, only_right: loss };
+        let maps = Map::ALL.map(share);
+        Attribution { prediction: "p".to_owned(), sampling: None, scenes: Vec::new(), loss, maps }
+    }
+
+    #[test]
+    fn shares_that_are_surely_below_0_are_explained() {
+        let [below, at, above] = [(-0.2, [-0.3, -0.1]), (-0.01, [-0.03, 0.01]), (1.2, [1.1, 1.3])];
+        assert_eq!(attribution([above, at, at, at]).note(), None);
+        let name = |i: usize| Map::ALL[i].name();
+        let one = attribution([above, below, at, at]).note().unwrap();
+        assert!(one.contains(&format!("the wrong {} hides errors", name(1))), "{one}");
+        let two = attribution([above, at, below, below]).note().unwrap();
+        assert!(two.contains(&format!("the wrong {} and {} hide errors", name(2), name(3))), "{two}");
+    }
 
     /// The game of a glove market: only a left glove (maps 0, 1) with a right one (2, 3) is worth something.
     #[test]

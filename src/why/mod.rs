@@ -25,7 +25,7 @@ mod scene_losses;
 mod scene_report;
 mod worst;
 
-pub use attribution::{Attribution, MapShare, attribute};
+pub use attribution::{Attribution, MOST_SCENES, MapShare, attribute};
 pub use error_map::{error_maps, mean};
 pub use hemisphere::{Hemisphere, Moved, hemisphere};
 pub use scene_losses::{Distribution, RankedScene, worst_first};

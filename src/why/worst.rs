@@ -3,6 +3,7 @@
 //! A scene is a point of the unit cube, and the search moves in this cube: 6 numbers of a near-field scene, 4 of a distant one. Both
 //! stages compare few texels, the same in all scenes; the losses of the last candidates are over all texels.
 
+use super::attribution::MOST_SCENES;
 use crate::error::Error;
 use crate::loss::{Comparison, Compute, Estimate, SharedTexels};
 use crate::material::Material;
@@ -38,8 +39,10 @@ pub struct Worst {
     pub scene: Scene,
     /// Its loss over all texels.
     pub loss: f64,
-    /// The loss over all scenes.
+    /// The loss over all scenes, to +-1% where at most [`MOST_SCENES`] are enough.
     pub mean: Estimate,
+    /// The scenes that `mean` is over.
+    pub mean_scenes: usize,
     /// The scenes whose losses were computed in search of it.
     pub evaluations: usize,
 }
@@ -54,7 +57,8 @@ struct CubePoint {
 /// The scene with the largest loss of `prediction`, searched over all scenes that the loss samples from.
 ///
 /// The search is deterministic; `seed` names the scenes that it starts from. It may miss a maximum that is narrower than the gaps
-/// between these. A step of `progress` is a scene.
+/// between these. The mean has
+/// its own count of `progress`; then a step is a scene.
 ///
 /// # Errors
 /// [`Error::SizesDiffer`], [`Error::Cancelled`].
@@ -66,8 +70,9 @@ pub fn worst<T: Compute>(
     progress: &Progress,
 ) -> Result<Worst, Error> {
     let comparison = Comparison::new(ground_truth, &[prediction], *convention)?;
+    let mut all = comparison.clone().at_most(MOST_SCENES).over_all_scenes(seed, progress)?;
+    let (mean, mean_scenes) = (all.losses.remove(0).estimate, all.scenes.len());
     progress.begin(EVALUATIONS as u64);
-    let mean = comparison.over_all_scenes(seed, &progress.part())?.losses.remove(0).estimate;
     let search = Search { comparison, seed: seed as u32 ^ (seed >> 32) as u32, progress };
     let points = search.refined(search.sampled()?)?;
     let scenes: Vec<Scene> = points.iter().map(|point| point.scene(convention)).collect();
@@ -76,7 +81,8 @@ pub fn worst<T: Compute>(
     let (scene, loss) =
         best.ok_or_else(|| Error::Internal("the search for the worst scene is empty".to_owned()))?;
     progress.advance(CANDIDATES as u64)?;
-    Ok(Worst { prediction: prediction.name().to_owned(), scene, loss, mean, evaluations: EVALUATIONS })
+    let prediction = prediction.name().to_owned();
+    Ok(Worst { prediction, scene, loss, mean, mean_scenes, evaluations: EVALUATIONS })
 }
 
 struct Search<'a, T> {

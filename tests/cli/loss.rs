@@ -180,7 +180,7 @@ fn an_accuracy_that_is_not_reached_is_said() {
     let output = run_in(folder.path(), &format!("loss {missed} --format json"));
     let stderr = text(&output.stderr);
     assert!(output.status.success() && stderr.contains("warning: a is known to +-0.0"), "{stderr}");
-    assert!(stderr.contains("not to the +-0.001%") && stderr.contains("786432 scenes"), "{stderr}");
+    assert!(stderr.contains("not to the target of +-0.001%") && stderr.contains("786432 scenes"), "{stderr}");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&json["target_error"], &json["target_reached"]), (&json!(1e-5), &json!(false)));
     let strict = run_in(

@@ -56,6 +56,25 @@ fn data_set() -> TempDir {
 const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
 
 #[test]
+fn a_data_set_names_the_losses_that_miss_the_target_error() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, roughness) in [("gt", 1), ("ours", 2)] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        write_material(&folder.path().join(name).join("mirror.png"), 4, roughness);
+        write_material(&folder.path().join(name).join("rough.png"), 4, 100 + 10 * roughness);
+    }
+    let command = "rank --dataset gt ours --preset deschaintre --order ndrs --format csv";
+    let output = run_in(folder.path(), command);
+    let warnings = text(&output.stderr);
+    assert!(output.status.success() && warnings.matches("warning: ").count() == 1, "{warnings}");
+    assert!(warnings.contains("warning: mirror, ours is known to +-"), "{warnings}");
+    assert!(warnings.contains("393216 scenes, the limit"), "{warnings}");
+    let strict = run_in(folder.path(), &format!("{command} --strict"));
+    assert_eq!((strict.status.code(), strict.stdout), (Some(1), output.stdout));
+    assert!(text(&strict.stderr).contains("error: mirror, ours is known to +-"));
+}
+
+#[test]
 fn a_bad_file_of_a_data_set_is_reported_and_not_fatal() {
     let folder = data_set();
     let output = run_in(folder.path(), &format!("{RANK} --format json"));

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{fail, folder, succeed};
+use super::{fail, folder, run_in, succeed, text, write_material, write_tiles};
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap()
@@ -26,6 +26,54 @@ fn blame_adds_up_in_every_format() {
     assert!(csv.starts_with("prediction,map,shapley,standard_error,"), "{csv}");
     let listed = succeed(folder.path(), "blame gt.png a.png --scenes one.json");
     assert!(listed.contains("1 near-field and 0 distant scenes from a file"), "{listed}");
+}
+
+/// A metal and a rougher, darker prediction: what the roughness adds to the light that is seen off the highlight, the specular takes away.
+#[test]
+fn a_share_below_0_is_explained() {
+    let folder = folder();
+    for (name, roughness, specular) in [("metal", 40, 200), ("dull", 120, 20)] {
+        let tiles = [[128, 128, 255], [2; 3], [roughness; 3], [specular; 3]];
+        write_tiles(&folder.path().join(format!("{name}.png")), 4, |x, _| tiles[x as usize / 4]);
+    }
+    let table = succeed(folder.path(), "blame metal.png dull.png --preset deschaintre --order ndrs");
+    let note = "A share below 0%: the wrong specular hides errors of other maps, whose shares add up to more than 100%.";
+    assert!(table.contains("specular   -90.1%") && table.ends_with(&format!("\n\n{note}\n")), "{table}");
+    assert!(!succeed(folder.path(), "blame gt.png b.png").contains("below"));
+}
+
+/// Nearly equal mirrors: few scenes see a highlight, and those see a large difference.
+#[test]
+fn a_question_ends_at_its_limit_of_scenes_and_says_so() {
+    let folder = folder();
+    for (name, roughness) in [("mirror", 1), ("near", 2)] {
+        write_material(&folder.path().join(format!("{name}.png")), 4, roughness);
+    }
+    let pair = "mirror.png near.png --preset deschaintre --order ndrs";
+    for (command, results, scenes, who) in [
+        ("blame", "attributions", 49_152, "near is known to +-"),
+        ("worst", "results", 49_152, "the mean of near is known to +-"),
+        ("rank", "ranking", 393_216, "near is known to +-"),
+    ] {
+        let output = run_in(folder.path(), &format!("{command} {pair} --format json"));
+        let (printed, warning) = (json(text(&output.stdout)), text(&output.stderr));
+        assert!(output.status.success(), "{warning}");
+        let end = format!("not to the target of +-1%: {scenes} scenes, the limit, are not enough");
+        assert!(warning.contains(&format!("warning: {who}")) && warning.contains(&end), "{warning}");
+        let reached = |value: &Value| value["target_reached"].as_bool();
+        assert_eq!(reached(&printed[results][0]).or(reached(&printed)), Some(false), "{printed}");
+        let strict = run_in(folder.path(), &format!("{command} {pair} --format csv --strict"));
+        assert_eq!(strict.status.code(), Some(1));
+        assert!(text(&strict.stdout).trim_end().ends_with(",false"), "{}", text(&strict.stdout));
+        assert!(text(&strict.stderr).contains(&format!("error: {who}")), "{}", text(&strict.stderr));
+        let usual = succeed(folder.path(), &format!("{command} gt.png b.png --format csv"));
+        assert!(usual.trim_end().ends_with(",true"), "{usual}");
+    }
+    let few = run_in(folder.path(), &format!("loss {pair} --format json"));
+    let warning = text(&few.stderr);
+    assert!(few.status.success() && warning.contains("786432 scenes, the limit"), "{warning}");
+    let listed = json(&succeed(folder.path(), "blame gt.png a.png --scenes one.json --format json"));
+    assert_eq!(listed["attributions"][0]["target_reached"], Value::Null);
 }
 
 #[test]

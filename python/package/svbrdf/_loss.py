@@ -268,8 +268,8 @@ def _report(
     if reached is False:
         count = report.near + report.distant
         warnings.warn(
-            f"the losses are known to +-{relative_error:.2%}, not to the +-{target_error:.2%} that was asked for: "
-            f"{count} scenes, the most there are, are not enough; ask for less, or go by the interval",
+            f"the losses are known to +-{relative_error:.2%}, not to the target of +-{target_error:.2%}: "
+            f"{count} scenes, the limit, are not enough; go by the interval, or set a larger target",
             stacklevel=3,
         )
     return report

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use svbrdf::dataset::{
-    self, Case, MaterialResult, MethodSummary, Pick, RunSettings, Side, summarize, tasks_of_folders,
-    tasks_of_table,
+    self, Case, MaterialResult, MethodSummary, Pick, PredictionResult, RunSettings, Side, summarize,
+    tasks_of_folders, tasks_of_table,
 };
 use svbrdf::error::Error;
 use svbrdf::files::read;
@@ -16,7 +16,7 @@ use svbrdf::progress::Progress;
 use super::args::{RankArgs, RankFormat, check_limit};
 use super::metric_columns::{self, MetricEntry};
 use crate::cli::bar::watched;
-use crate::cli::{exit, table, wildcards};
+use crate::cli::{exit, table, target, wildcards};
 
 pub fn run(args: &RankArgs) -> Result<(), Error> {
     let (settings, results) =
@@ -34,7 +34,19 @@ pub fn run(args: &RankArgs) -> Result<(), Error> {
         RankFormat::Csv => csv(&results)?,
         RankFormat::Latex => latex(&summaries) + &metric_columns::latex(&summaries, &results, args.pick),
     })?;
+    target::warn_of(missed(&settings, &results), args.comparison.materials.reading.both.strict)?;
     check_limit(args.fail_above, summaries.into_iter().map(|summary| (summary.method, summary.mean)))
+}
+
+/// The errors of predictions whose loss is not known as well as the target error asks for.
+fn missed(settings: &RunSettings, results: &[MaterialResult]) -> Vec<Error> {
+    let of = |result: &MaterialResult, prediction: &PredictionResult| {
+        let known = prediction.result.as_ref().ok()?;
+        let name = format!("{}, {}", result.material, prediction.method);
+        target::missed(settings.target_error, &name, &known.estimate(), result.scenes)
+    };
+    let all = results.iter().flat_map(|result| result.predictions.iter().filter_map(|p| of(result, p)));
+    all.collect()
 }
 
 /// What stands for GT and PRED.

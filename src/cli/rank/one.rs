@@ -5,12 +5,12 @@ use svbrdf::error::Error;
 use svbrdf::loss::{Comparison, Outcome, Request};
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
-use svbrdf::rank::{Ranked, places};
+use svbrdf::rank::{Ranked, most_scenes, places};
 
 use super::args::{RankArgs, RankFormat, check_limit};
 use crate::cli::bar::watched;
 use crate::cli::report::EstimateEntry;
-use crate::cli::{exit, materials, table, wildcards};
+use crate::cli::{exit, materials, table, target, wildcards};
 
 pub fn run(mut args: RankArgs) -> Result<(), Error> {
     if args.metrics {
@@ -29,16 +29,21 @@ pub fn run(mut args: RankArgs) -> Result<(), Error> {
     table::check_predictions(&args.comparison.materials)?;
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?;
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?
+        .at_most(most_scenes(predictions.len()));
     let request = Request::Accuracy { target: args.target_error, seed: args.seed };
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let places = places(&outcome);
     exit::put(&match args.format {
         RankFormat::Text => text(&outcome, &places, &opened.ground_truth, &args.comparison.convention()),
-        RankFormat::Json => json(&outcome, &places, &opened.ground_truth, &args.comparison.convention())?,
-        RankFormat::Csv => csv(&outcome, &places)?,
+        RankFormat::Json => {
+            json(&outcome, &places, &opened.ground_truth, &args.comparison.convention(), args.target_error)?
+        }
+        RankFormat::Csv => csv(&outcome, &places, args.target_error)?,
         RankFormat::Latex => latex(&outcome, &places),
     })?;
+    let missed = target::missed_by_any(args.target_error, &outcome);
+    target::warn_of(missed, args.comparison.materials.reading.both.strict)?;
     check_limit(args.fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
 }
 
@@ -62,7 +67,7 @@ fn text(
     format!("{heading}{scenes}\n{}", table::aligned(&rows))
 }
 
-fn csv(outcome: &Outcome, places: &[Ranked]) -> Result<String, Error> {
+fn csv(outcome: &Outcome, places: &[Ranked], target: f64) -> Result<String, Error> {
     let heading = [
         "place",
         "prediction",
@@ -74,6 +79,7 @@ fn csv(outcome: &Outcome, places: &[Ranked]) -> Result<String, Error> {
         "to_best_low",
         "to_best_high",
         "group",
+        "target_reached",
     ];
     let row = |(number, place): (usize, &Ranked)| {
         let loss = &outcome.losses[place.index];
@@ -82,7 +88,9 @@ fn csv(outcome: &Outcome, places: &[Ranked]) -> Result<String, Error> {
         let [_, to_low, to_high] =
             place.to_best.as_ref().map_or_else(|| [const { String::new() }; 3], table::errors);
         let start = [(number + 1).to_string(), loss.prediction.clone(), loss.estimate.mean.to_string()];
-        let rest = [error, low, high, difference, to_low, to_high, place.group.to_string()];
+        let reached = loss.estimate.relative_error95() <= target;
+        let rest =
+            [error, low, high, difference, to_low, to_high, place.group.to_string(), reached.to_string()];
         start.into_iter().chain(rest).collect()
     };
     table::csv([heading.map(str::to_owned).to_vec()].into_iter().chain(places.iter().enumerate().map(row)))
@@ -106,6 +114,9 @@ struct RankingJson<'a> {
     epsilon: f64,
     scenes: usize,
     seed: Option<u64>,
+    target_error: f64,
+    /// By every prediction.
+    target_reached: bool,
     /// Best first.
     ranking: Vec<RankingEntry<'a>>,
 }
@@ -124,6 +135,7 @@ fn json(
     places: &[Ranked],
     ground_truth: &Material<f32>,
     convention: &Convention,
+    target: f64,
 ) -> Result<String, Error> {
     let entry = |place: &Ranked| RankingEntry {
         prediction: &outcome.losses[place.index].prediction,
@@ -137,6 +149,8 @@ fn json(
         epsilon: convention.epsilon,
         scenes: outcome.scenes.len(),
         seed: outcome.sampling.map(|sampling| sampling.seed),
+        target_error: target,
+        target_reached: outcome.relative_error95() <= target,
         ranking: places.iter().map(entry).collect(),
     })
 }

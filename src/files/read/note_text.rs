@@ -144,7 +144,23 @@ impl Note {
             Self::Profile(subject) => {
                 write!(f, "The {subject} has an ICC profile other than sRGB, which is ignored.")
             }
-            _ => Ok(()),
+            // `Display` has their words; the compiler asks here for those of a new note.
+            Self::MapFile { .. }
+            | Self::MapSpecified { .. }
+            | Self::SidecarUsed { .. }
+            | Self::RowsFlipped { .. }
+            | Self::Unused { .. }
+            | Self::InFolder { .. }
+            | Self::Photos { .. }
+            | Self::Rows { .. }
+            | Self::Materials { .. }
+            | Self::NotModelled { .. }
+            | Self::SpecularFactor { .. }
+            | Self::Preview
+            | Self::Substituted { .. }
+            | Self::OptionsUnused { .. }
+            | Self::StatementsUnused(..)
+            | Self::Resized { .. } => Ok(()),
         }
     }
 }

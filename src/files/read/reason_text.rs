@@ -101,7 +101,43 @@ impl Reason {
             Self::MtlFactor { key } => {
                 write!(f, "{key} is a factor by the definition of MTL; some programs use the picture alone")
             }
-            _ => Ok(()),
+            // The functions before have their words; the compiler asks here for those of a new reason.
+            Self::Specified(..)
+            | Self::NoMetallicMap(..)
+            | Self::StorageConvention(..)
+            | Self::ContradictedBy(..)
+            | Self::FileName { .. }
+            | Self::NormalName { .. }
+            | Self::PackingName { .. }
+            | Self::ColourSpace { .. }
+            | Self::Weighed { .. }
+            | Self::BothWorkflows
+            | Self::PackedChannels { .. }
+            | Self::LooksLikeNormals { .. }
+            | Self::NameOfSet { .. }
+            | Self::OpaqueSmoothness { .. }
+            | Self::SpecularMedian { .. }
+            | Self::NormalPixels
+            | Self::NormalTile { .. }
+            | Self::PresetOrder
+            | Self::SvbrdfEvaluationName
+            | Self::UsualOrder
+            | Self::DiffuseAlone
+            | Self::LeastComponent(..)
+            | Self::TwoChannels
+            | Self::RedConstant
+            | Self::UnitLength { .. }
+            | Self::BlueConstant(..)
+            | Self::Curl(..)
+            | Self::CurlDown(..)
+            | Self::MostMapsUp(..)
+            | Self::MetallicMap { .. }
+            | Self::SpecularMap
+            | Self::NeitherMap
+            | Self::NoNormalMap
+            | Self::NoSpecularMap
+            | Self::SpecularLevel { .. }
+            | Self::SmallerMaps(..) => Ok(()),
         }
     }
 }
