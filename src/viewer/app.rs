@@ -232,7 +232,7 @@ impl App {
         }
         self.stored = self.settings.clone();
         if let Some(storage) = storage {
-            eframe::set_value(storage, settings::KEY, &self.settings);
+            self.settings.store(storage);
             storage.flush();
         }
     }
@@ -270,7 +270,7 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         self.remember_session();
-        eframe::set_value(storage, settings::KEY, &self.settings);
+        self.settings.store(storage);
     }
 
     fn on_exit(&mut self) {

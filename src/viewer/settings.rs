@@ -87,6 +87,13 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Stores the settings for the next start, which begins without the scenes of a file: they belong to the materials that are open, and
+    /// come back with their session.
+    pub(super) fn store(&self, storage: &mut dyn eframe::Storage) {
+        let stored = Self { loss: self.loss.with_file(None), ..self.clone() };
+        eframe::set_value(storage, KEY, &stored);
+    }
+
     /// Puts `path` first among the recent materials, as an absolute path.
     pub fn remember(&mut self, path: &Path) {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
@@ -101,6 +108,7 @@ mod tests {
     use std::collections::HashMap;
 
     use super::*;
+    use crate::loss::{Ask, FileScenes};
 
     #[derive(Default)]
     struct Memory(HashMap<String, String>);
@@ -123,9 +131,22 @@ mod tests {
 
     #[test]
     fn stored_settings_load_unchanged() {
-        let settings = Settings { dark: false, recent: vec!["a b.png".into()], ..Settings::default() };
+        let loss = LossSettings { ask: Ask::Time, seed: 7, ..LossSettings::default() };
+        let recent = vec!["a b.png".into()];
+        let settings = Settings { dark: false, recent, loss, ..Settings::default() };
         let mut memory = Memory::default();
-        eframe::set_value(&mut memory, KEY, &settings);
+        settings.store(&mut memory);
         assert_eq!(eframe::get_value::<Settings>(&memory, KEY), Some(settings));
+    }
+
+    #[test]
+    fn the_next_start_begins_without_the_scenes_of_a_file() {
+        let file = FileScenes { name: "render.json".to_owned(), scenes: Vec::new() };
+        let loss = LossSettings { seed: 7, ..LossSettings::default() };
+        let with_file = Settings { loss: loss.with_file(Some(file)), ..Settings::default() };
+        let mut memory = Memory::default();
+        with_file.store(&mut memory);
+        let without = Settings { loss, ..Settings::default() };
+        assert_eq!(eframe::get_value::<Settings>(&memory, KEY), Some(without));
     }
 }

@@ -23,6 +23,24 @@ fn open(window: &mut Window<'_>, path: &Path) {
     apply(window, MaterialsCommand::Open { paths, replace: false, read });
 }
 
+/// What was stored last.
+#[derive(Default)]
+struct Memory(String);
+
+impl eframe::Storage for Memory {
+    fn get_string(&self, _: &str) -> Option<String> {
+        Some(self.0.clone())
+    }
+
+    fn set_string(&mut self, _: &str, value: String) {
+        self.0 = value;
+    }
+
+    fn remove_string(&mut self, _: &str) {}
+
+    fn flush(&mut self) {}
+}
+
 /// What the core gives for these scenes and the built-in predictions.
 fn expected(scenes: &[Scene]) -> Outcome {
     let samples = samples::load::<f32>().unwrap();
@@ -51,6 +69,9 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     assert_eq!(window.state().losses().unwrap(), expected(&scenes).losses);
     window.get_by_label("3 scenes of render.json");
     assert_eq!(window.state().names().len(), 3, "the materials stay");
+    let mut stored = Memory::default();
+    eframe::App::save(window.state_mut(), &mut stored);
+    assert!(!stored.0.contains("render.json"), "the next start begins without them: {}", stored.0);
     let listed = |app: &App| app.listed_scenes().is_some_and(|(scenes, _)| scenes.len() == 3);
     tab(&mut window, "Why");
     wait(&mut window, "the list of the file", listed);

@@ -18,6 +18,8 @@ pub(crate) struct SaveWindow {
     size: [u32; 2],
     /// The path of an existing file, once the dialog has said that it exists.
     replaces: Option<String>,
+    /// Whether the button gets the focus, so that Return presses it.
+    focus_button: bool,
     /// Whether the file is being written.
     saving: bool,
     field: PathField,
@@ -27,7 +29,15 @@ impl SaveWindow {
     /// `what` is chosen at first; `size` is the size of the view in the window, in pixels.
     pub(crate) fn new(what: SaveKind, size: [u32; 2]) -> Self {
         let path = what.proposal().to_owned();
-        Self { path, what, size, replaces: None, saving: false, field: PathField::default() }
+        Self {
+            path,
+            what,
+            size,
+            replaces: None,
+            focus_button: false,
+            saving: false,
+            field: PathField::default(),
+        }
     }
 
     /// `seen` is the size of the view in the window, in pixels.
@@ -58,8 +68,11 @@ impl SaveWindow {
             (_, true) => "Replace it",
             _ => "Save file",
         };
-        let clicked = ui.add_enabled(!self.saving, egui::Button::new(text)).clicked();
-        if clicked || (entered && !self.saving) {
+        let button = ui.add_enabled(!self.saving, egui::Button::new(text));
+        if std::mem::take(&mut self.focus_button) {
+            button.request_focus();
+        }
+        if button.clicked() || (entered && !self.saving) {
             self.save(commands);
         }
     }
@@ -102,6 +115,7 @@ impl SaveWindow {
         let path = PathBuf::from(self.path.trim());
         if path.exists() && self.replaces.as_deref() != Some(self.path.trim()) {
             self.replaces = Some(self.path.trim().to_owned());
+            self.focus_button = true;
             return;
         }
         self.saving = true;

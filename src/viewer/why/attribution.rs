@@ -12,7 +12,7 @@ use crate::viewer::worker::Task;
 use crate::why::{Attribution, attribute};
 
 /// Half of the 95% interval of the loss, as a share of the loss.
-const TARGET: f64 = 0.01;
+pub(crate) const ATTRIBUTION_TARGET: f64 = 0.01;
 
 /// What an attribution depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,8 @@ impl AttributionRun {
         self.0.follow(ctx, Some(wanted), |_| {
             let pair = pair.clone();
             Task::start(ctx, move |progress| {
-                let (start, request) = (Instant::now(), Request::Accuracy { target: TARGET, seed });
+                let (start, request) =
+                    (Instant::now(), Request::Accuracy { target: ATTRIBUTION_TARGET, seed });
                 let (ground_truth, prediction) = (pair.ground_truth(), pair.prediction());
                 let attribution = attribute(ground_truth, prediction, &pair.convention, &request, progress)?;
                 Ok(Attributed { attribution, elapsed: start.elapsed() })

@@ -13,7 +13,7 @@ use crate::loss::Request;
 use crate::viewer::work_context::WorkContext;
 use crate::why::{Moved, Worst};
 
-pub(super) use attribution::{Attributed, AttributionRun};
+pub(super) use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionRun};
 pub(super) use directions::{DirectionMap, DirectionsRun};
 pub(super) use pair::ComparedPair;
 pub(super) use scenes::{SceneList, ScenesRun};

@@ -40,6 +40,28 @@ fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_co
     assert_eq!(wait_for_attribution(&mut window), expected(2, &"guided-2020".parse().unwrap()));
 }
 
+/// A metal and a rougher, darker prediction of it.
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_share_below_0_is_explained_below_the_bars() {
+    let folder = tempfile::tempdir().unwrap();
+    let [metal, dull] = [("metal.png", 40, 200), ("dull.png", 120, 20)].map(|(name, roughness, specular)| {
+        let tiles = [[128, 128, 255], [2; 3], [roughness; 3], [specular; 3]];
+        let path = folder.path().join(name);
+        image::RgbImage::from_fn(64, 16, |x, _| image::Rgb(tiles[x as usize / 16])).save(&path).unwrap();
+        path
+    });
+    let options =
+        ViewerOptions { ground_truth: Some(metal), predictions: vec![dull], ..ViewerOptions::default() };
+    let mut window = super::super::window(options);
+    wait(&mut window, "the materials", |app| app.names().len() == 2);
+    tab(&mut window, "Why");
+    let attribution = wait_for_attribution(&mut window);
+    assert!(attribution.of(Map::Specular).shapley.mean < 0.0);
+    window.get_by_label(&attribution.note().unwrap());
+    window.get_by_label_contains("the wrong specular hides errors of other maps");
+}
+
 /// Clicks on a map once its share is known.
 fn isolate(window: &mut Window<'_>, map: &str) {
     wait_for_attribution(window);

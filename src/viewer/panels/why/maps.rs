@@ -6,15 +6,15 @@ use super::WhyPanel;
 use crate::material::Map;
 use crate::model::scene::Kind;
 use crate::viewer::command::{Command, DisplayCommand};
-use crate::viewer::panels::loss_results::{seconds, significant};
+use crate::viewer::panels::loss_results::{accuracy, seconds, significant};
 use crate::viewer::theme;
-use crate::viewer::why::{Attributed, ComparedPair};
+use crate::viewer::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair};
 use crate::why::MapShare;
 
 /// Height of a row, and widths of its name and of its numbers, in points.
 const ROW: f32 = 20.0;
 const NAME: f32 = 74.0;
-const NUMBERS: f32 = 108.0;
+const NUMBERS: f32 = 114.0;
 
 impl WhyPanel<'_> {
     pub(super) fn maps(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
@@ -28,6 +28,9 @@ impl WhyPanel<'_> {
             }
         }
         self.state_line(ui, attributed);
+        if let Some(note) = attributed.and_then(|attributed| attributed.attribution.note()) {
+            ui.label(RichText::new(note).small());
+        }
         self.pane_choice(ui, commands);
     }
 
@@ -48,12 +51,17 @@ impl WhyPanel<'_> {
             count(Kind::Distant),
             seconds(*elapsed)
         );
+        let missed = attribution.loss.relative_error95() > ATTRIBUTION_TARGET;
+        let missed =
+            if missed { format!("Not within {}: ", accuracy(ATTRIBUTION_TARGET)) } else { String::new() };
+        let text = missed + &text;
         ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
             ui.set_min_height(height);
             ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
                 "All 16 mixtures of true and predicted maps, in the same scenes on the same texels. The Shapley value \
                  of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; \
-                 the four add up to the loss.",
+                 the four add up to the loss. Below 0%: the error of a map hides errors of others. At most 49,152 scenes are \
+                 sampled.",
             );
         });
     }
@@ -115,7 +123,7 @@ impl MapRow<'_> {
             let value = format!("{:.4}", share.shapley.mean);
             painter.text(pos2(area.right() - 4.0, middle), Align2::RIGHT_CENTER, value, font.clone(), ink);
         }
-        painter.text(pos2(area.right() - 58.0, middle), Align2::RIGHT_CENTER, text, font, ink);
+        painter.text(pos2(area.right() - 64.0, middle), Align2::RIGHT_CENTER, text, font, ink);
         let side = if only_right { "right" } else { "wrong" };
         let name = self.map.name();
         response.on_hover_ui(|ui| {
