@@ -113,9 +113,7 @@ impl App {
             }
             None => None,
         };
-        if gpu.as_ref().is_some_and(|gpu| gpu.gpu.report.software) {
-            theme::simplify(&cc.egui_ctx);
-        }
+        gpu.iter().for_each(|gpu| theme::suit(&cc.egui_ctx, &gpu.gpu.report));
         let mut app = Self {
             state: ViewState::default(),
             stored: settings.clone(),

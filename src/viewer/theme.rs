@@ -2,6 +2,8 @@
 
 use eframe::egui::{self, Color32, Stroke, Theme, Visuals};
 
+use crate::gpu::AdapterReport;
+
 /// The accent colour: of the selection and of the ground truth.
 const ACCENT: Color32 = Color32::from_rgb(0xe0, 0x93, 0x2f);
 /// The accent colour as text on light gray.
@@ -60,9 +62,12 @@ pub(super) fn install(ctx: &egui::Context) {
     });
 }
 
-/// Right angles and hard edges, for adapters that compute on the CPU. They pay for every block of pixels that a triangle touches:
-/// round corners and soft edges make ten times as many triangles, and took a quarter of a frame.
-pub(super) fn simplify(ctx: &egui::Context) {
+/// Right angles and hard edges on an adapter that computes on the CPU. It pays for every block of pixels that a triangle touches:
+/// round corners and soft edges make five times as many triangles, and took a quarter of a frame.
+pub(super) fn suit(ctx: &egui::Context, adapter: &AdapterReport) {
+    if !adapter.software {
+        return;
+    }
     ctx.options_mut(|options| options.tessellation_options.feathering = false);
     ctx.all_styles_mut(|style| {
         let widgets = &mut style.visuals.widgets;
