@@ -6,7 +6,7 @@
 //! independent of it (Stein 1945, with fresh samples in place of his pilot). This run gives a loss without bias and an
 //! interval of a fixed size. Only where it still misses the accuracy does it go on; the prediction is generous, so that
 //! this is rare, and none are ever dropped for their error. To go on favours draws that look quiet after all: it makes
-//! losses low by less than a tenth of their error (0.01 to 0.05% at +-3%, less than can be seen in 2,000 seeds at +-1%).
+//! losses low by less than a twentieth of the accuracy (up to 0.11% at +-3%; at +-1% nothing is seen in 2,000 seeds).
 //!
 //! The scenes that count are always the first ones of one draw: whoever asks for as many of its seed gets the same loss.
 

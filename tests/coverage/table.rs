@@ -15,16 +15,19 @@ const SAMPLERS: [Sampler; 2] = [Sampler::Random, Sampler::Sobol];
 struct Table(Vec<String>);
 
 impl Table {
+    /// Prints a cell, and remembers it where the coverage is outside, or the mean is off by more than `bias` percent and four standard
+    /// errors.
     fn measure(
         &mut self,
         pair: &Pair,
         what: &str,
         [least, most]: [f64; 2],
+        bias: f64,
         estimate: impl Fn(u64) -> (Estimate, usize) + Sync + Send,
     ) {
         let is_right = |seen: &Seen| {
             let error = seen.bias_error.hypot(pair.reference_error);
-            (least..=most).contains(&seen.coverage) && seen.bias.abs() <= 4.0 * error
+            (least..=most).contains(&seen.coverage) && seen.bias.abs() <= bias + 4.0 * error
         };
         let (mut seeds, mut seen) = (SEEDS, pair.seen(SEEDS, &estimate));
         if !is_right(&seen) {
@@ -51,7 +54,7 @@ fn coverage_of_all_texels() {
         for sampler in SAMPLERS {
             for count in [9, 27, 90, 900] {
                 let what = format!("{sampler} {count}, 16 x 16");
-                table.measure(&pair, &what, ALLOWED, pair.fixed(sampler, Texels::All, count));
+                table.measure(&pair, &what, ALLOWED, 0.0, pair.fixed(sampler, Texels::All, count));
             }
         }
     }
@@ -68,7 +71,7 @@ fn coverage_of_larger_maps() {
         for sampler in SAMPLERS {
             for count in [9, 27] {
                 let what = format!("{sampler} {count}, 64 x 64");
-                table.measure(&pair, &what, ALLOWED, pair.fixed(sampler, Texels::All, count));
+                table.measure(&pair, &what, ALLOWED, 0.0, pair.fixed(sampler, Texels::All, count));
             }
         }
     }
@@ -88,7 +91,7 @@ fn coverage_of_some_texels() {
         for (pair, sampler) in pairs.iter().flat_map(|pair| SAMPLERS.map(|sampler| (pair, sampler))) {
             for &count in counts {
                 let what = format!("{sampler} {count}, {texels} texels of 64 x 64");
-                table.measure(pair, &what, ALLOWED, pair.fixed(sampler, texels, count));
+                table.measure(pair, &what, ALLOWED, 0.0, pair.fixed(sampler, texels, count));
             }
         }
     }
@@ -101,7 +104,9 @@ fn coverage_of_adaptive_losses() {
     let mut table = Table::default();
     for pair in made(64, 12).into_iter().chain(built_in(4, 12)).chain(golden(64, 12)) {
         for target in [0.03, 0.01] {
-            table.measure(&pair, &format!("accuracy {target}"), PROMISED, pair.adaptive(target));
+            // A twentieth of the accuracy, in percent: to go on where it is missed makes losses low.
+            let bias = 100.0 * target / 20.0;
+            table.measure(&pair, &format!("accuracy {target}"), PROMISED, bias, pair.adaptive(target));
         }
     }
     table.check();
