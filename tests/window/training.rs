@@ -125,10 +125,12 @@ fn new_steps_appear_when_they_are_complete_and_are_shown_unless_the_person_went_
 fn a_young_step_that_is_shown_stays() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("run")).unwrap();
-    for (number, seconds) in [(100, 3600), (200, 0)] {
+    let now = std::time::SystemTime::now();
+    let second = std::time::Duration::from_secs(1);
+    // The new step stays young until the window has looked at the folder.
+    for (number, time) in [(100, now - 3600 * second), (200, now + 4 * second)] {
         let path = step(folder.path(), number);
         std::fs::write(&path, strip(50)).unwrap();
-        let time = std::time::SystemTime::now() - std::time::Duration::from_secs(seconds);
         std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
     }
     std::fs::write(folder.path().join("gt.png"), strip(0)).unwrap();
