@@ -17,7 +17,8 @@ use super::{exit, materials, table, target};
 /// Searches for the scene with the largest loss of each prediction
 ///
 /// Samples 6,144 of the scenes that the loss is over, then refines the 16 worst. The search compares up to 1,024 texels; the
-/// printed loss is over all. The mean is the loss over all scenes, to +-1% where 49,152 scenes are enough. The JSON is a scene file that `--scenes` takes. Without GT and PRED: the built-in materials.
+/// printed loss is over all. The mean is the loss over all scenes, to +-1% where 49,152 scenes are enough. The JSON is a scene file
+/// that `--scenes` takes. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 pub struct WorstArgs {
     /// Seed of the scenes that the search starts from

@@ -106,8 +106,8 @@ impl<'a, T> Comparison<'a, T> {
         Self { pilot: false, ..self }
     }
 
-    /// The same comparison, where an accuracy or a time samples at most `count` scenes instead of [`MOST_SCENES`](super::MOST_SCENES), rounded down to
-    /// a number that Sobol sequences are even with; at least 24.
+    /// The same comparison, where an accuracy or a time samples at most `count` scenes instead of
+    /// [`MOST_SCENES`](super::MOST_SCENES), rounded down to a number that Sobol sequences are even with; at least 24.
     #[must_use]
     pub fn at_most(self, count: usize) -> Self {
         Self { most_scenes: Some(count), ..self }

@@ -57,8 +57,7 @@ struct CubePoint {
 /// The scene with the largest loss of `prediction`, searched over all scenes that the loss samples from.
 ///
 /// The search is deterministic; `seed` names the scenes that it starts from. It may miss a maximum that is narrower than the gaps
-/// between these. The mean has
-/// its own count of `progress`; then a step is a scene.
+/// between these. The mean has its own count of `progress`; then a step is a scene.
 ///
 /// # Errors
 /// [`Error::SizesDiffer`], [`Error::Cancelled`].
