@@ -78,8 +78,14 @@ fn a_folder_of_steps_is_one_prediction_whose_steps_have_their_losses() {
     press(&mut window, egui::Key::Period);
     wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 300"]);
     window.get_by_label("newest, of 3");
+    let place = window.get_by_label("Keep").rect();
     apply(&mut window, TrainingCommand::Show { slot: 1, number: 100 });
     wait(&mut window, "the first step", |app| app.names() == ["gt", "pred, step 100"]);
+    // What a person is about to click on stays in its place while losses come.
+    for _ in 0..20 {
+        assert_eq!(window.get_by_label("Keep").rect(), place);
+        window.step();
+    }
     window.get_by_label("Keep").click();
     wait(&mut window, "the step alone", |app| app.names() == ["gt", "pred, step 100", "pred_step000100"]);
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());

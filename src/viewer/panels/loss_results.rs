@@ -25,6 +25,8 @@ pub(super) struct Results<'a> {
     pub latest: &'a Losses,
     /// The losses over the 6 + 3 scenes of the papers; `None` where they are not known, or are what `latest` is.
     pub few: Option<&'a Losses>,
+    /// Whether those losses are on their way where they are not known: their line keeps its place, so that what is below stays.
+    pub few_are_coming: bool,
     pub chosen: usize,
     /// Whether the least loss comes first.
     pub sorted: bool,
@@ -142,13 +144,18 @@ impl Results<'_> {
     }
 
     fn few_scenes(&self, ui: &mut egui::Ui, index: usize) {
-        let Some(few) = self.few else { return };
-        let Some(loss) = few.report.outcome.losses.get(index) else { return };
-        let [near, distant] = [Kind::Near, Kind::Distant].map(|kind| few.report.count(kind));
-        let [mean, interval] = significant(&loss.estimate);
+        let text = match self.few {
+            None if self.few_are_coming => "6 + 3 scenes: ...".to_owned(),
+            None => return,
+            Some(few) => {
+                let Some(loss) = few.report.outcome.losses.get(index) else { return };
+                let [near, distant] = [Kind::Near, Kind::Distant].map(|kind| few.report.count(kind));
+                let [mean, interval] = significant(&loss.estimate);
+                format!("{near} + {distant} scenes: {mean} {interval}")
+            }
+        };
         ui.horizontal(|ui| {
             ui.add_space(10.0);
-            let text = format!("{near} + {distant} scenes: {mean} {interval}");
             ui.label(RichText::new(text).small().weak()).on_hover_text(
                 "The loss over the 6 near-field and 3 distant random scenes of the papers, for this seed: other seeds \
                  give other numbers within about this interval",

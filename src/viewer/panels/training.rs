@@ -165,14 +165,14 @@ fn steps(ui: &mut egui::Ui, run: &RunView<'_>, commands: &mut Vec<Command>) {
             0 => "newest".to_owned(),
             newer => format!("{newer} newer"),
         };
-        ui.weak(format!("{place}, of {}", last + 1));
-        if run.is_reading {
-            ui.weak("reading...");
-        }
         let keep = ui.small_button("Keep");
         let hover = "Open this step as a prediction of its own, to compare others with it";
         if keep.on_hover_text(hover).clicked() {
             commands.push(TrainingCommand::Keep(run.slot).into());
+        }
+        ui.weak(format!("{place}, of {}", last + 1));
+        if run.is_reading {
+            ui.weak("reading...");
         }
     });
 }
