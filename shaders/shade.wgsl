@@ -16,6 +16,8 @@ struct Shading {
     largest: f32,
     // How many texels along an axis one fragment stands for.
     stride: u32,
+    // Of the material, in texels.
+    size: vec2u,
 }
 
 @group(0) @binding(0) var<uniform> shading: Shading;
@@ -28,8 +30,9 @@ fn load_texel(place: vec2u) -> Texel {
     return Texel(first.xyz, textureLoad(diffuse, place, 0).rgb, textureLoad(specular, place, 0).rgb, first.w);
 }
 
-fn shade_texel(place: vec2u) -> vec3f {
-    let texel = load_texel(place);
+// The texel at `place`, which the maps hold at `stored`.
+fn shade_texel(place: vec2u, stored: vec2u) -> vec3f {
+    let texel = load_texel(stored);
     switch QUANTITY {
         case QUANTITY_NORMAL { return texel.normal * 0.5 + 0.5; }
         case QUANTITY_DIFFUSE { return texel.diffuse; }
@@ -37,14 +40,17 @@ fn shade_texel(place: vec2u) -> vec3f {
         case QUANTITY_ROUGHNESS { return vec3f(texel.roughness); }
         default {}
     }
-    let c = position(place.x, place.y, textureDimensions(normal_roughness));
+    let c = position(place.x, place.y, shading.size);
     let directions = from_texel(shading.rays, c);
     return render(shading.model, texel, directions.w_l, directions.w_v);
 }
 
 @fragment
 fn shade(corner: Corner) -> @location(0) vec4f {
-    let middle = vec2u(corner.position.xy) * shading.stride + shading.stride / 2u;
-    let value = shade_texel(min(middle, textureDimensions(normal_roughness) - 1u));
+    let fragment = vec2u(corner.position.xy);
+    let place = shaded_place(fragment, shading.stride, shading.size);
+    // Reduced maps hold the texels of the fragments, and no others.
+    let is_reduced = any(textureDimensions(normal_roughness) != shading.size);
+    let value = shade_texel(place, select(place, fragment, is_reduced));
     return vec4f(min(value, vec3f(shading.largest)), 1.0);
 }

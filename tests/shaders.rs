@@ -34,7 +34,7 @@ fn layouts() -> Vec<Layout> {
     vec![
         layout!(ModelUniforms is Model { intensity, roughness_floor, light_z_floor, clamp_n_dot_h, d_floor, g_floor }),
         layout!(SceneUniforms is Rays { view, near, light }),
-        layout!(ShadingUniforms is Shading { rays, model, largest, stride }),
+        layout!(ShadingUniforms is Shading { rays, model, largest, stride, size }),
         layout!(CameraUniforms is Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
         layout!(DisplayUniforms is Display { camera, background, exposure, epsilon, wipe, range, stride, size, corner }),
         layout!(Band is Band { model, size, first, texels, stride, blocks, predictions, epsilon }),

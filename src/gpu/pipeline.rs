@@ -5,9 +5,10 @@ use std::sync::{Mutex, PoisonError};
 use wgpu::util::DeviceExt as _;
 use wgpu::{
     BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
-    BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, ComputePipeline, Device,
-    PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, RenderPipeline, ShaderModule,
-    ShaderModuleDescriptor, ShaderSource, ShaderStages, TextureFormat,
+    BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoder, ComputePipeline,
+    Device, LoadOp, Operations, PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor,
+    RenderPass, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, ShaderModule,
+    ShaderModuleDescriptor, ShaderSource, ShaderStages, StoreOp, TextureFormat, TextureView,
 };
 
 use super::shaders::Shader;
@@ -91,6 +92,28 @@ fn pipeline_layout(device: &Device, label: &str, layout: &BindGroupLayout) -> Pi
         label: Some(label),
         bind_group_layouts: &[Some(layout)],
         immediate_size: 0,
+    })
+}
+
+/// What a pass that draws everything begins with.
+pub(super) const CLEAR: LoadOp<wgpu::Color> = LoadOp::Clear(wgpu::Color::BLACK);
+
+/// A pass that draws into `view`.
+pub(super) fn begin<'a>(
+    encoder: &'a mut CommandEncoder,
+    label: &str,
+    view: &TextureView,
+    load: LoadOp<wgpu::Color>,
+) -> RenderPass<'a> {
+    encoder.begin_render_pass(&RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(RenderPassColorAttachment {
+            view,
+            resolve_target: None,
+            depth_slice: None,
+            ops: Operations { load, store: StoreOp::Store },
+        })],
+        ..RenderPassDescriptor::default()
     })
 }
 

@@ -15,7 +15,7 @@ const BAND_BYTES: usize = 16 << 20;
 const TEXEL_BYTES: usize = 16;
 
 impl Shaded {
-    /// Waits for what was drawn and reads it.
+    /// Waits for what was drawn and reads it: the shaded texels.
     ///
     /// # Errors
     /// [`Error::Gpu`] where the adapter cannot render to 32-bit floats or failed, now or while drawing.
@@ -26,7 +26,7 @@ impl Shaded {
                 remedy: "use the CPU",
             });
         }
-        let [width, height] = self.size();
+        let [width, height] = [self.texture.width(), self.texture.height()].map(|side| side as usize);
         let stride = (width * TEXEL_BYTES).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize);
         let rows_per_band = (BAND_BYTES / stride).clamp(1, height);
         let buffer =
@@ -100,7 +100,7 @@ fn copy_rows(
                     rows_per_image: None,
                 },
             },
-            Extent3d { width: source.size()[0] as u32, height: rows as u32, depth_or_array_layers: 1 },
+            Extent3d { width: source.texture.width(), height: rows as u32, depth_or_array_layers: 1 },
         );
         gpu.queue.submit([encoder.finish()]);
     })

@@ -31,8 +31,15 @@ pub const SHADE: Shader = Shader {
         piece!("scene.wgsl"),
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
+        piece!("stride.wgsl"),
         piece!("shade.wgsl"),
     ],
+};
+
+/// Every n-th texel of a map.
+pub const REDUCE: Shader = Shader {
+    name: "reduce",
+    pieces: &[piece!("fullscreen.wgsl"), piece!("stride.wgsl"), piece!("reduce.wgsl")],
 };
 
 /// Pass 2: a screen pixel a fragment.
@@ -72,4 +79,4 @@ pub const LOSS: Shader = Shader {
 
 /// Every shader of this crate.
 #[cfg(feature = "testing")]
-pub const ALL: [Shader; 5] = [SHADE, DISPLAY, BLIT, PROBE, LOSS];
+pub const ALL: [Shader; 6] = [SHADE, REDUCE, DISPLAY, BLIT, PROBE, LOSS];

@@ -1,13 +1,13 @@
 //! Pass 1: Algorithm 3, or one of the maps, one fragment per texel.
 
 use wgpu::{
-    BufferBindingType, LoadOp, Operations, RenderPassColorAttachment, RenderPassDescriptor, StoreOp, Texture,
-    TextureDescriptor, TextureFormat, TextureUsages, TextureView,
+    BufferBindingType, Extent3d, LoadOp, Texture, TextureDescriptor, TextureFormat, TextureUsages,
+    TextureView,
 };
 
 use super::fault::scoped;
 use super::params::ShadeParams;
-use super::pipeline::{Constants, Fullscreen, bind, buffer_type, texture_type, uniform_buffer};
+use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, buffer_type, texture_type, uniform_buffer};
 use super::textures::{descriptor, extent, write};
 use super::uniforms::ShadingUniforms;
 use super::{Gpu, MaterialTextures, shaders};
@@ -22,6 +22,7 @@ const LARGEST_F16: f32 = 65504.0;
 #[derive(Debug)]
 pub struct Shading {
     pipelines: Fullscreen,
+    reduction: Fullscreen,
 }
 
 /// What pass 1 writes: linear floats, a texel each, row 0 on top.
@@ -73,7 +74,10 @@ impl Shading {
             let uniform = buffer_type(BufferBindingType::Uniform);
             let types = [uniform, texture_type(), texture_type(), texture_type()];
             let (format, first) = (gpu.report.shading_format, constants(Quantity::Rendering));
-            Self { pipelines: Fullscreen::new(&gpu.device, &shaders::SHADE, &types, format, first) }
+            let pipelines = Fullscreen::new(&gpu.device, &shaders::SHADE, &types, format, first);
+            let (types, none) = ([uniform, texture_type()], Constants::new());
+            let reduction = Fullscreen::new(&gpu.device, &shaders::REDUCE, &types, format, none);
+            Self { pipelines, reduction }
         })
     }
 
@@ -93,24 +97,47 @@ impl Shading {
     pub fn reduced_target(&self, gpu: &Gpu, size: [usize; 2], stride: usize) -> Result<Shaded, Error> {
         let extent = extent(gpu, size.map(|side| side.div_ceil(stride)))?;
         scoped(&gpu.device, "creating a picture to shade into", || {
-            let texture = gpu.device.create_texture(&TextureDescriptor {
-                label: Some("shaded"),
-                size: extent,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: gpu.report.shading_format,
-                usage: TextureUsages::RENDER_ATTACHMENT
-                    | TextureUsages::TEXTURE_BINDING
-                    | TextureUsages::COPY_SRC,
-                view_formats: &[],
-            });
+            let texture = floats(gpu, "shaded", extent);
             let view = texture.create_view(&Default::default());
             Shaded { texture, view, size, stride }
         })
     }
 
-    /// Shades every texel of `textures` into `target`, which has their size, and submits that.
+    /// The texels of `textures`, which hold a material of `size` = (width, height), that a target of this `stride` shades. To
+    /// shade them again and again, this is quicker to read.
+    ///
+    /// # Errors
+    /// As [`Shading::target`].
+    pub fn reduced_textures(
+        &self,
+        gpu: &Gpu,
+        textures: &MaterialTextures,
+        size: [usize; 2],
+        stride: usize,
+    ) -> Result<MaterialTextures, Error> {
+        let extent = extent(gpu, size.map(|side| side.div_ceil(stride)))?;
+        scoped(&gpu.device, "reducing a material", || {
+            let uniform = uniform_buffer(&gpu.device, bytemuck::bytes_of(&(stride as u32)));
+            let pipeline = self.reduction.with(&gpu.device, Constants::new());
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let views = textures.views.each_ref().map(|whole| {
+                let view = floats(gpu, "reduced", extent).create_view(&Default::default());
+                let resources = [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(whole)];
+                let group = bind(&gpu.device, &self.reduction.layout, &resources);
+                let mut pass = begin(&mut encoder, "reducing", &view, CLEAR);
+                pass.set_pipeline(&pipeline);
+                pass.set_bind_group(0, &group, &[]);
+                pass.draw(0..3, 0..1);
+                drop(pass);
+                view
+            });
+            gpu.queue.submit([encoder.finish()]);
+            MaterialTextures { views }
+        })
+    }
+
+    /// Shades every texel of `target` and submits that. `textures` hold the material, or its [`Shading::reduced_textures`] of the
+    /// target's stride.
     ///
     /// A failure waits in [`Gpu::take_fault`].
     pub fn draw(&self, gpu: &Gpu, textures: &MaterialTextures, params: &ShadeParams, target: &Shaded) {
@@ -131,25 +158,15 @@ impl Shading {
             TextureFormat::Rgba16Float => LARGEST_F16,
             _ => f32::MAX,
         };
-        let uniforms = ShadingUniforms::new(params, largest, target.stride);
+        let uniforms = ShadingUniforms::new(params, largest, target.stride, target.size);
         let buffer = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
         let [normal_roughness, diffuse, specular] = &textures.views;
         let maps = [normal_roughness, diffuse, specular].map(wgpu::BindingResource::TextureView);
         let [a, b, c] = maps;
         let group = bind(&gpu.device, &self.pipelines.layout, &[buffer.as_entire_binding(), a, b, c]);
 
-        let load = part.map_or(LoadOp::Clear(wgpu::Color::BLACK), |_| LoadOp::Load);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-            label: Some("shading"),
-            color_attachments: &[Some(RenderPassColorAttachment {
-                view: &target.view,
-                resolve_target: None,
-                depth_slice: None,
-                ops: Operations { load, store: StoreOp::Store },
-            })],
-            ..RenderPassDescriptor::default()
-        });
+        let mut pass = begin(&mut encoder, "shading", &target.view, part.map_or(CLEAR, |_| LoadOp::Load));
         if let Some([left, top, width, height]) = part {
             pass.set_scissor_rect(left, top, width, height);
         }
@@ -159,6 +176,20 @@ impl Shading {
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
     }
+}
+
+/// A texture of floats to draw into.
+fn floats(gpu: &Gpu, label: &str, size: Extent3d) -> Texture {
+    gpu.device.create_texture(&TextureDescriptor {
+        label: Some(label),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: gpu.report.shading_format,
+        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
 }
 
 /// The constants of the pipeline that shades this quantity.

@@ -1,13 +1,12 @@
 //! The pixels of a pane, kept until what they show changes.
 
 use wgpu::{
-    BindGroup, BindGroupLayout, BindingResource, Extent3d, LoadOp, Operations, RenderPass,
-    RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, StoreOp, Texture, TextureDescriptor,
-    TextureFormat, TextureUsages,
+    BindGroup, BindGroupLayout, BindingResource, Extent3d, RenderPass, RenderPipeline, Texture,
+    TextureDescriptor, TextureFormat, TextureUsages,
 };
 
 use super::fault::scoped;
-use super::pipeline::{Constants, Fullscreen, bind, texture_type};
+use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, texture_type};
 use super::{Gpu, Pane, shaders};
 use crate::error::Error;
 
@@ -31,16 +30,7 @@ impl Still {
     pub fn draw(&self, gpu: &Gpu, pane: &Pane) {
         let view = self.texture.create_view(&Default::default());
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-            label: Some("pane"),
-            color_attachments: &[Some(RenderPassColorAttachment {
-                view: &view,
-                resolve_target: None,
-                depth_slice: None,
-                ops: Operations { load: LoadOp::Clear(wgpu::Color::BLACK), store: StoreOp::Store },
-            })],
-            ..RenderPassDescriptor::default()
-        });
+        let mut pass = begin(&mut encoder, "pane", &view, CLEAR);
         pane.draw(&mut pass);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);

@@ -14,7 +14,7 @@ const BAND_BYTES: usize = 16 << 20;
 const TEXEL_BYTES: usize = 16;
 
 /// The four maps as three float textures: normal with roughness, diffuse, specular.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct MaterialTextures {
     pub(super) views: [TextureView; 3],
 }

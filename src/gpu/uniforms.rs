@@ -68,15 +68,15 @@ pub struct ShadingUniforms {
     pub model: ModelUniforms,
     pub largest: f32,
     pub stride: u32,
-    pub pad: [u32; 2],
+    pub size: [u32; 2],
 }
 
 impl ShadingUniforms {
-    /// For a target whose largest number is `largest`.
-    /// It shades every `stride`-th texel along both axes.
-    pub(super) fn new(params: &ShadeParams, largest: f32, stride: usize) -> Self {
-        let model = ModelUniforms::from(&Model::from(&params.convention));
-        Self { rays: SceneUniforms::from(&params.scene), model, largest, stride: stride as u32, pad: [0; 2] }
+    /// For a target whose largest number is `largest`, and every `stride`-th texel along both axes of a material of `size`.
+    pub(super) fn new(params: &ShadeParams, largest: f32, stride: usize, size: [usize; 2]) -> Self {
+        let (rays, model) = (SceneUniforms::from(&params.scene), Model::from(&params.convention));
+        let (stride, size) = (stride as u32, size.map(|side| side as u32));
+        Self { rays, model: ModelUniforms::from(&model), largest, stride, size }
     }
 }
 

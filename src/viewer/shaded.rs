@@ -38,6 +38,8 @@ pub(super) struct ShadingDevice<'a> {
 /// Shaded texels and what they were shaded with.
 pub(super) struct ShadedTexels {
     pub shaded: Shaded,
+    /// The maps at these texels alone, where they are not all of the material.
+    reduced: Option<MaterialTextures>,
     /// With a region, only its texels.
     drawn: Option<(ShadeParams, Option<Region>)>,
     /// Changes whenever the texels that are seen do.
@@ -138,6 +140,7 @@ impl ShadedTexels {
             return;
         }
         let ShadingDevice { gpu, shading, textures, versions } = device;
+        let textures = self.reduced.as_ref().unwrap_or(textures);
         shading.draw_part(gpu, textures, &params, &self.shaded, region.map(Region::rectangle));
         (self.drawn, self.version) = (asked, next(versions));
     }
@@ -159,8 +162,11 @@ fn with_stride<'a>(
     let texels = match kept {
         Some(texels) => texels,
         None => {
-            let shaded = device.shading.reduced_target(device.gpu, size, stride)?;
-            ShadedTexels { shaded, drawn: None, version: 0 }
+            let ShadingDevice { gpu, shading, textures, .. } = device;
+            let shaded = shading.reduced_target(gpu, size, stride)?;
+            let reduce = || shading.reduced_textures(gpu, textures, size, stride);
+            let reduced = (stride > 1).then(reduce).transpose()?;
+            ShadedTexels { shaded, reduced, drawn: None, version: 0 }
         }
     };
     Ok(place.insert(texels))
