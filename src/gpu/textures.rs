@@ -25,13 +25,35 @@ impl MaterialTextures {
     /// # Errors
     /// [`Error::Gpu`] where the material is too large for the adapter or for its memory.
     pub fn upload(gpu: &Gpu, material: &Material<f32>) -> Result<Self, Error> {
-        let size = material.size();
+        Self::send(gpu, material, material.size(), |index| index)
+    }
+
+    /// Copies the texels of `material` that a target of this `stride` shades: what
+    /// [`Shading::reduced_textures`](super::Shading::reduced_textures) makes of the whole material.
+    ///
+    /// # Errors
+    /// As [`MaterialTextures::upload`].
+    pub fn upload_reduced(gpu: &Gpu, material: &Material<f32>, stride: usize) -> Result<Self, Error> {
+        let [width, height] = material.size();
+        let size = [width, height].map(|side| side.div_ceil(stride));
+        let middle = |place: usize, side: usize| (place * stride + stride / 2).min(side - 1);
+        let texel = |index| middle(index / size[0], height) * width + middle(index % size[0], width);
+        Self::send(gpu, material, size, texel)
+    }
+
+    /// Copies texels into textures of `size`; `source` has the index in the material of each.
+    fn send(
+        gpu: &Gpu,
+        material: &Material<f32>,
+        size: [usize; 2],
+        source: impl Fn(usize) -> usize + Sync,
+    ) -> Result<Self, Error> {
         let extent = extent(gpu, size)?;
         let textures = scoped(&gpu.device, "uploading a material", || {
             let create = |label| gpu.device.create_texture(&descriptor(label, extent));
             let textures = [create("normal and roughness"), create("diffuse"), create("specular")];
             for (texture, texel) in textures.iter().zip([normal_roughness, diffuse, specular]) {
-                write(gpu, texture, size, |index| texel(material.planes(), index));
+                write(gpu, texture, size, |index| texel(material.planes(), source(index)));
             }
             textures
         })?;

@@ -7,8 +7,12 @@ use eframe::{egui, egui_wgpu, wgpu};
 
 use super::shaded::{ShadedMaterial, ShadedPart, ShadingDevice, ShadingRequest};
 use super::slot::Slot;
+use super::uploaded::Uploaded;
 use crate::error::Error;
 use crate::gpu::{Blit, Display, DisplayParams, Gpu, Pane, PanePlace, Shaded, Shading, Still};
+
+/// What a pane shows where a draft of a material will not do, until all of it is there.
+const SENDING: &str = "Sending the material to the graphics adapter...";
 
 /// The texels of a pane, or those that they are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,27 +86,36 @@ impl GpuView {
     /// # Errors
     /// A text for the pane, where the adapter cannot hold a material.
     pub(super) fn shade(&mut self, slots: &[&Slot], asked: ShadingRequest) -> Result<bool, String> {
-        let is_whole = |slot: &&Slot| self.shaded.get(&slot.id).is_some_and(|one| one.is_whole(asked.params));
+        let uploads: Vec<&Uploaded> = slots
+            .iter()
+            .map(|slot| slot.loaded.textures.as_ref().ok_or("This material has no textures: reload it"))
+            .collect::<Result<_, _>>()?;
         // A pane compares texels of one size: all materials are shown in full, or none.
-        let is_left = asked.sharpens && !slots.iter().all(is_whole);
-        let asked = if asked.sharpens && !is_left {
-            ShadingRequest { part: ShadedPart::Whole, ..asked }
-        } else {
-            asked
+        let draft = uploads.iter().filter(|one| one.whole().is_none()).find_map(|one| one.draft());
+        let is_whole = |slot: &&Slot| self.shaded.get(&slot.id).is_some_and(|one| one.is_whole(asked.params));
+        let is_left = draft.is_none() && asked.sharpens && !slots.iter().all(is_whole);
+        let part = match draft {
+            Some(_) if asked.exact => return Err(SENDING.to_owned()),
+            Some(draft) => ShadedPart::EveryNth(draft.stride),
+            None if asked.sharpens && !is_left => ShadedPart::Whole,
+            None => asked.part,
         };
-        for slot in slots {
-            let textures = match &slot.loaded.textures {
-                Some(Ok(textures)) => textures,
-                Some(Err(problem)) => return Err(problem.clone()),
-                None => return Err("This material has no textures: reload it".to_owned()),
+        let sharpens = is_left && !asked.waits;
+        let asked = ShadingRequest { part, sharpens, ..asked };
+        for (slot, uploaded) in slots.iter().zip(uploads) {
+            let (textures, are_reduced) = match (uploaded.whole(), uploaded.draft()) {
+                (Some(Ok(textures)), _) => (textures, false),
+                (Some(Err(problem)), _) => return Err(problem.clone()),
+                (None, Some(draft)) => (&draft.textures, true),
+                (None, None) => return Err(SENDING.to_owned()),
             };
             let Self { gpu, shading, versions, .. } = self;
-            let mut device = ShadingDevice { gpu, shading, textures, versions };
+            let mut device = ShadingDevice { gpu, shading, textures, are_reduced, versions };
             let material = self.shaded.entry(slot.id).or_default();
             let shaded = material.shade(&mut device, slot.loaded.material.size(), asked);
             shaded.map_err(|error| error.to_string())?;
         }
-        Ok(is_left)
+        Ok(sharpens)
     }
 
     /// Takes the differences of the material `id`, for panes whose difference is computed elsewhere.

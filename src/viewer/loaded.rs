@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use super::source::{Origin, Source};
+use super::uploaded::Uploaded;
 use crate::error::Error;
 use crate::files::read::{Assumption, MapReport, Note, Read, ReadOptions};
 use crate::files::stamp::Stamp;
 use crate::files::steps::RunId;
-use crate::gpu::{Gpu, MaterialTextures};
+use crate::gpu::Gpu;
 use crate::material::Material;
 
 /// A material that has been read and, where there is an adapter, uploaded.
@@ -32,8 +33,8 @@ pub(super) struct Loaded {
     pub maps: Vec<MapReport>,
     /// The files that were read, each with its stamp.
     pub files: Vec<(PathBuf, Option<Stamp>)>,
-    /// `None` without an adapter; an error where the adapter cannot hold the material.
-    pub textures: Option<Result<MaterialTextures, String>>,
+    /// `None` without an adapter.
+    pub textures: Option<Uploaded>,
 }
 
 impl Loaded {
@@ -47,7 +48,7 @@ impl Loaded {
 
     /// This material with other maps, which no file holds.
     pub(super) fn with_material(&self, material: Material<f32>, gpu: Option<&Gpu>) -> Self {
-        let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &material).map_err(|e| e.to_string()));
+        let textures = gpu.map(|gpu| Uploaded::all(gpu, &material));
         let Self { origin, asked, read, kept, fit, run, .. } = self;
         Self {
             origin: origin.clone(),
@@ -63,6 +64,11 @@ impl Loaded {
             files: Vec::new(),
             textures,
         }
+    }
+
+    /// Sends to the adapter what is missing there.
+    pub(super) fn complete_upload(&self, gpu: &Gpu) {
+        self.textures.iter().for_each(|uploaded| uploaded.complete(gpu, &self.material));
     }
 
     /// The training run that it is a step of, and the number of the step.
@@ -97,6 +103,8 @@ pub(super) struct Reader {
     pub(super) size: Option<[usize; 2]>,
     /// Whether a file that cannot be read is waited for, where it was written a moment ago.
     pub(super) patient: bool,
+    /// Whether drafts of materials are of use: where nothing is seen before.
+    pub(super) drafts: bool,
 }
 
 impl Reader {
@@ -120,12 +128,14 @@ impl Reader {
             read.material = read.material.resized(size)?;
             read.notes.push(Note::Resized { from, to: size });
         }
-        Ok(loaded(source, read, self.gpu.as_ref()))
+        Ok(loaded(source, read, self))
     }
 }
 
-pub(super) fn loaded(source: Source, read: Read<f32>, gpu: Option<&Gpu>) -> Loaded {
-    let textures = gpu.map(|gpu| MaterialTextures::upload(gpu, &read.material).map_err(|e| e.to_string()));
+/// The material of what was read; of its textures perhaps a draft.
+pub(super) fn loaded(source: Source, read: Read<f32>, reader: &Reader) -> Loaded {
+    let upload = if reader.drafts { Uploaded::start } else { Uploaded::all };
+    let textures = reader.gpu.as_ref().map(|gpu| upload(gpu, &read.material));
     let files = read.files.into_iter().map(|path| (Stamp::of(&path), path)).map(|(s, p)| (p, s)).collect();
     let Read { material, assumptions, notes, maps, options, saved: kept, .. } = read;
     let Source { origin, asked, fit, run, .. } = source;

@@ -85,6 +85,7 @@ mod study;
 mod theme;
 mod title;
 mod training;
+mod uploaded;
 mod values_run;
 mod viewport;
 mod visible;

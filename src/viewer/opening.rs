@@ -92,7 +92,7 @@ fn read(source: Source, reader: &mut Reader, progress: &Progress) -> Result<Load
                 .nth(*number)
                 .ok_or_else(|| Error::Internal(format!("there is no built-in material {number}")))?;
             reader.size.get_or_insert(read.material.size());
-            Ok(loaded(source, read, reader.gpu.as_ref()))
+            Ok(loaded(source, read, reader))
         }
         Origin::Path(path) => {
             let path = path.clone();
@@ -152,7 +152,7 @@ pub(super) enum Item {
 #[derive(Debug)]
 pub(super) enum Arrival {
     Kept(Slot),
-    Read(Box<Loaded>),
+    Read(Arc<Loaded>),
     Failed(Box<Source>, Error),
 }
 
@@ -205,17 +205,23 @@ impl Opening {
                     item => vec![item],
                 };
                 for item in items {
+                    let mut read = None;
                     let arrival = match item {
                         _ if whole.is_cancelled() => return Err(Error::Cancelled),
                         Item::Kept(kept) => Arrival::Kept(kept),
                         Item::Read(source) => match read_patiently(&source, &mut reader, &each[index]) {
-                            Ok(loaded) => Arrival::Read(Box::new(loaded)),
+                            Ok(loaded) => Arrival::Read(read.insert(Arc::new(loaded)).clone()),
                             Err(error) => Arrival::Failed(Box::new(source), error),
                         },
                     };
                     // Where the window has dropped this reading, the material is not wanted.
                     if sender.send(arrival).is_err() {
                         return Err(Error::Cancelled);
+                    }
+                    seen.request_repaint();
+                    if let (Some(loaded), Some(gpu)) = (read, &reader.gpu) {
+                        loaded.complete_upload(gpu);
+                        seen.request_repaint();
                     }
                     seen.request_repaint();
                 }

@@ -24,6 +24,10 @@ pub(super) struct ShadingRequest {
     pub part: ShadedPart,
     /// Whether the rest is shaded in bands, one in a frame.
     pub sharpens: bool,
+    /// Whether the rest waits: reading materials comes first, and they are shaded together.
+    pub waits: bool,
+    /// Whether a draft will not do.
+    pub exact: bool,
 }
 
 /// Where and with what texels are shaded.
@@ -31,6 +35,8 @@ pub(super) struct ShadingDevice<'a> {
     pub gpu: &'a Gpu,
     pub shading: &'a Shading,
     pub textures: &'a MaterialTextures,
+    /// Whether the textures are reduced to what is shaded.
+    pub are_reduced: bool,
     /// The number of the latest version of any texels.
     pub versions: &'a mut u64,
 }
@@ -75,7 +81,7 @@ impl ShadedMaterial {
         &mut self,
         device: &mut ShadingDevice<'_>,
         size: [usize; 2],
-        ShadingRequest { params, part, sharpens }: ShadingRequest,
+        ShadingRequest { params, part, sharpens, .. }: ShadingRequest,
     ) -> Result<(), Error> {
         let is_whole = self.is_whole(params);
         self.shows_quick = matches!(part, ShadedPart::EveryNth(_));
@@ -139,7 +145,7 @@ impl ShadedTexels {
         if self.drawn == asked {
             return;
         }
-        let ShadingDevice { gpu, shading, textures, versions } = device;
+        let ShadingDevice { gpu, shading, textures, versions, .. } = device;
         let textures = self.reduced.as_ref().unwrap_or(textures);
         shading.draw_part(gpu, textures, &params, &self.shaded, region.map(Region::rectangle));
         (self.drawn, self.version) = (asked, next(versions));
@@ -165,9 +171,86 @@ fn with_stride<'a>(
             let ShadingDevice { gpu, shading, textures, .. } = device;
             let shaded = shading.reduced_target(gpu, size, stride)?;
             let reduce = || shading.reduced_textures(gpu, textures, size, stride);
-            let reduced = (stride > 1).then(reduce).transpose()?;
+            let reduced = (stride > 1 && !device.are_reduced).then(reduce).transpose()?;
             ShadedTexels { shaded, reduced, drawn: None, version: 0 }
         }
     };
     Ok(place.insert(texels))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Material;
+    use crate::model::convention::PRINTED;
+    use crate::picture::quantity::Quantity;
+    use crate::samples;
+    use crate::viewer::state::ViewState;
+
+    /// More than two bands.
+    const SIZE: [usize; 2] = [1024, 1030];
+
+    struct Bench {
+        gpu: Gpu,
+        shading: Shading,
+        textures: MaterialTextures,
+        versions: u64,
+    }
+
+    impl Bench {
+        fn new() -> Self {
+            let gpu = Gpu::headless().unwrap();
+            let material: Material<f32> =
+                samples::load().unwrap().ground_truth.material.resized(SIZE).unwrap();
+            let textures = MaterialTextures::upload(&gpu, &material).unwrap();
+            Self { shading: Shading::new(&gpu).unwrap(), gpu, textures, versions: 0 }
+        }
+
+        /// One frame with the light at `x`; the number of the version that is seen.
+        fn frame(&mut self, texels: &mut ShadedMaterial, x: f64, part: ShadedPart) -> u64 {
+            let Self { gpu, shading, textures, versions } = self;
+            let mut device = ShadingDevice { gpu, shading, textures, are_reduced: false, versions };
+            let sharpens = part != ShadedPart::Whole;
+            let asked = ShadingRequest { params: params(x), part, sharpens, waits: false, exact: false };
+            texels.shade(&mut device, SIZE, asked).unwrap();
+            texels.shown().unwrap().version
+        }
+
+        fn pixels(&self, texels: &ShadedMaterial) -> Vec<[f32; 3]> {
+            texels.shown().unwrap().shaded.read_back(&self.gpu).unwrap().pixels
+        }
+    }
+
+    fn params(x: f64) -> ShadeParams {
+        let mut scene = ViewState::default().scene;
+        scene.light[0] = x;
+        ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering }
+    }
+
+    #[test]
+    #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+    fn what_sharpens_in_bands_is_what_is_shaded_at_once_also_where_the_light_moves_in_between() {
+        let mut bench = Bench::new();
+        let mut at_once = ShadedMaterial::default();
+        bench.frame(&mut at_once, 0.5, ShadedPart::Whole);
+        let expected = bench.pixels(&at_once);
+        let mut texels = ShadedMaterial::default();
+        // The first two bands are of another light.
+        let draft = ShadedPart::EveryNth(2);
+        bench.frame(&mut texels, -0.5, draft);
+        let of_other_light = bench.frame(&mut texels, -0.5, draft);
+        let mut seen = Vec::new();
+        while !texels.is_whole(params(0.5)) {
+            seen.push(bench.frame(&mut texels, 0.5, draft));
+            assert!(seen.len() <= 3, "a band of {BAND} texels a frame");
+        }
+        assert!(seen.len() == 3 && seen.iter().all(|version| *version > of_other_light), "{seen:?}");
+        assert!(bench.pixels(&texels).len() < expected.len(), "a draft is seen until all is there");
+        let draft_version = seen[2];
+        assert_ne!(bench.frame(&mut texels, 0.5, ShadedPart::Whole), draft_version);
+        assert_eq!(bench.pixels(&texels), expected);
+        // What the frame after would show if bands were not begun anew.
+        bench.frame(&mut at_once, -0.5, ShadedPart::Whole);
+        assert_ne!(bench.pixels(&at_once), expected, "the light makes a difference");
+    }
 }

@@ -18,9 +18,9 @@ pub(super) struct Slot {
 }
 
 impl Slot {
-    pub(super) fn new(id: u64, loaded: Loaded) -> Self {
+    pub(super) fn new(id: u64, loaded: Arc<Loaded>) -> Self {
         let name = loaded.material.name().to_owned();
-        Self { id, loaded: Arc::new(loaded), problem: None, name }
+        Self { id, loaded, problem: None, name }
     }
 
     /// A material made of others, with this name.

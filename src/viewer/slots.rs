@@ -1,6 +1,7 @@
 //! The materials in the window. They are read on a worker; each is there as soon as it has been read.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use eframe::egui;
 
@@ -106,7 +107,8 @@ impl Slots {
         let size = ground_truth.map(|slot| slot.loaded.material.size());
         // A person who opens a file is told at once what is wrong with it.
         let patient = self.patient && matches!(target, Target::Again(_));
-        Reader { gpu: gpu.cloned(), rules: self.rules, size, patient }
+        let drafts = !matches!(target, Target::Again(_));
+        Reader { gpu: gpu.cloned(), rules: self.rules, size, patient, drafts }
     }
 
     /// Takes over the materials that have been read since the last call; returns what went wrong.
@@ -155,11 +157,11 @@ impl Slots {
                 }
                 match arrival {
                     Arrival::Kept(slot) => self.slots.push(slot),
-                    Arrival::Read(loaded) => self.add(*loaded, problems),
+                    Arrival::Read(loaded) => self.add(loaded, problems),
                     Arrival::Failed(..) => {}
                 }
             }
-            (Arrival::Read(loaded), Target::Again(id)) => self.replace(*id, *loaded, problems),
+            (Arrival::Read(loaded), Target::Again(id)) => self.replace(*id, loaded, problems),
             (_, Target::Again(_)) => {}
         }
         rename(&mut self.slots);
@@ -174,7 +176,7 @@ impl Slots {
         }
     }
 
-    fn add(&mut self, loaded: Loaded, problems: &mut Vec<Message>) {
+    fn add(&mut self, loaded: Arc<Loaded>, problems: &mut Vec<Message>) {
         if let Some(sizes) = self.ground_truth().and_then(|ground_truth| mismatch(ground_truth, &loaded)) {
             return problems.push(Message::Refused(Box::new(sizes)));
         }
@@ -187,7 +189,7 @@ impl Slots {
     }
 
     /// Replaces the material of the slot `id`. A ground truth of another size closes the predictions.
-    fn replace(&mut self, id: u64, loaded: Loaded, problems: &mut Vec<Message>) {
+    fn replace(&mut self, id: u64, loaded: Arc<Loaded>, problems: &mut Vec<Message>) {
         let Some(index) = self.slots.iter().position(|s| s.id == id) else { return };
         self.read.push(loaded.path().to_owned());
         let new = Slot::new(self.new_id(), loaded);

@@ -11,7 +11,7 @@ use super::gpu_view::GpuView;
 use super::handles;
 use super::marks::Placed;
 use super::pace::{Pace, PaneView, REST};
-use super::pane_texels::{slot_at, texels};
+use super::pane_texels::texels;
 use super::pane_text::{note, paint_hint};
 use super::panes::{Content, Hovered, PhotographUse, Scenery};
 use super::readout::{self, Readout};
@@ -90,7 +90,7 @@ impl Viewport {
         self.shows_extra = extra.is_some();
         panes.extend(extra);
         let mut on_material = panes.iter().filter(|(content, _)| scenery.corner_editor(*content).is_none());
-        self.hovered = on_material.find_map(|(content, cell)| hovered(ui, scenery, *content, *cell));
+        self.hovered = on_material.find_map(|(content, cell)| Hovered::in_pane(ui, scenery, *content, *cell));
         if let Some(texel) = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point)) {
             self.last_texel = Some(texel);
         }
@@ -221,7 +221,8 @@ impl Viewport {
         } else {
             ShadedPart::Whole
         };
-        let asked = ShadingRequest { params, part, sharpens: !moves && part != ShadedPart::Whole };
+        let sharpens = !moves && part != ShadedPart::Whole;
+        let asked = ShadingRequest { params, part, sharpens, waits: scenery.reading, exact: is_exact };
         gpu.keep_only(scenery.slots, contents.len() + 1);
         let shown: BTreeSet<usize> = contents.iter().flat_map(|one| [one.slot, one.reference]).collect();
         let slots: Vec<&Slot> = shown.into_iter().map(|index| &scenery.slots[index]).collect();
@@ -286,19 +287,4 @@ impl Viewport {
         let pixels_per_texel = self.pane_pixels.x * half_width / fitted / grid.width as f32;
         if pixels_per_texel.is_finite() && pixels_per_texel > 0.0 { pixels_per_texel.recip() } else { 1.0 }
     }
-}
-
-/// The point under the pointer, if it is over this pane and nothing lies in between.
-fn hovered(ui: &egui::Ui, scenery: &Scenery<'_>, content: Content, cell: Rect) -> Option<Hovered> {
-    let rect = picture_rect(ui, cell);
-    let pos = ui.input(|i| i.pointer.latest_pos()).filter(|pos| rect.contains(*pos))?;
-    let covered = ui.ctx().layer_id_at(pos).is_some_and(|layer| layer != ui.layer_id());
-    if covered {
-        return None;
-    }
-    let [x, y] = handles::ndc_from_pos(rect, pos);
-    let grid = scenery.slots[0].loaded.material.grid();
-    let camera = scenery.camera(grid, rect.width() / rect.height());
-    let slot = slot_at(scenery, content, x);
-    camera.plane_from_ndc(x, y).map(|point| Hovered { slot, point })
 }

@@ -295,8 +295,8 @@ fn a_draft_shows_the_nearest_texel_where_a_pixel_covers_several() {
     assert!(faults(false).len() > 7, "means are shown otherwise");
 }
 
-/// A draft shades the texels in the middle of squares, each as it is shaded in full: from the whole material and from its reduced
-/// textures, which are all that is read while a light moves.
+/// A draft shades the texels in the middle of squares, each as it is shaded in full: from the whole material, from its reduced
+/// textures, which are all that is read while a light moves, and from those that are sent before the rest.
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_draft_shades_every_nth_texel_as_it_is_shaded_in_full() {
@@ -318,7 +318,8 @@ fn a_draft_shades_every_nth_texel_as_it_is_shaded_in_full() {
             let [columns, rows] = [width, height].map(|side| side.div_ceil(stride));
             let texel = |i: usize| middle(i / columns, height) * width + middle(i % columns, width);
             let expected: Vec<[f32; 3]> = (0..columns * rows).map(|i| full.pixels[texel(i)]).collect();
-            for maps in [&textures, &reduced] {
+            let sent = MaterialTextures::upload_reduced(gpu, &material, stride).unwrap();
+            for maps in [&textures, &reduced, &sent] {
                 shading.draw(gpu, maps, &params, &target);
                 assert_eq!(target.read_back(gpu).unwrap().pixels, expected, "{quantity:?} {stride}");
             }

@@ -83,6 +83,7 @@ impl App {
             return Err(Error::Internal("there is no graphics adapter to draw the view".to_owned()));
         };
         let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), self.settings.dark);
+        self.slots.slots.iter().for_each(|slot| slot.loaded.complete_upload(&gpu));
         // Gestures and corner handles stay in the window.
         let viewport = std::mem::replace(&mut self.viewport, Viewport::exact());
         let edits_corners = self.photograph.edits_corners();

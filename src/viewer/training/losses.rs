@@ -159,7 +159,8 @@ fn start(ctx: &egui::Context, of: RunLossesKey, jobs: Vec<Job>) -> (Task<()>, Re
 
 fn loss(of: &RunLossesKey, source: &Source, progress: &Progress) -> Result<Estimate, Error> {
     let truth = &of.ground_truth.material;
-    let mut reader = Reader { gpu: None, rules: of.rules, size: Some(truth.size()), patient: true };
+    let mut reader =
+        Reader { gpu: None, rules: of.rules, size: Some(truth.size()), patient: true, drafts: false };
     let prediction = read_patiently(source, &mut reader, &progress.part())?;
     let comparison = Comparison::new(truth, &[&prediction.material], of.asked.convention)?;
     let outcome = comparison.run(&of.asked.request, &progress.part())?;
