@@ -47,7 +47,9 @@ impl LegendStrip<'_> {
         let short = shortened(&self.names, CHARACTERS);
         let heads = [mean, ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
         egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {
-            egui::Grid::new("difference statistics").num_columns(5).spacing([10.0, 2.0]).show(ui, |ui| {
+            // Low rows: three of them are seen at once.
+            let grid = egui::Grid::new("difference statistics").num_columns(5).min_row_height(0.0);
+            grid.spacing([10.0, 2.0]).show(ui, |ui| {
                 ui.label("");
                 for (head, hover) in heads {
                     ui.label(RichText::new(head).small().weak()).on_hover_text(hover);
