@@ -22,6 +22,7 @@ mod gestures;
 mod gpu_view;
 mod handles;
 mod history;
+mod hovered;
 mod inspect;
 #[cfg(not(feature = "testing"))]
 pub(crate) mod keys;
