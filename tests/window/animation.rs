@@ -7,8 +7,10 @@ use super::*;
 fn the_turntable_turns_the_view_until_space_pauses_it() {
     let mut window = built_in();
     let before = window.state().state.scene;
+    let place = window.get_by_label("Turntable").rect();
     window.get_by_label("Turntable").click();
     window.run_steps(4);
+    assert_eq!(window.get_by_label("Turntable").rect(), place, "a second click stops it");
     let first = window.state().state.scene;
     window.run_steps(4);
     let second = window.state().state.scene;

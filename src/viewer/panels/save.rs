@@ -87,6 +87,8 @@ impl SaveWindow {
                         self.path = what.proposal().to_owned();
                     }
                     self.what = what;
+                    // Return saves.
+                    self.field = PathField::default();
                 }
             }
         });

@@ -81,7 +81,10 @@ impl ScenePanel<'_> {
                 .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Path of the light"));
             ui.checkbox(&mut animation.turntable, "Turntable")
                 .on_hover_text("The view turns about the upright axis of the material");
-            if animation.light || animation.turntable {
+        });
+        // Always there: what was clicked on stays in its place.
+        ui.add_enabled_ui(animation.light || animation.turntable, |ui| {
+            ui.horizontal(|ui| {
                 super::number(ui, "Speed", &mut animation.speed, 1.0, |drag| {
                     drag.speed(0.02).range(0.05..=10.0).fixed_decimals(2).prefix("x ")
                 })
@@ -90,7 +93,7 @@ impl ScenePanel<'_> {
                 if ui.small_button(name).on_hover_text("Space").clicked() {
                     commands.push(SceneCommand::TogglePause.into());
                 }
-            }
+            });
         });
         if animation != *self.animation {
             let started =
