@@ -12,7 +12,6 @@ fn save(desktop: &Desktop, kind: usize, name: &str) {
     desktop.dialog("ctrl+s");
     (0..kind).for_each(|_| desktop.keys(&["shift+Tab"]));
     desktop.keys(&["space"]);
-    (0..kind).for_each(|_| desktop.keys(&["Tab"]));
     desktop.keys(&["Return"]);
     desktop.wait(name, |_| desktop.folder.path().join(name).exists());
     desktop.wait_until_still();
