@@ -3,6 +3,7 @@
 
 mod adapter;
 mod display;
+mod drafts;
 mod loss;
 
 use glam::{DVec3, Vec3};

@@ -223,7 +223,6 @@ impl Opening {
                         loaded.complete_upload(gpu);
                         seen.request_repaint();
                     }
-                    seen.request_repaint();
                 }
             }
             Ok(())

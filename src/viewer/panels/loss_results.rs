@@ -144,16 +144,12 @@ impl Results<'_> {
     }
 
     fn few_scenes(&self, ui: &mut egui::Ui, index: usize) {
-        let text = match self.few {
-            None if self.few_are_coming => "6 + 3 scenes: ...".to_owned(),
-            None => return,
-            Some(few) => {
-                let Some(loss) = few.report.outcome.losses.get(index) else { return };
-                let [near, distant] = [Kind::Near, Kind::Distant].map(|kind| few.report.count(kind));
-                let [mean, interval] = significant(&loss.estimate);
-                format!("{near} + {distant} scenes: {mean} {interval}")
-            }
+        let known = |few: &Losses| {
+            let [mean, interval] = significant(&few.report.outcome.losses.get(index)?.estimate);
+            Some(format!("6 + 3 scenes: {mean} {interval}"))
         };
+        let coming = || self.few_are_coming.then(|| "6 + 3 scenes: ...".to_owned());
+        let Some(text) = self.few.map_or_else(coming, known) else { return };
         ui.horizontal(|ui| {
             ui.add_space(10.0);
             ui.label(RichText::new(text).small().weak()).on_hover_text(
