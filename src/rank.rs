@@ -28,10 +28,10 @@ pub fn places(outcome: &Outcome) -> Vec<Ranked> {
     let Some(&best) = order.first() else { return Vec::new() };
     let (mut first, mut group) = (best, 1);
     let place = |&index: &usize| {
-        if index != first && separated(&outcome.difference(loss(index), loss(first))) {
+        if index != first && separated(&outcome.difference(index, first)) {
             (first, group) = (index, group + 1);
         }
-        let to_best = (index != best).then(|| outcome.difference(loss(index), loss(best)));
+        let to_best = (index != best).then(|| outcome.difference(index, best));
         Ranked { index, to_best, group }
     };
     order.iter().map(place).collect()

@@ -6,7 +6,7 @@ use svbrdf::error::Error;
 use svbrdf::loss::{Backend, Comparison, Outcome, Request, Sampling, Texels};
 use svbrdf::model::scene::Scene;
 use svbrdf::progress::Progress;
-use svbrdf::report::Report;
+use svbrdf::report::LossReport;
 
 use super::bar::watched;
 use super::exit::tell;
@@ -36,7 +36,7 @@ pub fn run(
     choice: DeviceChoice,
     comparison: Comparison<'_, f32>,
     request: &Request,
-) -> Result<Report, Error> {
+) -> Result<LossReport, Error> {
     let gpu = match (choice, on_all_texels(&comparison, request)?) {
         (DeviceChoice::Cpu, _) | (DeviceChoice::Auto, None) => None,
         (DeviceChoice::Gpu, _) => Some(Adapter::start()?),
@@ -51,7 +51,7 @@ pub fn run(
         None => comparison,
     };
     let outcome = watched("rendering", |progress| comparison.run(request, progress))?;
-    Ok(Report::new(&comparison, outcome))
+    Ok(LossReport::new(&comparison, request, outcome))
 }
 
 /// The scenes of a request that an adapter can compute: a fixed number of scenes on all texels.

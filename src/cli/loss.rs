@@ -4,15 +4,15 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use svbrdf::error::Error;
-use svbrdf::loss::{ALL_SCENES_TARGET, Comparison, Compute, Precision, Request, Sampling, Texels};
+use svbrdf::loss::{Comparison, Compute, Precision, Question, Request, Sampling, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene_file;
-use svbrdf::report::Report;
+use svbrdf::report::LossReport;
 
 use super::backend::{self, DeviceChoice};
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
-use super::report::{Printed, ReportFormat};
+use super::report::ReportFormat;
 use super::session::SessionSettings;
 use super::{exit, materials, table, target};
 
@@ -85,61 +85,61 @@ pub fn run(mut args: LossArgs) -> Result<(), Error> {
     let steps = args.comparison.materials.expand_steps()?;
     let args = &args;
     table::check_predictions(&args.comparison.materials)?;
-    let saved = saved_request(args)?;
-    let is_chosen = saved.is_some() || chooses_scenes(args);
-    let request = saved.map_or_else(|| request(args), Ok)?;
-    check_backend(args, &request)?;
+    let question = question(args)?;
+    check_backend(args, &question)?;
     let report = match args.precision {
         Precision::F32 => {
-            report(args, is_chosen, |comparison| backend::run(args.backend, comparison, &request))?
+            report(args, &question, |comparison, request| backend::run(args.backend, comparison, request))?
         }
-        Precision::F64 => report(args, is_chosen, |comparison: Comparison<'_, f64>| {
-            let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
-            Ok(Report::new(&comparison, outcome))
-        })?,
+        Precision::F64 => report(args, &question, on_cpu::<f64>)?,
     };
-    let all_scenes = report.all_scenes.as_ref();
-    let missed_by_all_scenes = all_scenes.and_then(|known| target::missed_by_any(ALL_SCENES_TARGET, known));
-    let printed = Printed { missed: missed(&request, &report), report, request, paths: paths(args), steps };
-    exit::put(&args.format.write(&printed).map_err(exit::unwritable)?)?;
-    let missed = printed.missed.into_iter().chain(missed_by_all_scenes);
+    let report = LossReport { paths: paths(args), steps, ..report };
+    exit::put(&args.format.write(&report)?)?;
+    let missed = report.target_error.and_then(|target| target::missed_by_any(target, &report.outcome));
     target::warn_of(missed, args.comparison.materials.reading.both.strict)
 }
 
-/// The error of a target that is not reached.
-fn missed(request: &Request, report: &Report) -> Option<Error> {
-    let Request::Accuracy { target, .. } = *request else { return None };
-    target::missed_by_any(target, &report.outcome)
-}
-
 /// The paths of the ground truth and of the predictions; none of the built-in ones.
-fn paths(args: &LossArgs) -> Vec<String> {
+fn paths(args: &LossArgs) -> Vec<Option<String>> {
     let all = args.comparison.materials.ground_truth.iter().chain(&args.comparison.materials.predictions);
-    all.map(|path| path.display().to_string()).collect()
+    all.map(|path| Some(path.display().to_string())).collect()
 }
 
-/// What the session asks for, unless an option chooses the scenes.
+/// The question of the options or of the session, or the default.
+fn question(args: &LossArgs) -> Result<Question, Error> {
+    if chooses_scenes(args) {
+        return request(args).map(Question::from);
+    }
+    let saved = saved_request(args)?.map(Question::from);
+    Ok(saved.unwrap_or_else(|| Question::of_seed(args.seed.unwrap_or(0))))
+}
+
+/// The request of the session.
 fn saved_request(args: &LossArgs) -> Result<Option<Request>, Error> {
     let saved = SessionSettings::of(&args.comparison.materials)?;
-    Ok(saved.filter(|_| !chooses_scenes(args)).and_then(|saved| saved.request(args.seed)))
+    Ok(saved.and_then(|saved| saved.request(args.seed)))
 }
 
-/// Opens the materials in precision `T` and computes the losses with `run`. Where scenes are not chosen, the losses over all
-/// scenes stand beside them.
+/// Opens the materials in precision `T` and answers the question: few scenes with `run`, many beside them on the CPU.
 fn report<T: Compute>(
     args: &LossArgs,
-    is_chosen: bool,
-    run: impl FnOnce(Comparison<'_, T>) -> Result<Report, Error>,
-) -> Result<Report, Error> {
+    question: &Question,
+    run: impl FnOnce(Comparison<'_, T>, &Request) -> Result<LossReport, Error>,
+) -> Result<LossReport, Error> {
     let opened = materials::open::<T>(&args.comparison.materials)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?;
-    let seed = args.seed.unwrap_or(0);
-    let all_scenes = match is_chosen {
-        true => None,
-        false => Some(watched("rendering", |progress| comparison.over_all_scenes(seed, progress))?),
+    let Question { request, few_scenes: Some(few) } = question else {
+        return run(comparison, &question.request);
     };
-    Ok(Report { all_scenes, ..run(comparison)? })
+    let report = on_cpu(comparison.clone(), request)?;
+    let few = run(comparison, &Request::Scenes(*few))?;
+    Ok(report.beside(few))
+}
+
+fn on_cpu<T: Compute>(comparison: Comparison<'_, T>, request: &Request) -> Result<LossReport, Error> {
+    let outcome = watched("rendering", |progress| comparison.run(request, progress))?;
+    Ok(LossReport::new(&comparison, request, outcome))
 }
 
 /// Whether an option says which scenes and texels are compared; a seed does not.
@@ -150,8 +150,9 @@ fn chooses_scenes(args: &LossArgs) -> bool {
 }
 
 /// A graphics adapter compares all texels, in f32.
-fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
-    let problem = match (args.backend, args.precision, request) {
+fn check_backend(args: &LossArgs, question: &Question) -> Result<(), Error> {
+    let few_scenes = question.few_scenes.map(Request::Scenes);
+    let problem = match (args.backend, args.precision, few_scenes.as_ref().unwrap_or(&question.request)) {
         (DeviceChoice::Cpu | DeviceChoice::Auto, ..) => return Ok(()),
         (DeviceChoice::Gpu, Precision::F64, _) => {
             "graphics adapters compute in f32; leave out --backend gpu, or --precision f64"

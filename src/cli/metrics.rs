@@ -3,10 +3,10 @@
 use svbrdf::error::Error;
 use svbrdf::material::Material;
 use svbrdf::metrics::{Metric, of_maps, of_renderings};
+use svbrdf::report::{Compared, MetricsReport};
 
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
-use super::metric_table::{MetricsHeading, json, rows};
 use super::protocol::{self, ProtocolArgs};
 use super::report::ReportFormat;
 use super::scene_args::SceneArgs;
@@ -45,28 +45,13 @@ pub fn run(args: &MetricsArgs) -> Result<(), Error> {
     let (sampling, scenes) = args.scenes.scenes(&args.comparison.convention())?;
     let opened = materials::open::<f32>(&args.comparison.materials)?;
     let truth = &opened.ground_truth;
-    let one = |prediction: &Material<f32>| -> Result<Vec<Metric>, Error> {
+    let one = |prediction: &Material<f32>| -> Result<(String, Vec<Metric>), Error> {
         let renderings = watched("rendering", |progress| {
             of_renderings(truth, prediction, &scenes, &args.comparison.convention(), progress)
         })?;
-        Ok([of_maps(truth, prediction)?, renderings].concat())
+        Ok((prediction.name().to_owned(), [of_maps(truth, prediction)?, renderings].concat()))
     };
-    let metrics = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let names: Vec<&str> = opened.predictions.iter().map(Material::name).collect();
-    exit::put(&match args.format {
-        ReportFormat::Text => {
-            let heading = table::heading("metrics", truth, &args.comparison.convention());
-            let rows = rows(&names, &metrics, |value| format!("{value:.6}"));
-            format!("{heading}{}\n{}", table::scenes_line(sampling.as_ref(), &scenes), table::aligned(&rows))
-        }
-        ReportFormat::Json => {
-            let convention = args.comparison.convention().name;
-            json(
-                &MetricsHeading { ground_truth: truth.name(), convention: Some(convention), protocol: None },
-                &names,
-                &metrics,
-            )?
-        }
-        ReportFormat::Csv => table::csv(rows(&names, &metrics, |value| value.to_string()))?,
-    })
+    let results = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    let compared = Compared::new(truth, &args.comparison.convention());
+    exit::put(&args.format.write(&MetricsReport::new(&compared, sampling.as_ref(), &scenes, results))?)
 }

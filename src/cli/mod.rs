@@ -11,7 +11,6 @@ mod info;
 mod loss;
 mod map;
 mod materials;
-mod metric_table;
 mod metrics;
 mod photo;
 mod protocol;

@@ -10,12 +10,12 @@ use svbrdf::material::{Material, Planes};
 use svbrdf::metrics::{Metric, matfusion_renderings, of_matfusion};
 use svbrdf::picture::export::write_npy;
 use svbrdf::progress::Progress;
+use svbrdf::report::MetricsReport;
 
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
-use super::metric_table::{MetricsHeading, json, rows};
 use super::report::ReportFormat;
-use super::{exit, materials, table};
+use super::{exit, materials};
 
 #[derive(Debug, clap::Args)]
 pub struct ProtocolArgs {
@@ -61,29 +61,14 @@ pub fn run(args: &ProtocolArgs, comparison: &ComparisonArgs, format: ReportForma
     if let Some(folder) = &args.renderings {
         write_renderings(folder, &all)?;
     }
-    let of = |prediction: &ProtocolMaterial| {
-        watched("rendering", |progress| of_matfusion(&truth.planes, &prediction.planes, truth.size, progress))
+    let of = |prediction: &ProtocolMaterial| -> Result<(String, Vec<Metric>), Error> {
+        let metrics = watched("rendering", |progress| {
+            of_matfusion(&truth.planes, &prediction.planes, truth.size, progress)
+        })?;
+        Ok((prediction.name.clone(), metrics))
     };
-    let metrics: Vec<Vec<Metric>> = predictions.iter().map(of).collect::<Result<_, _>>()?;
-    let names: Vec<&str> = predictions.iter().map(|prediction| prediction.name.as_str()).collect();
-    exit::put(&match format {
-        ReportFormat::Text => {
-            let [width, height] = truth.size;
-            let heading =
-                format!("metrics of MatFusion's score.py against {}, {width} x {height} texels", truth.name);
-            let rows = rows(&names, &metrics, |value| format!("{value:.6}"));
-            format!("{heading}\n\n{}", table::aligned(&rows))
-        }
-        ReportFormat::Json => {
-            let ground_truth = &truth.name;
-            json(
-                &MetricsHeading { ground_truth, convention: None, protocol: Some("matfusion") },
-                &names,
-                &metrics,
-            )?
-        }
-        ReportFormat::Csv => table::csv(rows(&names, &metrics, |value| value.to_string()))?,
-    })
+    let results = predictions.iter().map(of).collect::<Result<_, _>>()?;
+    exit::put(&format.write(&MetricsReport::matfusion(&truth.name, truth.size, results))?)
 }
 
 /// The ground truth, then the predictions, of one size.

@@ -1,11 +1,8 @@
 //! `svbrdf scenes`: which scenes a loss comes from.
 
 use svbrdf::error::Error;
-use svbrdf::loss::{Comparison, Outcome};
-use svbrdf::material::Material;
-use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::why::{Distribution, RankedScene, SceneReport, worst_first};
+use svbrdf::loss::Comparison;
+use svbrdf::report::{Compared, ScenesReport};
 
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
@@ -46,71 +43,6 @@ pub fn run(args: &ScenesArgs) -> Result<(), Error> {
     let comparison =
         Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?.without_pilot();
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
-    let mut ranked = worst_first(&outcome);
-    ranked.truncate(args.top);
-    exit::put(&match args.format {
-        ReportFormat::Text => text(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention()),
-        ReportFormat::Json => {
-            let (name, convention) = (opened.ground_truth.name(), args.comparison.convention());
-            table::json(&SceneReport::new(name, &convention, &outcome, &ranked))?
-        }
-        ReportFormat::Csv => csv(&outcome, &ranked)?,
-    })
-}
-
-fn text(
-    outcome: &Outcome,
-    ranked: &[RankedScene],
-    ground_truth: &Material<f32>,
-    convention: &Convention,
-) -> String {
-    let heading = table::heading("losses of scenes", ground_truth, convention);
-    let scenes = table::scenes_line(outcome.sampling.as_ref(), &outcome.scenes);
-    let distributions: String = outcome
-        .losses
-        .iter()
-        .filter_map(|loss| Some(line(&loss.prediction, &Distribution::of(&loss.per_scene)?)))
-        .collect();
-    let names = outcome.losses.iter().map(|loss| loss.prediction.clone());
-    let titles = ["scene", "kind", "view", "light"].map(str::to_owned);
-    let mut rows = vec![titles.into_iter().chain(names).collect::<Vec<_>>()];
-    rows.extend(ranked.iter().map(|ranked| {
-        let Scene { kind, view, light } = ranked.scene;
-        let start = [ranked.index.to_string(), kind_name(kind).to_owned(), triple(view), triple(light)];
-        start.into_iter().chain(ranked.losses.iter().map(|loss| format!("{loss:.6}"))).collect()
-    }));
-    format!("{heading}{scenes}\n{distributions}\n{}", table::aligned(&rows))
-}
-
-fn line(prediction: &str, d: &Distribution) -> String {
-    let Distribution { least, median, percentile95, largest, worst_tenth } = d;
-    format!(
-        "{prediction}: from {least:.3} to {largest:.3}, median {median:.3}, 95th percentile {percentile95:.3}; \
-         the worst tenth of the scenes adds {:.0}% of the loss\n",
-        100.0 * worst_tenth
-    )
-}
-
-pub fn kind_name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Near => "near",
-        Kind::Distant => "distant",
-    }
-}
-
-/// A position or direction as people read it.
-pub fn triple([x, y, z]: [f64; 3]) -> String {
-    format!("({x:.3}, {y:.3}, {z:.3})")
-}
-
-fn csv(outcome: &Outcome, ranked: &[RankedScene]) -> Result<String, Error> {
-    let fixed = ["scene", "kind", "view_x", "view_y", "view_z", "light_x", "light_y", "light_z"];
-    let names = outcome.losses.iter().map(|loss| loss.prediction.clone());
-    let heading: Vec<String> = fixed.map(str::to_owned).into_iter().chain(names).collect();
-    let row = |ranked: &RankedScene| {
-        let Scene { kind, view, light } = ranked.scene;
-        let numbers = view.iter().chain(&light).chain(&ranked.losses).map(ToString::to_string);
-        [ranked.index.to_string(), kind_name(kind).to_owned()].into_iter().chain(numbers).collect()
-    };
-    table::csv([heading].into_iter().chain(ranked.iter().map(row)))
+    let compared = Compared::new(&opened.ground_truth, &args.comparison.convention());
+    exit::put(&args.format.write(&ScenesReport::new(compared, outcome).top(args.top))?)
 }

@@ -8,8 +8,10 @@ mod bootstrap;
 mod evaluate;
 mod journal;
 mod list;
+mod metric_report;
 mod metric_summary;
 mod record;
+mod report;
 mod run;
 mod summary;
 
@@ -19,5 +21,6 @@ pub use journal::merged;
 pub use list::{Shard, tasks_of_folders, tasks_of_table};
 pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
 pub use record::{Candidate, Case, KnownLoss, MaterialResult, PredictionResult, RunSettings};
+pub use report::DatasetReport;
 pub use run::run;
 pub use summary::{MethodDifference, MethodSummary, Pick, summarize};

@@ -99,13 +99,17 @@ impl Outcome {
         self.losses.iter().map(|loss| loss.estimate.relative_error95()).fold(0.0, f64::max)
     }
 
-    /// `loss - other`, both of this outcome, on the same scenes: negative where `loss` is closer to the ground truth.
-    pub fn difference(&self, loss: &Loss, other: &Loss) -> Estimate {
+    /// The loss with index `first` - the loss with index `second`, on the same scenes: negative where the first is closer to the
+    /// ground truth.
+    ///
+    /// # Panics
+    /// Where there is no such loss, as indexing does.
+    pub fn difference(&self, first: usize, second: usize) -> Estimate {
         let sampler = self.sampling.map_or(Sampler::Random, |sampling| sampling.sampler);
-        let mut e = Estimate::of_difference(sampler, &self.scenes, &loss.per_scene, &other.per_scene);
-        let index = |loss: &Loss| self.losses.iter().position(|l| l.per_scene == loss.per_scene);
-        if let (Some(pilot), Some(a), Some(b)) = (&self.pilot, index(loss), index(other)) {
-            e.interval95 = Some(pilot.interval_of_difference(a, b, e.mean));
+        let [of_first, of_second] = [first, second].map(|index| &self.losses[index].per_scene);
+        let mut e = Estimate::of_difference(sampler, &self.scenes, of_first, of_second);
+        if let Some(pilot) = &self.pilot {
+            e.interval95 = Some(pilot.interval_of_difference(first, second, e.mean));
         }
         e
     }

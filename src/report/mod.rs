@@ -1,101 +1,76 @@
-//! Losses with the settings that they depend on, as text: what the command line prints and the window copies.
+//! Reports: results with the settings that they depend on, as text, JSON and CSV.
+//!
+//! The command line prints them, the window copies their text, and Python has the same keys and values.
 //!
 //! ```
-//! use svbrdf::loss::{Comparison, Request};
+//! use svbrdf::loss::{Comparison, Question};
 //! use svbrdf::model::convention::Convention;
 //! use svbrdf::progress::Progress;
-//! use svbrdf::report::Report;
+//! use svbrdf::report::{LossReport, Report};
 //! use svbrdf::samples;
 //!
 //! let built_in = samples::load::<f32>()?;
 //! let predictions: Vec<_> = built_in.predictions.iter().map(|read| &read.material).collect();
 //! let comparison = Comparison::new(&built_in.ground_truth.material, &predictions, Convention::default())?;
-//! let outcome = comparison.run(&Request::default(), &Progress::default())?;
-//! let report = Report::new(&comparison, outcome);
+//! let report = LossReport::answer(&comparison, &Question::default(), &Progress::default())?;
 //! assert!(report.text().starts_with("rendering loss against worn tiles, 256 x 256 texels, f32 on the cpu"));
+//! assert!(report.csv()?.starts_with("prediction,loss,standard_error,"));
 //! # Ok::<(), svbrdf::error::Error>(())
 //! ```
 
+mod blame;
+mod heading;
+mod latex;
+mod loss;
+mod loss_json;
+mod loss_table;
+mod loss_text;
+mod map;
+mod metrics;
 mod names;
-mod text;
+mod rank;
+mod scenes;
+mod table;
+mod worst;
 
+pub use blame::BlameReport;
+pub use heading::{Compared, position, scenes_line};
+pub use latex::{bold, escaped, latex};
+pub use loss::{FewScenes, LossReport};
+pub use map::MapReport;
+pub use metrics::MetricsReport;
 pub use names::distinct_names;
+pub use rank::RankReport;
+pub use scenes::ScenesReport;
+pub use table::{Cell, Table, aligned};
+pub use worst::WorstReport;
 
-use crate::loss::{Comparison, Compute, Estimate, Loss, Outcome, Texels};
-use crate::model::convention::Convention;
-use crate::model::sampler::Sampler;
-use crate::model::scene::Kind;
+use serde::Serialize;
 
-/// Losses with the settings that they depend on.
-#[derive(Clone, Debug)]
-pub struct Report {
-    /// The convention that the losses follow.
-    pub convention: Convention,
-    /// The name of the ground truth.
-    pub ground_truth: String,
-    /// Width and height in texels.
-    pub size: [usize; 2],
-    /// `f32` or `f64`.
-    pub precision: &'static str,
-    /// What computed it: `cpu` or `gpu`.
-    pub backend: &'static str,
-    /// The scenes and the losses.
-    pub outcome: Outcome,
-    /// The losses over all scenes, to +-1%: reports of a few scenes lead with them.
-    pub all_scenes: Option<Outcome>,
-}
+use crate::error::Error;
 
-impl Report {
-    /// The report of an outcome of `comparison`.
-    pub fn new<T: Compute>(comparison: &Comparison<'_, T>, outcome: Outcome) -> Self {
-        Self {
-            convention: *comparison.convention(),
-            ground_truth: comparison.ground_truth().name().to_owned(),
-            size: comparison.ground_truth().size(),
-            precision: T::NAME,
-            backend: comparison.backend().name(),
-            outcome,
-            all_scenes: None,
-        }
+/// A result with the settings that it depends on; its serialization is its JSON.
+pub trait Report: Serialize {
+    /// Tables for people with the settings above them; ends with a line break.
+    fn text(&self) -> String;
+
+    /// The results as rows for spreadsheets.
+    fn table(&self) -> Table;
+
+    /// One JSON object; ends with a line break.
+    ///
+    /// # Errors
+    /// [`Error::Internal`], which no report of this crate gives.
+    fn json(&self) -> Result<String, Error> {
+        let text = serde_json::to_string_pretty(self).map_err(|problem| Error::Internal(problem.to_string()));
+        Ok(text? + "\n")
     }
 
-    /// The same report with other names: the ground truth first, then each prediction.
-    #[must_use]
-    pub fn renamed(mut self, names: &[String]) -> Self {
-        let Some((ground_truth, predictions)) = names.split_first() else { return self };
-        self.ground_truth.clone_from(ground_truth);
-        for outcome in [&mut self.outcome].into_iter().chain(&mut self.all_scenes) {
-            for (loss, name) in outcome.losses.iter_mut().zip(predictions) {
-                loss.prediction.clone_from(name);
-            }
-        }
-        self
-    }
-
-    /// The paired difference of each further loss from the first: `loss - first`, over the same scenes.
-    pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
-        let Some((first, others)) = self.outcome.losses.split_first() else { return Vec::new() };
-        others.iter().map(|loss| (loss, self.outcome.difference(loss, first))).collect()
-    }
-
-    /// The seed that names the scenes; `None` where they were listed.
-    pub fn seed(&self) -> Option<u64> {
-        self.outcome.sampling.map(|sampling| sampling.seed)
-    }
-
-    /// How the scenes were sampled; `None` where they were listed.
-    pub fn sampler(&self) -> Option<Sampler> {
-        self.outcome.sampling.map(|sampling| sampling.sampler)
-    }
-
-    /// The texels that are compared in each scene.
-    pub fn texels(&self) -> Texels {
-        let sampled = self.outcome.sampling.and_then(|sampling| sampling.texels.sampled(self.size));
-        sampled.map_or(Texels::All, Texels::Sampled)
-    }
-
-    /// The number of scenes of a kind.
-    pub fn count(&self, kind: Kind) -> usize {
-        self.outcome.scenes.iter().filter(|scene| scene.kind == kind).count()
+    /// The [`Report::table`] as CSV (RFC 4180) with a heading.
+    ///
+    /// # Errors
+    /// [`Error::Internal`], which no table in memory gives.
+    fn csv(&self) -> Result<String, Error> {
+        self.table().csv()
     }
 }

@@ -14,6 +14,7 @@ use super::settings::Tab;
 use super::why::WhyAsked;
 use super::work_context::WorkContext;
 use crate::error::Error;
+use crate::loss::Request;
 
 impl App {
     /// Takes over the results of what is shown beside the loss, and computes what is needed now.
@@ -70,13 +71,11 @@ impl App {
 
     /// Computes the loss over the few scenes of the papers, where the loss is another one and is done.
     fn follow_few_scenes(&mut self, ctx: &egui::Context) {
-        let Asked { request, convention } = self.asked();
-        let few = self.settings.loss.few_scenes();
-        if request == few {
+        let Some(few) = self.settings.loss.question().few_scenes else {
             self.few = LossRun::default();
             return;
-        }
-        let asked = Asked { request: few, convention };
+        };
+        let asked = Asked { request: Request::Scenes(few), ..self.asked() };
         let done = !self.loss.is_running() && self.loss.losses().is_some();
         self.few.follow(ctx, &self.slots, &asked, self.settings.auto_loss && done);
         self.few.poll(ctx);

@@ -8,6 +8,7 @@ use eframe::egui;
 use crate::error::Error;
 use crate::files::atomic;
 use crate::picture::export::Provenance;
+use crate::report::{Compared, Report as _, ScenesReport};
 use crate::viewer::app::App;
 use crate::viewer::message::Message;
 use crate::viewer::save;
@@ -16,7 +17,6 @@ use crate::viewer::snapshot::{Size, snapshot};
 use crate::viewer::viewport::Viewport;
 use crate::viewer::why::ComparedPair;
 use crate::viewer::worker::Task;
-use crate::why::{SceneReport, worst_first};
 
 impl App {
     /// Starts to save; `size` is the size of a picture of the view.
@@ -115,10 +115,8 @@ impl App {
             let pair = pair.ok_or_else(|| Error::Usage("there is no prediction to compare".to_owned()))?;
             atomic::check_place(&path)?;
             let outcome = pair.comparison()?.run(&request, progress)?;
-            let name = pair.ground_truth().name();
-            let report = SceneReport::new(name, &pair.convention, &outcome, &worst_first(&outcome));
-            let text =
-                serde_json::to_string_pretty(&report).map_err(|e| Error::Internal(e.to_string()))? + "\n";
+            let compared = Compared::new(pair.ground_truth(), &pair.convention);
+            let text = ScenesReport::new(compared, outcome).json()?;
             atomic::replace(&path, progress, |file| file.write_all(text.as_bytes()))?;
             Ok(path)
         })

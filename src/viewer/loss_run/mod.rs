@@ -12,7 +12,7 @@ use super::slots::Slots;
 use super::worker::Task;
 use crate::loss::{Comparison, Estimate, Outcome, Request};
 use crate::material::Material;
-use crate::report::Report;
+use crate::report::LossReport;
 
 pub(super) use phase::{Asked, Losses};
 use phase::{LossKey, Phase, RunningLoss, Settled, Step, stopped};
@@ -183,7 +183,7 @@ fn start(ctx: &egui::Context, slots: &Slots, asked: &Asked) -> RunningLoss {
         let comparison = Comparison::new(materials[0], &materials[1..], convention)?;
         let update = |outcome: &Outcome| {
             let elapsed = start.elapsed();
-            let report = Report::new(&comparison, outcome.clone()).renamed(&names);
+            let report = LossReport::new(&comparison, &request, outcome.clone()).renamed(&names);
             let losses = Losses { key: of.clone(), differences: differences(&report), report, elapsed };
             *left.lock().unwrap_or_else(PoisonError::into_inner) = Some(losses);
             seen.request_repaint();
@@ -198,8 +198,8 @@ fn key(slots: &Slots, asked: &Asked) -> LossKey {
 }
 
 /// For each prediction the differences of all losses from its own.
-fn differences(report: &Report) -> Vec<Vec<Estimate>> {
+fn differences(report: &LossReport) -> Vec<Vec<Estimate>> {
     let outcome = &report.outcome;
-    let to = |other| outcome.losses.iter().map(|loss| outcome.difference(loss, other)).collect();
-    outcome.losses.iter().map(to).collect()
+    let all = 0..outcome.losses.len();
+    all.clone().map(|other| all.clone().map(|loss| outcome.difference(loss, other)).collect()).collect()
 }

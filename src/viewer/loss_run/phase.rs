@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::loss::{Estimate, Request};
 use crate::model::convention::Convention;
-use crate::report::Report;
+use crate::report::LossReport;
 use crate::viewer::worker::Task;
 
 /// What a loss depends on: the ids of the materials, the ground truth first, and the request.
@@ -26,7 +26,7 @@ pub(crate) struct Asked {
 #[derive(Debug)]
 pub(crate) struct Losses {
     pub key: LossKey,
-    pub report: Report,
+    pub report: LossReport,
     /// `differences[a][b]`: the loss of prediction b minus that of a, on the same scenes.
     pub differences: Vec<Vec<Estimate>>,
     /// The time it took to compute them.
@@ -171,8 +171,10 @@ mod tests {
         let key = key(seed);
         let comparison = Comparison::new(&material, &[&material], key.asked.convention).unwrap();
         let mut report = None;
-        let update = |outcome: &Outcome| report = Some(Report::new(&comparison, outcome.clone()));
-        comparison.stream(&key.asked.request, &crate::progress::Progress::default(), update).unwrap();
+        let request = &key.asked.request;
+        let update =
+            |outcome: &Outcome| report = Some(LossReport::new(&comparison, request, outcome.clone()));
+        comparison.stream(request, &crate::progress::Progress::default(), update).unwrap();
         Losses { key, report: report.unwrap(), differences: Vec::new(), elapsed: Duration::ZERO }
     }
 

@@ -65,7 +65,7 @@ impl LossPanel<'_> {
                 let results = Results {
                     latest: losses,
                     few: few.filter(of_these),
-                    few_are_coming: self.auto && self.settings.request() != self.settings.few_scenes(),
+                    few_are_coming: self.auto && self.settings.question().few_scenes.is_some(),
                     chosen: self.chosen,
                     sorted: self.sorted,
                 };

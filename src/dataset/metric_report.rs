@@ -2,27 +2,19 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-use svbrdf::dataset::{
-    MaterialResult, MethodSummary, MetricSummary, Pick, PredictionResult, best_by_metric, is_better_larger,
-    summarize_metrics,
-};
-
-use crate::cli::table;
+use super::metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
+use super::record::MaterialResult;
+use super::summary::{MethodSummary, Pick};
+use crate::report::{aligned, bold, escaped, latex};
 
 /// The names of the metrics that results have.
-pub fn names(results: &[MaterialResult]) -> Vec<&str> {
+pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {
     let first = results.iter().flat_map(|result| &result.predictions).find(|p| !p.metrics.is_empty());
     first.into_iter().flat_map(|prediction| prediction.metrics.keys()).map(String::as_str).collect()
 }
 
-/// The metrics of a prediction as cells, empty where there are none.
-pub fn values<'a>(names: &'a [&str], prediction: &'a PredictionResult) -> impl Iterator<Item = String> + 'a {
-    names.iter().map(|name| prediction.metrics.get(*name).map_or(String::new(), f64::to_string))
-}
-
 /// A table of the means over materials with their intervals, a column for each method; empty without metrics.
-pub fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
+pub(super) fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
     let names = names(results);
     if names.is_empty() {
         return String::new();
@@ -36,12 +28,12 @@ pub fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -
         [name.to_owned()].into_iter().chain(cells).collect()
     };
     let rows: Vec<Vec<String>> = [heading].into_iter().chain(names.iter().map(|name| row(name))).collect();
-    format!("\n{}", table::aligned(&rows))
+    format!("\n{}", aligned(&rows))
 }
 
 /// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
 /// without metrics.
-pub fn latex(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
+pub(super) fn latex_table(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
     let methods: Vec<&str> = methods.iter().map(|summary| summary.method.as_str()).collect();
     let best = best_by_metric(&methods, results, pick);
     if best.is_empty() {
@@ -50,18 +42,16 @@ pub fn latex(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) 
     let columns: Vec<_> = methods.iter().map(|method| summarize_metrics(method, results, pick)).collect();
     let row = |(name, best): (&String, &Vec<bool>)| {
         let cell = |(metrics, &best): (&BTreeMap<String, MetricSummary>, &bool)| {
-            metrics
-                .get(name)
-                .map_or("--".to_owned(), |metric| table::bold(&format!("{:.4}", metric.mean), best))
+            metrics.get(name).map_or("--".to_owned(), |metric| bold(&format!("{:.4}", metric.mean), best))
         };
         let cells: Vec<String> = columns.iter().zip(best).map(cell).collect();
         let arrow = if is_better_larger(name) { "$\\uparrow$" } else { "$\\downarrow$" };
-        format!("{} {arrow} & {} \\\\\n", table::escaped(name), cells.join(" & "))
+        format!("{} {arrow} & {} \\\\\n", escaped(name), cells.join(" & "))
     };
     let rows: String = best.iter().map(row).collect();
-    let names: Vec<String> = methods.iter().map(|method| table::escaped(method)).collect();
+    let names: Vec<String> = methods.iter().map(|method| escaped(method)).collect();
     let heading = format!("Metric, mean over materials & {}", names.join(" & "));
-    format!("\n{}", table::latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
+    format!("\n{}", latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
 }
 
 fn cells(metric: Option<&MetricSummary>) -> [String; 2] {
@@ -69,23 +59,4 @@ fn cells(metric: Option<&MetricSummary>) -> [String; 2] {
     let interval = metric.and_then(|metric| metric.interval95_materials);
     let interval = interval.map_or("unknown".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
     [mean, interval]
-}
-
-/// A metric of a method as JSON.
-#[derive(Serialize)]
-pub struct MetricEntry {
-    mean: f64,
-    median: f64,
-    interval95_materials: Option<[f64; 2]>,
-}
-
-/// The metrics of a method by name.
-pub fn entries(method: &str, results: &[MaterialResult], pick: Pick) -> BTreeMap<String, MetricEntry> {
-    let entry = |MetricSummary { mean, median, interval95_materials }| MetricEntry {
-        mean,
-        median,
-        interval95_materials,
-    };
-    let metrics = summarize_metrics(method, results, pick);
-    metrics.into_iter().map(|(name, metric)| (name, entry(metric))).collect()
 }
