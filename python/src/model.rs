@@ -76,11 +76,7 @@ impl SceneTuple {
 
 impl From<&Scene> for SceneTuple {
     fn from(scene: &Scene) -> Self {
-        let kind = match scene.kind {
-            Kind::Near => "near",
-            Kind::Distant => "distant",
-        };
-        Self(kind.to_owned(), scene.view, scene.light)
+        Self(scene.kind.to_string(), scene.view, scene.light)
     }
 }
 

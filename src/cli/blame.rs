@@ -6,8 +6,8 @@ use svbrdf::error::Error;
 use svbrdf::loss::Request;
 use svbrdf::material::Material;
 use svbrdf::model::scene_file;
-use svbrdf::report::{BlameReport, Compared};
-use svbrdf::why::{Attribution, attribute};
+use svbrdf::report::{BlameReport, Compared, Report as _};
+use svbrdf::why::attribute;
 
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
@@ -63,10 +63,5 @@ pub fn run(args: &BlameArgs) -> Result<(), Error> {
     let compared = Compared::new(&opened.ground_truth, &args.comparison.convention());
     let report = BlameReport::new(compared, &request, attributions);
     exit::put(&args.format.write(&report)?)?;
-    let missed =
-        |a: &Attribution| target::missed(report.target_error?, &a.prediction, &a.loss, a.scenes.len());
-    target::warn_of(
-        report.attributions.iter().filter_map(missed),
-        args.comparison.materials.reading.both.strict,
-    )
+    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)
 }

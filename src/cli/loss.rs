@@ -7,7 +7,7 @@ use svbrdf::error::Error;
 use svbrdf::loss::{Comparison, Compute, Precision, Question, Request, Sampling, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene_file;
-use svbrdf::report::LossReport;
+use svbrdf::report::{LossReport, Report as _};
 
 use super::backend::{self, DeviceChoice};
 use super::bar::watched;
@@ -95,8 +95,7 @@ pub fn run(mut args: LossArgs) -> Result<(), Error> {
     };
     let report = LossReport { paths: paths(args), steps, ..report };
     exit::put(&args.format.write(&report)?)?;
-    let missed = report.target_error.and_then(|target| target::missed_by_any(target, &report.outcome));
-    target::warn_of(missed, args.comparison.materials.reading.both.strict)
+    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)
 }
 
 /// The paths of the ground truth and of the predictions; none of the built-in ones.

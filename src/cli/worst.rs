@@ -1,10 +1,9 @@
 //! `svbrdf worst`: the scene with the largest loss.
 
 use svbrdf::error::Error;
-use svbrdf::loss::ALL_SCENES_TARGET;
 use svbrdf::material::Material;
-use svbrdf::report::{Compared, WorstReport};
-use svbrdf::why::{Worst, worst};
+use svbrdf::report::{Compared, Report as _, WorstReport};
+use svbrdf::why::worst;
 
 use super::bar::watched;
 use super::comparison_args::ComparisonArgs;
@@ -46,9 +45,5 @@ pub fn run(args: &WorstArgs) -> Result<(), Error> {
     let compared = Compared::new(&opened.ground_truth, &args.comparison.convention());
     let report = WorstReport { compared, found };
     exit::put(&args.format.write(&report)?)?;
-    let missed = |worst: &Worst| {
-        let Worst { prediction, mean, mean_scenes, .. } = worst;
-        target::missed(ALL_SCENES_TARGET, &format!("the mean of {prediction}"), mean, *mean_scenes)
-    };
-    target::warn_of(report.found.iter().filter_map(missed), args.comparison.materials.reading.both.strict)
+    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)
 }

@@ -8,7 +8,8 @@ use super::metric_report;
 use super::metric_summary::{MetricSummary, summarize_metrics};
 use super::record::{MaterialResult, PredictionResult, RunSettings};
 use super::summary::{MethodSummary, Pick, summarize};
-use crate::report::{Cell, Report, Table, aligned, bold, escaped, latex};
+use crate::error::Error;
+use crate::report::{Cell, Report, Table, aligned, bold, escaped, latex, missed};
 
 const TITLES: [&str; 9] = [
     "method",
@@ -141,6 +142,16 @@ impl Report for DatasetReport {
             COLUMNS.into_iter().chain(metrics.iter().copied()),
             rows.map(|(result, prediction)| row(result, prediction)),
         )
+    }
+
+    fn missed(&self) -> Vec<Error> {
+        let of = |result: &MaterialResult, prediction: &PredictionResult| {
+            let known = prediction.result.as_ref().ok()?;
+            let name = format!("{}, {}", result.material, prediction.method);
+            missed(self.settings.target_error, &name, &known.estimate(), result.scenes)
+        };
+        let all = self.results.iter();
+        all.flat_map(|result| result.predictions.iter().filter_map(|p| of(result, p))).collect()
     }
 }
 

@@ -66,19 +66,19 @@ impl PhotoReport {
     /// The differences that are reported.
     pub const DIFFERENCES: [Difference; 3] = [Difference::Log, Difference::Absolute, Difference::Relative];
 
-    /// Compares each of `materials` with the photograph.
+    /// Compares each of `materials`, which have the names of the report beside them, with the photograph.
     ///
     /// # Errors
     /// [`Error::UnusableCorners`], [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Cancelled`].
     pub fn new<'a>(
         setting: PhotoSetting,
-        materials: impl IntoIterator<Item = &'a Material<f32>>,
+        materials: impl IntoIterator<Item = (&'a str, &'a Material<f32>)>,
         progress: &Progress,
     ) -> Result<Self, Error> {
         setting.corners.check(setting.photograph.size())?;
         let mut rectified: Vec<([usize; 2], Rectified)> = Vec::new();
         let mut results = Vec::new();
-        for material in materials {
+        for (name, material) in materials {
             let size = material.size();
             let index = match rectified.iter().position(|(of, _)| *of == size) {
                 Some(index) => index,
@@ -90,7 +90,7 @@ impl PhotoReport {
             let photograph = &rectified[index].1;
             let compared = photograph.compare(material, &setting.scene, &setting.convention, progress)?;
             let clipped = photograph.clipped();
-            results.push(PhotoResult { material: material.name().to_owned(), compared, clipped });
+            results.push(PhotoResult { material: name.to_owned(), compared, clipped });
         }
         let mean = |result: &PhotoResult| {
             result.compared.statistics(Difference::Log).map_or(f64::INFINITY, |statistics| statistics.mean)

@@ -4,7 +4,9 @@ use serde::{Serialize, Serializer};
 
 use super::Report;
 use super::heading::{Compared, scenes_line};
+use super::missed::missed;
 use super::table::{Cell, Table, aligned};
+use crate::error::Error;
 use crate::loss::{Estimate, Request};
 use crate::why::{Attribution, MapShare};
 
@@ -98,6 +100,12 @@ impl Report for BlameReport {
         };
         let all = self.attributions.iter();
         Table::new(COLUMNS, all.flat_map(|a| a.maps.iter().map(move |share| row(a, share))))
+    }
+
+    fn missed(&self) -> Vec<Error> {
+        let Some(target) = self.target_error else { return Vec::new() };
+        let of = |a: &Attribution| missed(target, &a.prediction, &a.loss, a.scenes.len());
+        self.attributions.iter().filter_map(of).collect()
     }
 }
 

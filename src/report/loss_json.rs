@@ -3,8 +3,10 @@
 use serde::{Serialize, Serializer};
 
 use super::loss::{FewScenes, LossReport, count, differences};
+use super::missed::missed_by_any;
 use super::table::Table;
 use super::{Report, loss_table};
+use crate::error::Error;
 use crate::loss::{Estimate, IntervalSource, Loss, Outcome, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::{Kind, Scene};
@@ -130,6 +132,10 @@ impl Report for LossReport {
 
     fn table(&self) -> Table {
         loss_table::table(self)
+    }
+
+    fn missed(&self) -> Vec<Error> {
+        self.target_error.and_then(|target| missed_by_any(target, &self.outcome)).into_iter().collect()
     }
 }
 

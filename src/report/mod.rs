@@ -27,6 +27,7 @@ mod loss_table;
 mod loss_text;
 mod map;
 mod metrics;
+mod missed;
 mod names;
 mod rank;
 mod scenes;
@@ -39,6 +40,7 @@ pub use latex::{bold, escaped, latex};
 pub use loss::{FewScenes, LossReport};
 pub use map::MapReport;
 pub use metrics::MetricsReport;
+pub use missed::missed;
 pub use names::distinct_names;
 pub use rank::RankReport;
 pub use scenes::ScenesReport;
@@ -56,6 +58,11 @@ pub trait Report: Serialize {
 
     /// The results as rows for spreadsheets.
     fn table(&self) -> Table;
+
+    /// An [`Error::Inaccurate`] for each result that is known less well than requested.
+    fn missed(&self) -> Vec<Error> {
+        Vec::new()
+    }
 
     /// One JSON object; ends with a line break.
     ///

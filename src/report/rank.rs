@@ -5,7 +5,9 @@ use serde::{Serialize, Serializer};
 use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::latex::{bold, escaped, latex};
+use super::missed::missed_by_any;
 use super::table::{Cell, Table, aligned};
+use crate::error::Error;
 use crate::loss::{Estimate, Outcome};
 use crate::rank::{Ranked, places};
 
@@ -83,6 +85,10 @@ impl Report for RankReport {
             start.into_iter().chain(Cell::errors(&loss.estimate)).chain(to_best).chain(end).collect()
         };
         Table::new(COLUMNS, self.places.iter().enumerate().map(row))
+    }
+
+    fn missed(&self) -> Vec<Error> {
+        missed_by_any(self.target_error, &self.outcome).into_iter().collect()
     }
 }
 

@@ -4,7 +4,9 @@ use serde::{Serialize, Serializer};
 
 use super::Report;
 use super::heading::{Compared, position};
+use super::missed::missed;
 use super::table::{Cell, Table, aligned};
+use crate::error::Error;
 use crate::loss::ALL_SCENES_TARGET;
 use crate::model::scene::Scene;
 use crate::why::Worst;
@@ -68,6 +70,14 @@ impl Report for WorstReport {
             start.into_iter().chain([kind.to_string().into()]).chain(place).chain(end).collect()
         };
         Table::new(COLUMNS, self.found.iter().map(row))
+    }
+
+    fn missed(&self) -> Vec<Error> {
+        let of = |worst: &Worst| {
+            let name = format!("the mean of {}", worst.prediction);
+            missed(ALL_SCENES_TARGET, &name, &worst.mean, worst.mean_scenes)
+        };
+        self.found.iter().filter_map(of).collect()
     }
 }
 

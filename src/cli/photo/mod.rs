@@ -51,7 +51,8 @@ pub fn run(args: &PhotoArgs) -> Result<(), Error> {
         scene,
         convention: args.comparison.convention(),
     };
-    let report = watched("rendering", |progress| PhotoReport::new(setting, &materials, progress))?;
+    let named = materials.iter().map(|material| (material.name(), material));
+    let report = watched("rendering", |progress| PhotoReport::new(setting, named, progress))?;
     if let Some(destination) = destination {
         write_differences(&destination, &report, args.difference)?;
     }

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::dataset::{
-    self, Case, DatasetReport, MaterialResult, PredictionResult, RunSettings, Side, tasks_of_folders,
-    tasks_of_table,
+    self, Case, DatasetReport, MaterialResult, RunSettings, Side, tasks_of_folders, tasks_of_table,
 };
 use svbrdf::error::Error;
 use svbrdf::files::read;
 use svbrdf::material::Material;
 use svbrdf::progress::Progress;
+use svbrdf::report::Report as _;
 
 use super::args::{RankArgs, check_limit};
 use crate::cli::bar::watched;
@@ -23,20 +23,8 @@ pub fn run(args: &RankArgs) -> Result<(), Error> {
     }
     let report = DatasetReport::new(settings, results, args.pick);
     exit::put(&args.format.write(&report, DatasetReport::latex)?)?;
-    let missed = missed(&report.settings, &report.results);
-    target::warn_of(missed, args.comparison.materials.reading.both.strict)?;
+    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)?;
     check_limit(args.fail_above, report.methods.into_iter().map(|summary| (summary.method, summary.mean)))
-}
-
-/// The errors of predictions whose loss is not known as well as the target error asks for.
-fn missed(settings: &RunSettings, results: &[MaterialResult]) -> Vec<Error> {
-    let of = |result: &MaterialResult, prediction: &PredictionResult| {
-        let known = prediction.result.as_ref().ok()?;
-        let name = format!("{}, {}", result.material, prediction.method);
-        target::missed(settings.target_error, &name, &known.estimate(), result.scenes)
-    };
-    let all = results.iter().flat_map(|result| result.predictions.iter().filter_map(|p| of(result, p)));
-    all.collect()
 }
 
 /// What stands for GT and PRED.

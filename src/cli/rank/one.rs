@@ -3,7 +3,7 @@
 use svbrdf::error::Error;
 use svbrdf::loss::{Comparison, Request};
 use svbrdf::rank::most_scenes;
-use svbrdf::report::{Compared, RankReport};
+use svbrdf::report::{Compared, RankReport, Report as _};
 
 use super::args::{RankArgs, check_limit};
 use crate::cli::bar::watched;
@@ -33,8 +33,9 @@ pub fn run(mut args: RankArgs) -> Result<(), Error> {
     let compared = Compared::new(&opened.ground_truth, &args.comparison.convention());
     let report = RankReport::new(compared, args.target_error, outcome);
     exit::put(&args.format.write(&report, RankReport::latex)?)?;
-    let outcome = &report.outcome;
-    let missed = target::missed_by_any(args.target_error, outcome);
-    target::warn_of(missed, args.comparison.materials.reading.both.strict)?;
-    check_limit(args.fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
+    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)?;
+    check_limit(
+        args.fail_above,
+        report.outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)),
+    )
 }
