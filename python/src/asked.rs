@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use svbrdf::loss::{Outcome, Question, Request, Sampling};
-use svbrdf::material::Material;
-use svbrdf::math::real::Real;
-use svbrdf::model::convention::Convention;
-use svbrdf::report::Compared;
+use svbrdf_core::loss::{Outcome, Question, Request, Sampling};
+use svbrdf_core::material::Material;
+use svbrdf_core::math::real::Real;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::report::Compared;
 
 use crate::errors::exception;
 use crate::material::CoreMaterial;

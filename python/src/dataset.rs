@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use pyo3::prelude::*;
-use svbrdf::dataset::{self, DatasetReport, Pick, RunSettings, Side};
-use svbrdf::error::Error;
-use svbrdf::files::read as reading;
-use svbrdf::material::Material;
-use svbrdf::model::convention::Convention;
-use svbrdf::progress::Progress;
+use svbrdf_files::dataset::{self, DatasetReport, Pick, RunSettings, Side};
+use svbrdf_core::error::Error;
+use svbrdf_files::read as reading;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::progress::Progress;
 
 use crate::errors::exception;
 use crate::material::read_options;

@@ -4,10 +4,10 @@ use std::borrow::Cow;
 use std::str::FromStr;
 
 use pyo3::prelude::*;
-use svbrdf::loss::{Comparison, Compute, Precision, Request};
-use svbrdf::material::Material;
-use svbrdf::rank::most_scenes;
-use svbrdf::report::{LossReport, RankReport};
+use svbrdf_core::loss::{Comparison, Compute, Precision, Request};
+use svbrdf_core::material::Material;
+use svbrdf_core::rank::most_scenes;
+use svbrdf_core::report::{LossReport, RankReport};
 
 use crate::asked::{Asked, singles};
 use crate::errors::exception;

@@ -1,9 +1,9 @@
 //! Metrics beside the loss.
 
 use pyo3::prelude::*;
-use svbrdf::loss::Request;
-use svbrdf::metrics::{of_maps, of_renderings};
-use svbrdf::report::MetricsReport;
+use svbrdf_core::loss::Request;
+use svbrdf_core::metrics::{of_maps, of_renderings};
+use svbrdf_core::report::MetricsReport;
 
 use crate::asked::{Asked, singles};
 use crate::errors::exception;

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf::loss::{Sampling, Texels};
-use svbrdf::model::convention::{self, Convention};
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::model::scene_file;
+use svbrdf_core::loss::{Sampling, Texels};
+use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_files::scene_file;
 
 use crate::errors::{Error, exception};
 

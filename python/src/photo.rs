@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use svbrdf::error::Error as CoreError;
-use svbrdf::files::read::{PhotographOptions, read_photograph};
-use svbrdf::model::scene::Scene;
-use svbrdf::photograph::{self, Corners, PhotoReport, PhotoSetting};
-use svbrdf::picture::difference::Difference;
+use svbrdf_core::error::Error as CoreError;
+use svbrdf_files::read::{PhotographOptions, read_photograph};
+use svbrdf_core::model::scene::Scene;
+use svbrdf_files::photograph::{self, Corners, PhotoReport, PhotoSetting};
+use svbrdf_core::picture::difference::Difference;
 
 use crate::arrays;
 use crate::errors::exception;

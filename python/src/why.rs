@@ -2,9 +2,9 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use svbrdf::loss::Comparison;
-use svbrdf::report::{BlameReport, MapReport, ScenesReport, WorstReport};
-use svbrdf::why::{self, Moved};
+use svbrdf_core::loss::Comparison;
+use svbrdf_core::report::{BlameReport, MapReport, ScenesReport, WorstReport};
+use svbrdf_core::why::{self, Moved};
 
 use crate::arrays;
 use crate::asked::{Asked, singles};
