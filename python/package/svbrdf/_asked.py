@@ -104,4 +104,6 @@ def check_unused(deciding: str | None, **given: object) -> None:
     """
     unused = [name for name, value in given.items() if value is not None]
     if deciding is not None and unused:
-        raise ValueError(f"{' and '.join(unused)}: not used with {deciding}, which decides the scenes; leave out either")
+        raise ValueError(
+            f"{' and '.join(unused)}: not used with {deciding}, which decides the scenes; leave out either"
+        )

@@ -99,9 +99,7 @@ def blame(
     check_goals(target_error=target_error, scenes=scenes)
     if scenes is None and target_error is None:
         target_error = 0.01
-    asked = Asked(
-        ground_truth, predictions, convention=convention, seed=seed, scenes=scenes, target_error=target_error
-    )
+    asked = Asked(ground_truth, predictions, convention=convention, seed=seed, scenes=scenes, target_error=target_error)
     with reported("rendering", progress) as report:
         found = _core.blame(*asked.core, report)
     arguments = views(found)

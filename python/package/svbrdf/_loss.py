@@ -258,7 +258,9 @@ def _loss_report(arguments: dict[str, Any]) -> LossReport:
     values = arguments["_values"]
     few = values["few_scenes"]
     if few is not None:
-        few = FewScenes(**{**few, "differences": _differences(few["differences"]), "scenes": scenes_from(few["scenes"])})
+        few = FewScenes(
+            **{**few, "differences": _differences(few["differences"]), "scenes": scenes_from(few["scenes"])}
+        )
     fields = {
         **values,
         "size": tuple(values["size"]),

@@ -168,7 +168,7 @@ def _scene(scene: Scene | Source | None, number: int | None, flash: bool, fov: f
             raise ValueError("scene_number: expected only with the path of a scene file")
         return scene
     scenes = read_scenes(scene)
-    if number is None and len(scenes) > 1 or number is not None and not 0 <= number < len(scenes):
+    if (number is None and len(scenes) > 1) or (number is not None and not 0 <= number < len(scenes)):
         found = "" if number is None else f", found {number}"
         raise ValueError(
             f"scene_number: {os.fspath(scene)} lists {len(scenes)} scenes, of which a photograph has one{found}; "

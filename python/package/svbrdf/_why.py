@@ -225,7 +225,7 @@ def scenes(
     return ScenesReport(**arguments, **{**values, "results": results, "scenes": scenes_from(values["scenes"])})
 
 
-def map(  # noqa: A001
+def map(
     ground_truth: Material | Source,
     predictions: Predictions,
     *,
