@@ -34,7 +34,7 @@
 //! | [`picture`] | renderings as PNG and EXR files |
 //! | [`files`] | reading and writing materials |
 //! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
-//! | [`report`] | losses as text |
+//! | [`report`] | results with their settings as values, and as text, JSON, CSV and LaTeX |
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
 //! | [`photograph`] | renderings against a photograph: four corners, one exposure factor |

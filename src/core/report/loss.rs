@@ -101,12 +101,6 @@ impl LossReport {
         self
     }
 
-    /// The table of the losses, then the difference of each further loss from the first, then a line per prediction for the few
-    /// scenes of the papers. Ends with a line break.
-    pub fn text(&self) -> String {
-        super::loss_text::text(self)
-    }
-
     /// Whether the requested accuracy is reached by every loss; `None` where none was requested.
     pub fn target_reached(&self) -> Option<bool> {
         self.target_error.map(|target| self.outcome.relative_error95() <= target)

@@ -1,6 +1,6 @@
 //! The rows of a loss report: one per prediction.
 
-use super::LossReport;
+use super::loss::LossReport;
 use super::table::{Cell, Table};
 use crate::loss::{Loss, Texels};
 use crate::model::scene::Kind;

@@ -1,18 +1,20 @@
 //! The text of a loss report: a table, the paired differences, and the losses over few scenes.
 
-use super::LossReport;
 use super::heading::scenes_line;
-use super::loss::count;
+use super::loss::{LossReport, count};
 use super::table::aligned;
 use crate::loss::{Estimate, Loss, Outcome};
 use crate::model::scene::Kind;
 
 const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interval"];
 
-/// The whole text; ends with a line break.
-pub(super) fn text(report: &LossReport) -> String {
-    let few_scenes = report.few_scenes.as_ref().map(|few| format!("\n{}", few_scenes(&few.outcome)));
-    format!("{}{}", table(report), few_scenes.unwrap_or_default())
+impl LossReport {
+    /// The table of the losses, then the difference of each further loss from the first, then a line per prediction for the few
+    /// scenes of the papers. Ends with a line break.
+    pub fn text(&self) -> String {
+        let few_scenes = self.few_scenes.as_ref().map(|few| format!("\n{}", few_scenes(&few.outcome)));
+        format!("{}{}", table(self), few_scenes.unwrap_or_default())
+    }
 }
 
 /// The losses over few scenes: a line per prediction.
