@@ -63,7 +63,8 @@ fn without_options_the_loss_is_over_all_scenes_in_every_format_and_few_scenes_ha
     // The report is that of the accuracy; what is of few scenes says so.
     let mut rest = json.clone();
     rest["few_scenes"] = Value::Null;
-    for (entry, few) in rest["results"].as_array_mut().unwrap().iter_mut().zip(few["results"].as_array().unwrap())
+    for (entry, few) in
+        rest["results"].as_array_mut().unwrap().iter_mut().zip(few["results"].as_array().unwrap())
     {
         let entry = entry.as_object_mut().unwrap();
         for key in ["loss", "standard_error", "interval95", "losses"] {
@@ -89,7 +90,10 @@ fn without_options_the_loss_is_over_all_scenes_in_every_format_and_few_scenes_ha
     // An option that chooses scenes asks for these alone.
     for options in ["--near 6", "--sampler random", "--texels all", "--time-budget 1ms"] {
         let json = losses_as_json(folder.path(), &format!("gt.png a.png {options}"));
-        assert_eq!((&json["few_scenes"], &json["results"][0]["few_scenes_loss"]), (&Value::Null, &Value::Null));
+        assert_eq!(
+            (&json["few_scenes"], &json["results"][0]["few_scenes_loss"]),
+            (&Value::Null, &Value::Null)
+        );
     }
 }
 

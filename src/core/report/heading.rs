@@ -59,3 +59,27 @@ pub fn scenes_line(sampling: Option<&Sampling>, scenes: &[Scene]) -> String {
 pub fn position([x, y, z]: [f64; 3]) -> String {
     format!("({x:.3}, {y:.3}, {z:.3})")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_about_scenes_counts_kinds_and_texels() {
+        let scenes: Vec<_> = [Kind::Near, Kind::Near, Kind::Distant]
+            .map(|kind| Scene { kind, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] })
+            .into();
+        let line = |texels, sampler| {
+            let sampling = Sampling { seed: 7, texels, sampler, ..Sampling::default() };
+            scenes_line(Some(&sampling), &scenes)
+        };
+        let start = "2 near-field and 1 distant scenes";
+        assert_eq!(scenes_line(None, &scenes), format!("{start} from a file\n"));
+        assert_eq!(line(Texels::All, Sampler::Random), format!("{start}, seed 7\n"));
+        assert_eq!(
+            line(Texels::Sampled(1), Sampler::Sobol),
+            format!("{start}, seed 7, scrambled Sobol, 1 random texel per scene\n")
+        );
+        assert!(line(Texels::Sampled(2), Sampler::Random).ends_with(", 2 random texels per scene\n"));
+    }
+}
