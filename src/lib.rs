@@ -34,6 +34,7 @@
 //! | [`picture`] | renderings as PNG and EXR files |
 //! | [`files`] | reading and writing materials |
 //! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
+//! | [`backend`] | the processor or a graphics adapter, whichever is faster |
 //! | [`report`] | losses as text |
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
@@ -42,6 +43,7 @@
 //! | [`dataset`] | many materials and methods: result files, means with intervals over materials |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`samples`] | built-in materials |
+//! | [`source`] | where a material comes from and how it is read: files, built-in materials, entries of sessions |
 //! | [`progress`], [`error`] | progress and cancellation of long operations; one error variant per cause |
 #![cfg_attr(feature = "gpu", doc = "| [`gpu`] | rendering and loss on a graphics adapter |")]
 #![cfg_attr(feature = "viewer", doc = "| [`viewer`] | the window |")]
@@ -52,6 +54,7 @@
 
 #![cfg_attr(feature = "testing", warn(unreachable_pub))]
 
+pub mod backend;
 pub mod dataset;
 pub mod error;
 pub mod files;
@@ -70,6 +73,7 @@ pub mod rank;
 pub mod render;
 pub mod report;
 pub mod samples;
+pub mod source;
 pub mod study;
 pub(crate) mod text;
 #[cfg(feature = "viewer")]

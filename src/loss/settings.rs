@@ -55,16 +55,14 @@ impl FileScenes {
     /// Reads the only one of some scene files; `None` without any.
     ///
     /// # Errors
-    /// As [`FileScenes::read`], and [`Error::Usage`] where there are several.
+    /// As [`FileScenes::read`], and [`Error::SeveralSceneFiles`].
     pub fn read_one(paths: &[PathBuf]) -> Result<Option<Self>, Error> {
         match paths {
             [] => Ok(None),
             [path] => Self::read(path).map(Some),
-            [first, second, ..] => Err(Error::Usage(format!(
-                "expected one scene file, found {} and {}",
-                first.display(),
-                second.display()
-            ))),
+            [first, second, ..] => {
+                Err(Error::SeveralSceneFiles { first: first.clone(), second: second.clone() })
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use super::pair::Pair;
 use super::result::{Point, Reference, Study};
 use crate::error::Error;
 use crate::files::write::{self, Depth};
-use crate::loss::{Backend, Comparison, Compute, Outcome, Request, Sampling, Texels};
+use crate::loss::{Backend, Comparison, Compute, Estimate, Outcome, Request, Sampling, Texels};
 use crate::material::Material;
 use crate::model::convention::Convention;
 use crate::progress::Progress;
@@ -79,7 +79,8 @@ impl<'a> Bench<'a> {
         let loss = fast(&many, self.progress)?;
         let exact = kernel(pair, Family::F64)?(&few, &self.progress.part())?;
         let rounded = fast(&few, &self.progress.part())?;
-        let correction = rounded.difference(&exact.losses[0], &rounded.losses[0]);
+        let [of, from] = [&exact, &rounded].map(|outcome| outcome.losses[0].per_scene.as_slice());
+        let correction = Estimate::of_difference(few.sampler, &rounded.scenes, of, from);
 
         let estimate = loss.losses[0].estimate;
         let mean = estimate.mean + correction.mean;
