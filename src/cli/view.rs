@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use svbrdf::error::Error;
 #[cfg(feature = "viewer")]
+use svbrdf::files::scene_file;
+#[cfg(feature = "viewer")]
 use svbrdf::files::session::SessionPhotograph;
 #[cfg(feature = "viewer")]
 use svbrdf::loss::FileScenes;
@@ -96,11 +98,11 @@ fn photograph_of(args: &ViewArgs) -> Result<Option<(SessionPhotograph, Option<Sc
 #[cfg(feature = "viewer")]
 fn take_scenes(materials: &mut MaterialArgs) -> Result<Option<FileScenes>, Error> {
     let all = materials.ground_truth.take().into_iter().chain(std::mem::take(&mut materials.predictions));
-    let (files, others): (Vec<_>, Vec<_>) = all.partition(|path| FileScenes::is_named(path));
+    let (files, others): (Vec<_>, Vec<_>) = all.partition(|path| scene_file::is_named(path));
     let mut others = others.into_iter();
     materials.ground_truth = others.next();
     materials.predictions = others.collect();
-    FileScenes::read_one(&files)
+    scene_file::read_one(&files)
 }
 
 #[cfg(not(feature = "viewer"))]
