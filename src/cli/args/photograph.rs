@@ -101,7 +101,7 @@ impl PhotoReadingArgs {
         PhotographOptions { transfer: self.transfer, clip: self.clip }
     }
 
-    /// What the window opens.
+    /// The photograph at `path`, as the window opens it.
     #[cfg(feature = "viewer")]
     pub fn of_session(&self, path: PathBuf) -> SessionPhotograph {
         let corners = self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok());

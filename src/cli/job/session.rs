@@ -64,7 +64,7 @@ impl SessionSettings {
         })
     }
 
-    /// What the panes of the window display.
+    /// The quantity and difference that the panes of the window display.
     pub fn shown(&self) -> Shown {
         let quantity = self.view.quantity;
         Shown { quantity, difference: self.view.difference.then(|| self.difference(quantity)) }

@@ -52,7 +52,7 @@ fn outcome<T: Compute>(
     comparison.run(&Request::Scenes(*sampling), progress)
 }
 
-/// What a study has found out so far that further points need.
+/// A study in progress: its pair, and the losses that further points are compared with.
 pub(super) struct Bench<'a> {
     pair: Pair<'a>,
     progress: &'a Progress,

@@ -24,7 +24,7 @@ pub struct DatasetResults {
 /// cannot be read or compared has a result, too, with the reason. A material is one step of `progress`. The results do not depend on
 /// the number of threads, nor on which other materials there are.
 ///
-/// What the file `journal` holds is not computed again, unless a file that it was computed from has changed. New results are added to
+/// A result in the file `journal` is not computed again, unless a file that it was computed from has changed. New results are added to
 /// it as they come, and in the end it holds all of them in order. It is created where there is none.
 ///
 /// # Errors
