@@ -12,7 +12,7 @@
 //! let comparison = Comparison::new(&built_in.ground_truth.material, &[prediction], Convention::default())?;
 //! let request = Request::default();
 //! let fastest = backend::fastest(&comparison, &request)?;
-//! let comparison = match fastest.as_ref().and_then(|fastest| fastest.adapter.as_ref()) {
+//! let comparison = match &fastest.adapter {
 //!     Some(adapter) => comparison.on(adapter.backend()),
 //!     None => comparison,
 //! };
@@ -49,16 +49,24 @@ impl fmt::Display for Fastest {
     }
 }
 
-/// The faster device for `request`, by measurements over a few of its scenes. `None` where only the processor can compute it: an
-/// adapter computes a fixed number of scenes on all texels.
+/// The faster device for `request`, by measurements over a few of its scenes.
 ///
-/// A loss that takes the processor less than about 100 ms starts no adapter.
+/// An adapter computes a fixed number of scenes on all texels; other requests are for the processor. A loss that takes the processor
+/// less than about 100 ms starts no adapter.
 ///
 /// # Errors
 /// Those of [`Comparison::run`] on the processor. An adapter that is missing or fails is slower.
-pub fn fastest(comparison: &Comparison<'_, f32>, request: &Request) -> Result<Option<Fastest>, Error> {
-    let Some(scenes) = on_all_texels(comparison, request)? else { return Ok(None) };
-    faster(comparison, &scenes).map(Some)
+pub fn fastest(comparison: &Comparison<'_, f32>, request: &Request) -> Result<Fastest, Error> {
+    match on_all_texels(comparison, request)? {
+        Some(scenes) => faster(comparison, &scenes),
+        None => {
+            Ok(on_processor("graphics adapters compare a fixed number of scenes on all texels".to_owned()))
+        }
+    }
+}
+
+fn on_processor(reason: String) -> Fastest {
+    Fastest { adapter: None, reason }
 }
 
 /// The scenes of a request that an adapter can compute: a fixed number of scenes on all texels.
@@ -82,7 +90,6 @@ fn over_first(
 
 /// The faster device for a comparison in all of `scenes`.
 fn faster(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Result<Fastest, Error> {
-    let on_processor = |reason| Fastest { adapter: None, reason };
     let on_cpu = predict(scenes.len(), LONG, timed(over_first(comparison, scenes)))?;
     if on_cpu < SHORT {
         let reason = format!("about {}, less than starting an adapter takes", milliseconds(on_cpu));

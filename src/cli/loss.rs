@@ -106,6 +106,9 @@ struct LossJob {
 /// losses are printed.
 pub fn run(mut args: LossArgs, given: &Given) -> Result<(), CommandError> {
     let steps = args.comparison.materials.expand_steps()?;
+    if (args.precision, args.backend) == (Precision::F64, DeviceChoice::Auto) {
+        exit::tell("note: computed on the CPU: graphics adapters compute in f32");
+    }
     let job = LossJob::new(&args, given)?;
     let report = match args.precision {
         Precision::F32 => job.report(|comparison| job.run(comparison))?,
@@ -164,8 +167,8 @@ impl LossJob {
             DeviceChoice::Gpu => Some(Adapter::start()?),
             DeviceChoice::Auto => {
                 let fastest = backend::fastest(&comparison, &self.request)?;
-                fastest.iter().for_each(|fastest| exit::tell(&format!("note: {fastest}")));
-                fastest.and_then(|fastest| fastest.adapter)
+                exit::tell(&format!("note: {fastest}"));
+                fastest.adapter
             }
         };
         match &adapter {

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use svbrdf::error::Error;
-#[cfg(feature = "viewer")]
 use svbrdf::files::scene_file;
+use svbrdf::files::session::Session;
 #[cfg(feature = "viewer")]
 use svbrdf::files::session::SessionPhotograph;
 #[cfg(feature = "viewer")]
@@ -42,7 +42,13 @@ pub struct ViewArgs {
 /// [`Error::NoWindow`] without a display, [`Error::NoAdapter`] without a graphics adapter.
 pub fn run(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
     given.check(&modes::VIEW)?;
-    let closed = open_window(args, given);
+    let materials: Vec<_> = args.materials.paths().filter(|path| !scene_file::is_named(path)).collect();
+    match materials.as_slice() {
+        [path, ..] if Session::is_named(path) => given.check(&modes::SESSION)?,
+        [] | [_] => given.check(&modes::NO_PREDICTION)?,
+        _ => {}
+    }
+    let closed = open_window(args);
     if let Err(CommandError::Library(Error::NoWindow { .. } | Error::NoAdapter { .. })) = closed {
         tell("note: `svbrdf loss` and `svbrdf render` work without a window");
     }
@@ -50,7 +56,7 @@ pub fn run(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
 }
 
 #[cfg(feature = "viewer")]
-fn open_window(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
+fn open_window(args: ViewArgs) -> Result<(), CommandError> {
     use super::args::reading::ResizeTo;
     use super::job::session;
 
@@ -68,11 +74,6 @@ fn open_window(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
     let mut materials = args.materials;
     let scenes = take_scenes(&mut materials)?;
     let session = session::given(&materials)?;
-    if session.is_some() {
-        given.check(&modes::SESSION)?;
-    } else if materials.predictions.is_empty() {
-        given.check(&modes::NO_PREDICTION)?;
-    }
     Ok(svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
         session,
         photograph,
@@ -106,7 +107,7 @@ fn take_scenes(materials: &mut MaterialArgs) -> Result<Option<FileScenes>, Error
 }
 
 #[cfg(not(feature = "viewer"))]
-fn open_window(_: ViewArgs, _: &Given) -> Result<(), CommandError> {
+fn open_window(_: ViewArgs) -> Result<(), CommandError> {
     Err(CommandError::Library(Error::NoWindow {
         problem: "this program was built without the window".to_owned(),
         remedy: "build with the default features",

@@ -35,10 +35,11 @@ pub fn pages() -> Vec<(Vec<String>, String)> {
     pages
 }
 
-/// The lines that begin a section: not indented, and with a colon at their end or after their first word.
+/// The lines that begin a section: not indented, a few words and a colon, or the usage.
 fn headings(page: &str) -> BTreeSet<&str> {
     let is_heading = |line: &&str| {
-        !line.is_empty() && !line.starts_with(' ') && (line.ends_with(':') || line.starts_with("Usage:"))
+        let is_short = line.split(' ').count() <= 3 && line.ends_with(':');
+        !line.starts_with(' ') && (is_short || line.starts_with("Usage:"))
     };
     page.lines().filter(is_heading).map(|line| line.split_inclusive(':').next().unwrap()).collect()
 }

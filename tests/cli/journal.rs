@@ -124,7 +124,7 @@ fn files_that_were_copied_or_touched_have_the_same_results() {
     }
     let (touched, notes) = results(folder.path(), &with_journal);
     assert_eq!(touched["results"][1]["predictions"][0]["result"]["Ok"]["loss"], 0.125, "{notes}");
-    assert_eq!(notes, "");
+    assert!(!notes.contains("computed again"), "{notes}");
 }
 
 #[test]

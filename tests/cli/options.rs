@@ -10,7 +10,7 @@ use serde_json::json;
 use tempfile::TempDir;
 
 use super::help::page;
-use super::{folder, succeed, svbrdf, text, write_material};
+use super::{folder, succeed, svbrdf, text, write_material, write_tiles};
 
 const SESSION: &str = "s.svbrdf-session.json";
 
@@ -35,7 +35,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 35] = [
+const MODES: [(&str, Shows); 36] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -47,7 +47,7 @@ const MODES: [(&str, Shows); 35] = [
     ("render gt.png a.png -o x.png --difference", Shows::Everything),
     ("render s.svbrdf-session.json -o x.png", Shows::Everything),
     ("strip gt.png a.png -o x.png", Shows::Everything),
-    ("strip gt.png a.png -o x.png --columns normal,diffuse:", Shows::Everything),
+    ("strip gt.png a.png -o x.png --columns normal,diffuse,roughness,specular,diffuse:", Shows::Everything),
     ("strip gt.png a.png -o x.png --columns rendering", Shows::Everything),
     ("rank gt.png a.png b.png --target-error 30%", Shows::Everything),
     ("rank --dataset set/gt set/ours --target-error 30%", Shows::Everything),
@@ -61,11 +61,12 @@ const MODES: [(&str, Shows); 35] = [
     ("map gt.png a.png -o x.csv --over lights --side 8", Shows::Everything),
     ("map gt.png a.png -o x.csv --over views --side 8", Shows::Everything),
     ("metrics gt.png a.png", Shows::Everything),
-    ("metrics gt.png a.png --protocol matfusion", Shows::Everything),
+    ("metrics gt.png tilted.png --protocol matfusion", Shows::Everything),
     ("photo photo.png gt.png a.png --scene one.json", Shows::Everything),
     ("photo photo.png gt.png --flash --fov 45 -o x.png", Shows::Everything),
     ("info gt.png", Shows::Everything),
     ("convert gt.png x.png", Shows::Everything),
+    ("convert gt.png x.exr", Shows::Everything),
     ("study gt.png a.png -o none/x.csv", Shows::Refusals(&[])),
     ("study s.svbrdf-session.json -o none/x.csv", Shows::Refusals(&[&OF_SESSION])),
     ("view gt.png", Shows::Refusals(&[&WITHOUT_PHOTO, &["pred-albedo"]])),
@@ -77,7 +78,7 @@ const MODES: [(&str, Shows); 35] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 59] = [
+const VALUES: [(&str, &str); 60] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -137,16 +138,24 @@ const VALUES: [(&str, &str); 59] = [
     ("plot", "x.svg"),
     ("photo", "photo.png"),
     ("view resize-to", "gt"),
+    ("output", "y.png"),
 ];
 
-/// Files in the place of `gt.png` and further arguments, without which the option has nothing to work on.
-const PREMISES: [(&str, &str, &str); 6] = [
-    ("exemplar", "rows.png", ""),
-    ("non-finite", "nan", ""),
-    ("dielectric-f0", "metal", ""),
-    ("shard", "gt.png", "--journal kept.jsonl"),
-    ("scene-number", "gt.png", "--scene two.json"),
-    ("photo difference", "gt.png", "-o y.png"),
+/// Without these an option has nothing to work on: a file in the place of another, and further arguments.
+const PREMISES: [(&str, [&str; 2], &str); 6] = [
+    ("exemplar", ["gt.png", "rows.png"], ""),
+    ("non-finite", ["gt.png", "nan"], ""),
+    ("dielectric-f0", ["gt.png", "metal"], ""),
+    ("shard", ["", ""], "--journal kept.jsonl"),
+    ("scene-number", ["one.json", "two.json"], ""),
+    ("photo difference", ["", ""], "-o y.png"),
+];
+
+/// Options that are used, and whose effect a mode does not show: how maps are read that are not in a picture of normals, and the
+/// reflectance of dielectrics, which is no assumption.
+const UNSEEN: [(&str, &[&str]); 2] = [
+    ("render gt.png a.png -o x.png --show normal", &["dielectric-f0", "energy", "preset", "roughness"]),
+    ("info gt.png", &["dielectric-f0"]),
 ];
 
 /// Everything that a mode reads.
@@ -166,6 +175,12 @@ fn fixture() -> TempDir {
     let at = |x, y| if y < 8 { *top.get_pixel(x, y) } else { *bottom.get_pixel(x, y - 8) };
     RgbImage::from_fn(32, 16, at).save(of("rows.png")).unwrap();
     RgbImage::from_pixel(8, 8, Rgb([90; 3])).save(of("gray.png")).unwrap();
+    write_tiles(&of("tilted.png"), 8, |x, y| match x / 8 {
+        0 => [128, (100 + 9 * y) as u8, 240],
+        1 => [200, (8 * x) as u8, (8 * y) as u8],
+        2 => [(60 + 20 * y) as u8; 3],
+        _ => [12; 3],
+    });
     for (name, maps) in [
         ("metal", ["normal", "basecolor", "roughness", "metallic"]),
         ("nan", ["normal", "", "roughness", "specular"]),
@@ -187,7 +202,16 @@ fn fixture() -> TempDir {
         fs::create_dir_all(of("set").join(path).parent().unwrap()).unwrap();
         write_material(&of("set").join(format!("{path}.png")), 8, roughness);
     }
-    fs::write(of("pairs.csv"), "ground_truth,prediction\ngt.png,a.png\ngt.png,b.png\nb.png,a.png\n").unwrap();
+    for method in ["set/gt", "set/ours"] {
+        fs::copy(of("rows.png"), of(method).join("rows.png")).unwrap();
+        for name in ["metal", "nan"] {
+            fs::create_dir(of(method).join(name)).unwrap();
+            copied(&of(name), &of(method).join(name));
+        }
+    }
+    write_material(&of("set/ours/rows.png"), 8, 99);
+    let pairs = "gt.png,a.png\ngt.png,b.png\nb.png,a.png\nrows.png,a.png\nnan,a.png\nmetal,a.png\n";
+    fs::write(of("pairs.csv"), format!("ground_truth,prediction\n{pairs}")).unwrap();
     succeed(folder.path(), "rank --dataset set/gt set/ours --target-error 30% --journal journal.jsonl");
     // A loss that is known less well than it should be.
     let journal = fs::read_to_string(of("journal.jsonl")).unwrap();
@@ -272,7 +296,10 @@ impl Outcome {
             "leave out --",
             "cannot be used with",
             "required arguments were not provided",
-            "of which a photograph has one",
+            "give both",
+            "takes one CSV table",
+            "only EXR has one",
+            "cannot have that depth",
         ];
         self.code == Some(64) && because.iter().any(|text| self.stderr.contains(text))
     }
@@ -285,9 +312,10 @@ fn problem(fixture: &Path, mode: &str, shows: Shows, option: &str) -> Option<Str
     let value =
         VALUES.iter().find(|(name, _)| *name == own).or(VALUES.iter().find(|(name, _)| *name == option));
     let premise = PREMISES.iter().find(|(name, ..)| *name == own || *name == option);
-    let (ground_truth, more) = premise.map_or(("gt.png", ""), |(_, ground_truth, more)| (ground_truth, more));
+    let ([from, to], more) = premise.map_or((["", ""], ""), |(_, files, more)| (*files, *more));
     let more = if more.split(' ').next().is_some_and(|first| mode.contains(first)) { "" } else { more };
-    let base = format!("{} {more}", mode.replace("gt.png", ground_truth));
+    let files = if from.is_empty() { mode.to_owned() } else { mode.replace(from, to) };
+    let base = format!("{files} {more}");
     // `--corners` would take a path after it as a value: options come last.
     let with = Outcome::of(fixture, &format!("{base} --{option} {}", value.map_or("", |(_, value)| value)));
     if with.code == Some(64) && !with.is_refused() {
@@ -297,8 +325,8 @@ fn problem(fixture: &Path, mode: &str, shows: Shows, option: &str) -> Option<Str
         Shows::Everything if with.is_refused() => None,
         Shows::Everything => {
             let without = Outcome::of(fixture, &base);
-            let timed = ["time-budget"].contains(&option);
-            (with == without && !timed).then(|| format!("{base} ignores --{option}"))
+            let unseen = UNSEEN.iter().any(|(of, options)| *of == mode && options.contains(&option));
+            (with == without && !unseen).then(|| format!("{base} ignores --{option}"))
         }
         Shows::Refusals(expected) => {
             let is_expected = expected.iter().any(|group| group.contains(&option));

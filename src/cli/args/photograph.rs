@@ -28,7 +28,7 @@ pub struct PhotoSceneArgs {
     flash: bool,
 
     /// Angle that the width of the material spans at the camera: the horizontal field of view where it fills the photograph
-    #[arg(long, value_name = "DEGREES", value_parser = degrees, requires = "flash", allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, requires = "flash", conflicts_with = "scene", allow_negative_numbers = true)]
     fov: Option<f64>,
 }
 

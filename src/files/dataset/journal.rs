@@ -4,7 +4,7 @@
 //! reading. Every other line is the result of a material with the fingerprints of the files that it was computed from. A journal with
 //! another head is refused; a line whose files have changed is computed again.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::fs::{self, File, OpenOptions};
 use std::io::Write;
@@ -156,8 +156,10 @@ impl Head {
 fn compare(a: &Value, b: &Value, path: &str, found: &mut Vec<String>) {
     match (a, b) {
         (Value::Object(a), Value::Object(b)) => {
-            for (key, a) in a {
-                compare(a, b.get(key).unwrap_or(&Value::Null), &format!("{path}.{key}"), found);
+            let keys: BTreeSet<&String> = a.keys().chain(b.keys()).collect();
+            for key in keys {
+                let [a, b] = [a, b].map(|all| all.get(key).unwrap_or(&Value::Null));
+                compare(a, b, &format!("{path}.{key}"), found);
             }
         }
         _ if a == b => {}
