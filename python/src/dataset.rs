@@ -1,14 +1,10 @@
 //! Many materials: the losses of methods over a data set.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf_files::dataset::{self, DatasetReport, Pick, RunSettings, Side};
-use svbrdf_core::error::Error;
-use svbrdf_files::read as reading;
-use svbrdf_core::material::Material;
+use svbrdf_files::dataset::{self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Pick};
 use svbrdf_core::model::convention::Convention;
-use svbrdf_core::progress::Progress;
 
 use crate::errors::exception;
 use crate::material::read_options;
@@ -43,21 +39,19 @@ pub fn rank_dataset(
 ) -> PyResult<Views> {
     let convention: Convention = asked.convention.parse().map_err(exception)?;
     let pick: Pick = asked.pick.parse().map_err(exception)?;
-    let options = [read_options(&asked.read[0])?, read_options(&asked.read[1])?];
-    let open = |path: &Path, side: Side| -> Result<Material<f32>, Error> {
-        let options = &options[usize::from(side == Side::Prediction)];
-        let read = reading::read(path, options, &Progress::default())?;
-        if asked.strict {
-            read.refuse_guesses(path)?;
-        }
-        Ok(read.material)
+    let reading = DatasetReading {
+        ground_truths: read_options(&asked.read[0])?,
+        predictions: read_options(&asked.read[1])?,
+        strict: asked.strict,
     };
-    let tasks = dataset::tasks_of_folders(&asked.ground_truths, &asked.methods).map_err(exception)?;
+    let cases = dataset::cases_of_folders(&asked.ground_truths, &asked.methods).map_err(exception)?;
     let settings =
-        RunSettings::new(convention.name, asked.target_error, asked.seed, &tasks).with_metrics(asked.metrics);
+        DatasetSettings::new(convention.name, asked.target_error, asked.seed, &cases).with_metrics(asked.metrics);
     let journal = asked.journal.as_deref();
-    let results = work::run(py, progress, |progress| {
-        dataset::run(&tasks, &settings, &convention, open, journal, progress)
-    })?;
+    let DatasetResults { results, recomputed } =
+        work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, journal, progress))?;
+    for recomputed in recomputed {
+        py.import("warnings")?.call_method1("warn", (recomputed.to_string(),))?;
+    }
     Views::new(&DatasetReport::new(settings, results, pick))
 }

@@ -2,17 +2,16 @@
 
 use std::path::PathBuf;
 
-use svbrdf::error::Error;
 use svbrdf::loss::Request;
 use svbrdf::material::Material;
 use svbrdf::model::scene_file;
 use svbrdf::report::{BlameReport, Compared, Report as _};
 use svbrdf::why::attribute;
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::{ComparisonArgs, Given, values};
+use super::job::ComparisonJob;
+use super::output::{CommandError, exit, target, watched};
 use super::report::ReportFormat;
-use super::{exit, loss, materials, table, target};
 
 /// Prints how much of the rendering loss comes from each map
 ///
@@ -23,7 +22,7 @@ use super::{exit, loss, materials, table, target};
 #[derive(Debug, clap::Args)]
 pub struct BlameArgs {
     /// Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152
-    #[arg(long, value_name = "PERCENT", value_parser = loss::percent, allow_hyphen_values = true, default_value = "1%")]
+    #[arg(long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     target_error: f64,
 
     /// Seed of the sampled scenes
@@ -47,21 +46,22 @@ pub struct BlameArgs {
 /// # Errors
 /// Where a material or the scenes cannot be read or used; with `--strict` where the target error is not reached, after the results
 /// are printed.
-pub fn run(args: &BlameArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
+pub fn run(args: &BlameArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
     let request = match &args.scenes {
         Some(path) => Request::Listed(scene_file::read(path)?),
         None => Request::Accuracy { target: args.target_error, seed: args.seed },
     };
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let opened = job.materials.open::<f32>()?;
     let one = |prediction: &Material<f32>| {
         watched("rendering", |progress| {
-            attribute(&opened.ground_truth, prediction, &args.comparison.convention(), &request, progress)
+            attribute(&opened.ground_truth, prediction, &job.convention, &request, progress)
         })
     };
     let attributions = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let compared = Compared::new(&opened.ground_truth, &args.comparison.convention());
+    let compared = Compared::new(&opened.ground_truth, &job.convention);
     let report = BlameReport::new(compared, &request, attributions);
     exit::put(&args.format.write(&report)?)?;
-    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)
+    target::warn_of(report.missed(), job.materials.strict)
 }

@@ -3,18 +3,18 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use svbrdf::backend::{self, Adapter};
 use svbrdf::error::Error;
 use svbrdf::loss::{Comparison, Compute, Precision, Question, Request, Sampling, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene_file;
 use svbrdf::report::{LossReport, Report as _};
 
-use super::backend::{self, DeviceChoice};
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::values::{duration, percent};
+use super::args::{ComparisonArgs, Given, modes};
+use super::job::ComparisonJob;
+use super::output::{CommandError, exit, target, watched};
 use super::report::ReportFormat;
-use super::session::SessionSettings;
-use super::{exit, materials, table, target};
 
 /// Prints the rendering loss of predictions against a ground truth
 ///
@@ -76,72 +76,105 @@ pub struct LossArgs {
     comparison: ComparisonArgs,
 }
 
+/// The requested device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum DeviceChoice {
+    /// The CPU, which the window uses, too
+    #[default]
+    Cpu,
+    /// The graphics adapter: equal to about 6 digits; faster for many scenes and large maps on a fast adapter
+    Gpu,
+    /// Measures both on a few scenes and uses the faster one
+    Auto,
+}
+
+/// A loss to compute: the arguments, resolved.
+struct LossJob {
+    comparison: ComparisonJob,
+    question: Question,
+    device: DeviceChoice,
+}
+
 /// Prints the losses to stdout.
 ///
 /// # Errors
 /// Where a material or the scenes cannot be read or used; with `--strict` where a target error is not reached, after the
 /// losses are printed.
-pub fn run(mut args: LossArgs) -> Result<(), Error> {
+pub fn run(mut args: LossArgs, given: &Given) -> Result<(), CommandError> {
     let steps = args.comparison.materials.expand_steps()?;
-    let args = &args;
-    table::check_predictions(&args.comparison.materials)?;
-    let question = question(args)?;
-    check_backend(args, &question)?;
-    let report = match args.precision {
-        Precision::F32 => {
-            report(args, &question, |comparison, request| backend::run(args.backend, comparison, request))?
-        }
-        Precision::F64 => report(args, &question, on_cpu::<f64>)?,
-    };
-    let report = LossReport { paths: paths(args), steps, ..report };
-    exit::put(&args.format.write(&report)?)?;
-    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)
-}
-
-/// The paths of the ground truth and of the predictions; none of the built-in ones.
-fn paths(args: &LossArgs) -> Vec<Option<String>> {
-    let all = args.comparison.materials.ground_truth.iter().chain(&args.comparison.materials.predictions);
-    all.map(|path| Some(path.display().to_string())).collect()
-}
-
-/// The question of the options or of the session, or the default.
-fn question(args: &LossArgs) -> Result<Question, Error> {
-    if chooses_scenes(args) {
-        return request(args).map(Question::from);
+    if (args.precision, args.backend) == (Precision::F64, DeviceChoice::Auto) {
+        exit::tell("note: computed on the CPU: graphics adapters compute in f32");
     }
-    let saved = saved_request(args)?.map(Question::from);
-    Ok(saved.unwrap_or_else(|| Question::of_seed(args.seed.unwrap_or(0))))
-}
-
-/// The request of the session.
-fn saved_request(args: &LossArgs) -> Result<Option<Request>, Error> {
-    let saved = SessionSettings::of(&args.comparison.materials)?;
-    Ok(saved.and_then(|saved| saved.request(args.seed)))
-}
-
-/// Opens the materials in precision `T` and answers the question: few scenes with `run`, many beside them on the CPU.
-fn report<T: Compute>(
-    args: &LossArgs,
-    question: &Question,
-    run: impl FnOnce(Comparison<'_, T>, &Request) -> Result<LossReport, Error>,
-) -> Result<LossReport, Error> {
-    let opened = materials::open::<T>(&args.comparison.materials)?;
-    let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?;
-    let Question { request, few_scenes: Some(few) } = question else {
-        return run(comparison, &question.request);
+    let job = LossJob::new(&args, given)?;
+    let report = match args.precision {
+        Precision::F32 => job.report(|comparison, request| job.run(comparison, request))?,
+        Precision::F64 => job.report(on_backend::<f64>)?,
     };
-    let report = on_cpu(comparison.clone(), request)?;
-    let few = run(comparison, &Request::Scenes(*few))?;
-    Ok(report.beside(few))
+    let materials = job.comparison.materials;
+    let paths = materials.paths.iter().map(|path| Some(path.display().to_string())).collect();
+    let report = LossReport { paths, steps, ..report };
+    exit::put(&args.format.write(&report)?)?;
+    target::warn_of(report.missed(), materials.strict)
 }
 
-fn on_cpu<T: Compute>(comparison: Comparison<'_, T>, request: &Request) -> Result<LossReport, Error> {
+impl LossJob {
+    fn new(args: &LossArgs, given: &Given) -> Result<Self, CommandError> {
+        let comparison = ComparisonJob::new(&args.comparison, given)?;
+        comparison.materials.check_predictions()?;
+        let session = comparison.session.as_ref().filter(|_| !chooses_scenes(args));
+        let saved = session.and_then(|session| session.request(args.seed));
+        if let Some(Request::Listed(_)) = saved {
+            given.check(&modes::SESSION_SCENES)?;
+        }
+        let question = match saved {
+            Some(request) => request.into(),
+            None if chooses_scenes(args) => request(args)?.into(),
+            None => Question::of_seed(args.seed.unwrap_or(0)),
+        };
+        check_backend(args, &question)?;
+        Ok(Self { comparison, question, device: args.backend })
+    }
+
+    /// Opens the materials in precision `T` and answers the question: with `run`, but what few scenes stand beside on the CPU.
+    fn report<T: Compute>(
+        &self,
+        run: impl FnOnce(Comparison<'_, T>, &Request) -> Result<LossReport, Error>,
+    ) -> Result<LossReport, CommandError> {
+        let opened = self.comparison.materials.open::<T>()?;
+        let predictions: Vec<_> = opened.predictions.iter().collect();
+        let comparison = Comparison::new(&opened.ground_truth, &predictions, self.comparison.convention)?;
+        let Question { request, few_scenes: Some(few) } = &self.question else {
+            return Ok(run(comparison, &self.question.request)?);
+        };
+        let report = on_backend(comparison.clone(), request)?;
+        Ok(report.beside(run(comparison, &Request::Scenes(*few))?))
+    }
+
+    /// The report of `request`, computed on the requested device.
+    fn run(&self, comparison: Comparison<'_, f32>, request: &Request) -> Result<LossReport, Error> {
+        let adapter = match self.device {
+            DeviceChoice::Cpu => None,
+            DeviceChoice::Gpu => Some(Adapter::start()?),
+            DeviceChoice::Auto => {
+                let fastest = backend::fastest(&comparison, request)?;
+                exit::tell(&format!("note: {fastest}"));
+                fastest.adapter
+            }
+        };
+        match &adapter {
+            Some(adapter) => on_backend(comparison.on(adapter.backend()), request),
+            None => on_backend(comparison, request),
+        }
+    }
+}
+
+/// The report of `request`, computed by the backend of `comparison`.
+fn on_backend<T: Compute>(comparison: Comparison<'_, T>, request: &Request) -> Result<LossReport, Error> {
     let outcome = watched("rendering", |progress| comparison.run(request, progress))?;
     Ok(LossReport::new(&comparison, request, outcome))
 }
 
-/// Whether an option says which scenes and texels are compared; a seed does not.
+/// Whether an option chooses which scenes and texels are compared; a seed does not.
 fn chooses_scenes(args: &LossArgs) -> bool {
     let LossArgs { near, distant, sampler, texels, target_error, time_budget, scenes, .. } = args;
     let counts = near.is_some() || distant.is_some() || sampler.is_some() || texels.is_some();
@@ -149,7 +182,7 @@ fn chooses_scenes(args: &LossArgs) -> bool {
 }
 
 /// A graphics adapter compares all texels, in f32.
-fn check_backend(args: &LossArgs, question: &Question) -> Result<(), Error> {
+fn check_backend(args: &LossArgs, question: &Question) -> Result<(), CommandError> {
     let few_scenes = question.few_scenes.map(Request::Scenes);
     let problem = match (args.backend, args.precision, few_scenes.as_ref().unwrap_or(&question.request)) {
         (DeviceChoice::Cpu | DeviceChoice::Auto, ..) => return Ok(()),
@@ -168,7 +201,7 @@ fn check_backend(args: &LossArgs, question: &Question) -> Result<(), Error> {
             --texels, --target-error and --time-budget"
         }
     };
-    Err(Error::Usage(problem.to_owned()))
+    Err(CommandError::usage(problem))
 }
 
 /// The request that the options make.
@@ -192,40 +225,4 @@ fn request(args: &LossArgs) -> Result<Request, Error> {
             Request::Scenes(sampling)
         }
     })
-}
-
-/// A share such as `1%` or `0.01`.
-pub fn percent(text: &str) -> Result<f64, String> {
-    let (number, scale) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
-    let share = number.trim().parse::<f64>().map(|number| number * scale);
-    share
-        .ok()
-        .filter(|s| *s > 0.0 && *s < 1.0)
-        .ok_or("expected more than 0% and less than 100%, as in 1%".to_owned())
-}
-
-/// A time such as `500ms`, `2s` or `0.5` (seconds).
-fn duration(text: &str) -> Result<Duration, String> {
-    let units = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0)];
-    let with_unit = units.iter().find_map(|(unit, scale)| Some((text.strip_suffix(unit)?, *scale)));
-    let (number, scale) = with_unit.unwrap_or((text, 1.0));
-    let seconds = number.trim().parse::<f64>().map(|number| number * scale);
-    let time = seconds.ok().filter(|s| *s > 0.0 && *s <= 86_400.0).map(Duration::from_secs_f64);
-    time.ok_or(
-        "expected a time above 0, at most a day, in us, ms or s (the default), as in 500ms or 2s".to_owned(),
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn times_are_positive_and_have_units() {
-        let times = ["100us", "500ms", "2s", "0.5", "1 s"].map(|text| duration(text).unwrap().as_micros());
-        assert_eq!(times, [100, 500_000, 2_000_000, 500_000, 1_000_000]);
-        for wrong in ["0", "-1s", "2m", "1e9s", "nan", "s", ""] {
-            assert!(duration(wrong).is_err_and(|said| said.contains("above 0")), "{wrong}");
-        }
-    }
 }

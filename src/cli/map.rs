@@ -8,11 +8,11 @@ use svbrdf::picture::export::{Destination, PictureFormat, Provenance, check_plac
 use svbrdf::report::{MapReport, Report as _};
 use svbrdf::why::Moved;
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
-use super::scene_args::{self, SceneArgs};
-use super::stop::stoppable;
-use super::{exit, materials, table};
+use super::args::scenes::SceneArgs;
+use super::args::{ComparisonArgs, Given, modes, values};
+use super::job::ComparisonJob;
+use super::output::stop::stoppable;
+use super::output::{CommandError, exit, watched};
 
 /// Writes the loss over texels, light directions or view directions to a file
 ///
@@ -30,7 +30,7 @@ pub struct MapArgs {
     over: Over,
 
     /// Direction of the view of a map over lights, or of the light of a map over views
-    #[arg(long, value_name = "X,Y,Z", value_parser = scene_args::triple, allow_hyphen_values = true,
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::triple, allow_hyphen_values = true,
         default_value = "0,0,1")]
     fixed: [f64; 3],
 
@@ -60,13 +60,17 @@ enum Over {
 ///
 /// # Errors
 /// Where a material or the scenes cannot be read or used, or the file cannot be written.
-pub fn run(args: &MapArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
+pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
+    given.check(match args.over {
+        Over::Texels => &modes::MAP_OVER_TEXELS,
+        Over::Lights | Over::Views => &modes::MAP_OVER_DIRECTIONS,
+    })?;
     let output = Output::new(&args.output)?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let opened = job.materials.open::<f32>()?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison =
-        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?.without_pilot();
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
     let over = |moved| {
         watched("rendering", |progress| {
             MapReport::over_directions(&comparison, moved, args.fixed, usize::from(args.side), progress)
@@ -86,7 +90,7 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
     let entries = [
         ("svbrdf:shows", format!("{}; the last colour is {largest}", map.shows)),
         ("svbrdf:sources", sources.join(" | ")),
-        ("svbrdf:convention", args.comparison.convention().name.to_owned()),
+        ("svbrdf:convention", job.convention.name.to_owned()),
         ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
     ];
     stoppable(|progress| match &output {
@@ -95,7 +99,7 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
         }
         Output::Table(path) => write_text(path, &map.csv()?, progress),
     })?;
-    exit::put(&map.text())
+    Ok(exit::put(&map.text())?)
 }
 
 /// Where the map goes.

@@ -5,12 +5,12 @@ use svbrdf::material::Material;
 use svbrdf::metrics::{Metric, of_maps, of_renderings};
 use svbrdf::report::{Compared, MetricsReport};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::scenes::SceneArgs;
+use super::args::{ComparisonArgs, Given, modes};
+use super::job::ComparisonJob;
+use super::output::{CommandError, exit, watched};
 use super::protocol::{self, ProtocolArgs};
 use super::report::ReportFormat;
-use super::scene_args::SceneArgs;
-use super::{exit, materials, table};
 
 /// Prints metrics of maps and renderings, each with its convention in its name
 ///
@@ -37,21 +37,24 @@ pub struct MetricsArgs {
 ///
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
-pub fn run(args: &MetricsArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
+pub fn run(args: &MetricsArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
     if args.protocol.is_given() {
-        return protocol::run(&args.protocol, &args.comparison, args.format);
+        given.check(&modes::PROTOCOL)?;
+        return protocol::run(&args.protocol, &job, args.format);
     }
-    let (sampling, scenes) = args.scenes.scenes(&args.comparison.convention())?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let (sampling, scenes) = args.scenes.scenes(&job.convention)?;
+    let opened = job.materials.open::<f32>()?;
     let truth = &opened.ground_truth;
     let one = |prediction: &Material<f32>| -> Result<(String, Vec<Metric>), Error> {
         let renderings = watched("rendering", |progress| {
-            of_renderings(truth, prediction, &scenes, &args.comparison.convention(), progress)
+            of_renderings(truth, prediction, &scenes, &job.convention, progress)
         })?;
         Ok((prediction.name().to_owned(), [of_maps(truth, prediction)?, renderings].concat()))
     };
     let results = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let compared = Compared::new(truth, &args.comparison.convention());
-    exit::put(&args.format.write(&MetricsReport::new(&compared, sampling.as_ref(), &scenes, results))?)
+    let compared = Compared::new(truth, &job.convention);
+    let report = MetricsReport::new(&compared, sampling.as_ref(), &scenes, results);
+    Ok(exit::put(&args.format.write(&report)?)?)
 }

@@ -1,14 +1,13 @@
-//! `svbrdf scenes`: which scenes a loss comes from.
+//! `svbrdf scenes`: the scenes with the largest losses.
 
-use svbrdf::error::Error;
 use svbrdf::loss::Comparison;
 use svbrdf::report::{Compared, ScenesReport};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::scenes::SceneArgs;
+use super::args::{ComparisonArgs, Given};
+use super::job::ComparisonJob;
+use super::output::{CommandError, exit, watched};
 use super::report::ReportFormat;
-use super::scene_args::SceneArgs;
-use super::{exit, materials, table};
 
 /// Prints the scenes with the largest losses, worst first
 ///
@@ -35,14 +34,14 @@ pub struct ScenesArgs {
 ///
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
-pub fn run(args: &ScenesArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
+pub fn run(args: &ScenesArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
     let request = args.scenes.request()?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let opened = job.materials.open::<f32>()?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison =
-        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?.without_pilot();
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
-    let compared = Compared::new(&opened.ground_truth, &args.comparison.convention());
-    exit::put(&args.format.write(&ScenesReport::new(compared, outcome).top(args.top))?)
+    let compared = Compared::new(&opened.ground_truth, &job.convention);
+    Ok(exit::put(&args.format.write(&ScenesReport::new(compared, outcome).top(args.top))?)?)
 }

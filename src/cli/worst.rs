@@ -1,14 +1,13 @@
 //! `svbrdf worst`: the scene with the largest loss.
 
-use svbrdf::error::Error;
 use svbrdf::material::Material;
 use svbrdf::report::{Compared, Report as _, WorstReport};
 use svbrdf::why::worst;
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::{ComparisonArgs, Given};
+use super::job::ComparisonJob;
+use super::output::{CommandError, exit, target, watched};
 use super::report::ReportFormat;
-use super::{exit, materials, table, target};
 
 /// Searches for the scene with the largest loss of each prediction
 ///
@@ -33,17 +32,18 @@ pub struct WorstArgs {
 ///
 /// # Errors
 /// Where a material cannot be read or used; with `--strict` where a mean is known less well, after the results are printed.
-pub fn run(args: &WorstArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+pub fn run(args: &WorstArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
+    let opened = job.materials.open::<f32>()?;
     let one = |prediction: &Material<f32>| {
         watched("searching", |progress| {
-            worst(&opened.ground_truth, prediction, &args.comparison.convention(), args.seed, progress)
+            worst(&opened.ground_truth, prediction, &job.convention, args.seed, progress)
         })
     };
     let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let compared = Compared::new(&opened.ground_truth, &args.comparison.convention());
+    let compared = Compared::new(&opened.ground_truth, &job.convention);
     let report = WorstReport { compared, found };
     exit::put(&args.format.write(&report)?)?;
-    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)
+    target::warn_of(report.missed(), job.materials.strict)
 }

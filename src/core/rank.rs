@@ -22,9 +22,9 @@ pub struct Ranked {
 
 /// The predictions of an outcome, smallest loss first. Equal losses keep their order.
 pub fn places(outcome: &Outcome) -> Vec<Ranked> {
-    let loss = |index: usize| &outcome.losses[index];
+    let mean = |index: usize| outcome.losses[index].estimate.mean;
     let mut order: Vec<usize> = (0..outcome.losses.len()).collect();
-    order.sort_by(|&a, &b| loss(a).estimate.mean.total_cmp(&loss(b).estimate.mean));
+    order.sort_by(|&a, &b| mean(a).total_cmp(&mean(b)));
     let Some(&best) = order.first() else { return Vec::new() };
     let (mut first, mut group) = (best, 1);
     let place = |&index: &usize| {

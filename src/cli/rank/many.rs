@@ -3,21 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::dataset::{
-    self, Case, DatasetReport, MaterialResult, RunSettings, Side, tasks_of_folders, tasks_of_table,
+    self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, MaterialResult,
+    cases_of_folders, cases_of_table,
 };
-use svbrdf::error::Error;
-use svbrdf::files::read;
-use svbrdf::material::Material;
-use svbrdf::progress::Progress;
-use svbrdf::report::Report as _;
+use svbrdf::report::{Report as _, distinct_names};
 
 use super::args::{RankArgs, check_limit};
-use crate::cli::bar::watched;
-use crate::cli::{exit, target, wildcards};
+use crate::cli::args::{ComparisonArgs, Given, modes, wildcards};
+use crate::cli::output::{CommandError, exit, target, watched};
 
-pub fn run(args: &RankArgs) -> Result<(), Error> {
-    let (settings, results) =
-        if args.merge { dataset::merged(&wildcards::expanded(&paths(args))?)? } else { evaluated(args)? };
+pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
+    let (settings, results) = if args.merge { merged(args, given)? } else { evaluated(args, given)? };
     for (material, prediction, problem) in failures(&results) {
         exit::tell(&format!("note: {material}, {prediction}: {problem}"));
     }
@@ -27,15 +23,11 @@ pub fn run(args: &RankArgs) -> Result<(), Error> {
     check_limit(args.fail_above, report.methods.into_iter().map(|summary| (summary.method, summary.mean)))
 }
 
-/// What stands for GT and PRED.
-fn paths(args: &RankArgs) -> Vec<PathBuf> {
-    args.comparison
-        .materials
-        .ground_truth
-        .iter()
-        .chain(&args.comparison.materials.predictions)
-        .cloned()
-        .collect()
+/// The results of the journals that stand for GT and PRED.
+fn merged(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<MaterialResult>), CommandError> {
+    given.check(&modes::RANK_MERGE)?;
+    let paths: Vec<PathBuf> = args.comparison.materials.paths().cloned().collect();
+    Ok(dataset::merged(&wildcards::expanded(&paths)?)?)
 }
 
 /// The predictions without a loss: material, method and what is wrong.
@@ -46,58 +38,48 @@ fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &st
     })
 }
 
-fn evaluated(args: &RankArgs) -> Result<(RunSettings, Vec<MaterialResult>), Error> {
-    if args.comparison.materials.reading.resize_to.is_some() {
-        let problem = "materials of a data set are not resized; convert them first, or leave out --resize-to";
-        return Err(Error::Usage(problem.to_owned()));
-    }
-    let tasks = tasks(args)?;
-    let settings = RunSettings::new(args.comparison.convention().name, args.target_error, args.seed, &tasks)
+fn evaluated(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<MaterialResult>), CommandError> {
+    given.check(&modes::RANK_DATA_SET)?;
+    let cases = cases(args)?;
+    let ComparisonArgs { convention, materials } = &args.comparison;
+    let convention = convention.unwrap_or_default();
+    let settings = DatasetSettings::new(convention.name, args.target_error, args.seed, &cases)
         .with_metrics(args.metrics);
-    let tasks = args.shard.map_or(tasks.clone(), |shard| shard.part(tasks));
-    let options = [
-        args.comparison.materials.reading.of_ground_truth(),
-        args.comparison.materials.reading.of_predictions(),
-    ];
-    let strict = args.comparison.materials.reading.both.strict;
-    let open = |path: &Path, side: Side| -> Result<Material<f32>, Error> {
-        let options = &options[usize::from(side == Side::Prediction)];
-        let read = read::read(path, options, &Progress::default())?;
-        if strict {
-            read.refuse_guesses(path)?;
-        }
-        Ok(read.material)
+    let cases = args.shard.map_or(cases.clone(), |shard| shard.part(cases));
+    let reading = DatasetReading {
+        ground_truths: materials.reading.of_ground_truth(),
+        predictions: materials.reading.of_predictions(),
+        strict: materials.reading.both.strict,
     };
-    let results = watched("comparing materials", |progress| {
-        let convention = args.comparison.convention();
-        dataset::run(&tasks, &settings, &convention, open, args.journal.as_deref(), progress)
+    let DatasetResults { results, recomputed } = watched("comparing materials", |progress| {
+        dataset::run(&cases, &settings, &reading, args.journal.as_deref(), progress)
     })?;
+    recomputed.iter().for_each(|recomputed| exit::tell(&format!("note: {recomputed}")));
     Ok((settings, results))
 }
 
-fn tasks(args: &RankArgs) -> Result<Vec<Case>, Error> {
+fn cases(args: &RankArgs) -> Result<Vec<Case>, CommandError> {
     let Some(ground_truth) = &args.comparison.materials.ground_truth else {
-        return Err(Error::Usage("give a folder of ground truths, or a table of pairs".to_owned()));
+        return Err(CommandError::usage("give a folder of ground truths, or a table of pairs"));
     };
     if args.pairs {
         return match args.comparison.materials.predictions.as_slice() {
-            [] => tasks_of_table(ground_truth),
-            _ => Err(Error::Usage("--pairs takes one CSV table, which names the predictions".to_owned())),
+            [] => Ok(cases_of_table(ground_truth)?),
+            _ => Err(CommandError::usage("--pairs takes one CSV table, which names the predictions")),
         };
     }
     let folders = wildcards::expanded(&args.comparison.materials.predictions)?;
     if folders.is_empty() {
-        let problem = format!(
+        return Err(CommandError::Usage(format!(
             "there is no method to compare with {}; give one or more folders",
             ground_truth.display()
-        );
-        return Err(Error::Usage(problem));
+        )));
     }
     let named: Vec<(String, &Path)> = folders.iter().map(|path| (name(path), path.as_path())).collect();
     let named: Vec<(&str, &Path)> = named.iter().map(|(name, path)| (name.as_str(), *path)).collect();
-    let names = svbrdf::report::distinct_names(&named);
+    let names = distinct_names(&named);
     let methods: Vec<(String, PathBuf)> = names.into_iter().zip(folders.iter().cloned()).collect();
-    tasks_of_folders(ground_truth, &methods)
+    Ok(cases_of_folders(ground_truth, &methods)?)
 }
 
 fn name(folder: &Path) -> String {

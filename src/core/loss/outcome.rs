@@ -1,4 +1,4 @@
-//! What a comparison gives.
+//! The outcome of a comparison: scenes, losses with their errors, paired differences.
 
 use std::fmt;
 
@@ -99,17 +99,17 @@ impl Outcome {
         self.losses.iter().map(|loss| loss.estimate.relative_error95()).fold(0.0, f64::max)
     }
 
-    /// The loss with index `first` - the loss with index `second`, on the same scenes: negative where the first is closer to the
-    /// ground truth.
+    /// The loss of the prediction with index `of` - that with index `from`, on the same scenes: negative where the first is closer to
+    /// the ground truth.
     ///
     /// # Panics
-    /// Where there is no such loss, as indexing does.
-    pub fn difference(&self, first: usize, second: usize) -> Estimate {
+    /// Where there is no such prediction, as indexing a slice does.
+    pub fn difference(&self, of: usize, from: usize) -> Estimate {
         let sampler = self.sampling.map_or(Sampler::Random, |sampling| sampling.sampler);
-        let [of_first, of_second] = [first, second].map(|index| &self.losses[index].per_scene);
-        let mut e = Estimate::of_difference(sampler, &self.scenes, of_first, of_second);
+        let [first, second] = [of, from].map(|index| self.losses[index].per_scene.as_slice());
+        let mut e = Estimate::of_difference(sampler, &self.scenes, first, second);
         if let Some(pilot) = &self.pilot {
-            e.interval95 = Some(pilot.interval_of_difference(first, second, e.mean));
+            e.interval95 = Some(pilot.interval_of_difference(of, from, e.mean));
         }
         e
     }

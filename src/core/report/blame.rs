@@ -76,7 +76,11 @@ impl BlameReport {
         rows.push(vec!["all".to_owned(), percent(loss.mean, loss.mean), mean, error, interval]);
         let heading = self.compared.heading(&format!("blame of {prediction}"));
         let note = attribution.note().map_or(String::new(), |note| format!("\n{note}\n"));
-        format!("{heading}{}\n{}{note}", scenes_line(sampling.as_ref(), scenes), aligned(&rows))
+        format!(
+            "{heading}{}\n{}{note}",
+            scenes_line(sampling.as_ref(), scenes, self.compared.size),
+            aligned(&rows)
+        )
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::loss::{Sampling, Texels};
+use crate::loss::Sampling;
 use crate::material::Material;
 use crate::math::real::Real;
 use crate::model::convention::Convention;
@@ -41,16 +41,17 @@ impl Compared {
     }
 }
 
-/// The line above a table that names the scenes; `sampling` is `None` where they were listed.
-pub fn scenes_line(sampling: Option<&Sampling>, scenes: &[Scene]) -> String {
+/// The numbers of scenes, how they were sampled and the texels of each, for materials of `size`: a line. `None` for `sampling`: the
+/// scenes are of a file.
+pub fn scenes_line(sampling: Option<&Sampling>, scenes: &[Scene], size: [usize; 2]) -> String {
     let count = |kind| scenes.iter().filter(|scene| scene.kind == kind).count();
     let counts = format!("{} near-field and {} distant scenes", count(Kind::Near), count(Kind::Distant));
     let Some(sampling) = sampling else { return counts + " from a file\n" };
     let sampler = if sampling.sampler == Sampler::Sobol { ", scrambled Sobol" } else { "" };
-    let texels = match sampling.texels {
-        Texels::All => String::new(),
-        Texels::Sampled(1) => ", 1 random texel per scene".to_owned(),
-        Texels::Sampled(count) => format!(", {count} random texels per scene"),
+    let texels = match sampling.texels.sampled(size) {
+        None => String::new(),
+        Some(1) => ", 1 random texel per scene".to_owned(),
+        Some(count) => format!(", {count} random texels per scene"),
     };
     format!("{counts}, seed {}{sampler}{texels}\n", sampling.seed)
 }
@@ -63,23 +64,19 @@ pub fn position([x, y, z]: [f64; 3]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::loss::Texels;
 
     #[test]
-    fn the_line_about_scenes_counts_kinds_and_texels() {
-        let scenes: Vec<_> = [Kind::Near, Kind::Near, Kind::Distant]
-            .map(|kind| Scene { kind, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] })
-            .into();
-        let line = |texels, sampler| {
-            let sampling = Sampling { seed: 7, texels, sampler, ..Sampling::default() };
-            scenes_line(Some(&sampling), &scenes)
+    fn a_line_about_scenes_has_the_texels_that_are_compared() {
+        let line = |texels| {
+            let sampling = Sampling { texels, ..Sampling::default() };
+            scenes_line(Some(&sampling), &[], [2, 2])
         };
-        let start = "2 near-field and 1 distant scenes";
-        assert_eq!(scenes_line(None, &scenes), format!("{start} from a file\n"));
-        assert_eq!(line(Texels::All, Sampler::Random), format!("{start}, seed 7\n"));
-        assert_eq!(
-            line(Texels::Sampled(1), Sampler::Sobol),
-            format!("{start}, seed 7, scrambled Sobol, 1 random texel per scene\n")
-        );
-        assert!(line(Texels::Sampled(2), Sampler::Random).ends_with(", 2 random texels per scene\n"));
+        let of_all = "0 near-field and 0 distant scenes, seed 0\n";
+        assert_eq!(line(Texels::All), of_all);
+        assert_eq!(line(Texels::Sampled(4)), of_all, "the maps have no more");
+        assert!(line(Texels::Sampled(3)).ends_with(", 3 random texels per scene\n"));
+        assert!(line(Texels::Sampled(1)).ends_with(", 1 random texel per scene\n"));
+        assert_eq!(scenes_line(None, &[], [2, 2]), "0 near-field and 0 distant scenes from a file\n");
     }
 }

@@ -1,7 +1,7 @@
 //! Losses with the settings that they depend on.
 
 use crate::error::Error;
-use crate::loss::{Comparison, Compute, Estimate, Loss, Outcome, Question, Request, Sampling, Texels};
+use crate::loss::{Comparison, Compute, Estimate, Loss, Outcome, Question, Request, Texels};
 use crate::model::convention::Convention;
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
@@ -135,11 +135,6 @@ impl LossReport {
     pub(super) fn texels_of(&self, outcome: &Outcome) -> Texels {
         let sampled = outcome.sampling.and_then(|sampling| sampling.texels.sampled(self.size));
         sampled.map_or(Texels::All, Texels::Sampled)
-    }
-
-    /// The sampling of the scenes with the texels that are compared; `None` where the scenes were listed.
-    pub(super) fn sampling(&self) -> Option<Sampling> {
-        Some(Sampling { texels: self.texels(), ..self.outcome.sampling? })
     }
 
     /// The loss of the prediction with this index over the few scenes of the papers.

@@ -57,6 +57,6 @@ fn header(report: &LossReport) -> String {
          convention {}, epsilon {}\n{}",
         convention.name,
         convention.epsilon,
-        scenes_line(report.sampling().as_ref(), &report.outcome.scenes)
+        scenes_line(report.outcome.sampling.as_ref(), &report.outcome.scenes, report.size)
     )
 }

@@ -48,7 +48,7 @@ impl MetricsReport {
             ground_truth: compared.ground_truth.clone(),
             convention: Some(compared.convention),
             protocol: None,
-            heading: compared.heading("metrics") + &scenes_line(sampling, scenes),
+            heading: compared.heading("metrics") + &scenes_line(sampling, scenes, compared.size),
             results: entries(results),
         }
     }

@@ -69,7 +69,7 @@ impl Report for RankReport {
             vec![loss.prediction.clone(), mean, interval, difference, of_difference, place.group.to_string()]
         }));
         let heading = self.compared.heading("rendering loss");
-        let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes);
+        let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes, self.compared.size);
         format!("{heading}{scenes}\n{}", aligned(&rows))
     }
 

@@ -60,7 +60,7 @@ impl Report for ScenesReport {
             start.into_iter().chain(ranked.losses.iter().map(|loss| format!("{loss:.6}"))).collect()
         }));
         let heading = self.compared.heading("losses of scenes");
-        let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes);
+        let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes, self.compared.size);
         format!("{heading}{scenes}\n{distributions}\n{}", aligned(&rows))
     }
 

@@ -7,7 +7,7 @@ use super::record::MaterialResult;
 use super::summary::{MethodSummary, Pick};
 use crate::report::{aligned, bold, escaped, latex};
 
-/// The names of the metrics that results have.
+/// The names of the metrics of the results.
 pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {
     let first = results.iter().flat_map(|result| &result.predictions).find(|p| !p.metrics.is_empty());
     first.into_iter().flat_map(|prediction| prediction.metrics.keys()).map(String::as_str).collect()

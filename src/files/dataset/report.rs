@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 
 use super::metric_report;
 use super::metric_summary::{MetricSummary, summarize_metrics};
-use super::record::{MaterialResult, PredictionResult, RunSettings};
+use super::record::{DatasetSettings, MaterialResult, PredictionResult};
 use super::summary::{MethodSummary, Pick, summarize};
 use crate::error::Error;
 use crate::report::{Cell, Report, Table, aligned, bold, escaped, latex, missed};
@@ -40,7 +40,7 @@ const COLUMNS: [&str; 11] = [
 /// The results of a data set, and what they say about the methods.
 #[derive(Clone, Debug)]
 pub struct DatasetReport {
-    pub settings: RunSettings,
+    pub settings: DatasetSettings,
     pub pick: Pick,
     /// Best first.
     pub methods: Vec<MethodSummary>,
@@ -49,7 +49,7 @@ pub struct DatasetReport {
 
 impl DatasetReport {
     /// The report of `results`; of several predictions of a material, `pick` says which counts.
-    pub fn new(settings: RunSettings, results: Vec<MaterialResult>, pick: Pick) -> Self {
+    pub fn new(settings: DatasetSettings, results: Vec<MaterialResult>, pick: Pick) -> Self {
         let methods = summarize(&settings.methods, &results, pick);
         Self { settings, pick, methods, results }
     }
@@ -99,7 +99,7 @@ impl DatasetReport {
 
 impl Report for DatasetReport {
     fn text(&self) -> String {
-        let RunSettings { convention, target_error, seed, materials, .. } = &self.settings;
+        let DatasetSettings { convention, target_error, seed, materials, .. } = &self.settings;
         format!(
             "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n\n{}{}",
             self.results.len(),
@@ -157,7 +157,7 @@ impl Report for DatasetReport {
 
 #[derive(Serialize)]
 struct DatasetJson<'a> {
-    settings: &'a RunSettings,
+    settings: &'a DatasetSettings,
     pick: String,
     /// Best first.
     methods: Vec<MethodEntry<'a>>,
