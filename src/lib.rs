@@ -44,7 +44,7 @@
 //! | [`samples`] | built-in materials |
 //! | [`progress`], [`error`] | progress and cancellation of long operations; one error variant per cause |
 #![cfg_attr(feature = "gpu", doc = "| [`gpu`] | rendering and loss on a graphics adapter |")]
-#![cfg_attr(feature = "viewer", doc = "| [`viewer`] | the window |")]
+#![cfg_attr(feature = "viewer", doc = "| [`open_viewer`] | the window |")]
 //!
 //! Modules use lower layers only; a test checks it. The core does not depend on graphics, `gpu` depends on the core, `viewer` on
 //! both, and the command line is part of the binary. Without default features the crate is the core with the command line.
@@ -72,6 +72,11 @@ pub mod report;
 pub mod samples;
 pub mod study;
 pub(crate) mod text;
-#[cfg(feature = "viewer")]
+#[cfg(all(feature = "viewer", not(feature = "testing")))]
+mod viewer;
+#[cfg(feature = "testing")]
 pub mod viewer;
 pub mod why;
+
+#[cfg(feature = "viewer")]
+pub use viewer::{ViewerOptions, run as open_viewer};

@@ -60,7 +60,7 @@ fn open_window(args: ViewArgs) -> Result<(), Error> {
     let mut materials = args.materials;
     let scenes = take_scenes(&mut materials)?;
     let session = session_of(&materials)?;
-    svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
+    svbrdf::open_viewer(svbrdf::ViewerOptions {
         session,
         photograph,
         scenes,

@@ -1,8 +1,8 @@
 //! What the keys do.
 
 use svbrdf::picture::quantity::Quantity;
-use svbrdf::viewer::keys;
-use svbrdf::viewer::state::{Layout, Projection};
+use svbrdf::viewer::model::view::state::{Layout, Projection};
+use svbrdf::viewer::ui::input::keys;
 
 use super::*;
 
@@ -79,10 +79,10 @@ fn undo_and_redo_go_through_the_changes() {
     for (modifiers, key) in redo {
         window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
         window.run_steps(3);
-        assert_eq!(window.state().state.exposure_ev, 0.0);
+        assert_eq!(window.state().model.view.exposure_ev, 0.0);
         window.key_press_modifiers(modifiers, key);
         window.run_steps(3);
-        assert_eq!(window.state().state.exposure_ev, 0.5, "{key:?}");
+        assert_eq!(window.state().model.view.exposure_ev, 0.5, "{key:?}");
     }
 }
 
@@ -92,18 +92,18 @@ fn letters_typed_into_a_field_are_no_commands() {
     let mut window = built_in();
     window.get_by_label("Open").click();
     window.run_steps(4);
-    let before = window.state().state.clone();
+    let before = window.state().model.view.clone();
     let field = "Files, folders or name prefixes, one a line:";
     window.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field).type_text("mcexp");
     press(&mut window, egui::Key::M);
-    assert_eq!(window.state().state, before);
+    assert_eq!(window.state().model.view, before);
 }
 
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn escape_closes_an_open_drop_down_and_nothing_else() {
     let mut window = built_in();
-    let (ctx, command) = (window.ctx.clone(), svbrdf::viewer::command::LossCommand::ShowStudy(true));
+    let (ctx, command) = (window.ctx.clone(), svbrdf::viewer::model::command::LossCommand::ShowStudy(true));
     window.state_mut().apply(&ctx, command.into());
     window.run_steps(3);
     window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Show").click();

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use svbrdf::files::read::ReadOptions;
 use svbrdf::samples::generate;
-use svbrdf::viewer::command::{Command, DisplayCommand, MaterialsCommand};
+use svbrdf::viewer::model::command::{Command, DisplayCommand, MaterialsCommand};
 
 use super::*;
 
