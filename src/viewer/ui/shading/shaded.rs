@@ -29,6 +29,7 @@ pub struct ShadingRequest {
 }
 
 /// Where and with what texels are shaded.
+#[derive(Debug)]
 pub struct ShadingDevice<'a> {
     pub gpu: &'a Gpu,
     pub shading: &'a Shading,
@@ -40,6 +41,7 @@ pub struct ShadingDevice<'a> {
 }
 
 /// Shaded texels and what they were shaded with.
+#[derive(Debug)]
 pub struct ShadedTexels {
     pub shaded: Shaded,
     /// The maps at these texels alone, where they are not all of the material.
@@ -51,7 +53,7 @@ pub struct ShadedTexels {
 }
 
 /// All texels of a material, and every n-th one while something moves on a slow adapter.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct ShadedMaterial {
     full: Option<ShadedTexels>,
     quick: Option<ShadedTexels>,
