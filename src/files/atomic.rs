@@ -20,7 +20,7 @@ pub struct Destination<F> {
 impl<F> Destination<F> {
     /// Checks what can be checked of `path` before there is anything to write. `format` belongs to an extension in
     /// small letters, `what` says whose extension it is, and `known` which there are.
-    pub(crate) fn among(
+    pub fn among(
         path: &Path,
         format: impl FnOnce(&str) -> Option<F>,
         what: &'static str,
@@ -36,7 +36,7 @@ impl<F> Destination<F> {
     }
 
     /// [`replace`] for this file.
-    pub(crate) fn replace(
+    pub fn replace(
         &self,
         progress: &Progress,
         write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
@@ -47,13 +47,13 @@ impl<F> Destination<F> {
 
 /// A file that takes no more once the work is cancelled.
 #[derive(Debug)]
-pub(crate) struct Watched<'a> {
+pub struct Watched<'a> {
     file: &'a mut File,
     progress: &'a Progress,
 }
 
 impl<'a> Watched<'a> {
-    pub(crate) fn new(file: &'a mut File, progress: &'a Progress) -> Self {
+    pub fn new(file: &'a mut File, progress: &'a Progress) -> Self {
         Self { file, progress }
     }
 }
@@ -76,7 +76,7 @@ impl Seek for Watched<'_> {
 }
 
 /// An error once the work is cancelled.
-pub(crate) fn check(progress: &Progress) -> io::Result<()> {
+pub fn check(progress: &Progress) -> io::Result<()> {
     // Not `Interrupted`, after which writing is tried again.
     if progress.is_cancelled() { Err(io::Error::other("cancelled")) } else { Ok(()) }
 }
@@ -111,7 +111,7 @@ pub fn write_text(path: &Path, text: &str, progress: &Progress) -> Result<(), Er
 ///
 /// # Errors
 /// [`Error::Unwritable`]; [`Error::Cancelled`], and then `path` is as it was.
-pub(crate) fn replace(
+pub fn replace(
     path: &Path,
     progress: &Progress,
     write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
@@ -156,7 +156,7 @@ fn target_of(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("its symbolic links go round in a circle"))
 }
 
-pub(crate) fn folder_of(path: &Path) -> &Path {
+pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),

@@ -9,10 +9,10 @@ use rayon::prelude::*;
 
 use super::curve::Curve;
 use super::metallic::base_and_metallic;
+use crate::export::{self, Provenance};
 use crate::files::read::interpret::transfer::{encoded, encoded_roughness, linear, roughness};
 use crate::files::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
 use crate::material::{Material, Planes};
-use crate::picture::export::{self, Provenance};
 use crate::progress::Progress;
 
 /// What a picture shows.

@@ -6,10 +6,10 @@ use eframe::egui;
 
 use super::App;
 use crate::error::Error;
+use crate::files::scene_file;
 use crate::files::session::{Session, SessionPhotograph};
 use crate::files::stamp::Stamp;
 use crate::model::scene::Scene;
-use crate::model::scene_file;
 use crate::photograph::flash;
 use crate::viewer::jobs::browse;
 use crate::viewer::jobs::why::ComparedPair;

@@ -34,6 +34,7 @@ use work::job::Job;
 use work::waker::Waker;
 
 use crate::error::Error;
+use crate::files::scene_file;
 use crate::gpu::Gpu;
 use crate::loss::FileScenes;
 use crate::viewer::model::Model;
@@ -85,7 +86,7 @@ impl Jobs {
     /// Reads the scenes of a file.
     pub fn read_scenes(&mut self, paths: Vec<PathBuf>) {
         self.scene_file = Some(Job::start(&self.waker, move |_| {
-            let read = FileScenes::read_one(&paths)?;
+            let read = scene_file::read_one(&paths)?;
             read.ok_or_else(|| Error::Internal("there is no scene file".to_owned()))
         }));
     }

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use crate::files::read::ReadOptions;
+use crate::files::scene_file;
 use crate::files::session::Session;
-use crate::loss::FileScenes;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::MaterialsCommand;
 use crate::viewer::model::command::effect::{DialogEffect, Effect};
@@ -51,8 +51,8 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
 
 fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions) -> Vec<Effect> {
     // First: the scenes of a file replace the scenes of a session.
-    if paths.iter().any(|path| FileScenes::is_named(path)) {
-        let (files, paths): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| FileScenes::is_named(path));
+    if paths.iter().any(|path| scene_file::is_named(path)) {
+        let (files, paths): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| scene_file::is_named(path));
         let mut effects = vec![Effect::ReadScenes(files)];
         if !paths.is_empty() {
             effects.extend(open(model, paths, replace, read));
