@@ -50,7 +50,7 @@ fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
         window.run_steps(4);
     };
     turn(&mut window, egui::Modifiers::NONE);
-    assert!(window.state().model.view.zoom > 1.1);
+    assert!(window.state().model.view.display.zoom > 1.1);
     assert_eq!(window.state().model.view.scene.light[2], 1.2);
     turn(&mut window, egui::Modifiers::SHIFT);
     assert!(window.state().model.view.scene.light[2] > 1.3, "{:?}", window.state().model.view.scene);

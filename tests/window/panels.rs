@@ -26,14 +26,14 @@ fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
     window.run_steps(4);
     tab(&mut window, "Files");
     press(&mut window, egui::Key::Num2);
-    assert_eq!(window.state().model.view.prediction, 1);
+    assert_eq!(window.state().model.view.display.prediction, 1);
     window.get_all_by_label("Close").next().unwrap().click();
     window.run_steps(4);
     assert_eq!(window.state().names(), ["worn tiles", "wrong roughness"]);
-    assert_eq!(window.state().model.view.prediction, 0);
+    assert_eq!(window.state().model.view.display.prediction, 0);
     window.get_all_by_label("Close").next().unwrap().click();
     window.run_steps(4);
-    assert_eq!((window.state().names().len(), window.state().model.view.prediction), (1, 0));
+    assert_eq!((window.state().names().len(), window.state().model.view.display.prediction), (1, 0));
 }
 
 #[test]

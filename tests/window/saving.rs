@@ -141,7 +141,7 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     save(&mut first, SaveKind::Session, &path, [0; 2]);
     let (state, materials) =
         (first.state().model.view.clone(), first.state().materials().cloned().collect::<Vec<_>>());
-    assert!(state.projection == Projection::Perspective && state.exposure_ev == 1.5);
+    assert!(state.display.projection == Projection::Perspective && state.exposure_ev == 1.5);
 
     let same = |window: &Window<'_>| {
         assert_eq!(window.state().model.view, state);

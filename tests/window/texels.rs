@@ -84,9 +84,9 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
     let folder = tempfile::tempdir().unwrap();
     for scale in [1.0, 1.25, 1.5, 2.0] {
         let mut window = scaled_window(numbered(folder.path()), scale);
-        window.state_mut().model.view.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+        window.state_mut().model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
         for projection in [Projection::Flat, Projection::Perspective] {
-            window.state_mut().model.view.projection = projection;
+            window.state_mut().model.view.display.projection = projection;
             window.state_mut().model.view.scene.view = [0.7, -0.9, 2.0];
             window.run_steps(2);
             // Not so far that the numbers of texels are drawn on them.
@@ -107,9 +107,9 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
 fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().model.view.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    window.state_mut().model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
     press(&mut window, egui::Key::T);
-    assert!(window.state().model.view.tiled);
+    assert!(window.state().model.view.display.tiled);
     assert!(check_readout(&mut window, 1.0, "tiled") > 20);
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
     hover(&mut window, rect.center() + vec2(1.0, 1.0));
@@ -123,7 +123,7 @@ fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
 fn roughness_in_false_colours_has_the_colour_of_its_value() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().model.view.quantity = svbrdf::picture::quantity::Quantity::Roughness;
+    window.state_mut().model.view.display.quantity = svbrdf::picture::quantity::Quantity::Roughness;
     press(&mut window, egui::Key::V);
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
     let picture = pixels(&mut window, rect);
@@ -149,12 +149,12 @@ fn the_colours_of_texels_are_told_apart() {
 fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().model.view.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    window.state_mut().model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
     let fitted = (rect.width() / SIZE[0] as f32).min(rect.height() / SIZE[1] as f32);
     hover(&mut window, Pos2::ZERO);
     for (side, has_numbers) in [(30.0, false), (44.0, false), (52.0, true), (90.0, true)] {
-        window.state_mut().model.view.zoom = side / fitted;
+        window.state_mut().model.view.display.zoom = side / fitted;
         window.run_steps(3);
         // The middle of the pane is a corner of four texels: most of the one to the right of and below it.
         let texel =
@@ -289,5 +289,5 @@ fn a_rectangle_is_drawn_by_q_anywhere_and_by_shift_on_maps_and_escape_removes_it
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.3, 0.3), vec2(0.6, 0.5));
     window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
     assert!(window.query_all_by_label_contains("texels, normal").next().is_some());
-    assert_eq!(window.state().model.view.pan, [0.0; 2], "it does not pan");
+    assert_eq!(window.state().model.view.display.pan, [0.0; 2], "it does not pan");
 }

@@ -13,14 +13,14 @@ fn length(p: [f64; 3]) -> f64 {
 fn the_wipe_line_wins_over_the_handle_of_the_view() {
     let mut window = built_in();
     press(&mut window, egui::Key::C);
-    assert_eq!(window.state().model.view.layout, Layout::Wipe);
+    assert_eq!(window.state().model.view.display.layout, Layout::Wipe);
     let title = "Pane 1  blurred normals";
     let rect = window.get_by_label(title).rect();
     let before = window.state().model.view.scene;
     // The eye is in the middle, and so is the line.
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.3, 0.5));
     assert_eq!(window.state().model.view.scene, before, "neither light nor view has moved");
-    let wipe = window.state().model.view.wipe;
+    let wipe = window.state().model.view.display.wipe;
     assert!((wipe - 0.3).abs() < 0.01, "the line is at {wipe}");
     // Without the line there, the same drag moves the view.
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.6, 0.5));
@@ -51,7 +51,11 @@ fn a_left_drag_pans_a_map_and_leaves_the_light() {
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
     let state = &window.state().model.view;
     assert_eq!(state.scene, before);
-    assert!((state.pan[0] - 0.2).abs() < 0.02 && (state.pan[1] - 0.2).abs() < 0.02, "{:?}", state.pan);
+    assert!(
+        (state.display.pan[0] - 0.2).abs() < 0.02 && (state.display.pan[1] - 0.2).abs() < 0.02,
+        "{:?}",
+        state.display.pan
+    );
 }
 
 #[test]

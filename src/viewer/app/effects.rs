@@ -67,10 +67,10 @@ impl App {
             LossEffect::Compute => jobs.loss.start(waker, materials, &model.loss_query()),
             LossEffect::Cancel => jobs.loss.cancel(),
             LossEffect::StartStudy => {
-                jobs.study.start(waker, materials, view.prediction, &view.convention());
+                jobs.study.start(waker, materials, view.display.prediction, &view.convention());
             }
             LossEffect::EnsureStudy => {
-                jobs.study.ensure(waker, materials, view.prediction, &view.convention());
+                jobs.study.ensure(waker, materials, view.display.prediction, &view.convention());
             }
             LossEffect::CancelStudy => jobs.study.cancel(),
             LossEffect::FindWorst => {

@@ -24,7 +24,7 @@ impl App {
     pub fn study(&self) -> Option<(&Study, bool)> {
         let (study, current) = self.jobs.study.measured(
             &self.model.materials,
-            self.model.view.prediction,
+            self.model.view.display.prediction,
             &self.model.view.convention(),
         )?;
         current.then_some((study, self.jobs.study.job().is_none()))

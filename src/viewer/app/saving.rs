@@ -25,7 +25,7 @@ impl App {
                 let error = picture.and_then(Result::err).unwrap_or_else(missing);
                 Job::start(&self.jobs.waker, |_| Err(error))
             }
-            (SaveKind::Renderings, _) if view.difference && view.is_error_map() => {
+            (SaveKind::Renderings, _) if view.display.difference && view.is_error_map() => {
                 saving::error_maps(displayed, path)
             }
             (SaveKind::Renderings, _) if displayed.photograph().is_some() => {
@@ -71,11 +71,11 @@ impl App {
     /// How the view is displayed, as (keyword, text).
     fn view_entries(&self) -> [(&'static str, String); 3] {
         let view = &self.model.view;
-        let [x, y] = view.pan;
+        let [x, y] = view.display.pan;
         [
-            ("svbrdf:layout", view.layout.name().to_owned()),
-            ("svbrdf:projection", format!("{:?}", view.projection).to_lowercase()),
-            ("svbrdf:zoom", format!("{}, pan {x}, {y}", view.zoom)),
+            ("svbrdf:layout", view.display.layout.name().to_owned()),
+            ("svbrdf:projection", format!("{:?}", view.display.projection).to_lowercase()),
+            ("svbrdf:zoom", format!("{}, pan {x}, {y}", view.display.zoom)),
         ]
     }
 }

@@ -108,7 +108,7 @@ impl App {
 
     /// Goes this many steps on in the run of the chosen prediction, as far as there are any.
     pub(super) fn move_step(&mut self, by: isize) {
-        let index = self.model.view.prediction + 1;
+        let index = self.model.view.display.prediction + 1;
         let requested = self.model.training.requested.as_ref();
         let views = self.jobs.training.views(&self.model.materials.all, requested);
         let Some(view) = views.iter().find(|view| view.index == index) else { return };

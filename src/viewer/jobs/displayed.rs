@@ -50,7 +50,7 @@ impl<'a> Displayed<'a> {
 
     /// The photograph, where the panes compare renderings with one. Maps and the error map are compared with the ground truth.
     pub fn photograph(self) -> Option<DisplayedPhotograph<'a>> {
-        let is_rendering = self.view().quantity == Quantity::Rendering && !self.view().is_error_map();
+        let is_rendering = self.view().display.quantity == Quantity::Rendering && !self.view().is_error_map();
         let photograph = self.jobs.photograph.displayed(&self.model.photograph, self.materials());
         let mut photograph = photograph.filter(|_| is_rendering && !self.materials().is_empty())?;
         photograph.corners = photograph.corners.filter(|_| !self.hides_corners);
@@ -77,7 +77,7 @@ impl<'a> Displayed<'a> {
     /// The difference that has the last colour: the range set, or the automatic one.
     pub fn range(self) -> f64 {
         let auto = || self.distributions().map(|(distributions, _)| distributions.auto_range);
-        let set = self.view().differences.range(self.view().quantity);
+        let set = self.view().display.differences.range(self.view().display.quantity);
         set.or_else(auto).unwrap_or_else(|| self.view().difference_kind().default_range())
     }
 
@@ -94,7 +94,7 @@ impl<'a> Displayed<'a> {
                 format!("{count} scenes of {name}")
             }
         };
-        (self.view().difference && self.view().is_error_map()).then(|| {
+        (self.view().display.difference && self.view().is_error_map()).then(|| {
             format!("mean log difference of each texel over {scenes}; {} the last colour", self.range())
         })
     }
@@ -102,7 +102,7 @@ impl<'a> Displayed<'a> {
     /// What the metadata of a picture say where it shows differences from a photograph.
     pub fn photograph_text(self) -> Option<String> {
         let kind = self.view().difference_kind();
-        let photograph = self.photograph().filter(|_| self.view().difference)?;
+        let photograph = self.photograph().filter(|_| self.view().display.difference)?;
         let factors = photograph.all?.comparisons.iter().map(|one| one.factor.to_string());
         Some(format!(
             "{} of renderings p from {} as g: {}, multiplied by {}; NaN or gray where it is clipped; {} the last colour",

@@ -91,7 +91,7 @@ impl Jobs {
     fn follow_panes(&mut self, model: &Model, parts: DisplayedParts, findings: &mut Findings) {
         let (settings, view) = (&model.settings, &model.view);
         let has_photograph = self.displayed(model).photograph().is_some();
-        let differences = view.difference || parts.extra_pane;
+        let differences = view.display.difference || parts.extra_pane;
         let averages = differences && view.is_error_map();
         let Self { waker, gpu, panes, photograph, .. } = self;
         let work = JobContext { waker, gpu: gpu.as_ref(), materials: &panes.displayed, view };
@@ -99,7 +99,7 @@ impl Jobs {
         findings.photograph_error = unreadable;
         let of_ground_truth = differences && !averages && !has_photograph;
         let errors = [
-            panes.histograms.follow(&work, settings.histograms && !view.difference),
+            panes.histograms.follow(&work, settings.histograms && !view.display.difference),
             panes.region.follow(&work, model.inspection.region),
             error,
             panes.difference.follow(&work, of_ground_truth),

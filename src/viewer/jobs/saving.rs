@@ -24,8 +24,8 @@ use crate::why::{SceneReport, worst_first};
 pub fn shown(displayed: Displayed<'_>) -> Shown {
     let view = &displayed.model.view;
     let difference = ShownDifference { kind: view.difference_kind(), range: Some(displayed.range()) };
-    let compares = view.difference && displayed.materials().len() > 1;
-    Shown { quantity: view.quantity, difference: compares.then_some(difference) }
+    let compares = view.display.difference && displayed.materials().len() > 1;
+    Shown { quantity: view.display.quantity, difference: compares.then_some(difference) }
 }
 
 /// Where a picture of the materials comes from.
@@ -70,9 +70,9 @@ pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let (all, names) = (materials(displayed.materials()), names(displayed.materials()));
     let value = |quantity| Shown { quantity, difference: None };
     let maps = [Quantity::Normal, Quantity::Diffuse, Quantity::Roughness, Quantity::Specular];
-    let kind = state.differences.kind(Quantity::Rendering);
-    let set = || state.differences.range(Quantity::Rendering);
-    let range = if state.differences.is_error_map(Quantity::Rendering) { None } else { set() };
+    let kind = state.display.differences.kind(Quantity::Rendering);
+    let set = || state.display.differences.range(Quantity::Rendering);
+    let range = if state.display.differences.is_error_map(Quantity::Rendering) { None } else { set() };
     let difference = Some(ShownDifference { kind, range });
     let mut shown: Vec<Shown> = maps.into_iter().chain([Quantity::Rendering]).map(value).collect();
     if all.len() > 1 {
@@ -134,11 +134,11 @@ pub fn session(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
 pub fn against_photograph(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let all = displayed.photographs().cloned();
     let view = &displayed.model.view;
-    let (kind, difference) = (view.difference_kind(), view.difference);
+    let (kind, difference) = (view.difference_kind(), view.display.difference);
     let shown = ShownDifference { kind, range: Some(displayed.range()) };
-    let shown = Shown { quantity: view.quantity, difference: difference.then_some(shown) };
+    let shown = Shown { quantity: view.display.quantity, difference: difference.then_some(shown) };
     let mut provenance = provenance(displayed, shown);
-    let chosen = (view.prediction + 1).min(displayed.materials().len().saturating_sub(1));
+    let chosen = (view.display.prediction + 1).min(displayed.materials().len().saturating_sub(1));
     if let (false, Some(photograph)) = (difference, displayed.photograph()) {
         provenance.sources.insert(0, photograph.title(chosen));
     }

@@ -98,7 +98,7 @@ impl Model {
     pub fn keep_visible(&mut self) {
         if let Some(ground_truth) = self.materials.ground_truth() {
             let grid = ground_truth.grid();
-            self.view.pan = pan_limits::limited(&self.view, grid, self.geometry.aspect());
+            self.view.display.pan = pan_limits::limited(&self.view, grid, self.geometry.aspect());
         }
     }
 }

@@ -1,8 +1,5 @@
 //! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
 
-use serde::Serialize;
-use serde_json::{Map, Value};
-
 use super::Model;
 use super::command::effect::Effect;
 use super::material::read::Rules;
@@ -11,12 +8,10 @@ use super::material::source::{Origin, Source, sources};
 use super::view::state::ViewState;
 use crate::files::read::ReadOptions;
 use crate::files::session::{Session, SessionMaterial, SessionPhotograph};
+use crate::files::session_window::SessionWindow;
 use crate::files::stamp::Stamp;
 use crate::files::steps::RunId;
 use crate::viewer::model::settings::options::ViewerOptions;
-
-/// The fields of the view that are in the session itself.
-const ELSEWHERE: [&str; 3] = ["scene", "convention", "exposure_ev"];
 
 impl Model {
     /// Takes in what the window starts with; the request that reads its materials.
@@ -61,24 +56,21 @@ impl Model {
             path: std::path::absolute(&source.path).unwrap_or_else(|_| source.path.clone()),
             ..source.clone()
         });
-        let mut view = value(view);
-        if let Some(view) = view.as_object_mut() {
-            ELSEWHERE.iter().for_each(|key| drop(view.remove(*key)));
-        }
-        session.window = Map::from_iter([
-            (Session::VIEW.to_owned(), view),
-            (Session::LOSS.to_owned(), value(&self.settings.loss)),
-        ]);
+        let (display, loss) = (Some(view.display.clone()), Some(self.settings.loss.clone()));
+        session.window = SessionWindow { display, loss };
         session
     }
 
     /// Takes over light, view, display, loss settings and photograph of a session; the request that reads its materials.
     pub fn open_session(&mut self, session: &Session) -> ReadRequest {
-        let view: ViewState = session.window_part(Session::VIEW).unwrap_or_default();
-        let (convention, exposure_ev) = (session.convention.clone(), session.exposure);
-        self.view = ViewState { scene: session.scene, convention, exposure_ev, ..view };
-        if let Some(loss) = session.window_part(Session::LOSS) {
-            self.settings.loss = loss;
+        self.view = ViewState {
+            scene: session.scene,
+            convention: session.convention.clone(),
+            exposure_ev: session.exposure,
+            display: session.window.display.clone().unwrap_or_default(),
+        };
+        if let Some(loss) = &session.window.loss {
+            self.settings.loss = loss.clone();
         }
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
         self.photograph.set(session.photograph.clone(), stamp);
@@ -106,8 +98,4 @@ fn source(material: &SessionMaterial) -> Option<Source> {
     };
     let (read, fit) = (material.read, material.fit);
     Some(Source { origin, specified: read, chosen: Some(read), fit, run })
-}
-
-fn value(of: &impl Serialize) -> Value {
-    serde_json::to_value(of).unwrap_or_default()
 }

@@ -29,11 +29,11 @@ impl Content<'_> {
         // A saved picture has the arrangement of the window, also at another size.
         let undivided = ui.available_height() / (1.0 - self.drawer_share).max(0.1);
         let has_ground_truth = model.materials.ground_truth().is_some();
-        if model.view.difference && compares(displayed) {
+        if model.view.display.difference && compares(displayed) {
             bare(egui::Panel::bottom("legend"), ui)
                 .show(ui, |ui| commands.extend(LegendStrip::new(displayed).ui(ui)));
         }
-        if model.settings.histograms && !model.view.difference && has_ground_truth {
+        if model.settings.histograms && !model.view.display.difference && has_ground_truth {
             bare(egui::Panel::bottom("values"), ui).show(ui, |ui| ValueStrip::new(displayed).ui(ui));
         }
         egui::CentralPanel::no_frame().show(ui, |ui| {

@@ -84,12 +84,12 @@ fn loss_tab(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
         few: &jobs.few,
         sorted: model.settings.sort_losses,
         materials: &model.materials,
-        chosen: model.view.prediction,
+        chosen: model.view.display.prediction,
     };
     let mut commands = loss.ui(ui);
     let training = TrainingPanel {
         runs: jobs.training.views(&model.materials.all, model.training.requested.as_ref()),
-        chosen: model.view.prediction,
+        chosen: model.view.display.prediction,
         watch: model.settings.watch,
         busy: jobs.training.losses.busy(),
     };

@@ -135,9 +135,9 @@ fn every_way_back_shows_the_prediction_itself() {
         window.run_steps(30);
         isolate(&mut window, "normal");
         wait_for_pane(&mut window, name);
-        assert_eq!(window.state().model.view.isolated, Some(Map::Normal));
+        assert_eq!(window.state().model.view.display.isolated, Some(Map::Normal));
         back(&mut window);
-        assert_eq!(window.state().model.view.isolated, None);
+        assert_eq!(window.state().model.view.display.isolated, None);
         window.get_by_label("Pane 1  blurred normals");
         assert!(window.query_by_label("Show all maps").is_none());
     }

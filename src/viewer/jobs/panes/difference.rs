@@ -57,16 +57,16 @@ impl DifferenceJob {
 fn key(materials: &[LoadedMaterial], state: &ViewState) -> DifferenceKey {
     DifferenceKey {
         ids: materials.iter().map(LoadedMaterial::id).collect(),
-        quantity: state.quantity,
+        quantity: state.display.quantity,
         kind: state.difference_kind(),
-        scene: (state.quantity == Quantity::Rendering).then_some(state.scene),
+        scene: (state.display.quantity == Quantity::Rendering).then_some(state.scene),
         convention: state.convention().name,
     }
 }
 
 fn start(work: &JobContext<'_>) -> Job<Distributions> {
     let (materials, state) = (work.materials(), work.view);
-    let (quantity, kind) = (state.quantity, state.difference_kind());
+    let (quantity, kind) = (state.display.quantity, state.difference_kind());
     let (scene, convention) = (state.scene, state.convention());
     Job::start(work.waker, move |progress| {
         distributions(&materials, quantity, kind, &scene, &convention, progress)

@@ -68,8 +68,8 @@ impl HistogramsJob {
 fn key(materials: &[LoadedMaterial], state: &ViewState) -> HistogramsKey {
     HistogramsKey {
         ids: materials.iter().map(LoadedMaterial::id).collect(),
-        quantity: state.quantity,
-        scene: (state.quantity == Quantity::Rendering).then_some(state.scene),
+        quantity: state.display.quantity,
+        scene: (state.display.quantity == Quantity::Rendering).then_some(state.scene),
         convention: state.convention().name,
     }
 }

@@ -38,7 +38,7 @@ impl MixtureJob {
         let wanted = key(work.materials, work.view);
         let error = self.job.follow(wanted, |key| {
             let [ground_truth, prediction] =
-                [0, work.view.prediction + 1].map(|index| work.materials[index].read.clone());
+                [0, work.view.display.prediction + 1].map(|index| work.materials[index].read.clone());
             let (key, gpu) = (*key, work.gpu.cloned());
             Job::start(work.waker, move |_| {
                 let mixture = Arc::new(mixture(&ground_truth, &prediction, key)?);
@@ -70,7 +70,7 @@ impl MixtureJob {
         if let (Some(wanted), Some((of, mixture))) = (key(materials, view), &self.displayed)
             && of.ids == wanted.ids
         {
-            displayed[view.prediction + 1] = mixture.clone();
+            displayed[view.display.prediction + 1] = mixture.clone();
         }
         displayed
     }
@@ -78,9 +78,9 @@ impl MixtureJob {
 
 /// The mixture that is wanted.
 fn key(materials: &[LoadedMaterial], state: &ViewState) -> Option<MixtureKey> {
-    let [ground_truth, prediction] = [materials.first()?, materials.get(state.prediction + 1)?];
+    let [ground_truth, prediction] = [materials.first()?, materials.get(state.display.prediction + 1)?];
     let ids = [ground_truth.id(), prediction.id()];
-    state.isolated.map(|map| MixtureKey { ids, map, only_right: state.only_right })
+    state.display.isolated.map(|map| MixtureKey { ids, map, only_right: state.display.only_right })
 }
 
 fn mixture(

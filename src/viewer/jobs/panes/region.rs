@@ -75,7 +75,7 @@ fn key(region: Region, materials: &[LoadedMaterial], state: &ViewState) -> Regio
     RegionKey {
         ids: materials.iter().map(LoadedMaterial::id).collect(),
         region,
-        quantity: state.quantity,
+        quantity: state.display.quantity,
         scene: state.scene,
         convention: state.convention().name,
     }

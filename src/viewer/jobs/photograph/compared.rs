@@ -78,7 +78,7 @@ pub fn key(
         ids: materials.iter().map(LoadedMaterial::id).collect(),
         scene: state.scene,
         convention: state.convention().name,
-        kind: state.differences.kind(Quantity::Rendering),
+        kind: state.display.differences.kind(Quantity::Rendering),
     }
 }
 

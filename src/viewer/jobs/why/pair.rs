@@ -30,7 +30,7 @@ pub struct ComparedPair {
 impl ComparedPair {
     /// The pair of the chosen prediction, if there is one.
     pub fn of(materials: &[LoadedMaterial], view: &ViewState) -> Option<Self> {
-        let pair = [materials.first()?, materials.get(view.prediction + 1)?];
+        let pair = [materials.first()?, materials.get(view.display.prediction + 1)?];
         let convention = view.convention();
         let key = PairKey { ids: pair.map(LoadedMaterial::id), convention: convention.name };
         Some(Self { key, materials: pair.map(|one| one.read.clone()), convention })

@@ -19,15 +19,17 @@ const AUTO_EXPOSURE_TEXELS: usize = 20_000;
 pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
     let state = &mut model.view;
     match command {
-        DisplayCommand::SetQuantity(quantity) => state.quantity = quantity,
-        DisplayCommand::CycleQuantity(by) => state.quantity = cycled(&Quantity::ALL, state.quantity, by),
-        DisplayCommand::ShowDifference(on) => state.difference = on,
-        DisplayCommand::SetDifference(kind) => state.differences.choose(state.quantity, kind),
-        DisplayCommand::ChooseErrorMap => state.differences.choose_error_map(),
-        DisplayCommand::SetRange(range) => state.differences.set_range(state.quantity, range),
-        DisplayCommand::SetLayout(layout) => state.layout = layout,
-        DisplayCommand::CycleLayout => state.layout = cycled(&Layout::ALL, state.layout, 1),
-        DisplayCommand::ToggleProjection => state.projection = state.projection.other(),
+        DisplayCommand::SetQuantity(quantity) => state.display.quantity = quantity,
+        DisplayCommand::CycleQuantity(by) => {
+            state.display.quantity = cycled(&Quantity::ALL, state.display.quantity, by)
+        }
+        DisplayCommand::ShowDifference(on) => state.display.difference = on,
+        DisplayCommand::SetDifference(kind) => state.display.differences.choose(state.display.quantity, kind),
+        DisplayCommand::ChooseErrorMap => state.display.differences.choose_error_map(),
+        DisplayCommand::SetRange(range) => state.display.differences.set_range(state.display.quantity, range),
+        DisplayCommand::SetLayout(layout) => state.display.layout = layout,
+        DisplayCommand::CycleLayout => state.display.layout = cycled(&Layout::ALL, state.display.layout, 1),
+        DisplayCommand::ToggleProjection => state.display.projection = state.display.projection.other(),
         DisplayCommand::SetExposure(ev) => state.exposure_ev = ev.clamp(-STOPS, STOPS),
         DisplayCommand::StepExposure(by) => {
             state.exposure_ev = (state.exposure_ev + by).clamp(-STOPS, STOPS);
@@ -38,25 +40,27 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
                 state.exposure_ev = ev.clamp(-STOPS, STOPS);
             }
         }
-        DisplayCommand::ToggleClipping => state.show_clipping = !state.show_clipping,
-        DisplayCommand::ToggleTiled => state.tiled = !state.tiled,
-        DisplayCommand::ToggleFalseColour => state.false_colour = !state.false_colour,
-        DisplayCommand::SetWipe(at) => state.wipe = at.clamp(0.0, 1.0),
+        DisplayCommand::ToggleClipping => state.display.show_clipping = !state.display.show_clipping,
+        DisplayCommand::ToggleTiled => state.display.tiled = !state.display.tiled,
+        DisplayCommand::ToggleFalseColour => state.display.false_colour = !state.display.false_colour,
+        DisplayCommand::SetWipe(at) => state.display.wipe = at.clamp(0.0, 1.0),
         DisplayCommand::ChoosePrediction(index) => {
             if index < model.materials.predictions().len() {
-                state.prediction = index;
+                state.display.prediction = index;
             }
         }
-        DisplayCommand::Isolate(map) => state.isolated = map,
-        DisplayCommand::SetOnlyRight(on) => state.only_right = on,
+        DisplayCommand::Isolate(map) => state.display.isolated = map,
+        DisplayCommand::SetOnlyRight(on) => state.display.only_right = on,
         DisplayCommand::StepPrediction(by) => {
             let count = model.materials.predictions().len().max(1) as isize;
-            state.prediction = (state.prediction as isize + by).rem_euclid(count) as usize;
+            state.display.prediction = (state.display.prediction as isize + by).rem_euclid(count) as usize;
         }
         DisplayCommand::Swap => model.swapped ^= true,
         DisplayCommand::Zoom { factor, at } => zoom(state, factor, at),
-        DisplayCommand::Pan([x, y]) => state.pan = [state.pan[0] + x, state.pan[1] + y],
-        DisplayCommand::Fit => (state.zoom, state.pan) = (1.0, [0.0; 2]),
+        DisplayCommand::Pan([x, y]) => {
+            state.display.pan = [state.display.pan[0] + x, state.display.pan[1] + y]
+        }
+        DisplayCommand::Fit => (state.display.zoom, state.display.pan) = (1.0, [0.0; 2]),
         DisplayCommand::OneToOne => one_to_one(model),
         DisplayCommand::Reset => *state = state.reset(),
         DisplayCommand::Undo => return model.undo(),
@@ -67,8 +71,8 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
 
 fn one_to_one(model: &mut Model) {
     if let Some(ground_truth) = model.materials.ground_truth() {
-        model.view.zoom = model.geometry.one_to_one_zoom(ground_truth.grid());
-        model.view.pan = [0.0; 2];
+        model.view.display.zoom = model.geometry.one_to_one_zoom(ground_truth.grid());
+        model.view.display.pan = [0.0; 2];
     }
 }
 
@@ -80,12 +84,12 @@ fn cycled<T: Copy + PartialEq>(all: &[T], value: T, by: isize) -> T {
 
 /// Magnifies so that the point of the material at `at` stays there.
 fn zoom(state: &mut ViewState, factor: f32, at: [f32; 2]) {
-    let zoom = (state.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
-    let grown = zoom / state.zoom;
-    for (pan, at) in state.pan.iter_mut().zip(at) {
+    let zoom = (state.display.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
+    let grown = zoom / state.display.zoom;
+    for (pan, at) in state.display.pan.iter_mut().zip(at) {
         *pan = at - (at - *pan) * grown;
     }
-    state.zoom = zoom;
+    state.display.zoom = zoom;
 }
 
 /// The exposure at which the brightest 1% of the rendering's texels just clip.
@@ -113,11 +117,18 @@ mod tests {
 
     #[test]
     fn zooming_keeps_the_point_under_the_pointer() {
-        let mut state = ViewState { pan: [0.2, -0.3], ..ViewState::default() };
+        let mut state = ViewState::default();
+        state.display.pan = [0.2, -0.3];
         let at = [0.5, 0.1];
-        let before = [(at[0] - state.pan[0]) / state.zoom, (at[1] - state.pan[1]) / state.zoom];
+        let before = [
+            (at[0] - state.display.pan[0]) / state.display.zoom,
+            (at[1] - state.display.pan[1]) / state.display.zoom,
+        ];
         zoom(&mut state, 2.5, at);
-        let after = [(at[0] - state.pan[0]) / state.zoom, (at[1] - state.pan[1]) / state.zoom];
+        let after = [
+            (at[0] - state.display.pan[0]) / state.display.zoom,
+            (at[1] - state.display.pan[1]) / state.display.zoom,
+        ];
         assert!((before[0] - after[0]).abs() < 1e-6 && (before[1] - after[1]).abs() < 1e-6);
     }
 

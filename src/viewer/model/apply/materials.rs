@@ -84,8 +84,9 @@ fn reopen_last(model: &mut Model) -> Vec<Effect> {
 fn close(model: &mut Model, index: usize) {
     model.materials.close(index);
     let view = &mut model.view;
-    if index <= view.prediction {
-        view.prediction = view.prediction.saturating_sub(1);
+    if index <= view.display.prediction {
+        view.display.prediction = view.display.prediction.saturating_sub(1);
     }
-    view.prediction = view.prediction.min(model.materials.predictions().len().saturating_sub(1));
+    view.display.prediction =
+        view.display.prediction.min(model.materials.predictions().len().saturating_sub(1));
 }

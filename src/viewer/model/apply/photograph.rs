@@ -55,10 +55,10 @@ impl Model {
 
     /// Shows what is compared with a photograph: renderings in one scene.
     fn compare_with_photograph(&mut self) {
-        self.view.quantity = Quantity::Rendering;
+        self.view.display.quantity = Quantity::Rendering;
         if self.view.is_error_map() {
             // It averages over scenes of which there is no photograph.
-            self.view.differences.choose(Quantity::Rendering, Difference::Log);
+            self.view.display.differences.choose(Quantity::Rendering, Difference::Log);
         }
     }
 }

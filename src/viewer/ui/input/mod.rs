@@ -33,7 +33,7 @@ impl Input {
         let now = keys::Context {
             enter_is_free: ctx.memory(|m| m.focused()).is_none(),
             escape: &escape,
-            difference: displayed.model.view.difference,
+            difference: displayed.model.view.display.difference,
         };
         let mut commands = keys::commands(ctx, now);
         commands.extend(self.pause_key(ctx, displayed));
@@ -71,7 +71,7 @@ fn escape(displayed: Displayed<'_>, dialogs: &Dialogs) -> Command {
         () if model.inspection.is_armed => InspectionCommand::Arm(false).into(),
         () if model.inspection.region.is_some() => InspectionCommand::SetRegion(None).into(),
         () if jobs.why.search.busy().is_some() => WhyCommand::CancelSearch.into(),
-        () if model.view.isolated.is_some() => DisplayCommand::Isolate(None).into(),
+        () if model.view.display.isolated.is_some() => DisplayCommand::Isolate(None).into(),
         () => LossCommand::Cancel.into(),
     }
 }

@@ -30,10 +30,10 @@ impl<'a> ValueStrip<'a> {
     pub fn new(displayed: Displayed<'a>) -> Self {
         let (view, materials) = (&displayed.model.view, displayed.materials());
         Self {
-            quantity: view.quantity,
+            quantity: view.display.quantity,
             values: displayed.jobs.panes.histograms.get(materials, view),
             names: materials.iter().map(LoadedMaterial::name).collect(),
-            chosen: view.prediction + 1,
+            chosen: view.display.prediction + 1,
         }
     }
 

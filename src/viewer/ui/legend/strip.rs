@@ -58,16 +58,18 @@ impl<'a> LegendStrip<'a> {
         let distributions = displayed.distributions();
         let first = usize::from(displayed.photograph().is_none());
         Self {
-            quantity: view.quantity,
+            quantity: view.display.quantity,
             kind: view.difference_kind(),
             error_map: view.is_error_map().then(|| displayed.error_map_summary()),
-            set_range: view.differences.range(view.quantity),
+            set_range: view.display.differences.range(view.display.quantity),
             range: displayed.range(),
             distributions: distributions.map(|(distributions, _)| distributions),
             current: distributions.is_some_and(|(_, current)| current),
             names: materials.iter().skip(first).map(LoadedMaterial::name).collect(),
             first,
-            chosen: (view.prediction + 1).min(materials.len().saturating_sub(1)).saturating_sub(first),
+            chosen: (view.display.prediction + 1)
+                .min(materials.len().saturating_sub(1))
+                .saturating_sub(first),
         }
     }
 

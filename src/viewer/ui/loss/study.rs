@@ -29,7 +29,8 @@ impl<'a> StudyWindow<'a> {
     /// The window on the study of the chosen pair.
     pub fn new(displayed: Displayed<'a>) -> Self {
         let (model, job) = (displayed.model, &displayed.jobs.study);
-        let measured = job.measured(&model.materials, model.view.prediction, &model.view.convention());
+        let measured =
+            job.measured(&model.materials, model.view.display.prediction, &model.view.convention());
         Self { job, measured, current: model.settings.loss.sampling() }
     }
 

@@ -61,14 +61,14 @@ impl PaneTarget<'_> {
             PointerButton::Primary if chord => Gesture::OrbitLight,
             PointerButton::Primary if modifiers.alt => Gesture::Pin,
             PointerButton::Primary => {
-                let on_map = self.state.quantity != Quantity::Rendering;
+                let on_map = self.state.display.quantity != Quantity::Rendering;
                 match self.point(pos).filter(|_| self.is_armed || on_map && modifiers.shift) {
                     Some(point) => Gesture::Rectangle(point),
                     None => self.grabbed(pos),
                 }
             }
             PointerButton::Secondary if chord => Gesture::LightDistance,
-            PointerButton::Secondary if self.state.projection == Projection::Perspective => {
+            PointerButton::Secondary if self.state.display.projection == Projection::Perspective => {
                 Gesture::OrbitView
             }
             PointerButton::Secondary => Gesture::View,
@@ -87,12 +87,12 @@ impl PaneTarget<'_> {
     fn grabbed(&self, pos: Pos2) -> Gesture {
         if self.over_wipe(pos) {
             Gesture::Wipe
-        } else if self.state.quantity != Quantity::Rendering {
+        } else if self.state.display.quantity != Quantity::Rendering {
             Gesture::Pan
         } else if self.over(Endpoint::Light, pos) {
             Gesture::Light
         } else if self.view_handle
-            && self.state.projection == Projection::Flat
+            && self.state.display.projection == Projection::Flat
             && self.over(Endpoint::View, pos)
         {
             Gesture::View
@@ -107,8 +107,8 @@ impl PaneTarget<'_> {
     }
 
     fn over_wipe(&self, pos: Pos2) -> bool {
-        let line = self.rect.left() + self.state.wipe * self.rect.width();
-        self.state.layout == Layout::Wipe && (pos.x - line).abs() <= REACH * 0.6
+        let line = self.rect.left() + self.state.display.wipe * self.rect.width();
+        self.state.display.layout == Layout::Wipe && (pos.x - line).abs() <= REACH * 0.6
     }
 
     /// The pointer's shape over this pane.

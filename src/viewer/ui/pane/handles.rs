@@ -28,7 +28,7 @@ pub fn ndc_from_pos(rect: Rect, pos: Pos2) -> [f32; 2] {
 pub fn paint_endpoints(painter: &Painter, rect: Rect, camera: &Camera, state: &ViewState, eye: bool) {
     let place = |which| pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, which));
     if eye
-        && state.projection == Projection::Flat
+        && state.display.projection == Projection::Flat
         && let Some((at, outside)) = place(Endpoint::View)
     {
         paint_eye(painter, at, outside);

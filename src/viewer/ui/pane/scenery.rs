@@ -62,7 +62,7 @@ pub enum PhotographUse {
 impl Scenery<'_> {
     /// The index of the chosen prediction; the ground truth's where there is no prediction.
     pub fn chosen(&self) -> usize {
-        (self.state.prediction + 1).min(self.materials.len().saturating_sub(1))
+        (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1))
     }
 
     /// The index of the material that is displayed in the place of material `index`.
@@ -78,7 +78,7 @@ impl Scenery<'_> {
     /// The content of every pane. The ground truth is never compared with itself: its pane shows its value.
     pub fn contents(&self) -> Vec<Content> {
         let content = |index, reference, mode| {
-            let difference = self.state.difference && index != 0;
+            let difference = self.state.display.difference && index != 0;
             let reference = if difference { 0 } else { reference };
             Content { index, reference, mode, difference, photograph: PhotographUse::Absent }
         };
@@ -86,20 +86,20 @@ impl Scenery<'_> {
             return self.photograph_contents();
         }
         let (ground_truth, chosen) = (self.in_place_of(0), self.in_place_of(self.chosen()));
-        match self.state.layout {
+        match self.state.display.layout {
             Layout::SideBySide => (0..self.materials.len())
                 .map(|i| content(self.in_place_of(i), 0, DisplayMode::Value))
                 .collect(),
             Layout::Single => vec![content(chosen, 0, DisplayMode::Value)],
             Layout::Wipe => {
-                vec![content(chosen, ground_truth, DisplayMode::Wipe(self.state.wipe * 2.0 - 1.0))]
+                vec![content(chosen, ground_truth, DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0))]
             }
         }
     }
 
     /// The content of every pane beside a photograph: the photograph at the exposure of the chosen material, then every material.
     fn photograph_contents(&self) -> Vec<Content> {
-        let difference = self.state.difference;
+        let difference = self.state.display.difference;
         let material = |index| Content {
             index,
             reference: index,
@@ -109,17 +109,19 @@ impl Scenery<'_> {
         };
         let chosen = material(self.chosen());
         let photograph = Content { difference: false, photograph: PhotographUse::Shown, ..chosen };
-        let mut panes: Vec<Content> = match self.state.layout {
+        let mut panes: Vec<Content> = match self.state.display.layout {
             Layout::SideBySide => {
                 std::iter::once(photograph).chain((0..self.materials.len()).map(material)).collect()
             }
             Layout::Single | Layout::Wipe if self.corner_editor(photograph).is_some() => vec![photograph],
             Layout::Single => vec![if self.swapped { photograph } else { chosen }],
-            Layout::Wipe => vec![Content { mode: DisplayMode::Wipe(self.state.wipe * 2.0 - 1.0), ..chosen }],
+            Layout::Wipe => {
+                vec![Content { mode: DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0), ..chosen }]
+            }
         };
         if self.peek {
             panes.fill(photograph);
-        } else if self.swapped && self.state.layout == Layout::SideBySide {
+        } else if self.swapped && self.state.display.layout == Layout::SideBySide {
             panes.swap(0, self.chosen() + 1);
         }
         panes
@@ -136,8 +138,8 @@ impl Scenery<'_> {
     pub fn extra(&self) -> Option<Content> {
         let is_plain = !self.peek && !self.swapped;
         let panes = self.materials.len() + usize::from(self.photograph.is_some());
-        let grid = self.state.layout == Layout::SideBySide && panes > 2;
-        let difference = !self.state.difference;
+        let grid = self.state.display.layout == Layout::SideBySide && panes > 2;
+        let difference = !self.state.display.difference;
         let photograph = match self.photograph {
             Some(_) => PhotographUse::Reference,
             None => PhotographUse::Absent,
@@ -148,7 +150,7 @@ impl Scenery<'_> {
     }
 
     pub fn camera(&self, grid: Grid, aspect: f32) -> Camera {
-        self.state.fitted_camera(grid, aspect).zoomed(self.state.zoom, self.state.pan)
+        self.state.fitted_camera(grid, aspect).zoomed(self.state.display.zoom, self.state.display.pan)
     }
 
     /// The name of what a pane shows, without its difference.

@@ -37,7 +37,7 @@ pub fn title_bar(
     };
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
-    let mixed = chosen && scenery.state.isolated.is_some();
+    let mixed = chosen && scenery.state.display.isolated.is_some();
     let back = Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()).shrink(2.0);
     let painter = ui.painter_at(rect);
     let colour = if content.index == 0 || !is_material {
@@ -52,7 +52,7 @@ pub fn title_bar(
     let elided = galley.elided;
     let at = rect.left_center() + vec2(8.0, -galley.size().y * 0.5);
     painter.galley(at, galley, colour);
-    if chosen && scenery.state.layout == Layout::SideBySide && scenery.materials.len() > 2 {
+    if chosen && scenery.state.display.layout == Layout::SideBySide && scenery.materials.len() > 2 {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
         painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
     }

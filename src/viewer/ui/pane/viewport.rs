@@ -193,11 +193,11 @@ impl Viewport {
                 range: scenery.range as f32,
                 is_computed: state.is_error_map(),
             }),
-            encoding: state.quantity.into(),
-            show_clipping: state.show_clipping,
+            encoding: state.display.quantity.into(),
+            show_clipping: state.display.show_clipping,
             epsilon: state.convention().epsilon as f32,
-            tiled: state.tiled,
-            false_colour: state.false_colour,
+            tiled: state.display.tiled,
+            false_colour: state.display.false_colour,
             nearest: self.is_draft,
             background: [background[0], background[1], background[2]],
         };
@@ -210,11 +210,11 @@ impl Viewport {
         };
         gpu.paint(&painter, rect, number, drawn, params);
         self.paint_marks(&painter, scenery, content, rect, &camera);
-        if state.quantity == Quantity::Rendering {
+        if state.display.quantity == Quantity::Rendering {
             handles::paint_endpoints(&painter, rect, &camera, state, scenery.view_handle);
         }
-        if content.mode == DisplayMode::Wipe(state.wipe * 2.0 - 1.0) {
-            handles::paint_wipe(&painter, rect, state.wipe);
+        if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
+            handles::paint_wipe(&painter, rect, state.display.wipe);
         }
         if let Some(text) = hint(scenery, rect.width() / rect.height()) {
             paint_hint(&painter, rect, text);
@@ -232,12 +232,15 @@ impl Viewport {
         contents: &[Content],
     ) -> Result<(), String> {
         let state = scenery.state;
-        let params =
-            ShadeParams { scene: state.scene, convention: state.convention(), quantity: state.quantity };
+        let params = ShadeParams {
+            scene: state.scene,
+            convention: state.convention(),
+            quantity: state.display.quantity,
+        };
         // Where the last frame did not ask for this one, the time between them is not that of a frame.
         let (now, seconds) = ui.input(|i| (i.time, i.stable_dt));
         let software = gpu.gpu.report.software;
-        let visible = PaneView { params, zoom: state.zoom, pan: state.pan };
+        let visible = PaneView { params, zoom: state.display.zoom, pan: state.display.pan };
         let moves = self.policy.frame(visible, now, seconds, software);
         if moves {
             ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
@@ -275,11 +278,11 @@ impl Viewport {
         let grid = scenery.materials[0].grid();
         let placed = Placed { rect, camera, grid };
         let state = scenery.state;
-        if state.tiled {
+        if state.display.tiled {
             // A texel is in four places.
             return;
         }
-        if state.projection == Projection::Flat && content.mode == DisplayMode::Value {
+        if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
             let photographs = scenery.photograph.and_then(|photograph| photograph.all).map(AsRef::as_ref);
             let readout =
@@ -298,7 +301,7 @@ impl Viewport {
 
     /// Screen pixels per texel in the middle of a pane.
     pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
-        let camera = state.fitted_camera(grid, self.aspect()).zoomed(state.zoom, state.pan);
+        let camera = state.fitted_camera(grid, self.aspect()).zoomed(state.display.zoom, state.display.pan);
         let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
         let middle = camera.plane_from_ndc(0.0, 0.0).and_then(|point| grid.texel_at(point));
         let middle = middle.unwrap_or([grid.width / 2, grid.height / 2]);
@@ -324,6 +327,6 @@ fn hint(scenery: &Scenery<'_>, aspect: f32) -> Option<&'static str> {
     }
     let [x, y, z] = state.scene.view;
     let steep = z > STEEP * (x * x + y * y + z * z).sqrt();
-    let perspective = state.projection == Projection::Perspective;
+    let perspective = state.display.projection == Projection::Perspective;
     (perspective && steep).then_some("Perspective from straight above: right-drag to tilt")
 }

@@ -147,7 +147,7 @@ impl<'a> Drawer<'a> {
         let ([left, top], [right, bottom]) = (region.first, region.last);
         ui.horizontal(|ui| {
             ui.strong(format!("Rectangle {left},{top} to {right},{bottom}"));
-            ui.label(format!("{columns} x {rows} texels, {}", self.state.quantity.name()));
+            ui.label(format!("{columns} x {rows} texels, {}", self.state.display.quantity.name()));
             if ui.small_button("Remove rectangle").on_hover_text("Esc").clicked() {
                 commands.push(InspectionCommand::SetRegion(None).into());
             }
@@ -167,7 +167,7 @@ impl<'a> Drawer<'a> {
     }
 
     fn region_rows(&self, ui: &mut egui::Ui, numbers: &[RegionNumbers]) {
-        let letters: &[&str] = match self.state.quantity {
+        let letters: &[&str] = match self.state.display.quantity {
             Quantity::Normal => &["x", "y", "z"],
             Quantity::Roughness => &[""],
             _ => &["R", "G", "B"],

@@ -111,7 +111,7 @@ impl StatusBar<'_> {
 
     /// The column of the photograph, at the exposure of the chosen material.
     fn photograph(&self, ui: &mut egui::Ui, photographs: &Photographs, mono: impl Fn(String) -> RichText) {
-        let chosen = (self.state.prediction + 1).min(self.materials.len().saturating_sub(1));
+        let chosen = (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1));
         let numbers: Vec<String> = match self.texel {
             Some(texel) => {
                 readout::photograph(photographs, chosen, texel).into_iter().map(readout::fixed).collect()
@@ -129,7 +129,7 @@ impl StatusBar<'_> {
     fn order(&self) -> Vec<usize> {
         let all = 0..self.materials.len();
         let fits_all = self.materials.len() <= 4;
-        let chosen = self.state.prediction + 1;
+        let chosen = self.state.display.prediction + 1;
         let mut order: Vec<usize> = all.collect();
         if !fits_all && chosen < order.len() {
             order.remove(chosen);
@@ -144,7 +144,7 @@ impl StatusBar<'_> {
         let Self { materials, state, error_maps, photographs, .. } = *self;
         let readout = Readout { materials, state, error_maps, photographs };
         let numbers: Vec<String> = match self.texel {
-            Some(texel) => readout::shown(readout, index, self.state.difference, texel)
+            Some(texel) => readout::shown(readout, index, self.state.display.difference, texel)
                 .into_iter()
                 .map(readout::fixed)
                 .collect(),

@@ -81,20 +81,20 @@ impl<'a> TopBar<'a> {
     }
 
     fn choices(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let mut layout = self.state.layout;
+        let mut layout = self.state.display.layout;
         choice(ui, "Layout", "Layout (C)", &mut layout, &Layout::ALL, Layout::name);
-        if layout != self.state.layout {
+        if layout != self.state.display.layout {
             commands.push(DisplayCommand::SetLayout(layout).into());
         }
-        let mut quantity = self.state.quantity;
+        let mut quantity = self.state.display.quantity;
         choice(ui, "Show", "Rendering or map (M, Shift+M)", &mut quantity, &Quantity::ALL, Quantity::name);
-        if quantity != self.state.quantity {
+        if quantity != self.state.display.quantity {
             commands.push(DisplayCommand::SetQuantity(quantity).into());
         }
         for (difference, name) in [(false, "Value"), (true, "Difference")] {
-            let label = ui.selectable_label(self.state.difference == difference, name);
+            let label = ui.selectable_label(self.state.display.difference == difference, name);
             let hover = "Show the value, or the difference of predictions from the ground truth (D)";
-            if label.on_hover_text(hover).clicked() && self.state.difference != difference {
+            if label.on_hover_text(hover).clicked() && self.state.display.difference != difference {
                 commands.push(DisplayCommand::ShowDifference(difference).into());
             }
         }
@@ -126,8 +126,8 @@ impl<'a> TopBar<'a> {
                 ("Auto EV", hover, DisplayCommand::AutoExposure.into())
             }
             BarItem::Exposure => return self.exposure(ui, commands),
-            BarItem::Histogram if state.difference => return,
-            BarItem::FalseColour if state.quantity != Quantity::Roughness => return,
+            BarItem::Histogram if state.display.difference => return,
+            BarItem::FalseColour if state.display.quantity != Quantity::Roughness => return,
             _ => return self.toggle(ui, item, commands),
         };
         button(ui, text, hover, commands, command);
@@ -141,17 +141,17 @@ impl<'a> TopBar<'a> {
                 (self.histograms, "Histogram", hover, WindowCommand::ToggleHistograms.into())
             }
             BarItem::Perspective => {
-                let on = state.projection == Projection::Perspective;
+                let on = state.display.projection == Projection::Perspective;
                 let hover = "The plane seen from the view position, or the flat texture (P)";
                 (on, "3D", hover, DisplayCommand::ToggleProjection.into())
             }
             BarItem::Tile => {
                 let hover = "Repeat the material 2 x 2 times, shifted by half of itself: shows its seams; for display only (T)";
-                (state.tiled, "Tile", hover, DisplayCommand::ToggleTiled.into())
+                (state.display.tiled, "Tile", hover, DisplayCommand::ToggleTiled.into())
             }
             BarItem::FalseColour => {
                 let hover = "Roughness from 0 (black) to 1 (light yellow) (V)";
-                (state.false_colour, "False colour", hover, DisplayCommand::ToggleFalseColour.into())
+                (state.display.false_colour, "False colour", hover, DisplayCommand::ToggleFalseColour.into())
             }
             BarItem::Swap => {
                 let hover =
@@ -160,7 +160,7 @@ impl<'a> TopBar<'a> {
             }
             BarItem::Clip => {
                 let hover = "Mark clipped pixels: too bright (magenta) or black (blue) (L)";
-                (state.show_clipping, "Clip", hover, DisplayCommand::ToggleClipping.into())
+                (state.display.show_clipping, "Clip", hover, DisplayCommand::ToggleClipping.into())
             }
             _ => return,
         };

@@ -18,9 +18,9 @@ pub fn shaded_part(state: &ViewState, grid: Grid, aspect: f32, pixels_per_texel:
     if stride > 1 {
         return ShadedPart::EveryNth(stride);
     }
-    let camera = state.fitted_camera(grid, aspect).zoomed(state.zoom, state.pan);
+    let camera = state.fitted_camera(grid, aspect).zoomed(state.display.zoom, state.display.pan);
     let all = [grid.width, grid.height];
-    let region = visible(&camera, grid).filter(|region| !state.tiled && region.size() != all);
+    let region = visible(&camera, grid).filter(|region| !state.display.tiled && region.size() != all);
     region.map_or(ShadedPart::Whole, ShadedPart::Visible)
 }
 
@@ -42,13 +42,14 @@ fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::files::session_window::Display;
     use crate::viewer::model::view::state::Projection;
 
     const GRID: Grid = Grid { width: 256, height: 128 };
 
     /// Every texel that a ray of a pane meets.
     fn visible_texels(state: &ViewState) -> Vec<[usize; 2]> {
-        let camera = state.fitted_camera(GRID, 1.5).zoomed(state.zoom, state.pan);
+        let camera = state.fitted_camera(GRID, 1.5).zoomed(state.display.zoom, state.display.pan);
         let steps = || (0..=60).map(|i| i as f32 / 30.0 - 1.0);
         let rays = steps().flat_map(|x| steps().map(move |y| (x, y)));
         rays.filter_map(|(x, y)| GRID.texel_at(camera.plane_from_ndc(x, y)?)).collect()
@@ -58,7 +59,8 @@ mod tests {
     fn all_that_is_visible_is_shaded_and_little_else() {
         for projection in [Projection::Flat, Projection::Perspective] {
             for (zoom, pan) in [(1.0, [0.0, 0.0]), (4.0, [0.3, -0.2]), (16.0, [-2.0, 1.5])] {
-                let mut state = ViewState { projection, zoom, pan, ..ViewState::default() };
+                let mut state = ViewState::default();
+                state.display = Display { projection, zoom, pan, ..Display::default() };
                 state.scene.view = [0.7, -0.4, 2.0];
                 let part = shaded_part(&state, GRID, 1.5, 2.0);
                 let texels = visible_texels(&state);
@@ -87,7 +89,7 @@ mod tests {
         assert_eq!(shaded_part(&state, GRID, 1.0, 0.3), ShadedPart::EveryNth(3));
         assert_eq!(shaded_part(&state, GRID, 1.0, 0.252), ShadedPart::EveryNth(4));
         assert_eq!(shaded_part(&state, GRID, 1.0, 1e-9), ShadedPart::EveryNth(MOST));
-        state.tiled = true;
+        state.display.tiled = true;
         assert_eq!(shaded_part(&state, GRID, 1.0, 2.0), ShadedPart::Whole);
     }
 }

@@ -21,9 +21,9 @@ impl WhyPanel<'_> {
         let attributed = self.jobs.attribution.get(pair, self.settings.seed);
         let axis = attributed.map_or([0.0, 1.0], axis);
         for map in Map::ALL {
-            let row = MapRow { map, attributed, axis, chosen: self.state.prediction };
-            let isolated = self.state.isolated == Some(map);
-            if row.ui(ui, isolated, self.state.only_right).clicked() {
+            let row = MapRow { map, attributed, axis, chosen: self.state.display.prediction };
+            let isolated = self.state.display.isolated == Some(map);
+            if row.ui(ui, isolated, self.state.display.only_right).clicked() {
                 commands.push(DisplayCommand::Isolate((!isolated).then_some(map)).into());
             }
         }
@@ -77,7 +77,7 @@ impl WhyPanel<'_> {
                 (false, "only it wrong", "The ground truth with this map of the prediction"),
                 (true, "only it right", "The prediction with this map of the ground truth"),
             ] {
-                let label = ui.selectable_label(self.state.only_right == right, name).on_hover_text(hover);
+                let label = ui.selectable_label(self.state.display.only_right == right, name).on_hover_text(hover);
                 if label.clicked() {
                     commands.push(DisplayCommand::SetOnlyRight(right).into());
                 }

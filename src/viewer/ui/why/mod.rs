@@ -88,7 +88,7 @@ impl WhyPanel<'_> {
         let most = losses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         for (index, (loss, name)) in losses.iter().zip(shortened(&self.names, NAME)).enumerate() {
             let left = |ui: &mut egui::Ui| {
-                ui.selectable_label(index == self.state.prediction, format!("{}  {name}", index + 1))
+                ui.selectable_label(index == self.state.display.prediction, format!("{}  {name}", index + 1))
                     .on_hover_text(self.names[index])
             };
             let right = |ui: &mut egui::Ui| {
@@ -107,7 +107,7 @@ impl WhyPanel<'_> {
     /// What the panes show: values, or differences.
     fn shown(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         ui.add_space(6.0);
-        let difference = self.state.difference;
+        let difference = self.state.display.difference;
         ui.horizontal_wrapped(|ui| {
             let label = if difference { "Show the values" } else { "Show where: the difference" };
             if ui.button(label).on_hover_text("Value or difference in the panes (D)").clicked() {

@@ -60,7 +60,7 @@ impl WhyPanel<'_> {
         let x = |loss: f64| area.left() + area.width() * ((loss - low) / (high - low)).clamp(0.0, 1.0) as f32;
         let highest = counts.iter().copied().max().unwrap_or(0).max(1) as f32;
         let step = area.width() / counts.len() as f32;
-        let colour = theme::series(self.state.prediction, ui.visuals().dark_mode);
+        let colour = theme::series(self.state.display.prediction, ui.visuals().dark_mode);
         for (bin, count) in counts.iter().enumerate().filter(|(_, count)| **count > 0) {
             let left = area.left() + bin as f32 * step;
             let top = area.bottom() - (*count as f32 / highest * (HISTOGRAM - 2.0)).max(1.5);
@@ -73,7 +73,7 @@ impl WhyPanel<'_> {
             painter.line_segment([pos2(x(loss), area.top()), pos2(x(loss), area.bottom())], stroke);
         };
         mark(list.mean, Stroke::new(1.5, ink));
-        let here = self.losses.and_then(|(losses, _)| losses.get(self.state.prediction).copied());
+        let here = self.losses.and_then(|(losses, _)| losses.get(self.state.display.prediction).copied());
         if let Some(here) = here {
             mark(here, Stroke::new(2.0, theme::accent(ui.visuals())));
         }

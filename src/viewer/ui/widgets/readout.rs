@@ -46,8 +46,9 @@ pub fn shown(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2
         return vec![error_maps.map_or(f64::NAN, |maps| maps.at(index, texel))];
     }
     let convention = state.convention();
-    let value =
-        |index: usize| state.quantity.at(materials[index].material(), &state.scene, &convention, texel);
+    let value = |index: usize| {
+        state.display.quantity.at(materials[index].material(), &state.scene, &convention, texel)
+    };
     if let (true, Some(photographs)) = (difference, photographs) {
         let kind = state.difference_kind();
         return vec![kind.of_texel(photographs.at(index, texel), value(index), convention.epsilon)];
@@ -55,7 +56,7 @@ pub fn shown(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2
     if difference && index > 0 {
         return vec![state.difference_kind().of_texel(value(0), value(index), convention.epsilon)];
     }
-    value(index)[..state.quantity.channels()].iter().map(|v| f64::from(*v)).collect()
+    value(index)[..state.display.quantity.channels()].iter().map(|v| f64::from(*v)).collect()
 }
 
 /// The photograph at a texel, at the exposure of material `index`.
@@ -66,13 +67,13 @@ pub fn photograph(photographs: &Photographs, index: usize, texel: [usize; 2]) ->
 /// How many numbers a column of the status line has.
 pub fn count(read: Readout<'_>, index: usize) -> usize {
     let compared = index > 0 || read.photographs.is_some();
-    if read.state.difference && compared { 1 } else { read.state.quantity.channels() }
+    if read.state.display.difference && compared { 1 } else { read.state.display.quantity.channels() }
 }
 
 /// The unit behind a number of a pane.
 pub fn unit(state: &ViewState, index: usize) -> &'static str {
-    let angle = state.difference_kind() == Difference::Angle && state.quantity == Quantity::Normal;
-    if state.difference && index > 0 && angle { " deg" } else { "" }
+    let angle = state.difference_kind() == Difference::Angle && state.display.quantity == Quantity::Normal;
+    if state.display.difference && index > 0 && angle { " deg" } else { "" }
 }
 
 #[cfg(test)]
