@@ -30,7 +30,11 @@ fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
     drag(&mut window, egui::PointerButton::Middle, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
     let panned = window.state().model.view.clone();
     assert_eq!(panned.scene, moved.scene);
-    assert!((panned.pan[0] - 0.2).abs() < 0.02 && (panned.pan[1] - 0.2).abs() < 0.02, "{:?}", panned.pan);
+    assert!(
+        (panned.display.pan[0] - 0.2).abs() < 0.02 && (panned.display.pan[1] - 0.2).abs() < 0.02,
+        "{:?}",
+        panned.display.pan
+    );
 }
 
 #[test]
@@ -84,4 +88,26 @@ fn movements_before_the_press_are_no_part_of_a_drag() {
     let view = window.state().model.view.scene.view;
     let turned = (view[1] / before.view[2]).asin().abs();
     assert!((0.05..0.12).contains(&turned), "10 points turn the view by 0.08, not by {turned}");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn what_a_drag_changes_is_in_the_frame_that_read_it() {
+    let mut window = built_in();
+    let [rect, other] = [GROUND_TRUTH, "1  blurred normals"].map(|title| pane(&window, title));
+    let at = |share: f32| rect.min + rect.size() * share;
+    window.event(egui::Event::PointerMoved(at(0.7)));
+    window.run_steps(2);
+    window.event(egui::Event::PointerButton {
+        pos: at(0.7),
+        button: egui::PointerButton::Primary,
+        pressed: true,
+        modifiers: egui::Modifiers::NONE,
+    });
+    window.event(egui::Event::PointerMoved(at(0.6)));
+    window.run_steps(8);
+    let before = pixels(&mut window, other);
+    window.event(egui::Event::PointerMoved(at(0.3)));
+    window.step();
+    assert!(pixels(&mut window, other) != before, "another pane has the new light after one frame");
 }

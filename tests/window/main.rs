@@ -6,6 +6,7 @@ mod animation;
 mod assumptions;
 mod bar;
 mod corners;
+mod crash;
 mod differences;
 mod files;
 mod files_tab;

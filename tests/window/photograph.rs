@@ -292,3 +292,26 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     assert!(window.state().messages()[0].contains("clockwise"), "{:?}", window.state().messages());
     assert!(agrees(&window, &before));
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_photograph_that_was_replaced_is_read_again_when_it_is_opened_again() {
+    let (mut window, folder) = opened();
+    let path = folder.path().join("photo.npy");
+    let factor = |window: &Window<'_>| window.state().against_photograph().unwrap()[0].factor;
+    let before = factor(&window);
+    // The same picture at half the radiance, and at another time.
+    let stored = std::fs::read(&path).unwrap();
+    let values: Vec<f32> = stored[stored.len() - 12 * SIZE[0] * SIZE[1]..]
+        .chunks_exact(4)
+        .map(|bytes| 0.5 * f32::from_le_bytes(bytes.try_into().unwrap()))
+        .collect();
+    std::fs::write(&path, pictures::npy([SIZE[1] as u64, SIZE[0] as u64, 3], &values)).unwrap();
+    let time = std::time::SystemTime::now() + std::time::Duration::from_secs(5);
+    std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
+    let open = PhotographCommand::Open { photograph: source(&path), light: PhotographLight::AsNow };
+    apply(&mut window, open);
+    wait(&mut window, "the new photograph", |app| {
+        app.against_photograph().is_some_and(|all| (all[0].factor / before - 2.0).abs() < 0.01)
+    });
+}

@@ -42,6 +42,12 @@ impl MaterialList {
         self.all.iter().any(LoadedMaterial::is_stale)
     }
 
+    /// Of each prediction, whether results of it and of the ground truth are stale.
+    pub fn stale_predictions(&self) -> Vec<bool> {
+        let of_ground_truth = self.ground_truth().is_some_and(LoadedMaterial::is_stale);
+        self.predictions().iter().map(|one| of_ground_truth || one.is_stale()).collect()
+    }
+
     /// What it takes to open this set of materials again.
     pub fn sources(&self) -> Vec<Source> {
         self.all.iter().map(|one| one.read.source().of_set()).collect()

@@ -56,7 +56,7 @@ impl LossPanel<'_> {
         self.state(ui);
         if let Some(losses) = self.job.losses() {
             ui.scope(|ui| {
-                if self.job.stale() {
+                if self.is_stale() {
                     ui.set_opacity(0.5);
                 }
                 let few = self.few.losses().filter(|_| self.few.is_complete());
@@ -69,12 +69,18 @@ impl LossPanel<'_> {
                     few: few.filter(of_these),
                     few_are_coming: self.auto && self.settings.request() != self.settings.few_scenes(),
                     chosen: self.chosen,
+                    stale: self.materials.stale_predictions(),
                     sorted: self.sorted,
                 };
                 commands.extend(results.ui(ui));
             });
         }
         commands
+    }
+
+    /// Whether the latest losses are of other materials or settings, or of other files than there are now.
+    fn is_stale(&self) -> bool {
+        self.job.stale() || self.materials.is_stale()
     }
 
     fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
@@ -122,7 +128,7 @@ impl LossPanel<'_> {
         }
         let text = match self.job.losses() {
             None => RichText::new("Not computed yet."),
-            Some(_) if self.job.stale() => RichText::new("Stale: materials or settings have changed."),
+            Some(_) if self.is_stale() => RichText::new("Stale: materials or settings have changed."),
             Some(losses) => self.outcome(losses, ui.visuals()),
         };
         ui.horizontal_wrapped(|ui| ui.label(text.small()));

@@ -18,6 +18,9 @@ const NAME: usize = 30;
 /// Height of a bar, in points.
 const BAR: f32 = 6.0;
 
+/// What follows the number of a prediction whose loss is stale.
+const STALE_MARK: &str = " (stale)";
+
 /// What the rows show.
 #[derive(Debug)]
 pub struct Results<'a> {
@@ -27,6 +30,8 @@ pub struct Results<'a> {
     /// Whether those losses are on their way where they are not known: their line keeps its place, so that what is below stays.
     pub few_are_coming: bool,
     pub chosen: usize,
+    /// Of each prediction, whether its files or those of the ground truth hold something else by now.
+    pub stale: Vec<bool>,
     /// Whether the least loss comes first.
     pub sorted: bool,
 }
@@ -43,7 +48,9 @@ impl Results<'_> {
             if !names[index].to_lowercase().contains(&filter) {
                 continue;
             }
-            let name = format!("{}  {}", index + 1, short[index]);
+            let is_stale = self.stale.get(index).is_some_and(|is_stale| *is_stale);
+            let mark = if is_stale { STALE_MARK } else { "" };
+            let name = format!("{}{mark}  {}", index + 1, short[index]);
             if self.row(ui, index, &losses[index], name).clicked() {
                 commands.push(DisplayCommand::ChoosePrediction(index).into());
             }
