@@ -14,36 +14,36 @@ fn every_letter_does_what_the_help_says() {
         press(window, key);
         assert!(holds(window.state()), "{key:?}: {what}");
     };
-    expect(&mut window, egui::Key::C, "wipe", &|a| a.state.display.layout == Layout::Wipe);
-    expect(&mut window, egui::Key::C, "single", &|a| a.state.display.layout == Layout::Single);
-    expect(&mut window, egui::Key::C, "side by side", &|a| a.state.display.layout == Layout::SideBySide);
-    expect(&mut window, egui::Key::D, "difference", &|a| a.state.display.difference);
-    expect(&mut window, egui::Key::D, "value", &|a| !a.state.display.difference);
-    expect(&mut window, egui::Key::M, "normal", &|a| a.state.display.quantity == Quantity::Normal);
+    expect(&mut window, egui::Key::C, "wipe", &|a| a.model.view.display.layout == Layout::Wipe);
+    expect(&mut window, egui::Key::C, "single", &|a| a.model.view.display.layout == Layout::Single);
+    expect(&mut window, egui::Key::C, "side by side", &|a| a.model.view.display.layout == Layout::SideBySide);
+    expect(&mut window, egui::Key::D, "difference", &|a| a.model.view.display.difference);
+    expect(&mut window, egui::Key::D, "value", &|a| !a.model.view.display.difference);
+    expect(&mut window, egui::Key::M, "normal", &|a| a.model.view.display.quantity == Quantity::Normal);
     expect(&mut window, egui::Key::P, "perspective", &|a| {
-        a.state.display.projection == Projection::Perspective
+        a.model.view.display.projection == Projection::Perspective
     });
-    expect(&mut window, egui::Key::E, "brighter", &|a| a.state.exposure_ev == 0.5);
-    expect(&mut window, egui::Key::Num2, "second prediction", &|a| a.state.display.prediction == 1);
-    expect(&mut window, egui::Key::L, "clipping", &|a| a.state.display.show_clipping);
-    expect(&mut window, egui::Key::H, "highlight", &|a| a.settings.highlight_follows);
+    expect(&mut window, egui::Key::E, "brighter", &|a| a.model.view.exposure_ev == 0.5);
+    expect(&mut window, egui::Key::Num2, "second prediction", &|a| a.model.view.display.prediction == 1);
+    expect(&mut window, egui::Key::L, "clipping", &|a| a.model.view.display.show_clipping);
+    expect(&mut window, egui::Key::H, "highlight", &|a| a.model.settings.highlight_follows);
     expect(&mut window, egui::Key::R, "reset", &|a| {
-        a.state.exposure_ev == 0.0 && !a.state.display.show_clipping
+        a.model.view.exposure_ev == 0.0 && !a.model.view.display.show_clipping
     });
-    expect(&mut window, egui::Key::B, "no panel", &|a| !a.settings.side_panel);
-    expect(&mut window, egui::Key::N, "automatic exposure", &|a| a.state.exposure_ev != 0.0);
-    expect(&mut window, egui::Key::T, "repeated", &|a| a.state.display.tiled);
-    expect(&mut window, egui::Key::J, "histograms", &|a| a.settings.histograms);
-    expect(&mut window, egui::Key::V, "false colours", &|a| a.state.display.false_colour);
-    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| a.state.display.zoom != 1.0);
+    expect(&mut window, egui::Key::B, "no panel", &|a| !a.model.settings.side_panel);
+    expect(&mut window, egui::Key::N, "automatic exposure", &|a| a.model.view.exposure_ev != 0.0);
+    expect(&mut window, egui::Key::T, "repeated", &|a| a.model.view.display.tiled);
+    expect(&mut window, egui::Key::J, "histograms", &|a| a.model.settings.histograms);
+    expect(&mut window, egui::Key::V, "false colours", &|a| a.model.view.display.false_colour);
+    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| a.model.view.display.zoom != 1.0);
     expect(&mut window, egui::Key::F, "fitted", &|a| {
-        a.state.display.zoom == 1.0 && a.state.display.pan == [0.0; 2]
+        a.model.view.display.zoom == 1.0 && a.model.view.display.pan == [0.0; 2]
     });
     // There are two predictions.
     for key in [egui::Key::Num3, egui::Key::Num5, egui::Key::Num8, egui::Key::Num9] {
-        expect(&mut window, key, "no such prediction", &|a| a.state.display.prediction == 1);
+        expect(&mut window, key, "no such prediction", &|a| a.model.view.display.prediction == 1);
     }
-    expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.state.display.prediction == 0);
+    expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.model.view.display.prediction == 0);
 }
 
 #[test]
@@ -64,11 +64,11 @@ fn holding_g_shows_the_ground_truth_everywhere_and_x_swaps_the_sides() {
 }
 
 #[test]
-fn the_readme_lists_every_key() {
-    let readme = include_str!("../../README.md");
+fn the_page_of_the_window_lists_every_key() {
+    let page = include_str!("../../docs/window.md");
     let missing: Vec<_> =
-        keys::HELP.iter().filter(|(key, what)| !readme.contains(&format!("| {key} | {what} |"))).collect();
-    assert!(missing.is_empty(), "the README does not list {missing:?}");
+        keys::HELP.iter().filter(|(key, what)| !page.contains(&format!("| {key} | {what} |"))).collect();
+    assert!(missing.is_empty(), "docs/window.md does not list {missing:?}");
 }
 
 #[test]

@@ -108,7 +108,7 @@ pub fn scenes(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let pair = ComparedPair::of(&displayed.model.materials.all, &displayed.model.view);
     let request = displayed.model.settings.loss.listed_scenes();
     Job::start(&displayed.jobs.waker, move |progress| {
-        let pair = pair.ok_or_else(|| Error::Usage("there is no prediction to compare".to_owned()))?;
+        let pair = pair.ok_or(Error::NoPrediction)?;
         atomic::check_place(&path)?;
         let outcome = pair.comparison()?.run(&request, progress)?;
         let name = pair.ground_truth().name();
@@ -145,9 +145,7 @@ pub fn against_photograph(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBu
     let text = displayed.photograph_text();
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = Destination::new(&path)?;
-        let all = all.ok_or_else(|| {
-            Error::Usage("the photograph is still being read: save once it is shown".to_owned())
-        })?;
+        let all = all.ok_or(Error::Incomplete("the comparison with the photograph"))?;
         let images: Vec<_> = if difference {
             all.comparisons.iter().map(|one| one.difference(kind)).collect()
         } else {
@@ -172,9 +170,7 @@ pub fn error_maps(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let range = displayed.range() as f32;
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = Destination::new(&path)?;
-        let maps = maps.ok_or_else(|| {
-            Error::Usage("the error map is still being computed: save it once it is shown".to_owned())
-        })?;
+        let maps = maps.ok_or(Error::Incomplete("the error map"))?;
         destination.write_maps(&maps.images, range, &entries, progress)?;
         Ok(path)
     })

@@ -1,0 +1,74 @@
+//! Settings of a session file beside its materials: they apply where no option specifies otherwise.
+
+use std::path::Path;
+
+use svbrdf::error::Error;
+use svbrdf::files::session::Session;
+use svbrdf::files::session_window::Display;
+use svbrdf::loss::{LossSettings, Request};
+use svbrdf::model::convention::Convention;
+use svbrdf::model::scene::Scene;
+use svbrdf::picture::quantity::Quantity;
+use svbrdf::picture::shown::{Shown, ShownDifference};
+
+use crate::cli::args::MaterialArgs;
+use crate::cli::output::CommandError;
+
+/// The display and the loss settings of a session.
+#[derive(Debug)]
+pub struct SessionSettings {
+    pub scene: Scene,
+    pub convention: Convention,
+    pub exposure_ev: f32,
+    display: Display,
+    loss: Option<LossSettings>,
+}
+
+/// The session file that stands for the ground truth and its predictions, read; `None` where the ground truth is none.
+///
+/// # Errors
+/// Those of [`Session::read`]; [`CommandError::Usage`] where predictions are given beside it.
+pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> {
+    let Some(path) = materials.ground_truth.as_ref().filter(|path| Session::is_named(path)) else {
+        return Ok(None);
+    };
+    if !materials.predictions.is_empty() {
+        return Err(CommandError::usage("a session names its predictions itself; give it alone"));
+    }
+    Ok(Some(Session::read(path)?))
+}
+
+impl SessionSettings {
+    /// The settings of `session`, which was read from `path`.
+    ///
+    /// # Errors
+    /// [`Error::BadSession`] for an unknown convention.
+    pub fn new(session: &Session, path: &Path) -> Result<Self, Error> {
+        let bad = |problem: Error| Error::BadSession { path: path.to_owned(), problem: problem.to_string() };
+        Ok(Self {
+            scene: session.scene,
+            convention: session.convention.parse().map_err(bad)?,
+            exposure_ev: session.exposure,
+            display: session.window.display.clone().unwrap_or_default(),
+            loss: session.window.loss.clone(),
+        })
+    }
+
+    /// The quantity and difference that the panes of the window display.
+    pub fn shown(&self) -> Shown {
+        let quantity = self.display.quantity;
+        Shown { quantity, difference: self.display.difference.then(|| self.difference(quantity)) }
+    }
+
+    /// The chosen difference of a quantity, and its range.
+    pub fn difference(&self, quantity: Quantity) -> ShownDifference {
+        let differences = &self.display.differences;
+        ShownDifference { kind: differences.kind(quantity), range: differences.range(quantity) }
+    }
+
+    /// The request for the loss, with this seed where one is specified.
+    pub fn request(&self, seed: Option<u64>) -> Option<Request> {
+        let settings = self.loss.clone()?;
+        Some(LossSettings { seed: seed.unwrap_or(settings.seed), ..settings }.request())
+    }
+}
