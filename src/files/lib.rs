@@ -25,6 +25,7 @@ pub mod read;
 pub mod samples;
 pub mod scene_file;
 pub mod session;
+pub mod session_window;
 pub mod source;
 pub mod stamp;
 mod step_names;

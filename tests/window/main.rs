@@ -3,10 +3,11 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod animation;
+mod assumptions;
 mod bar;
 mod corners;
+mod crash;
 mod differences;
-mod doctor;
 mod files;
 mod files_tab;
 mod gestures;
