@@ -21,6 +21,7 @@
 pub(crate) mod atomic;
 #[cfg(feature = "testing")]
 pub mod atomic;
+pub mod open;
 pub mod read;
 pub mod session;
 pub mod stamp;

@@ -8,12 +8,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::decode;
-use super::interpret::transfer;
-use super::note::{Note, Subject};
-use super::options::Albedo;
-use super::raster::Raster;
-use super::samples::Samples;
 use crate::error::Error;
+use crate::files::open::NamedFile;
+use crate::files::read::options::Albedo;
+use crate::files::read::options::transfer;
+use crate::files::read::raster::Raster;
+use crate::files::read::raster::samples::Samples;
+use crate::files::read::record::note::{Note, Subject};
 use crate::image::Image;
 
 /// How the samples of a photograph encode radiance.
@@ -105,7 +106,7 @@ impl Photograph {
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`].
 pub fn read_photograph(path: &Path, options: &PhotographOptions) -> Result<Photograph, Error> {
-    let (raster, mut notes) = decode::decode_photograph(path)?;
+    let (raster, mut notes) = decode::photograph(&NamedFile::by_user(path))?;
     let declared_linear = Note::LinearGamma(Subject::Photograph);
     let (transfer, transfer_from) = match options.transfer {
         Some(transfer) => (transfer, "as specified"),

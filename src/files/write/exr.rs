@@ -7,6 +7,7 @@ use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage,
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::files::read::decode::exr::NATIVE;
 use crate::material::{Material, Planes};
 use crate::model::convention::PRINTED;
 use crate::model::scene::{Kind, Scene};
@@ -14,8 +15,6 @@ use crate::picture::export::Provenance;
 use crate::progress::Progress;
 use crate::render::render_f32;
 
-/// How the comments of an EXR begin that this module wrote.
-pub(crate) const NATIVE: &str = "svbrdf:version=1\n";
 /// What the values of such an EXR mean.
 const MEANING: &str = "svbrdf:workflow=specular, linear Rec. 709\nsvbrdf:normal=signed, +y\n\
     svbrdf:roughness=r, alpha = r^2\n";

@@ -9,7 +9,6 @@ mod quantized;
 use std::path::Path;
 use std::str::FromStr;
 
-pub(crate) use exr::NATIVE;
 pub use quantized::after_round_trip;
 
 use super::read::Preset;

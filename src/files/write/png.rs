@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use super::curve::Curve;
 use super::metallic::base_and_metallic;
-use crate::files::read::interpret::transfer::{encoded, encoded_roughness, linear, roughness};
+use crate::files::read::options::transfer::{encoded, encoded_roughness, linear, roughness};
 use crate::files::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
 use crate::material::{Material, Planes};
 use crate::picture::export::{self, Provenance};

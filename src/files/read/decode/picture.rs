@@ -14,12 +14,12 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
 use super::head::{self, PngHead};
 use super::known;
-use super::panics::caught;
 use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::error::Error;
-use crate::files::read::note::Note;
+use crate::files::open::panics::caught;
 use crate::files::read::raster::Raster;
-use crate::files::read::samples::Samples;
+use crate::files::read::raster::samples::Samples;
+use crate::files::read::record::note::Note;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::read::note::{Note, Subject};
+use crate::files::read::options::role::Role;
 use crate::files::read::raster::Raster;
-use crate::files::read::role::Role;
+use crate::files::read::record::note::{Note, Subject};
 
 /// Largest side of a map: the largest that material libraries publish.
 pub(crate) const MAX_SIDE: usize = 16_384;

@@ -1,13 +1,10 @@
-//! What is in a folder, and how it is called.
+//! Folder listings, and the names that they give.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::names::words;
 use crate::error::Error;
-
-/// Most file names that a message lists.
-const MOST_LISTED: usize = 12;
+use crate::files::read::names::words;
 
 /// The names of the visible folders in `folder`, sorted.
 pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, Error> {
@@ -42,26 +39,6 @@ pub(crate) fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<Strin
     }
     names.sort();
     Ok(names)
-}
-
-/// Files that other programs leave beside pictures.
-fn is_junk(name: &str) -> bool {
-    let name = name.to_lowercase();
-    [".import", ".meta", ".uid"].iter().any(|end| name.ends_with(end))
-        || name == "thumbs.db"
-        || name == "desktop.ini"
-}
-
-/// The file names for a message, no matter how many they are, without the files that other programs leave.
-pub(crate) fn listing(names: &[String]) -> String {
-    let names: Vec<&str> = names.iter().map(String::as_str).filter(|name| !is_junk(name)).collect();
-    match names.len() {
-        0 => "no files".to_owned(),
-        count if count > MOST_LISTED => {
-            format!("{} and {} more", names[..MOST_LISTED].join(", "), count - MOST_LISTED)
-        }
-        _ => names.join(", "),
-    }
 }
 
 /// The prefix without separators at its end, or else the name of the folder.
