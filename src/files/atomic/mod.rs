@@ -1,4 +1,4 @@
-//! Files that appear when they are complete, or not at all.
+//! Writing of files that appear when they are complete, or not at all.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -18,8 +18,8 @@ pub struct Destination<F> {
 }
 
 impl<F> Destination<F> {
-    /// Checks what can be checked of `path` before there is anything to write. `format` belongs to an extension in
-    /// small letters, `what` says whose extension it is, and `known` which there are.
+    /// Checks `path` before there is anything to write. `format` belongs to an extension in
+    /// small letters, `what` names the extension in messages, and `known` lists all.
     pub(crate) fn among(
         path: &Path,
         format: impl FnOnce(&str) -> Option<F>,
@@ -81,7 +81,7 @@ pub(crate) fn check(progress: &Progress) -> io::Result<()> {
     if progress.is_cancelled() { Err(io::Error::other("cancelled")) } else { Ok(()) }
 }
 
-/// Whether a file can be at `path`: found out before there is anything to write.
+/// Checks that a file can be at `path`, before there is anything to write.
 ///
 /// # Errors
 /// [`Error::Unwritable`] where its folder is missing or it is itself a folder.
@@ -144,7 +144,7 @@ pub(crate) fn replace(
     })
 }
 
-/// What `path` is a link to, if it is one: a file, or nothing yet.
+/// The target of `path` where it is a link: a file, or nothing yet.
 fn target_of(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {

@@ -36,19 +36,15 @@ pub use locate::sidecar::Sidecar;
 pub use located::binding::Binding;
 pub(crate) use names::Label;
 pub use options::extensions::EXTENSIONS;
-pub use options::grid::TileGrid;
-pub use options::order::Order;
-pub use options::preset::Preset;
-pub use options::role::Role;
 pub use options::{
-    Albedo, Energy, NonFinite, NormalEncoding, NormalY, ReadOptions, Reflectance, Roughness, Workflow,
+    Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
+    Roughness, TileGrid, Workflow,
 };
 pub use photograph::{Photograph, PhotographOptions, Transfer, read_photograph};
-pub use record::assumption::{Assumption, Certainty, What};
-pub use record::evidence::Evidence;
-pub use record::note::{Gray, Note, SpecifiedBy, Subject, Unused};
-pub use record::reason::Reason;
-pub use record::storage_convention::StorageConvention;
+pub use record::{
+    Assumption, Certainty, Evidence, Gray, Note, Reason, SpecifiedBy, StorageConvention, Subject, Unused,
+    What,
+};
 
 use crate::error::Error;
 use crate::files::open::NamedFile;
@@ -58,7 +54,7 @@ use crate::progress::Progress;
 use decode::pictures;
 use gather::map_report;
 use located::{Located, WholePicture};
-use stored::material::StoredMaterial;
+use stored::StoredMaterial;
 
 /// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them.
 ///

@@ -10,11 +10,9 @@ use serde::{Deserialize, Serialize};
 use super::decode;
 use crate::error::Error;
 use crate::files::open::NamedFile;
-use crate::files::read::options::Albedo;
-use crate::files::read::options::transfer;
-use crate::files::read::raster::Raster;
-use crate::files::read::raster::samples::Samples;
-use crate::files::read::record::note::{Note, Subject};
+use crate::files::read::options::{Albedo, transfer};
+use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::record::{Note, Subject};
 use crate::image::Image;
 
 /// How the samples of a photograph encode radiance.
@@ -38,7 +36,7 @@ pub struct PhotographOptions {
     pub clip: Option<f64>,
 }
 
-/// A photograph, as it is seen: turned as its EXIF orientation says.
+/// A photograph, turned upright by its EXIF orientation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Photograph {
     /// Linear radiance in a unit of its own; 0 where a stored sample is not finite.
@@ -46,9 +44,9 @@ pub struct Photograph {
     /// Of each pixel, whether a channel of it is clipped or not finite.
     pub clipped: Vec<bool>,
     pub transfer: Transfer,
-    /// What the transfer curve was taken from.
+    /// The source of the transfer curve.
     pub transfer_from: &'static str,
-    /// What else was noticed.
+    /// Other things that were noticed.
     pub notes: Vec<Note>,
 }
 

@@ -1,4 +1,4 @@
-//! Values of [0, 1] to the integers of a picture.
+//! Curves: from values of [0, 1] to the integers of a picture.
 
 /// Steps of value that have a first guess of their integer.
 const STEPS: usize = 1 << 12;

@@ -1,4 +1,4 @@
-//! The project's own form: one part with the layers diffuse, specular, normal and roughness.
+//! Materials as EXR, the project's own form: one part with the layers diffuse, specular, normal and roughness.
 
 use std::io::{self, Seek, Write};
 
@@ -15,7 +15,7 @@ use crate::picture::export::Provenance;
 use crate::progress::Progress;
 use crate::render::render_f32;
 
-/// What the values of such an EXR mean.
+/// The meaning of the values of such an EXR.
 const MEANING: &str = "svbrdf:workflow=specular, linear Rec. 709\nsvbrdf:normal=signed, +y\n\
     svbrdf:roughness=r, alpha = r^2\n";
 /// The scene of previews: that in which the window starts.

@@ -60,10 +60,10 @@ impl FromStr for Depth {
     }
 }
 
-/// What the user says about the files to write.
+/// Options for the files to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
-    /// Half in EXR and 8 bits in PNG where nothing is said.
+    /// `None`: half in EXR, 8 bits in PNG.
     pub depth: Option<Depth>,
     /// Whose names, order and encoding the files get.
     pub like: Option<Preset>,
@@ -71,7 +71,7 @@ pub struct WriteOptions {
     pub preview: bool,
 }
 
-/// What is written.
+/// The kind of file that is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// One layered EXR: signed normals, y up, everything linear.
@@ -82,12 +82,12 @@ pub enum FileKind {
     Folder { sixteen: bool },
     /// Four PNG files in the names and encoding of MaterialGAN.
     MaterialGan { sixteen: bool },
-    /// Base colour, normals, and occlusion | roughness | metallic in one picture: loses what metal cannot say.
+    /// Base colour, normals, and occlusion | roughness | metallic in one picture: loses specular that no metal has.
     Gltf { sixteen: bool },
 }
 
 impl FileKind {
-    /// By the extension of `path` and what `options` say.
+    /// The kind that the extension of `path` and the `options` specify.
     ///
     /// # Errors
     /// [`Error::UnsupportedOutput`] for a kind of file that is not written, and for a depth, a preset or a preview that it has not.

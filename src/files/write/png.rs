@@ -1,4 +1,4 @@
-//! PNG files: a packed strip, or a folder of one picture a map.
+//! Materials as PNG files: a packed strip, or a folder of one picture a map.
 
 use std::fs;
 use std::io::{self, Write};
@@ -15,7 +15,7 @@ use crate::material::{Material, Planes};
 use crate::picture::export::{self, Provenance};
 use crate::progress::Progress;
 
-/// What a picture shows.
+/// The map in a picture.
 #[derive(Clone, Copy, Debug)]
 enum WrittenMap {
     Normal,

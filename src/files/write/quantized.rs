@@ -1,4 +1,4 @@
-//! What remains of a material in a file.
+//! Quantization: a material after a round trip through a file.
 
 use exr::prelude::f16;
 

@@ -1,4 +1,4 @@
-//! Pictures as one NumPy array.
+//! NumPy files: pictures as one array.
 
 use std::io;
 use std::path::Path;

@@ -5,7 +5,7 @@ mod workflow;
 
 use crate::files::read::interpret::LinearMaterial;
 use crate::files::read::options::ReadOptions;
-use crate::files::read::record::note::{Note, SpecifiedBy};
+use crate::files::read::record::{Note, SpecifiedBy};
 use crate::material::Planes;
 use crate::math::real::Real;
 pub use read::Read;

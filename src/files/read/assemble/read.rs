@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 use crate::files::read::gather::map_report::MapReport;
 use crate::files::read::options::ReadOptions;
-use crate::files::read::record::assumption::{Assumption, Certainty};
-use crate::files::read::record::note::Note;
+use crate::files::read::record::{Assumption, Certainty, Note};
 use crate::material::Material;
 
 /// A material, and how it was read.

@@ -3,11 +3,9 @@
 use rayon::prelude::*;
 
 use crate::files::read::interpret::LinearMaterial;
-use crate::files::read::options::preset::Preset;
-use crate::files::read::options::{Energy, ReadOptions, Reflectance};
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::reason::Reason;
-use crate::files::read::stored::material::Inferred;
+use crate::files::read::options::{Energy, Preset, ReadOptions, Reflectance};
+use crate::files::read::record::{Assumption, Certainty, Reason, What};
+use crate::files::read::stored::Inferred;
 use crate::math::real::Real;
 
 /// The reflectance of dielectrics where the map of its level is 1.

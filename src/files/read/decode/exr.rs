@@ -12,9 +12,8 @@ use super::dwa;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
 use crate::error::Error;
 use crate::files::open::panics::caught;
-use crate::files::read::raster::Raster;
-use crate::files::read::raster::samples::Samples;
-use crate::files::read::record::note::Note;
+use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::record::Note;
 
 /// The beginning of the comments of an EXR that this program wrote as a material.
 pub(in crate::files) const NATIVE: &str = "svbrdf:version=1\n";

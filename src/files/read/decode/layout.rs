@@ -2,9 +2,9 @@
 //!
 //! Pictures are (h, w), (h, w, channels), (channels, h, w) or (1, channels, h, w) of at most 4 channels. A shape such as
 //! (1, 1, 3) is one of (h, w, channels) and of (channels, h, w): the other arrays of the file decide, as maps of one
-//! material have one size; where they do not, channels come last and a note says so.
+//! material have one size; where they do not, channels come last and a note is recorded.
 
-use crate::files::read::record::note::Note;
+use crate::files::read::record::Note;
 
 /// Most channels of a picture.
 const MOST: u64 = 4;

@@ -22,7 +22,7 @@ use std::path::Path;
 use crate::error::Error;
 use crate::files::open::NamedFile;
 use crate::files::read::raster::Raster;
-use crate::files::read::record::note::{Note, Subject};
+use crate::files::read::record::{Note, Subject};
 pub(super) use place::{Decoded, Layer};
 use place::{Place, alone};
 

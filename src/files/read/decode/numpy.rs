@@ -8,9 +8,7 @@ use npyz::{NpyFile, Order};
 use super::layout::{self, Axes};
 use super::place::{Decoded, Layer, MAX_BYTES, Place, alone};
 use crate::error::Error;
-use crate::files::read::raster::Raster;
-use crate::files::read::raster::buffer::Buffer;
-use crate::files::read::raster::samples::Samples;
+use crate::files::read::raster::{Buffer, Raster, Samples};
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
@@ -33,7 +31,7 @@ pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> R
         let problem = format!("expected at most {MOST_ARRAYS} arrays in the npz, found {}", names.len());
         return Err(place.bad(problem, "save the maps as named arrays"));
     }
-    // An archive bomb says so in its directory, or meets the limit of a single array or of all of them.
+    // An archive bomb declares its size in its directory, or meets the limit of a single array or of all of them.
     let mut unpacked = 0_u64;
     for file in &names {
         unpacked = unpacked.saturating_add(archive.by_name(file).map_err(invalid)?.size());

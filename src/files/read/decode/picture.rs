@@ -17,9 +17,8 @@ use super::known;
 use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::error::Error;
 use crate::files::open::panics::caught;
-use crate::files::read::raster::Raster;
-use crate::files::read::raster::samples::Samples;
-use crate::files::read::record::note::Note;
+use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::record::Note;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
@@ -110,11 +109,11 @@ fn ignored(decoder: &mut impl ImageDecoder, orientation: Orientation, place: Pla
 
 /// Whether an ICC profile calls itself sRGB, in ASCII or UTF-16.
 fn is_srgb(profile: &[u8]) -> bool {
-    let says = |name: &[u8]| profile.windows(name.len()).any(|bytes| bytes == name);
-    says(b"sRGB") || says(b"s\0R\0G\0B")
+    let contains = |name: &[u8]| profile.windows(name.len()).any(|bytes| bytes == name);
+    contains(b"sRGB") || contains(b"s\0R\0G\0B")
 }
 
-/// What the decoder may allocate. The size of the image is checked apart, for a message with numbers.
+/// The most that the decoder may allocate. The size of the image is checked apart, for a message with numbers.
 fn limits() -> Limits {
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_BYTES);

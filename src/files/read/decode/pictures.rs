@@ -14,8 +14,8 @@ use crate::files::read::located::picture::{LocatedPicture, PictureSource};
 use crate::files::read::located::set::LocatedSet;
 use crate::files::read::located::{Candidate, WholePicture};
 use crate::files::read::raster::Raster;
-use crate::files::read::record::note::{Note, Subject};
-use crate::files::read::stored::map::StoredMap;
+use crate::files::read::record::{Note, Subject};
+use crate::files::read::stored::StoredMap;
 use crate::progress::Progress;
 
 /// A picture of a material, and what its decoder noticed.

@@ -3,12 +3,10 @@
 use std::path::Path;
 
 use super::log_odds::{ALBEDO, BRIGHT_CHANCE, CHANCE, DARK, METAL, SURE, likelihood};
-use super::{ColourEvidence, neighbours};
+use crate::files::read::options::Albedo;
 use crate::files::read::options::transfer::linear;
-use crate::files::read::options::{Albedo, Roughness};
 use crate::files::read::raster::Raster;
-use crate::files::read::record::evidence::Evidence;
-use crate::files::read::stored::map::StoredMap;
+use crate::files::read::record::Evidence;
 
 /// Darker than this, stored or decoded, is black.
 const BLACK: f64 = 0.02;
@@ -16,29 +14,6 @@ const BLACK: f64 = 0.02;
 const METAL_AT_LEAST: f64 = 0.3;
 /// Share of the texels that have to be of metal.
 const MOSTLY: f64 = 0.5;
-
-/// The evidence about diffuse and specular, with that of neighbours where it leaves the encoding open.
-///
-/// They differ only where evidence about diffuse alone does. `roughness` is what the names declare it: glossiness is how
-/// artists name it.
-pub(super) fn pair(
-    diffuse: &StoredMap,
-    specular: &StoredMap,
-    roughness: Option<Roughness>,
-) -> ColourEvidence {
-    let prior = if roughness == Some(Roughness::Gloss) { Evidence::Prior } else { Evidence::Research };
-    let mut common = vec![prior];
-    if is_jpeg(&diffuse.file) && is_jpeg(&specular.file) {
-        common.push(Evidence::Jpeg);
-    }
-    common.extend(measured(&diffuse.raster, &specular.raster));
-    let total: f64 = common.iter().map(|one| one.log_odds()).sum();
-    if total.abs() < SURE {
-        common.extend(neighbours::evidence(&diffuse.file, &specular.file));
-    }
-    let bright = too_bright(&diffuse.raster, &specular.raster);
-    ColourEvidence::Pair { diffuse: common.iter().copied().chain(bright).collect(), specular: common }
-}
 
 /// The evidence of a colour without specular that is so dark if encoded that it may be linear.
 pub(super) fn alone(colour: &Raster) -> Option<Evidence> {
@@ -56,7 +31,7 @@ pub(super) fn measured(diffuse: &Raster, specular: &Raster) -> Vec<Evidence> {
     dielectrics(specular).into_iter().chain(dark).chain(metals(diffuse, specular)).collect()
 }
 
-fn is_jpeg(file: &Path) -> bool {
+pub(super) fn is_jpeg(file: &Path) -> bool {
     file.extension().is_some_and(|e| e.eq_ignore_ascii_case("jpg") || e.eq_ignore_ascii_case("jpeg"))
 }
 
@@ -111,7 +86,7 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 }
 
 /// The evidence of texels that reflect more light than arrives if they are linear, and not if they are encoded.
-fn too_bright(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
+pub(super) fn too_bright(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
     if diffuse.size() != specular.size() {
         return None;
     }

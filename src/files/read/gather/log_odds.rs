@@ -3,7 +3,7 @@
 //! Each adds to the log odds of linear. No single one but a specular map of dielectrics, nearly all of it at 0.04, outweighs
 //! the prior.
 
-use crate::files::read::record::evidence::Evidence;
+use crate::files::read::record::Evidence;
 
 /// Of colours of integers in files of their own, as artists name them: 1 in 20 is linear.
 pub(in crate::files::read) const PRIOR: f64 = -3.0;

@@ -6,11 +6,9 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::files::read::measure;
-use crate::files::read::options::role::Role;
-use crate::files::read::raster::Raster;
-use crate::files::read::raster::samples::Samples;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::options::Role;
+use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// One map as stored.
 #[derive(Clone, Debug, PartialEq, Serialize)]

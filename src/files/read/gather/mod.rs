@@ -6,9 +6,9 @@ mod log_odds;
 pub(super) mod map_report;
 mod neighbours;
 
-use crate::files::read::options::ReadOptions;
-use crate::files::read::record::evidence::Evidence;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::options::{ReadOptions, Roughness};
+use crate::files::read::record::Evidence;
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 pub(super) use log_odds::{PRIOR, SURE};
 
 /// The evidence about how colours are stored.
@@ -32,9 +32,28 @@ pub(super) fn colours(found: &StoredMaterial, options: &ReadOptions) -> ColourEv
         _ if options.albedo.is_some() || is_known => ColourEvidence::Specified,
         Some(specular) => {
             let roughness = options.roughness.or(inferred.roughness.as_ref().map(|known| known.0));
-            colours::pair(&found.colour, specular, roughness)
+            pair(&found.colour, specular, roughness)
         }
         None if inferred.albedo.is_some() => ColourEvidence::Specified,
         None => ColourEvidence::Alone(colours::alone(&found.colour.raster)),
     }
+}
+
+/// The evidence about diffuse and specular, with that of neighbours where their own leaves the encoding open.
+///
+/// The two differ only where evidence about diffuse alone does. `roughness` is what the names declare it: glossiness is
+/// how artists name it.
+fn pair(diffuse: &StoredMap, specular: &StoredMap, roughness: Option<Roughness>) -> ColourEvidence {
+    let prior = if roughness == Some(Roughness::Gloss) { Evidence::Prior } else { Evidence::Research };
+    let mut common = vec![prior];
+    if colours::is_jpeg(&diffuse.file) && colours::is_jpeg(&specular.file) {
+        common.push(Evidence::Jpeg);
+    }
+    common.extend(colours::measured(&diffuse.raster, &specular.raster));
+    let total: f64 = common.iter().map(|one| one.log_odds()).sum();
+    if total.abs() < SURE {
+        common.extend(neighbours::evidence(&diffuse.file, &specular.file));
+    }
+    let bright = colours::too_bright(&diffuse.raster, &specular.raster);
+    ColourEvidence::Pair { diffuse: common.iter().copied().chain(bright).collect(), specular: common }
 }

@@ -12,8 +12,7 @@ use super::log_odds::MOST_OF_NEIGHBOURS;
 use crate::files::open::NamedFile;
 use crate::files::read::decode;
 use crate::files::read::locate::neighbours;
-use crate::files::read::record::evidence::Evidence;
-use crate::files::read::record::note::Subject;
+use crate::files::read::record::{Evidence, Subject};
 
 /// The evidence of the neighbours of the material with these pictures of diffuse and specular.
 pub(super) fn evidence(diffuse: &Path, specular: &Path) -> Option<Evidence> {

@@ -4,12 +4,10 @@ use super::decide::decide;
 use crate::files::read::gather::{ColourEvidence, PRIOR, SURE};
 use crate::files::read::measure;
 use crate::files::read::options::{Albedo, ReadOptions};
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::evidence::Evidence;
-use crate::files::read::record::note::{Note, SpecifiedBy};
-use crate::files::read::record::reason::Reason;
-use crate::files::read::record::storage_convention::StorageConvention;
-use crate::files::read::stored::material::{Inferred, StoredMaterial};
+use crate::files::read::record::{
+    Assumption, Certainty, Evidence, Note, Reason, SpecifiedBy, StorageConvention, What,
+};
+use crate::files::read::stored::{Inferred, StoredMaterial};
 
 /// How diffuse (or a base colour) and specular are stored, recorded.
 pub(super) fn encodings(

@@ -4,17 +4,11 @@ use rayon::prelude::*;
 
 use super::decide::decide;
 use super::values::{Clamped, unit};
-use crate::files::read::options::role::Role;
 use crate::files::read::options::transfer::{self, linear};
-use crate::files::read::options::{Albedo, ReadOptions, Roughness};
-use crate::files::read::raster::channel_spread::channel_spread;
-use crate::files::read::raster::out_of_range::OutOfRange;
-use crate::files::read::raster::samples::Samples;
-use crate::files::read::record::assumption::{Certainty, What};
-use crate::files::read::record::note::{Gray, Note};
-use crate::files::read::record::storage_convention::StorageConvention;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::options::{Albedo, ReadOptions, Role, Roughness};
+use crate::files::read::raster::{OutOfRange, Samples, channel_spread};
+use crate::files::read::record::{Certainty, Gray, Note, StorageConvention, What};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
 

@@ -10,13 +10,9 @@ use std::path::PathBuf;
 
 use crate::error::Error;
 use crate::files::read::gather::ColourEvidence;
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{Energy, ReadOptions};
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::Note;
-use crate::files::read::record::reason::Reason;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::{Inferred, StoredMaterial};
+use crate::files::read::options::{Energy, ReadOptions, Role};
+use crate::files::read::record::{Assumption, Certainty, Note, Reason, What};
+use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::math::real::Real;
 use maps::{colour_planes, gray_plane, roughness_encoding, roughness_plane};
 use values::Clamped;

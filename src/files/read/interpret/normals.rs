@@ -6,12 +6,9 @@ use super::decide::decide;
 use crate::error::Error;
 use crate::files::read::measure::{self, NORMAL_AT_LEAST};
 use crate::files::read::options::{NormalEncoding, NormalY, ReadOptions};
-use crate::files::read::raster::Raster;
-use crate::files::read::raster::samples::Samples;
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::reason::Reason;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::record::{Assumption, Certainty, Reason, What};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
 

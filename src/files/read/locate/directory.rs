@@ -51,3 +51,8 @@ pub(crate) fn material_name(path: &Path, prefix: &str) -> String {
     let resolved: PathBuf = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     resolved.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
+
+/// The folder of a file that may be named without one.
+pub(super) fn folder_of(path: &Path) -> PathBuf {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
+}

@@ -9,15 +9,15 @@ mod mtlx;
 pub(super) mod neighbours;
 pub(super) mod sidecar;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::error::Error;
 use crate::files::open::NamedFile;
 use crate::files::read::located::binding::{Binding, LocatedBinding};
 use crate::files::read::located::{Candidate, Located, WholePicture};
-use crate::files::read::options::ReadOptions;
 use crate::files::read::options::extensions::{self, LISTING};
-use crate::files::read::options::role::Role;
+use crate::files::read::options::{ReadOptions, Role};
+use directory::folder_of;
 use sidecar::Sidecar;
 
 /// Locates the material at `path` with the options and bindings `used`, of which `saved` are those of its sidecar file.
@@ -67,7 +67,89 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
     Ok(Located::from([first].into_iter().chain(around)))
 }
 
-/// The folder of a file that may be named without one.
-fn folder_of(path: &Path) -> PathBuf {
-    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::open::NamedBy;
+
+    /// A folder of files without any content: no picture could be decoded.
+    fn folder(files: &[&str]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        for file in files {
+            let path = folder.path().join(file);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, "").unwrap();
+        }
+        folder
+    }
+
+    fn located(path: &Path, bindings: &[&str]) -> Located {
+        let bindings = bindings.iter().map(|text| text.parse().unwrap()).collect();
+        let used = Sidecar { bindings, ..Sidecar::default() };
+        locate(path, &Sidecar::default(), &used).unwrap()
+    }
+
+    /// The files of each candidate.
+    fn files(located: &Located) -> Vec<Vec<String>> {
+        let of = |candidate: &Candidate| match candidate {
+            Candidate::Picture(picture) => {
+                vec![picture.file.path().file_name().unwrap().to_string_lossy().into()]
+            }
+            Candidate::Set(set) => {
+                let mut files: Vec<_> = set.files.files.iter().map(|file| file.file.clone()).collect();
+                files.sort();
+                files
+            }
+            other => panic!("{other:?}"),
+        };
+        located.candidates.iter().map(of).collect()
+    }
+
+    const MAPS: [&str; 3] = ["a_diffuse.png", "a_normal.png", "a_roughness.png"];
+
+    #[test]
+    fn maps_are_located_by_their_names_alone() {
+        let folder = folder(&["a_normal.png", "a_diffuse.png", "a_roughness.png", "notes.txt", "photo.jpg"]);
+        let found = located(folder.path(), &[]);
+        assert_eq!(files(&found), [MAPS]);
+        assert_eq!(files(&located(&folder.path().join("a"), &[])), [MAPS]);
+        let Candidate::Set(set) = &found.candidates[0] else { panic!("{found:?}") };
+        assert_eq!(set.files.unlabelled, ["photo.jpg"]);
+    }
+
+    #[test]
+    fn a_file_that_is_named_after_a_map_is_a_material_or_else_a_map_of_its_set() {
+        let folder = folder(&MAPS);
+        let found = located(&folder.path().join("a_normal.png"), &[]);
+        assert_eq!(files(&found), [vec!["a_normal.png"], MAPS.to_vec()]);
+        let other = located(&folder.path().join("a_normal.png"), &["normal=x.png"]);
+        assert_eq!(files(&other), [vec!["a_normal.png"], vec!["a_diffuse.png", "a_roughness.png"]]);
+    }
+
+    #[test]
+    fn the_only_folder_in_a_folder_without_pictures_is_entered() {
+        let folder = folder(&["one/two/a_normal.png", "one/two/a_diffuse.png", "one/two/a_roughness.png"]);
+        let found = located(folder.path(), &[]);
+        assert_eq!(
+            (files(&found), found.folders),
+            (vec![MAPS.map(str::to_owned).to_vec()], vec!["one".to_owned(), "two".to_owned()])
+        );
+    }
+
+    #[test]
+    fn a_located_file_knows_who_named_it() {
+        let folder = folder(&["a_diffuse.png", "a_roughness.png", "n.png", "m.png"]);
+        let path = folder.path();
+        let saved = Sidecar {
+            bindings: vec![format!("normal={}", path.join("n.png").display()).parse().unwrap()],
+            ..Sidecar::default()
+        };
+        let caller: Binding = "metallic=m.png".parse().unwrap();
+        let used = Sidecar { bindings: vec![saved.bindings[0].clone(), caller], ..Sidecar::default() };
+        let found = locate(path, &saved, &used).unwrap();
+        let by: Vec<_> = found.bound.iter().map(|bound| bound.file.named_by().clone()).collect();
+        assert_eq!(by, [NamedBy::File(path.join("svbrdf.json")), NamedBy::User]);
+        let Candidate::Set(set) = &found.candidates[0] else { panic!("{found:?}") };
+        assert_eq!(set.file("a_diffuse.png").named_by(), &NamedBy::File(path.to_owned()));
+    }
 }

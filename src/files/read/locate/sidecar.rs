@@ -13,8 +13,7 @@ use crate::files::read::located::binding::Binding;
 use crate::files::read::names::Label;
 use crate::files::read::options::ReadOptions;
 use crate::files::read::options::extensions::EXTENSIONS;
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::{Note, SpecifiedBy};
+use crate::files::read::record::{Assumption, Certainty, Note, SpecifiedBy, What};
 use crate::progress::Progress;
 
 /// The name of the file in a folder.
@@ -88,7 +87,7 @@ impl Sidecar {
             let binding: Binding = format!("{map}={file}").parse().map_err(|e: Error| bad(e.to_string()))?;
             sidecar.bindings.push(binding.within(place.parent().unwrap_or(Path::new(""))));
         }
-        // One by one, so that an error can say which.
+        // One by one, so that an error can name the key.
         for (key, value) in &all {
             if !keys().contains(key) && key != FORMER {
                 return Err(bad(format!("unknown key `{key}`")));

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use crate::error::Error;
 use crate::files::open::NamedFile;
-use crate::files::read::options::role::Role;
+use crate::files::read::options::Role;
 
 /// A binding with its file.
 #[derive(Debug)]
@@ -80,7 +80,7 @@ impl Binding {
         Self { file: folder.join(self.file), ..self }
     }
 
-    /// The name of the map, and `FILE` or `FILE:PART` as seen from `folder`.
+    /// The name of the map, and `FILE` or `FILE:PART` relative to `folder`.
     pub(crate) fn relative_to(&self, folder: &Path) -> (&'static str, String) {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         // The folder of a file that was named without one.

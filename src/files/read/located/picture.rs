@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::files::open::NamedFile;
-use crate::files::read::record::note::Subject;
+use crate::files::read::record::Subject;
 
 /// A picture that has not been decoded.
 #[derive(Clone, Debug)]

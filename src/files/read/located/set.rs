@@ -6,7 +6,7 @@ use super::picture::{LocatedPicture, PictureSource};
 use crate::files::open::NamedFile;
 use crate::files::read::names::Label;
 use crate::files::read::options::extensions;
-use crate::files::read::record::note::{Note, Subject};
+use crate::files::read::record::{Note, Subject};
 
 /// The word of files that are maps by their numbers alone.
 pub(crate) const NUMBERED: &str = "0 to 3";

@@ -1,8 +1,7 @@
 //! The label of a file or layer: which map it holds, by the words of its name.
 
 use super::words::words;
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{NormalY, Roughness};
+use crate::files::read::options::{NormalY, Role, Roughness};
 
 /// The map that a name stands for, and what else the name tells.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +31,7 @@ impl Label {
             (1..=end.min(4)).rev().find_map(|count| {
                 let start = end - count;
                 let word = words[start..end].concat();
-                // A letter alone says something only at the end.
+                // A letter alone names a map only at the end.
                 let short = word.len() <= 2 && word != "ao" && end < words.len();
                 let (role, normal_y) = if short { None } else { meaning(&word) }?;
                 let stem = words[..start].iter().chain(&words[end..]).cloned().collect();
@@ -46,7 +45,7 @@ impl Label {
         self.word.len() <= 2
     }
 
-    /// What the word says about a roughness map.
+    /// The meaning of roughness that the word stands for.
     pub(crate) fn roughness(&self) -> Option<Roughness> {
         match self.word.as_str() {
             "glossiness" | "gloss" | "glossy" | "smoothness" | "metallicsmoothness" | "maskmap"
@@ -162,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn names_say_where_green_points() {
+    fn names_tell_where_green_points() {
         let y = |name| Label::of(name).and_then(|label| label.normal_y);
         assert_eq!(y("a_NormalGL"), Some(NormalY::Up));
         assert_eq!(y("a_nor_dx_4k"), Some(NormalY::Down));

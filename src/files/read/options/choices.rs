@@ -66,7 +66,7 @@ choices! {
 }
 
 choices! {
-    /// Where the y axis of a normal map points, seen on the picture.
+    /// The direction of the y axis of a normal map on the picture.
     NormalY, "direction of normal y":
     /// Green grows towards the top ("OpenGL").
     Up = "up",
@@ -88,7 +88,7 @@ choices! {
 }
 
 choices! {
-    /// What the stored value c of a roughness map means; r is the roughness, alpha = r^2 the width of GGX.
+    /// The meaning of the stored value c of a roughness map; r is the roughness, alpha = r^2 the width of GGX.
     Roughness, "meaning of roughness":
     /// r = c.
     R = "r",
@@ -121,7 +121,7 @@ choices! {
 }
 
 choices! {
-    /// What becomes of NaN and infinity.
+    /// The treatment of NaN and infinity.
     #[derive(Default)]
     NonFinite, "treatment of NaN and infinity":
     /// An error that names the first one and counts them.

@@ -1,4 +1,4 @@
-//! How a packed image is divided into tiles.
+//! Grids of tiles: the division of a packed image.
 
 use std::fmt;
 use std::str::FromStr;

@@ -2,11 +2,11 @@
 
 mod choices;
 pub(super) mod extensions;
-pub(super) mod grid;
+mod grid;
 mod layered;
-pub(super) mod order;
-pub(super) mod preset;
-pub(super) mod role;
+mod order;
+mod preset;
+mod role;
 pub(in crate::files) mod transfer;
 
 use std::path::Path;
@@ -15,9 +15,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::Error;
 pub use choices::{Albedo, Energy, NonFinite, NormalEncoding, NormalY, Reflectance, Roughness, Workflow};
-use grid::TileGrid;
-use order::Order;
-use preset::Preset;
+pub use grid::TileGrid;
+pub use order::Order;
+pub use preset::Preset;
+pub use role::Role;
 
 /// How the files of a material are to be read. `None`: inferred from the files and reported; where the files do not
 /// tell, the default.
@@ -26,7 +27,7 @@ use preset::Preset;
 pub struct ReadOptions {
     /// The conventions of a source of materials, for every option that is not specified.
     pub preset: Option<Preset>,
-    /// Colour space of diffuse, base colour and, unless `specular` says otherwise, specular.
+    /// Colour space of diffuse, base colour and, unless `specular` is specified, specular.
     pub albedo: Option<Albedo>,
     /// Colour space of specular where it is another one.
     #[serde(rename = "specular-albedo")]

@@ -37,7 +37,7 @@ impl Order {
     /// A picture that is all diffuse.
     pub const D: Self = Self::of(b"d");
 
-    /// Those that are known to be in use; any other can be said as well.
+    /// The orders that are known to be in use; any other can be specified as well.
     pub const ALL: [Self; 7] =
         [Self::NDRS, Self::DNRS, Self::DNR, Self::DSRN, Self::NDSR, Self::IBRM, Self::D];
 
@@ -55,7 +55,7 @@ impl Order {
         self.roles().count()
     }
 
-    /// What each tile is.
+    /// The map of each tile.
     pub(crate) fn roles(self) -> impl Iterator<Item = Role> {
         self.letters.into_iter().map_while(role)
     }

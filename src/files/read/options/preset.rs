@@ -1,4 +1,4 @@
-//! What the sources of materials do, as bundles of options.
+//! Presets: bundles of options for sources of materials.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! What stored values of [0, 1] stand for, and back.
+//! Transfer functions: from stored values of [0, 1] to reflectance and roughness, and back.
 
 use crate::files::read::options::{Albedo, Roughness};
 
@@ -16,7 +16,7 @@ pub(crate) fn linear(value: f64, albedo: Albedo) -> f64 {
     }
 }
 
-/// What stands for the reflectance `value` of [0, 1]: the inverse of [`linear`].
+/// The stored value of the reflectance `value` of [0, 1]: the inverse of [`linear`].
 pub(crate) fn encoded(value: f64, albedo: Albedo) -> f64 {
     match albedo {
         Albedo::Linear => value,
@@ -37,7 +37,7 @@ pub(crate) fn roughness(value: f64, code: Roughness) -> f64 {
     }
 }
 
-/// What stands for the roughness `r`: the inverse of [`roughness`].
+/// The stored value of the roughness `r`: the inverse of [`roughness`].
 pub(crate) fn encoded_roughness(r: f64, code: Roughness) -> f64 {
     match code {
         Roughness::R => r,

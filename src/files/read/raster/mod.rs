@@ -1,13 +1,16 @@
 //! Pictures as stored, before their values are interpreted.
 
-pub(super) mod buffer;
-pub(super) mod channel_spread;
-pub(super) mod out_of_range;
-pub(super) mod samples;
+mod buffer;
+mod channel_spread;
+mod out_of_range;
+mod samples;
 
-use samples::Samples;
+pub(super) use buffer::Buffer;
+pub(super) use channel_spread::channel_spread;
+pub(super) use out_of_range::OutOfRange;
+pub(super) use samples::Samples;
 
-/// A picture: one plane for each channel, row 0 on top. Alpha is kept apart.
+/// A picture: one plane for each channel, row 0 on top. Alpha is separate.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Raster {
     pub width: usize,
@@ -57,7 +60,7 @@ impl Raster {
     pub(crate) fn sampled(&self) -> impl Iterator<Item = usize> + use<> {
         const MOST: usize = 1 << 14;
         let count = self.width * self.height;
-        // Odd, so that a picture whose width is a power of two is not seen in columns only.
+        // Odd, so that a picture whose width is a power of two is not sampled in columns only.
         let step = (count / MOST).max(1) | 1;
         (0..count).step_by(step)
     }
@@ -72,7 +75,7 @@ impl Raster {
         Self { channels: Vec::new(), alpha: None, ..*self }
     }
 
-    /// Of 1 to 4 channels; the last of 2 or 4 is alpha, and forgotten where it is opaque everywhere.
+    /// Of 1 to 4 channels; the last of 2 or 4 is alpha, and dropped where it is opaque everywhere.
     pub(crate) fn with_alpha(
         width: usize,
         height: usize,
@@ -94,7 +97,7 @@ impl Raster {
         Self { channels: self.channels.iter().zip(factors.iter().cycle()).map(times).collect(), ..self }
     }
 
-    /// The picture as it is seen whose rows and columns are stored in the TIFF `orientation` (1 to 8).
+    /// The upright picture of one whose rows and columns are stored in the TIFF `orientation` (1 to 8).
     pub(crate) fn oriented(self, orientation: u16) -> Self {
         let (mirrored, upset) = (matches!(orientation, 2 | 3 | 6 | 7), matches!(orientation, 3 | 4 | 7 | 8));
         let turned = matches!(orientation, 5..=8);

@@ -1,4 +1,4 @@
-//! One channel of a picture: a view of what a decoder returned.
+//! One channel of a picture: a view of the buffer that a decoder returned.
 //!
 //! The channels of a picture and its crops share the decoder's buffer, so that taking a picture apart copies nothing.
 
@@ -80,7 +80,7 @@ impl Samples {
         }
     }
 
-    /// What stands for 1.
+    /// The stored value of 1.
     pub(crate) fn top(&self) -> f64 {
         match &self.buffer {
             Buffer::Bytes(_) => 255.0,
@@ -224,7 +224,7 @@ impl Samples {
         }
     }
 
-    /// What `of` returns for the floats of each chunk.
+    /// `of` the floats of each chunk.
     fn scanned<'a, R: Send>(
         &'a self,
         all: &'a [f32],
@@ -269,12 +269,12 @@ impl Samples {
     }
 }
 
-/// What `of` makes of each byte.
+/// `of` the number of each byte.
 fn of_bytes<T: Real>(of: impl Fn(f64) -> f64) -> [T; 256] {
     BYTES.map(|value| T::of(of(value)))
 }
 
-/// What `of` makes of each word.
+/// `of` the number of each word.
 fn of_words<T: Real>(of: impl Fn(f64) -> f64 + Sync) -> Vec<T> {
     let top = usize::from(u16::MAX);
     (0..=top).into_par_iter().map(|code| T::of(of(code as f64 / top as f64))).collect()

@@ -6,9 +6,9 @@ use crate::files::read::decode::Layer;
 use crate::files::read::decode::pictures::DecodedBinding;
 use crate::files::read::located::binding::LocatedBinding;
 use crate::files::read::names::listing;
-use crate::files::read::options::role::Role;
-use crate::files::read::record::note::Subject;
-use crate::files::read::stored::map::StoredMap;
+use crate::files::read::options::Role;
+use crate::files::read::record::Subject;
+use crate::files::read::stored::StoredMap;
 
 /// The map of a binding out of its decoded file.
 ///

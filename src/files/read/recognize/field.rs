@@ -8,9 +8,8 @@ use rayon::prelude::*;
 use crate::error::Error;
 use crate::files::read::options::Albedo;
 use crate::files::read::options::transfer::linear;
-use crate::files::read::raster::Raster;
-use crate::files::read::raster::samples::Samples;
-use crate::files::read::stored::map::StoredMap;
+use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::stored::StoredMap;
 use crate::material::resize::{self, Filter};
 
 /// An input of a surface, linear: one value, or one for each texel. Of one channel or three.

@@ -8,14 +8,10 @@ use super::scaled_normals::scaled;
 use crate::error::Error;
 use crate::files::read::decode::pictures::DecodedPicture;
 use crate::files::read::located::gltf::{GltfSurface, LocatedGltf};
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
+use crate::files::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
 use crate::files::read::raster::Raster;
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::Note;
-use crate::files::read::record::storage_convention::StorageConvention;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::record::{Assumption, Certainty, Note, StorageConvention, What};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// The refractive index of a material that declares none.
 const DEFAULT_IOR: f32 = 1.5;

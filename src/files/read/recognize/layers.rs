@@ -6,13 +6,9 @@ use super::roles::MapsByRole;
 use crate::error::Error;
 use crate::files::read::decode::Layer;
 use crate::files::read::names::{Label, listing};
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{Albedo, NormalY, ReadOptions, Roughness};
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::{Note, Unused};
-use crate::files::read::record::storage_convention::StorageConvention;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
+use crate::files::read::record::{Assumption, Certainty, Note, StorageConvention, Unused, What};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// Whether the name of a layer names a map.
 pub(crate) fn is_named(layer: &Layer) -> bool {

@@ -18,11 +18,9 @@ pub(super) use picture::material as picture;
 
 use crate::error::Error;
 use crate::files::read::decode::pictures::DecodedCandidate;
-use crate::files::read::options::ReadOptions;
-use crate::files::read::options::role::Role;
-use crate::files::read::record::note::{Note, SpecifiedBy};
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::options::{ReadOptions, Role};
+use crate::files::read::record::{Note, SpecifiedBy};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// The material of a candidate with the maps `bound`.
 ///

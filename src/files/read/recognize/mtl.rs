@@ -9,14 +9,9 @@ use crate::files::read::decode::pictures::DecodedPicture;
 use crate::files::read::located::mtl::{BUMPS, LocatedMtl, MtlTexture, NORMALS, names_picture};
 use crate::files::read::measure::{NORMAL_AT_LEAST, normal_score};
 use crate::files::read::names::Label;
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{Albedo, NormalY, ReadOptions};
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::{Note, Unused};
-use crate::files::read::record::reason::Reason;
-use crate::files::read::record::storage_convention::StorageConvention;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::{Inferred, StoredMaterial};
+use crate::files::read::options::{Albedo, NormalY, ReadOptions, Role};
+use crate::files::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
+use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// The material `located`, whose textures are `pictures`.
 ///

@@ -8,14 +8,11 @@ use crate::files::read::decode::pictures::DecodedPicture;
 use crate::files::read::located::mtlx::{Bound, BoundPicture, LocatedMtlx, Obstacle};
 use crate::files::read::located::picture::{LocatedPicture, PictureSource};
 use crate::files::read::located::surface_model::{Input, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{Albedo, NormalY, ReadOptions};
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::{Note, Subject};
-use crate::files::read::record::reason::{Reason, SpaceKnown};
-use crate::files::read::record::storage_convention::StorageConvention;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::{Inferred, StoredMaterial};
+use crate::files::read::options::{Albedo, NormalY, ReadOptions, Role};
+use crate::files::read::record::{
+    Assumption, Certainty, Note, Reason, SpaceKnown, StorageConvention, Subject, What,
+};
+use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// The reflectance of a dielectric of the default refractive index 1.5.
 const DEFAULT: f32 = 0.04;

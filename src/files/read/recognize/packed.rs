@@ -1,4 +1,4 @@
-//! Packed images: square tiles beside or above one another. The tile that looks like normals tells the order.
+//! Packed images: square tiles beside or above one another, in the order that the tile of the normals tells.
 
 use std::ops::Range;
 use std::path::Path;
@@ -6,18 +6,12 @@ use std::path::Path;
 use super::roles::MapsByRole;
 use crate::error::Error;
 use crate::files::read::measure::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
-use crate::files::read::options::grid::TileGrid;
-use crate::files::read::options::order::Order;
-use crate::files::read::options::preset::Preset;
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{Albedo, Energy, NormalY, ReadOptions, Roughness};
+use crate::files::read::options::{
+    Albedo, Energy, NormalY, Order, Preset, ReadOptions, Role, Roughness, TileGrid,
+};
 use crate::files::read::raster::Raster;
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::{Note, SpecifiedBy};
-use crate::files::read::record::reason::Reason;
-use crate::files::read::record::storage_convention::StorageConvention;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::{Inferred, StoredMaterial};
+use crate::files::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, What};
+use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// Of a picture of diffuse alone.
 const ROUGHNESS: f32 = 0.5;
@@ -44,9 +38,9 @@ pub(super) fn material(
 ) -> Result<StoredMaterial, Error> {
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let own = meaning
-        .and_then(|text| Own::of(text, image))
+        .and_then(|text| WrittenEncoding::of(text, image))
         .filter(|_| options.order.is_none() && options.grid.is_none());
-    let chosen = own.as_ref().map(Own::choice).or_else(|| choose(image, &name, options));
+    let chosen = own.as_ref().map(WrittenEncoding::tiling).or_else(|| choose(image, &name, options));
     let refused = || refusal(path, image, options);
     let Tiling { grid, order, first, why, certainty } = chosen.ok_or_else(refused)?;
     if is_stack(grid, order.len()) {
@@ -69,8 +63,8 @@ pub(super) fn material(
         found.assumptions.push(missing);
     }
     match own {
-        Some(own) => own.hint(&mut found),
-        None => hint(&mut found, order, image),
+        Some(own) => own.add_to(&mut found),
+        None => add_usual(&mut found, order, image),
     }
     let chosen = format!("{order} in {grid} tiles of {} x {}", tile[0], tile[1]);
     found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
@@ -85,8 +79,8 @@ pub(super) fn material(
     Ok(found)
 }
 
-/// What this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy scaled`.
-struct Own {
+/// The encoding that this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy scaled`.
+struct WrittenEncoding {
     order: Order,
     diffuse: Albedo,
     specular: Albedo,
@@ -95,7 +89,7 @@ struct Own {
     energy: Energy,
 }
 
-impl Own {
+impl WrittenEncoding {
     /// `None` where the text or the shape of the picture is none that this program writes.
     fn of(text: &str, image: &Raster) -> Option<Self> {
         let mut parts = text.split(", ");
@@ -112,7 +106,7 @@ impl Own {
         (image.width == order.len() * (image.width / order.len())).then_some(own)
     }
 
-    fn choice(&self) -> Tiling {
+    fn tiling(&self) -> Tiling {
         let grid = TileGrid { columns: self.order.len(), rows: 1 };
         Tiling {
             grid,
@@ -123,7 +117,7 @@ impl Own {
         }
     }
 
-    fn hint(&self, found: &mut StoredMaterial) {
+    fn add_to(&self, found: &mut StoredMaterial) {
         fn sure<T>(value: T) -> Inferred<T> {
             Some((value, StorageConvention::NativeText.into(), Certainty::Sure))
         }
@@ -135,8 +129,8 @@ impl Own {
     }
 }
 
-/// What goes with an order, by those who use it. Nothing where none is known to.
-fn hint(found: &mut StoredMaterial, order: Order, image: &Raster) {
+/// Adds the encoding that goes with an order; nothing where none is known.
+fn add_usual(found: &mut StoredMaterial, order: Order, image: &Raster) {
     let (albedo, roughness, why) = match order {
         _ if image.is_float() => (Albedo::Linear, Roughness::R, StorageConvention::Floats),
         Order::NDRS => (Albedo::Linear, Roughness::R, StorageConvention::DeschaintreOrder),
@@ -155,7 +149,7 @@ fn hint(found: &mut StoredMaterial, order: Order, image: &Raster) {
     found.inferred.normal_y = Some((NormalY::Up, why.into(), Certainty::Likely));
 }
 
-/// Every way to divide the image into square tiles, in the order in which they are tried; or the one that was said.
+/// Every way to divide the image into square tiles, in the order in which they are tried; or the one that was specified.
 fn grids(image: &Raster, options: &ReadOptions) -> Vec<TileGrid> {
     if let Some(grid) = options.grid {
         return grid.tile(image.size()).map(|_| grid).into_iter().collect();
@@ -193,7 +187,7 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Tiling> {
     if let Some(choice) = grids.iter().find_map(|&grid| recognized(image, grid, options)) {
         return Some(choice);
     }
-    // In a strip, or in the grid that was said, the usual order; but a picture of normals all over is no strip.
+    // In a strip, or in the grid that was specified, the usual order; but a picture of normals all over is no strip.
     let usual = |g: &&TileGrid| (g.rows == 1 || options.grid.is_some()) && g.count() >= 4;
     let grid = *grids.iter().find(usual)?;
     let scores = scores(image, grid, 0..grid.count());

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::files::read::decode::Decoded;
 use crate::files::read::located::WholePicture;
 use crate::files::read::options::ReadOptions;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::stored::StoredMaterial;
 
 /// The material within a decoded picture: in tiles, or in named layers.
 ///

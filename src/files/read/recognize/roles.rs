@@ -3,15 +3,10 @@
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::read::options::preset::Preset;
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{ReadOptions, Workflow};
+use crate::files::read::options::{Preset, ReadOptions, Role, Workflow};
 use crate::files::read::raster::Raster;
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::SpecifiedBy;
-use crate::files::read::record::reason::Reason;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::{Inferences, StoredMaterial};
+use crate::files::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};
+use crate::files::read::stored::{Inferences, StoredMap, StoredMaterial};
 
 /// The maps of a material that have been recognized, by role.
 #[derive(Debug, Default)]

@@ -7,14 +7,10 @@ use crate::files::read::decode::{self, pictures::DecodedPicture};
 use crate::files::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
 use crate::files::read::measure::{Channels, NORMAL_AT_LEAST, is_flat, normal_score};
 use crate::files::read::names::is_named_as;
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{ReadOptions, Reflectance, Workflow};
+use crate::files::read::options::{ReadOptions, Reflectance, Role, Workflow};
 use crate::files::read::raster::Raster;
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::{Note, SpecifiedBy, Subject, Unused};
-use crate::files::read::record::reason::Reason;
-use crate::files::read::stored::map::StoredMap;
-use crate::files::read::stored::material::StoredMaterial;
+use crate::files::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, Subject, Unused, What};
+use crate::files::read::stored::{StoredMap, StoredMaterial};
 
 /// An unlabelled picture is the normal map where this share of its pixels looks like normals.
 const NORMAL_ALL_OVER: f64 = 0.95;

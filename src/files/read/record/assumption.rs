@@ -1,4 +1,4 @@
-//! What reading assumed, as values that a user can inspect and change.
+//! Assumptions of reading, as values that a user can inspect and change.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::note::SpecifiedBy;
 use super::reason::Reason;
 
-/// What an assumption is about.
+/// The subject of an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum What {
@@ -23,7 +23,7 @@ pub enum What {
     NormalY,
     /// How the components of normals are stored.
     NormalEncoding,
-    /// What a roughness value means.
+    /// The meaning of a roughness value.
     Roughness,
     /// Whether the renderer that diffuse was made for scales it by (1 - specular).
     Energy,
@@ -62,7 +62,7 @@ pub enum Certainty {
     Unsure,
     /// A convention or the pixels suggest it.
     Likely,
-    /// The file says so, or the specification of its format does.
+    /// The file declares it, or the specification of its format does.
     Sure,
     /// The user or a sidecar file specified it.
     Given,
@@ -83,14 +83,14 @@ impl Assumption {
         Self { what, chosen: chosen.to_string(), why: why.into(), certainty }
     }
 
-    /// Whether it is unsure, or inferred without anything that says so.
+    /// Whether it is unsure, or inferred and stated nowhere.
     pub fn is_guess(&self) -> bool {
         let interprets = !matches!(self.what, What::Missing | What::Size | What::Values);
         let is_stated = self.certainty >= Certainty::Sure || self.why.is_stated();
         self.certainty == Certainty::Unsure || (interprets && !is_stated)
     }
 
-    /// What the caller specified.
+    /// A choice that the caller specified.
     pub fn given(what: What, chosen: impl fmt::Display) -> Self {
         Self::new(what, chosen, Reason::Specified(SpecifiedBy::Caller), Certainty::Given)
     }

@@ -1,4 +1,4 @@
-//! What speaks for or against linear colours.
+//! Evidence for or against linear colours.
 
 use std::fmt;
 
@@ -21,7 +21,7 @@ pub enum Evidence {
     Dark(f64),
     /// The median of the specular of metals, as stored, and the log odds of linear: what metals reflect is known.
     Metals { median: f64, log_odds: f64 },
-    /// What the pictures of neighbouring materials say that have the same file names: how many, and their log odds.
+    /// Pictures of neighbouring materials with the same file names: their count and log odds.
     Neighbours { count: usize, log_odds: f64 },
 }
 

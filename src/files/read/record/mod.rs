@@ -1,9 +1,15 @@
-//! The record of a reading: what was assumed and noticed, as values, and the sentences for them.
+//! The record of a reading: assumptions and notes, as values, and the sentences for them.
 
-pub(super) mod assumption;
-pub(super) mod evidence;
-pub(super) mod note;
+mod assumption;
+mod evidence;
+mod note;
 mod note_text;
-pub(super) mod reason;
+mod reason;
 mod reason_text;
-pub(super) mod storage_convention;
+mod storage_convention;
+
+pub use assumption::{Assumption, Certainty, What};
+pub use evidence::Evidence;
+pub use note::{Gray, Note, SpecifiedBy, Subject, Unused};
+pub use reason::{Reason, SpaceKnown};
+pub use storage_convention::StorageConvention;

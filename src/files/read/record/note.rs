@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::files::read::options::{Albedo, Workflow};
-use crate::files::read::options::role::Role;
+use crate::files::read::options::{Albedo, Role, Workflow};
 
-/// Who specified an option or a map.
+/// The source of an option or a map that was specified.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SpecifiedBy {
     /// The caller of this reading.
@@ -14,7 +13,7 @@ pub enum SpecifiedBy {
     Sidecar(String),
 }
 
-/// Why a file, a layer or a statement is not used.
+/// The reason why a file, a layer or a statement is not used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unused {
     /// Its name is not the name of a map of a material.
@@ -80,7 +79,7 @@ pub enum Note {
     NotModelled { features: Vec<String> },
     /// The alpha channel of a map is not used.
     AlphaIgnored { map: Role },
-    /// The channels of a gray map differ by up to `spread`.
+    /// The channels of a gray map differ by up to `spread`, in [0, 1].
     ChannelsDiffer { map: Role, spread: f64, used: Gray },
     /// The two widths of an anisotropic roughness differ by up to `spread`.
     Anisotropic { spread: f64 },
@@ -116,7 +115,7 @@ pub enum Note {
 }
 
 impl Note {
-    /// Whether a user need not be told unless they ask: a file is the map that its name or the user says.
+    /// Whether a user need not be told unless they ask: a file is the map that its name or the user specifies.
     pub fn is_routine(&self) -> bool {
         match self {
             Self::MapFile { .. } => true,

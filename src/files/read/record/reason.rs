@@ -1,14 +1,13 @@
-//! Why something was assumed, as values. `Display` makes the words.
+//! Reasons of assumptions, as values. `Display` makes the words.
 
 use std::path::PathBuf;
 
 use super::evidence::Evidence;
 use super::note::SpecifiedBy;
 use super::storage_convention::StorageConvention;
-use crate::files::read::options::{Albedo, NormalY};
-use crate::files::read::options::role::Role;
+use crate::files::read::options::{Albedo, NormalY, Role};
 
-/// Why something was assumed.
+/// The reason of an assumption.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Reason {
@@ -18,16 +17,16 @@ pub enum Reason {
     StorageConvention(StorageConvention),
     /// A convention that a measurement contradicts.
     ContradictedBy(Box<Reason>, Box<Reason>),
-    /// The file name says so.
+    /// The file name states it.
     FileName {
         file: String,
     },
-    /// The file name says where y points.
+    /// The file name states the direction of y.
     NormalName {
         file: String,
         y: NormalY,
     },
-    /// The file name says how channels are packed; packings of this name differ.
+    /// The file name states how channels are packed; packings of this name differ.
     PackingName {
         file: PathBuf,
     },
@@ -36,7 +35,7 @@ pub enum Reason {
         space: String,
         known: SpaceKnown,
     },
-    /// Colours of 8 or 16 bits are display-encoded unless the evidence, weighed as log odds of linear, says otherwise.
+    /// Colours of 8 or 16 bits are display-encoded unless the evidence, weighed as log odds of linear, outweighs that.
     Weighed {
         log_odds: f64,
         evidence: Vec<Evidence>,
@@ -61,7 +60,7 @@ pub enum Reason {
     OpaqueSmoothness {
         file: PathBuf,
     },
-    // What pixels say.
+    // Measurements of pixels.
     SpecularMedian {
         median: f64,
         suggests: Option<Albedo>,
@@ -92,7 +91,7 @@ pub enum Reason {
     Curl(Option<f64>),
     CurlDown(f64),
     MostMapsUp(f64),
-    // Which maps there are.
+    // The maps that are there.
     MetallicMap {
         matfusion: bool,
     },
@@ -139,7 +138,7 @@ pub enum SpaceKnown {
 }
 
 impl Reason {
-    /// Whether a specification, a name, or the user says so: not only a measurement of pixels, and not a custom that a
+    /// Whether a specification, a name, or the user states it: not only a measurement of pixels, and not a custom that a
     /// file need not follow.
     pub fn is_stated(&self) -> bool {
         use StorageConvention as C;

@@ -1,10 +1,9 @@
-//! The words of reasons.
+//! The words for reasons.
 
 use std::fmt;
 
 use super::reason::{Reason, SpaceKnown};
-use crate::files::read::options::{Albedo, NormalY};
-use crate::files::read::options::role::Role;
+use crate::files::read::options::{Albedo, NormalY, Role};
 
 impl Reason {
     /// Reasons in which maps there are, and how they are called.

@@ -4,9 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::files::read::options::transfer::{encoded, linear};
 use crate::files::read::options::{Albedo, Workflow};
-use crate::files::read::raster::Raster;
-use crate::files::read::raster::samples::Samples;
-use crate::files::read::record::note::{Note, Unused};
+use crate::files::read::raster::{Raster, Samples};
+use crate::files::read::record::{Note, Unused};
 
 /// A map as stored.
 #[derive(Clone, Debug)]

@@ -4,11 +4,8 @@ use std::path::PathBuf;
 
 use super::map::StoredMap;
 use crate::error::Error;
-use crate::files::read::options::role::Role;
-use crate::files::read::options::{Albedo, Energy, NormalY, Roughness};
-use crate::files::read::record::assumption::{Assumption, Certainty, What};
-use crate::files::read::record::note::Note;
-use crate::files::read::record::reason::Reason;
+use crate::files::read::options::{Albedo, Energy, NormalY, Role, Roughness};
+use crate::files::read::record::{Assumption, Certainty, Note, Reason, What};
 
 /// Inferences from the files about stored values. `None` where they tell nothing.
 #[derive(Clone, Debug, Default)]

@@ -1,4 +1,7 @@
 //! Stored maps: what recognition hands to interpretation.
 
-pub(super) mod map;
-pub(super) mod material;
+mod map;
+mod material;
+
+pub(super) use map::StoredMap;
+pub(super) use material::{Inferences, Inferred, StoredMaterial};

@@ -12,9 +12,8 @@ use crate::error::Error;
 use crate::files::open::NamedFile;
 use crate::files::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
 use crate::files::read::located::picture::LocatedPicture;
-use crate::files::read::options::ReadOptions;
-use crate::files::read::options::role::Role;
-use crate::files::read::record::note::Subject;
+use crate::files::read::options::{ReadOptions, Role};
+use crate::files::read::record::Subject;
 use textures::GltfFile;
 
 /// Locates material number `exemplar` of the file `path`; without one the first that has a texture, else the first.

@@ -13,7 +13,7 @@ use super::document::bad;
 use crate::error::Error;
 use crate::files::open::NamedFile;
 use crate::files::read::located::picture::PictureSource;
-use crate::files::read::record::note::Subject;
+use crate::files::read::record::Subject;
 
 /// Extensions of a texture that name its picture, the one that is decoded to more exact values first.
 const SOURCES: [&str; 4] = ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];

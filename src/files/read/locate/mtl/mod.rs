@@ -9,9 +9,8 @@ use crate::files::open::NamedFile;
 use crate::files::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS, names_picture};
 use crate::files::read::located::picture::{LocatedPicture, PictureSource};
 use crate::files::read::names::Label;
-use crate::files::read::options::ReadOptions;
-use crate::files::read::options::role::Role;
-use crate::files::read::record::note::Subject;
+use crate::files::read::options::{ReadOptions, Role};
+use crate::files::read::record::Subject;
 use statement::{Texture, entries};
 
 /// Locates material number `exemplar` of the file `path`.

@@ -12,9 +12,8 @@ use crate::files::open::NamedFile;
 use crate::files::read::located::mtlx::{Bound, LocatedMtlx};
 use crate::files::read::located::picture::{LocatedPicture, PictureSource};
 use crate::files::read::located::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
-use crate::files::read::options::ReadOptions;
-use crate::files::read::options::role::Role;
-use crate::files::read::record::note::Subject;
+use crate::files::read::options::{ReadOptions, Role};
+use crate::files::read::record::Subject;
 use graph::{bound, input};
 
 /// Locates surface number `exemplar` of the file `path`.
