@@ -50,28 +50,30 @@
 //! both, and the command line is part of the binary. Without default features the crate is the core with the command line.
 //! The feature `testing` makes internals public for the tests of this repository; it has no stable interface.
 
-#![cfg_attr(feature = "testing", warn(unreachable_pub))]
-
-pub mod dataset;
-pub mod error;
-pub mod files;
+// Until all callers name the crates themselves.
+pub use svbrdf_core::{
+    error, image, loss, material, math, metrics, progress, rank, render, report, text, why,
+};
+pub use svbrdf_files as files;
+pub use svbrdf_files::{dataset, photograph, samples};
 #[cfg(feature = "gpu")]
-pub mod gpu;
-pub mod image;
-pub mod loss;
-pub mod material;
-pub mod math;
-pub mod metrics;
-pub mod model;
-pub mod photograph;
-pub mod picture;
-pub mod progress;
-pub mod rank;
-pub mod render;
-pub mod report;
-pub mod samples;
-pub mod study;
-pub(crate) mod text;
+pub use svbrdf_gpu as gpu;
+
+pub mod model {
+    pub use svbrdf_core::model::*;
+    pub use svbrdf_files::scene_file;
+}
+
+pub mod picture {
+    pub use svbrdf_core::picture::*;
+    pub use svbrdf_files::export;
+    pub use svbrdf_files::export::strip;
+}
+
+pub mod study {
+    pub use svbrdf_core::study::*;
+    pub use svbrdf_files::export::{study_csv, study_plot as plot};
+}
+
 #[cfg(feature = "viewer")]
 pub mod viewer;
-pub mod why;

@@ -106,7 +106,7 @@ fn maps_are_quantized_as_files_hold_them() {
             let read = read::read::<f32>(&path, &LINEAR, &Progress::default()).unwrap();
             read.material.renamed(material.name())
         };
-        let (expected, got) = (through_file(&material), write::after_round_trip(&material, depth).unwrap());
+        let (expected, got) = (through_file(&material), material.after_round_trip(depth).unwrap());
         assert!(got == expected, "{name}");
         assert_eq!(got == material, depth == Depth::Float, "{name}");
         if depth == Depth::Eight {

@@ -19,7 +19,7 @@ MODULES = [module.name for module in pkgutil.iter_modules(svbrdf.__path__) if mo
 
 
 def test_the_version_is_that_of_the_crate() -> None:
-    crate = tomllib.loads((REPOSITORY / "Cargo.toml").read_text())["package"]["version"]
+    crate = tomllib.loads((REPOSITORY / "Cargo.toml").read_text())["workspace"]["package"]["version"]
     assert svbrdf.__version__ == version("svbrdf") == crate
 
 

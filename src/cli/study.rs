@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use svbrdf::error::Error;
 use svbrdf::loss::check_same_size;
 use svbrdf::picture::export;
-use svbrdf::study::{self, Pair, Study, plot};
+use svbrdf::study::{self, Pair, Study, plot, study_csv};
 
 use super::backend::Adapter;
 use super::bar::watched;
@@ -43,7 +43,7 @@ pub fn run(args: &StudyArgs) -> Result<(), Error> {
     let study = measured(args)?;
     stoppable(|progress| {
         if let Some(path) = &args.output {
-            study.write_csv(path, progress)?;
+            study_csv::write(&study, path, progress)?;
         }
         plot.map_or(Ok(()), |plot| plot::write(&study, &plot, progress))
     })?;

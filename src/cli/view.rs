@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use svbrdf::error::Error;
 #[cfg(feature = "viewer")]
-use svbrdf::loss::FileScenes;
+#[cfg(feature = "viewer")]
+use svbrdf::{files::scene_file, loss::FileScenes};
 
 use super::exit::tell;
 use super::materials::MaterialArgs;
@@ -87,11 +88,11 @@ fn photograph_of(
 #[cfg(feature = "viewer")]
 fn take_scenes(materials: &mut MaterialArgs) -> Result<Option<FileScenes>, Error> {
     let all = materials.ground_truth.take().into_iter().chain(std::mem::take(&mut materials.predictions));
-    let (files, others): (Vec<_>, Vec<_>) = all.partition(|path| FileScenes::is_named(path));
+    let (files, others): (Vec<_>, Vec<_>) = all.partition(|path| scene_file::is_named(path));
     let mut others = others.into_iter();
     materials.ground_truth = others.next();
     materials.predictions = others.collect();
-    FileScenes::read_one(&files)
+    scene_file::read_one(&files)
 }
 
 /// The session file that is given in place of a ground truth.

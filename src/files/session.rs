@@ -1,6 +1,5 @@
 //! The session file: a comparison that another person can open, with everything that it takes.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use serde::de::DeserializeOwned;
@@ -10,6 +9,7 @@ use serde_json::{Map, Value};
 use super::read::{PhotographOptions, ReadOptions};
 use crate::error::Error;
 use crate::model::scene::Scene;
+use crate::open::NamedFile;
 
 /// What the names of session files end with.
 const ENDING: &str = ".svbrdf-session.json";
@@ -103,7 +103,7 @@ impl Session {
     /// # Errors
     /// [`Error::Unreadable`], [`Error::BadSession`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
+        let bytes = NamedFile::by_user(path).bytes()?;
         let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
         let mut session: Self = serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
         if session.version > VERSION {

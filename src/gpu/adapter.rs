@@ -5,7 +5,7 @@ use std::fmt;
 
 use wgpu::{Adapter, Backend, DeviceType, Surface, TextureFormat, TextureUsages};
 
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// What to do where there is no adapter.
 pub(super) const NO_ADAPTER_REMEDY: &str = "install a Vulkan driver (on Debian and Ubuntu \

@@ -4,7 +4,7 @@ use wgpu::{Adapter, Backends, Device, DeviceDescriptor, InstanceDescriptor, Queu
 
 use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY, select};
 use super::fault::Faults;
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// A graphics device, its queue, and what is known about it. Clones share the device.
 #[derive(Clone, Debug)]

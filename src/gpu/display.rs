@@ -8,10 +8,10 @@ use super::params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding};
 use super::pipeline::{Constants, Fullscreen, bind, buffer_type, texture_type, uniform_buffer};
 use super::uniforms::DisplayUniforms;
 use super::{Gpu, Shaded, shaders};
-use crate::error::Error;
-use crate::material::Grid;
-use crate::picture::camera::Camera;
-use crate::picture::difference::Difference;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Grid;
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_core::picture::difference::Difference;
 
 /// The pipelines of pass 2.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use wgpu::{Device, ErrorFilter};
 
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// What to do where the driver fails and nothing more is known.
 pub(super) const DRIVER_REMEDY: &str = "update the graphics driver, or use the CPU";

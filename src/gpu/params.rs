@@ -1,10 +1,10 @@
 //! What the two passes compute: plain values, no device.
 
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::picture::camera::Camera;
-use crate::picture::difference::Difference;
-use crate::picture::quantity::Quantity;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
 
 /// What is shaded, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub struct DisplayParams {
     /// Whether the material is repeated 2 x 2 times, shifted by half of itself, in the place of one.
     pub tiled: bool,
     /// Whether [`Encoding::Data`] shows its first channel, in [0, 1], in the colours of
-    /// [`heat`](crate::picture::colour_map::heat).
+    /// [`heat`](svbrdf_core::picture::colour_map::heat).
     pub false_colour: bool,
     /// Whether a pixel that covers several texels shows the nearest one in place of their mean: for drafts.
     pub nearest: bool,
@@ -48,8 +48,8 @@ pub enum DisplayMode {
     Wipe(f32),
 }
 
-/// A difference shown as colours: [`heat`](crate::picture::colour_map::heat), or
-/// [`diverging`](crate::picture::colour_map::diverging) where it is signed. Exposure does not change it.
+/// A difference shown as colours: [`heat`](svbrdf_core::picture::colour_map::heat), or
+/// [`diverging`](svbrdf_core::picture::colour_map::diverging) where it is signed. Exposure does not change it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplayedDifference {
     pub kind: Difference,

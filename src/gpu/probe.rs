@@ -9,8 +9,8 @@ use super::pipeline::{bind, buffer_type, compute, layout, module, uniform_buffer
 use super::read_back::{read, read_buffer};
 use super::uniforms::{ModelUniforms, ProbePoint};
 use super::{Gpu, shaders};
-use crate::error::Error;
-use crate::model::brdf::{Model, Texel};
+use svbrdf_core::error::Error;
+use svbrdf_core::model::brdf::{Model, Texel};
 
 /// Points that one dispatch computes: within every adapter's limits.
 const CHUNK: usize = 1 << 18;
@@ -18,7 +18,7 @@ const CHUNK: usize = 1 << 18;
 const WORKGROUP: usize = 64;
 
 impl Gpu {
-    /// The shader's `render` for every (texel, w_l, w_v) of `inputs`: [`render`](crate::model::brdf::render) on the device.
+    /// The shader's `render` for every (texel, w_l, w_v) of `inputs`: [`render`](svbrdf_core::model::brdf::render) on the device.
     ///
     /// # Errors
     /// [`Error::Gpu`] where the adapter has no compute shaders or fails.

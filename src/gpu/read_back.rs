@@ -6,8 +6,8 @@ use wgpu::{Buffer, BufferDescriptor, BufferUsages, Extent3d, Origin3d, PollType,
 
 use super::fault::{failed, scoped};
 use super::{Gpu, Shaded};
-use crate::error::Error;
-use crate::image::Image;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
 
 /// About how many bytes are read at once.
 const BAND_BYTES: usize = 16 << 20;
@@ -52,8 +52,7 @@ impl Shaded {
 ///
 /// # Errors
 /// [`Error::Gpu`] where the adapter failed.
-#[cfg(feature = "viewer")]
-pub(crate) fn read_rgba(
+pub fn read_rgba(
     gpu: &Gpu,
     texture: &wgpu::Texture,
     [width, height]: [u32; 2],

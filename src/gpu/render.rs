@@ -1,15 +1,15 @@
 //! One rendering on the device, read back.
 
 use super::{Gpu, MaterialTextures, ShadeParams, Shading};
-use crate::error::Error;
-use crate::image::Image;
-use crate::material::Material;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::picture::quantity::Quantity;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::quantity::Quantity;
 
 impl Gpu {
-    /// Algorithm 3 over a whole material, as [`crate::render::render`] computes it on the CPU.
+    /// Algorithm 3 over a whole material, as [`svbrdf_core::render::render`] computes it on the CPU.
     ///
     /// # Errors
     /// [`Error::UnusableScene`] where [`Scene::check`] refuses the scene, [`Error::Gpu`] where the adapter cannot

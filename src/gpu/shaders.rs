@@ -62,7 +62,6 @@ pub const DISPLAY: Shader = Shader {
 pub const BLIT: Shader = Shader { name: "blit", pieces: &[piece!("fullscreen.wgsl"), piece!("blit.wgsl")] };
 
 /// The BRDF at single points.
-#[cfg(feature = "testing")]
 pub const PROBE: Shader = Shader { name: "probe", pieces: &[piece!("brdf.wgsl"), piece!("probe.wgsl")] };
 
 /// Algorithm 1: sums over blocks of texels.
@@ -78,5 +77,4 @@ pub const LOSS: Shader = Shader {
 };
 
 /// Every shader of this crate.
-#[cfg(feature = "testing")]
 pub const ALL: [Shader; 6] = [SHADE, REDUCE, DISPLAY, BLIT, PROBE, LOSS];

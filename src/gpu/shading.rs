@@ -11,9 +11,9 @@ use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, buffer_type, te
 use super::textures::{descriptor, extent, write};
 use super::uniforms::ShadingUniforms;
 use super::{Gpu, MaterialTextures, shaders};
-use crate::error::Error;
-use crate::image::Image;
-use crate::picture::quantity::Quantity;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::picture::quantity::Quantity;
 
 /// The largest 16-bit float.
 const LARGEST_F16: f32 = 65504.0;

@@ -8,7 +8,7 @@ use wgpu::{
 use super::fault::scoped;
 use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, texture_type};
 use super::{Gpu, Pane, shaders};
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// The pipeline that copies kept pixels to the window.
 #[derive(Debug)]

@@ -5,8 +5,8 @@ use wgpu::{Extent3d, Origin3d, Texture, TextureDescriptor, TextureFormat, Textur
 
 use super::Gpu;
 use super::fault::scoped;
-use crate::error::Error;
-use crate::material::{Material, Planes};
+use svbrdf_core::error::Error;
+use svbrdf_core::material::{Material, Planes};
 
 /// About how many bytes are sent at once: bounds the memory that an upload takes beside the textures.
 const BAND_BYTES: usize = 16 << 20;

@@ -6,9 +6,9 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use super::params::{DisplayMode, DisplayParams, ShadeParams};
-use crate::model::brdf::Model;
-use crate::model::scene::{Kind, Scene};
-use crate::picture::camera::Camera;
+use svbrdf_core::model::brdf::Model;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::camera::Camera;
 
 /// `Model` of brdf.wgsl.
 #[repr(C)]

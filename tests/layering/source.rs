@@ -68,6 +68,46 @@ pub fn modules(text: &str) -> Vec<Module> {
     done
 }
 
+/// The names of the types that a file gives inherent methods, except in its tests.
+pub fn inherent_types(text: &str) -> BTreeSet<String> {
+    let tokens = tokens(text);
+    let mut types = BTreeSet::new();
+    let mut at = 0;
+    while at < tokens.len() {
+        let rest: Vec<&str> = tokens[at..].iter().take(7).map(String::as_str).collect();
+        let begins = at == 0 || ["}", ";", "]"].contains(&tokens[at - 1].as_str());
+        match rest[..] {
+            ["#", "[", "cfg", "(", "test", ")", "]"] => at = after_item(&tokens, at + 7),
+            ["impl", ..] if begins => {
+                let open =
+                    tokens[at..].iter().position(|token| token == "{").map_or(tokens.len(), |n| at + n);
+                types.extend(inherent_type(&tokens[at + 1..open]));
+                at = open;
+            }
+            _ => at += 1,
+        }
+    }
+    types
+}
+
+/// The type of an `impl` without a trait, from what stands between `impl` and its brace.
+fn inherent_type(head: &[String]) -> Option<String> {
+    let mut depth = 0;
+    let mut name = None;
+    for (i, token) in head.iter().enumerate() {
+        match token.as_str() {
+            "<" => depth += 1,
+            // Not the arrow of a function.
+            ">" if head[i - 1] != "-" => depth -= 1,
+            "for" if depth == 0 => return None,
+            "where" if depth == 0 => break,
+            word if depth == 0 && is_name(word) => name = Some(token.clone()),
+            _ => {}
+        }
+    }
+    name
+}
+
 /// Where the item that begins at `at` ends.
 fn after_item(tokens: &[String], at: usize) -> usize {
     let mut depth = 0;

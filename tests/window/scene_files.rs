@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::files::read::ReadOptions;
-use svbrdf::loss::{Comparison, FileScenes, Outcome, Request};
+use svbrdf::loss::{Comparison, Outcome, Request};
 use svbrdf::model::convention::PRINTED;
 use svbrdf::model::scene::Scene;
 use svbrdf::model::scene_file;
@@ -129,7 +129,7 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
 fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     let folder = tempfile::tempdir().unwrap();
     let path = capture(&folder);
-    let scenes = FileScenes::read(&path).unwrap();
+    let scenes = scene_file::read_named(&path).unwrap();
     let of_file = |app: &App| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 3);
     let options = ViewerOptions { scenes: Some(scenes.clone()), ..ViewerOptions::default() };
     let mut window = super::window(options);

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 use crate::progress::Progress;
 
+/// The program and its version, as the files that it writes name it.
+pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
 /// A chain of links that is longer has no end.
 const MOST_LINKS: usize = 40;
 
@@ -20,7 +22,7 @@ pub struct Destination<F> {
 impl<F> Destination<F> {
     /// Checks `path` before there is anything to write. `format` belongs to an extension in
     /// small letters, `what` names the extension in messages, and `known` lists all.
-    pub(crate) fn among(
+    pub fn among(
         path: &Path,
         format: impl FnOnce(&str) -> Option<F>,
         what: &'static str,
@@ -36,7 +38,7 @@ impl<F> Destination<F> {
     }
 
     /// [`replace`] for this file.
-    pub(crate) fn replace(
+    pub fn replace(
         &self,
         progress: &Progress,
         write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
@@ -47,13 +49,13 @@ impl<F> Destination<F> {
 
 /// A file that takes no more once the work is cancelled.
 #[derive(Debug)]
-pub(crate) struct Watched<'a> {
+pub struct Watched<'a> {
     file: &'a mut File,
     progress: &'a Progress,
 }
 
 impl<'a> Watched<'a> {
-    pub(crate) fn new(file: &'a mut File, progress: &'a Progress) -> Self {
+    pub fn new(file: &'a mut File, progress: &'a Progress) -> Self {
         Self { file, progress }
     }
 }
@@ -76,7 +78,7 @@ impl Seek for Watched<'_> {
 }
 
 /// An error once the work is cancelled.
-pub(crate) fn check(progress: &Progress) -> io::Result<()> {
+pub fn check(progress: &Progress) -> io::Result<()> {
     // Not `Interrupted`, after which writing is tried again.
     if progress.is_cancelled() { Err(io::Error::other("cancelled")) } else { Ok(()) }
 }
@@ -111,7 +113,7 @@ pub fn write_text(path: &Path, text: &str, progress: &Progress) -> Result<(), Er
 ///
 /// # Errors
 /// [`Error::Unwritable`]; [`Error::Cancelled`], and then `path` is as it was.
-pub(crate) fn replace(
+pub fn replace(
     path: &Path,
     progress: &Progress,
     write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
@@ -129,7 +131,7 @@ pub(crate) fn replace(
             let mut whole = tempfile::tempfile()?;
             fill(&mut whole)?;
             whole.rewind()?;
-            io::copy(&mut whole, &mut OpenOptions::new().write(true).open(path)?)?;
+            io::copy(&mut whole, &mut device(path)?)?;
             return Ok(());
         }
         let target = target_of(path)?;
@@ -144,6 +146,12 @@ pub(crate) fn replace(
     })
 }
 
+/// A device or a pipe, open for writing.
+#[expect(clippy::disallowed_methods, reason = "the door is for reading")]
+fn device(path: &Path) -> io::Result<File> {
+    OpenOptions::new().write(true).open(path)
+}
+
 /// The target of `path` where it is a link: a file, or nothing yet.
 fn target_of(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
@@ -156,7 +164,7 @@ fn target_of(path: &Path) -> io::Result<PathBuf> {
     Err(io::Error::other("its symbolic links go round in a circle"))
 }
 
-pub(crate) fn folder_of(path: &Path) -> &Path {
+pub fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),

@@ -13,14 +13,14 @@
 //! rest is inferred from names and pixels, and recorded as an [`Assumption`].
 
 mod assemble;
-pub(in crate::files) mod decode;
+pub(crate) mod decode;
 mod gather;
 mod interpret;
 mod locate;
 mod located;
 mod measure;
 mod names;
-pub(in crate::files) mod options;
+pub(crate) mod options;
 mod photograph;
 mod raster;
 mod recognize;
@@ -47,9 +47,9 @@ pub use record::{
 };
 
 use crate::error::Error;
-use crate::files::open::NamedFile;
 use crate::material::{Material, Planes};
 use crate::math::real::Real;
+use crate::open::NamedFile;
 use crate::progress::Progress;
 use decode::pictures;
 use gather::map_report;

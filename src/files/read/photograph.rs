@@ -9,11 +9,11 @@ use serde::{Deserialize, Serialize};
 
 use super::decode;
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::options::{Albedo, transfer};
-use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::record::{Note, Subject};
 use crate::image::Image;
+use crate::open::NamedFile;
+use crate::read::options::{Albedo, transfer};
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::{Note, Subject};
 
 /// How the samples of a photograph encode radiance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

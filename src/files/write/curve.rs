@@ -67,8 +67,8 @@ fn rounded(value: f64) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::read::Albedo;
-    use crate::files::read::options::transfer::{encoded, linear};
+    use crate::read::Albedo;
+    use crate::read::options::transfer::{encoded, linear};
 
     #[test]
     fn a_code_that_is_looked_up_is_that_of_the_formula() {

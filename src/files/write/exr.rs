@@ -4,15 +4,14 @@ use std::io::{self, Seek, Write};
 
 use exr::image::{AnyChannel, AnyChannels, FlatSamples};
 use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage, f16};
-use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::files::read::decode::exr::NATIVE;
-use crate::material::{Material, Planes};
+use crate::atomic::SOFTWARE;
+use crate::material::{Material, Planes, half_normals};
 use crate::model::convention::PRINTED;
 use crate::model::scene::{Kind, Scene};
-use crate::picture::export::Provenance;
 use crate::progress::Progress;
+use crate::read::decode::exr::NATIVE;
 use crate::render::render_f32;
 
 /// The meaning of the values of such an EXR.
@@ -50,7 +49,7 @@ pub(crate) fn write(
     let all = named.chain([("roughness.Y".to_owned(), samples(roughness))]);
     let channels = all.map(|(name, plane)| AnyChannel::new(text(&name), plane)).collect();
     let attributes = LayerAttributes {
-        software_name: Text::new_or_none(Provenance::SOFTWARE),
+        software_name: Text::new_or_none(SOFTWARE),
         comments: Text::new_or_none(format!("{NATIVE}{MEANING}")),
         ..LayerAttributes::default()
     };
@@ -73,33 +72,4 @@ fn rendering(material: &Material<f32>) -> io::Result<[Vec<f32>; 3]> {
 /// Text of the ASCII that is written here.
 fn text(name: &str) -> Text {
     Text::new_or_none(name).unwrap_or_else(|| Text::from("?"))
-}
-
-/// Normals that are halves and, once they have been normalized and rounded to halves again, the same halves.
-pub(crate) fn half_normals(normal: &[Vec<f32>; 3]) -> [Vec<f16>; 3] {
-    const CHUNK: usize = 1 << 14;
-    let mut planes = normal.each_ref().map(|plane| vec![f16::ZERO; plane.len()]);
-    let [xs, ys, zs] = planes.each_mut().map(|plane| plane.par_chunks_mut(CHUNK));
-    xs.zip(ys).zip(zs).enumerate().for_each(|(number, ((xs, ys), zs))| {
-        let texels = xs.iter_mut().zip(ys).zip(zs).enumerate();
-        for (index, ((x, y), z)) in texels {
-            [*x, *y, *z] = half_normal(normal.each_ref().map(|plane| plane[number * CHUNK + index]));
-        }
-    });
-    planes
-}
-
-fn half_normal(normal: [f32; 3]) -> [f16; 3] {
-    const MOST_ROUNDS: usize = 16;
-    let again =
-        |n: [f16; 3]| DVec3::from(n.map(f64::from)).normalize().to_array().map(|x| f16::from_f32(x as f32));
-    let mut n = normal.map(f16::from_f32);
-    for _ in 0..MOST_ROUNDS {
-        let next = again(n);
-        if next == n {
-            break;
-        }
-        n = next;
-    }
-    n
 }

@@ -4,61 +4,20 @@ mod curve;
 mod exr;
 mod metallic;
 mod png;
-mod quantized;
 
 use std::path::Path;
-use std::str::FromStr;
 
-pub use quantized::after_round_trip;
+pub use crate::material::Depth;
 
 use super::read::Preset;
+use crate::atomic;
 use crate::error::{Error, OutputProblem};
 use crate::material::Material;
-use crate::picture::export;
 use crate::progress::Progress;
 
 /// Kinds of files that materials are read from and not written into: as the name of a folder they are a mistake.
 const NOT_WRITTEN: [&str; 12] =
     ["jpg", "jpeg", "tif", "tiff", "hdr", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json"];
-
-/// How samples are stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Depth {
-    Eight,
-    Sixteen,
-    Half,
-    Float,
-}
-
-impl Depth {
-    /// The name for users.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Eight => "8",
-            Self::Sixteen => "16",
-            Self::Half => "half",
-            Self::Float => "float",
-        }
-    }
-}
-
-impl FromStr for Depth {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self, Error> {
-        match name {
-            "8" => Ok(Self::Eight),
-            "16" => Ok(Self::Sixteen),
-            "half" => Ok(Self::Half),
-            "float" => Ok(Self::Float),
-            _ => Err(Error::UnknownName {
-                what: "depth",
-                found: name.to_owned(),
-                known: "8, 16 (PNG), half, float (EXR)".to_owned(),
-            }),
-        }
-    }
-}
 
 /// Options for the files to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -154,10 +113,10 @@ pub fn write_watched(
     };
     match kind {
         FileKind::Exr { half, preview } => {
-            export::replace(path, progress, |file| exr::write(file, material, half, preview))
+            atomic::replace(path, progress, |file| exr::write(file, material, half, preview))
         }
         FileKind::Packed { sixteen, like } => {
-            export::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
+            atomic::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
         }
         FileKind::Folder { sixteen } => folder(&png::PLAIN, sixteen),
         FileKind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen),

@@ -13,12 +13,12 @@ use plan::{MOST_PREDICTIONS, Plan};
 use super::Gpu;
 use super::fault::failed;
 use super::uniforms::LogSum;
-use crate::error::Error;
-use crate::loss::{Backend, Comparison};
-use crate::material::Material;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Backend, Comparison};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
 
 /// The loss on a graphics adapter. Worth keeping: a driver compiles its pipelines for some time.
 ///

@@ -8,16 +8,16 @@ use wgpu::{
 };
 
 use super::plan::{LANES, PLANES, Plan, blocks};
-use crate::error::Error;
-use crate::gpu::fault::scoped;
-use crate::gpu::pipeline::{bind, buffer_type, compute, layout, module};
-use crate::gpu::read_back::{read_after, read_buffer};
-use crate::gpu::uniforms::{Band, LogSum, ModelUniforms, SceneUniforms};
-use crate::gpu::{Gpu, shaders};
-use crate::material::{Material, Planes};
-use crate::model::brdf::Model;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
+use crate::fault::scoped;
+use crate::pipeline::{bind, buffer_type, compute, layout, module};
+use crate::read_back::{read_after, read_buffer};
+use crate::uniforms::{Band, LogSum, ModelUniforms, SceneUniforms};
+use crate::{Gpu, shaders};
+use svbrdf_core::error::Error;
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::brdf::Model;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
 
 /// The pipelines and what they bind.
 #[derive(Debug)]

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use crate::error::Error;
+use crate::files::scene_file;
 use crate::files::session::Session;
-use crate::loss::FileScenes;
 use crate::viewer::app::App;
 use crate::viewer::command::MaterialsCommand;
 use crate::viewer::message::Message;
@@ -20,10 +20,10 @@ impl App {
         match command {
             // First: the scenes of a file replace the scenes of a session.
             MaterialsCommand::Open { paths, replace, read }
-                if paths.iter().any(|path| FileScenes::is_named(path)) =>
+                if paths.iter().any(|path| scene_file::is_named(path)) =>
             {
                 let (files, paths): (Vec<_>, Vec<_>) =
-                    paths.into_iter().partition(|path| FileScenes::is_named(path));
+                    paths.into_iter().partition(|path| scene_file::is_named(path));
                 self.open_scene_file(ctx, files);
                 if !paths.is_empty() {
                     self.apply_to_materials(ctx, MaterialsCommand::Open { paths, replace, read });
@@ -92,7 +92,7 @@ impl App {
     /// Starts to read a scene file.
     fn open_scene_file(&mut self, ctx: &egui::Context, paths: Vec<PathBuf>) {
         self.scene_file = Some(Task::start(ctx, move |_| {
-            let read = FileScenes::read_one(&paths)?;
+            let read = scene_file::read_one(&paths)?;
             read.ok_or_else(|| Error::Internal("there is no scene file".to_owned()))
         }));
     }

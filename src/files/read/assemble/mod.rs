@@ -3,11 +3,11 @@
 mod read;
 mod workflow;
 
-use crate::files::read::interpret::LinearMaterial;
-use crate::files::read::options::ReadOptions;
-use crate::files::read::record::{Note, SpecifiedBy};
 use crate::material::Planes;
 use crate::math::real::Real;
+use crate::read::interpret::LinearMaterial;
+use crate::read::options::ReadOptions;
+use crate::read::record::{Note, SpecifiedBy};
 pub use read::Read;
 
 /// The planes of the material, taken out of its linear maps; the choices that are made here are recorded in `found`.

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
-use crate::files::read::gather::map_report::MapReport;
-use crate::files::read::options::ReadOptions;
-use crate::files::read::record::{Assumption, Certainty, Note};
 use crate::material::Material;
+use crate::read::gather::map_report::MapReport;
+use crate::read::options::ReadOptions;
+use crate::read::record::{Assumption, Certainty, Note};
 
 /// A material, and how it was read.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use crate::files::read::interpret::LinearMaterial;
-use crate::files::read::options::{Energy, Preset, ReadOptions, Reflectance};
-use crate::files::read::record::{Assumption, Certainty, Reason, What};
-use crate::files::read::stored::Inferred;
 use crate::math::real::Real;
+use crate::read::interpret::LinearMaterial;
+use crate::read::options::{Energy, Preset, ReadOptions, Reflectance};
+use crate::read::record::{Assumption, Certainty, Reason, What};
+use crate::read::stored::Inferred;
 
 /// The reflectance of dielectrics where the map of its level is 1.
 const MOST_DIELECTRIC: f64 = 0.08;

@@ -6,8 +6,8 @@ use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision}
 
 use super::place::Place;
 use crate::error::Error;
-use crate::files::open::panics::caught;
-use crate::files::read::raster::{Buffer, Raster, Samples};
+use crate::open::panics::caught;
+use crate::read::raster::{Buffer, Raster, Samples};
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
     let contradiction = |_| place.invalid("DDS", "a contradiction in it");

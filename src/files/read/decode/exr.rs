@@ -11,12 +11,12 @@ use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 use super::dwa;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
 use crate::error::Error;
-use crate::files::open::panics::caught;
-use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::record::Note;
+use crate::open::panics::caught;
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::Note;
 
 /// The beginning of the comments of an EXR that this program wrote as a material.
-pub(in crate::files) const NATIVE: &str = "svbrdf:version=1\n";
+pub(crate) const NATIVE: &str = "svbrdf:version=1\n";
 /// Blocks of DWA may take so many bytes more than their samples: they are padded to 8 x 8.
 const SMALL: u64 = 1 << 20;
 

@@ -6,8 +6,8 @@ use basisu::{DecodeFlags, TargetFormat, Transcoder};
 
 use super::place::{MAX_BYTES, Place};
 use crate::error::Error;
-use crate::files::open::panics::caught;
-use crate::files::read::raster::{Raster, Samples};
+use crate::open::panics::caught;
+use crate::read::raster::{Raster, Samples};
 
 /// How a KTX2 begins.
 pub(crate) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";

@@ -4,7 +4,7 @@
 //! (1, 1, 3) is one of (h, w, channels) and of (channels, h, w): the other arrays of the file decide, as maps of one
 //! material have one size; where they do not, channels come last and a note is recorded.
 
-use crate::files::read::record::Note;
+use crate::read::record::Note;
 
 /// Most channels of a picture.
 const MOST: u64 = 4;

@@ -5,7 +5,7 @@
 
 mod dds;
 mod dwa;
-pub(in crate::files) mod exr;
+pub(crate) mod exr;
 mod head;
 mod known;
 mod ktx2;
@@ -20,9 +20,9 @@ use std::io::{BufRead, Seek};
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::raster::Raster;
-use crate::files::read::record::{Note, Subject};
+use crate::open::NamedFile;
+use crate::read::raster::Raster;
+use crate::read::record::{Note, Subject};
 pub(super) use place::{Decoded, Layer};
 use place::{Place, alone};
 

@@ -16,9 +16,9 @@ use super::head::{self, PngHead};
 use super::known;
 use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::error::Error;
-use crate::files::open::panics::caught;
-use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::record::Note;
+use crate::open::panics::caught;
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::Note;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);

@@ -6,17 +6,17 @@ use rayon::prelude::*;
 
 use super::{Decoded, Layer, from_reader, one, whole};
 use crate::error::Error;
-use crate::files::read::located::binding::LocatedBinding;
-use crate::files::read::located::gltf::LocatedGltf;
-use crate::files::read::located::mtl::LocatedMtl;
-use crate::files::read::located::mtlx::LocatedMtlx;
-use crate::files::read::located::picture::{LocatedPicture, PictureSource};
-use crate::files::read::located::set::LocatedSet;
-use crate::files::read::located::{Candidate, WholePicture};
-use crate::files::read::raster::Raster;
-use crate::files::read::record::{Note, Subject};
-use crate::files::read::stored::StoredMap;
 use crate::progress::Progress;
+use crate::read::located::binding::LocatedBinding;
+use crate::read::located::gltf::LocatedGltf;
+use crate::read::located::mtl::LocatedMtl;
+use crate::read::located::mtlx::LocatedMtlx;
+use crate::read::located::picture::{LocatedPicture, PictureSource};
+use crate::read::located::set::LocatedSet;
+use crate::read::located::{Candidate, WholePicture};
+use crate::read::raster::Raster;
+use crate::read::record::{Note, Subject};
+use crate::read::stored::StoredMap;
 
 /// A picture of a material, and what its decoder noticed.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ pub(crate) enum DecodedCandidate {
 ///
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`], [`Error::Cancelled`].
-pub(in crate::files::read) fn candidate(
+pub(in crate::read) fn candidate(
     candidate: Candidate,
     progress: &Progress,
 ) -> Result<DecodedCandidate, Error> {
@@ -117,7 +117,7 @@ pub(crate) enum DecodedBinding {
 ///
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`].
-pub(in crate::files::read) fn binding(binding: &LocatedBinding) -> Result<DecodedBinding, Error> {
+pub(in crate::read) fn binding(binding: &LocatedBinding) -> Result<DecodedBinding, Error> {
     let subject = Subject::Map(binding.role);
     match &binding.part {
         None => Ok(DecodedBinding::Whole(one(&binding.file, subject)?.0)),

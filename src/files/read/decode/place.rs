@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::read::options::Role;
-use crate::files::read::raster::Raster;
-use crate::files::read::record::{Note, Subject};
+use crate::read::options::Role;
+use crate::read::raster::Raster;
+use crate::read::record::{Note, Subject};
 
 /// Largest side of a map: the largest that material libraries publish.
 pub(crate) const MAX_SIDE: usize = 16_384;

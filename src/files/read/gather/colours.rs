@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::log_odds::{ALBEDO, BRIGHT_CHANCE, CHANCE, DARK, METAL, SURE, likelihood};
-use crate::files::read::options::Albedo;
-use crate::files::read::options::transfer::linear;
-use crate::files::read::raster::Raster;
-use crate::files::read::record::Evidence;
+use crate::read::options::Albedo;
+use crate::read::options::transfer::linear;
+use crate::read::raster::Raster;
+use crate::read::record::Evidence;
 
 /// Darker than this, stored or decoded, is black.
 const BLACK: f64 = 0.02;

@@ -3,10 +3,10 @@
 //! Each adds to the log odds of linear. No single one but a specular map of dielectrics, nearly all of it at 0.04, outweighs
 //! the prior.
 
-use crate::files::read::record::Evidence;
+use crate::read::record::Evidence;
 
 /// Of colours of integers in files of their own, as artists name them: 1 in 20 is linear.
-pub(in crate::files::read) const PRIOR: f64 = -3.0;
+pub(in crate::read) const PRIOR: f64 = -3.0;
 /// Of a set of diffuse, specular and roughness: of the sources in docs/formats.md, 1 in 4 stores them linear.
 const RESEARCH: f64 = -1.1;
 /// JPEG holds data less often than PNG.
@@ -20,7 +20,7 @@ const TOO_BRIGHT: f64 = -20.0;
 /// Shares of texels with too bright a sum that tell nothing.
 pub(super) const BRIGHT_CHANCE: f64 = 0.02;
 /// Odds below 7 to 1 are unsure, and so is what evidence of such odds contradicts.
-pub(in crate::files::read) const SURE: f64 = 2.0;
+pub(in crate::read) const SURE: f64 = 2.0;
 /// Logarithm of a usual albedo, 0.2, and the standard deviation of its logarithm over materials.
 pub(super) const ALBEDO: [f64; 2] = [-1.61, 1.1];
 /// The same of what metals reflect: 0.65.
@@ -32,7 +32,7 @@ pub(super) const MOST_OF_NEIGHBOURS: f64 = 3.0;
 
 impl Evidence {
     /// Its part of the log odds of linear.
-    pub(in crate::files::read) fn log_odds(self) -> f64 {
+    pub(in crate::read) fn log_odds(self) -> f64 {
         match self {
             Self::Prior => PRIOR,
             Self::Research => RESEARCH,

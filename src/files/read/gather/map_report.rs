@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use crate::files::read::measure;
-use crate::files::read::options::Role;
-use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::stored::{StoredMap, StoredMaterial};
+use crate::read::measure;
+use crate::read::options::Role;
+use crate::read::raster::{Raster, Samples};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// One map as stored.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -74,7 +74,7 @@ impl fmt::Display for MapReport {
     }
 }
 
-pub(in crate::files::read) fn reports(found: &StoredMaterial) -> Vec<MapReport> {
+pub(in crate::read) fn reports(found: &StoredMaterial) -> Vec<MapReport> {
     found.sources().into_iter().map(|(map, source)| report(map, source)).collect()
 }
 

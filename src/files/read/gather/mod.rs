@@ -6,9 +6,9 @@ mod log_odds;
 pub(super) mod map_report;
 mod neighbours;
 
-use crate::files::read::options::{ReadOptions, Roughness};
-use crate::files::read::record::Evidence;
-use crate::files::read::stored::{StoredMap, StoredMaterial};
+use crate::read::options::{ReadOptions, Roughness};
+use crate::read::record::Evidence;
+use crate::read::stored::{StoredMap, StoredMaterial};
 pub(super) use log_odds::{PRIOR, SURE};
 
 /// The evidence about how colours are stored.

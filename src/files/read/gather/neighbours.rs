@@ -9,10 +9,10 @@ use rayon::prelude::*;
 
 use super::colours::measured;
 use super::log_odds::MOST_OF_NEIGHBOURS;
-use crate::files::open::NamedFile;
-use crate::files::read::decode;
-use crate::files::read::locate::neighbours;
-use crate::files::read::record::{Evidence, Subject};
+use crate::open::NamedFile;
+use crate::read::decode;
+use crate::read::locate::neighbours;
+use crate::read::record::{Evidence, Subject};
 
 /// The evidence of the neighbours of the material with these pictures of diffuse and specular.
 pub(super) fn evidence(diffuse: &Path, specular: &Path) -> Option<Evidence> {

@@ -1,13 +1,13 @@
 //! Encodings of colours: as specified, as the files tell, or as the gathered evidence suggests.
 
 use super::decide::decide;
-use crate::files::read::gather::{ColourEvidence, PRIOR, SURE};
-use crate::files::read::measure;
-use crate::files::read::options::{Albedo, ReadOptions};
-use crate::files::read::record::{
+use crate::read::gather::{ColourEvidence, PRIOR, SURE};
+use crate::read::measure;
+use crate::read::options::{Albedo, ReadOptions};
+use crate::read::record::{
     Assumption, Certainty, Evidence, Note, Reason, SpecifiedBy, StorageConvention, What,
 };
-use crate::files::read::stored::{Inferred, StoredMaterial};
+use crate::read::stored::{Inferred, StoredMaterial};
 
 /// How diffuse (or a base colour) and specular are stored, recorded.
 pub(super) fn encodings(

@@ -2,8 +2,8 @@
 
 use std::fmt::Display;
 
-use crate::files::read::record::{Assumption, Certainty, Reason, What};
-use crate::files::read::stored::Inferred;
+use crate::read::record::{Assumption, Certainty, Reason, What};
+use crate::read::stored::Inferred;
 
 /// The `specified` value, else the `inferred`, else the `detected` one; recorded.
 pub(crate) fn decide<T: Copy + Display>(

@@ -9,11 +9,11 @@ mod values;
 use std::path::PathBuf;
 
 use crate::error::Error;
-use crate::files::read::gather::ColourEvidence;
-use crate::files::read::options::{Energy, ReadOptions, Role};
-use crate::files::read::record::{Assumption, Certainty, Note, Reason, What};
-use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
 use crate::math::real::Real;
+use crate::read::gather::ColourEvidence;
+use crate::read::options::{Energy, ReadOptions, Role};
+use crate::read::record::{Assumption, Certainty, Note, Reason, What};
+use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 use maps::{colour_planes, gray_plane, roughness_encoding, roughness_plane};
 use values::Clamped;
 

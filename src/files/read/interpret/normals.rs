@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use super::decide::decide;
 use crate::error::Error;
-use crate::files::read::measure::{self, NORMAL_AT_LEAST};
-use crate::files::read::options::{NormalEncoding, NormalY, ReadOptions};
-use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::record::{Assumption, Certainty, Reason, What};
-use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
+use crate::read::measure::{self, NORMAL_AT_LEAST};
+use crate::read::options::{NormalEncoding, NormalY, ReadOptions};
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::{Assumption, Certainty, Reason, What};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// Shorter vectors have no direction.
 const SHORTEST: f64 = 1e-3;

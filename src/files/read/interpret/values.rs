@@ -1,10 +1,10 @@
 //! Samples outside the range of a map: NaN, infinity, and values outside [0, 1].
 
 use crate::error::Error;
-use crate::files::read::options::{NonFinite, ReadOptions, Role};
-use crate::files::read::raster::OutOfRange;
-use crate::files::read::record::{Assumption, Certainty, Reason, What};
-use crate::files::read::stored::{StoredMap, StoredMaterial};
+use crate::read::options::{NonFinite, ReadOptions, Role};
+use crate::read::raster::OutOfRange;
+use crate::read::record::{Assumption, Certainty, Reason, What};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.
 ///

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
-use crate::files::read::names::words;
+use crate::read::names::words;
 
 /// The names of the visible folders in `folder`, sorted.
 pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, Error> {

@@ -6,11 +6,11 @@ use std::path::Path;
 use super::directory::{self, folder_of, list, material_name};
 use super::grouping;
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::located::set::{LocatedSet, SetFiles};
-use crate::files::read::located::{Candidate, Located, WholePicture};
-use crate::files::read::names::{Label, listing};
-use crate::files::read::options::Role;
+use crate::open::NamedFile;
+use crate::read::located::set::{LocatedSet, SetFiles};
+use crate::read::located::{Candidate, Located, WholePicture};
+use crate::read::names::{Label, listing};
+use crate::read::options::Role;
 
 /// Locates the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
 ///

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::read::located::set::{LabelledFile, NUMBERED, SetFiles};
-use crate::files::read::names::{Label, is_named_as, listing, words};
-use crate::files::read::options::Role;
-use crate::files::read::options::extensions::{self, PICTURES};
-use crate::files::read::record::{Note, Unused};
+use crate::read::located::set::{LabelledFile, NUMBERED, SetFiles};
+use crate::read::names::{Label, is_named_as, listing, words};
+use crate::read::options::Role;
+use crate::read::options::extensions::{self, PICTURES};
+use crate::read::record::{Note, Unused};
 
 /// Extensions of pictures that cannot be read. Where nothing else is that map, opening one fails and names it: a map
 /// that is there is never replaced by a default.

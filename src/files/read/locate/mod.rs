@@ -12,11 +12,11 @@ pub(super) mod sidecar;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::located::binding::{Binding, LocatedBinding};
-use crate::files::read::located::{Candidate, Located, WholePicture};
-use crate::files::read::options::extensions::{self, LISTING};
-use crate::files::read::options::{ReadOptions, Role};
+use crate::open::NamedFile;
+use crate::read::located::binding::{Binding, LocatedBinding};
+use crate::read::located::{Candidate, Located, WholePicture};
+use crate::read::options::extensions::{self, LISTING};
+use crate::read::options::{ReadOptions, Role};
 use directory::folder_of;
 use sidecar::Sidecar;
 
@@ -70,7 +70,7 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::open::NamedBy;
+    use crate::open::NamedBy;
 
     /// A folder of files without any content: no picture could be decoded.
     fn folder(files: &[&str]) -> tempfile::TempDir {

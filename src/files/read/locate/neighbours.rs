@@ -4,8 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use super::directory::{folders, list};
-use crate::files::open::NamedFile;
-use crate::files::read::names::Label;
+use crate::open::NamedFile;
+use crate::read::names::Label;
 
 /// Most neighbours that are looked at.
 const MOST: usize = 4;
@@ -13,7 +13,7 @@ const MOST: usize = 4;
 const LONGEST: u64 = 16 << 20;
 
 /// Pairs of pictures of neighbours that correspond to `first` and `second` of a material.
-pub(in crate::files::read) fn pairs(first: &Path, second: &Path) -> Vec<[NamedFile; 2]> {
+pub(in crate::read) fn pairs(first: &Path, second: &Path) -> Vec<[NamedFile; 2]> {
     let is_short = |file: &PathBuf| file.metadata().is_ok_and(|meta| meta.len() <= LONGEST);
     let mut pairs = beside(first, second).unwrap_or_default();
     pairs.extend(within(first, second).unwrap_or_default());

@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
+use crate::atomic;
 use crate::error::Error;
-use crate::files::atomic;
-use crate::files::open::NamedFile;
-use crate::files::read::located::binding::Binding;
-use crate::files::read::names::Label;
-use crate::files::read::options::ReadOptions;
-use crate::files::read::options::extensions::EXTENSIONS;
-use crate::files::read::record::{Assumption, Certainty, Note, SpecifiedBy, What};
+use crate::open::NamedFile;
 use crate::progress::Progress;
+use crate::read::located::binding::Binding;
+use crate::read::names::Label;
+use crate::read::options::ReadOptions;
+use crate::read::options::extensions::EXTENSIONS;
+use crate::read::record::{Assumption, Certainty, Note, SpecifiedBy, What};
 
 /// The name of the file in a folder.
 const IN_FOLDER: &str = "svbrdf.json";

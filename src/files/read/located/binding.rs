@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::options::Role;
+use crate::open::NamedFile;
+use crate::read::options::Role;
 
 /// A binding with its file.
 #[derive(Debug)]

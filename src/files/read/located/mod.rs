@@ -11,7 +11,7 @@ pub(super) mod set;
 pub(super) mod surface_model;
 
 use crate::error::Error;
-use crate::files::open::NamedFile;
+use crate::open::NamedFile;
 use binding::LocatedBinding;
 use gltf::LocatedGltf;
 use mtl::LocatedMtl;

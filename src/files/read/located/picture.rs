@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::files::open::NamedFile;
-use crate::files::read::record::Subject;
+use crate::open::NamedFile;
+use crate::read::record::Subject;
 
 /// A picture that has not been decoded.
 #[derive(Clone, Debug)]

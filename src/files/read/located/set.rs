@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use super::picture::{LocatedPicture, PictureSource};
-use crate::files::open::NamedFile;
-use crate::files::read::names::Label;
-use crate::files::read::options::extensions;
-use crate::files::read::record::{Note, Subject};
+use crate::open::NamedFile;
+use crate::read::names::Label;
+use crate::read::options::extensions;
+use crate::read::record::{Note, Subject};
 
 /// The word of files that are maps by their numbers alone.
 pub(crate) const NUMBERED: &str = "0 to 3";

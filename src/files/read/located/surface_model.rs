@@ -1,6 +1,6 @@
 //! Surface models of MaterialX that are read: their inputs, with the values that their specifications give them.
 
-use crate::files::read::options::Role;
+use crate::read::options::Role;
 
 /// An input and its default, linear.
 pub(crate) type Input = (&'static str, f32);

@@ -1,6 +1,6 @@
 //! Channels of pictures that are named after one gray map, and may hold several.
 
-use crate::files::read::raster::Raster;
+use crate::read::raster::Raster;
 
 /// Channels of a gray picture differ by no more: compression and rounding.
 const NOISE: f64 = 12.0 / 255.0;

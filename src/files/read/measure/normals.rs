@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::files::read::raster::Raster;
+use crate::read::raster::Raster;
 
 /// How far the length of a normal may be from 1 for a pixel to count as one.
 const LENGTH: f64 = 0.12;

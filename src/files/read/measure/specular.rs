@@ -1,6 +1,6 @@
 //! Measurements of specular maps.
 
-use crate::files::read::raster::Raster;
+use crate::read::raster::Raster;
 
 /// Median over pixels of the least of red, green and blue: 0.04 in a specular map of dielectrics.
 pub(crate) fn specular_median(raster: &Raster) -> f64 {

@@ -1,7 +1,7 @@
 //! The label of a file or layer: which map it holds, by the words of its name.
 
 use super::words::words;
-use crate::files::read::options::{NormalY, Role, Roughness};
+use crate::read::options::{NormalY, Role, Roughness};
 
 /// The map that a name stands for, and what else the name tells.
 #[derive(Clone, Debug, PartialEq)]

@@ -42,7 +42,7 @@ impl Preset {
 impl ReadOptions {
     /// These options, and those of `saved` where neither they nor their preset specify anything.
     #[must_use]
-    pub(crate) fn over(self, saved: Self) -> Self {
+    pub fn over(self, saved: Self) -> Self {
         let preset = self.preset.map(Preset::options).unwrap_or_default();
         macro_rules! either {
             ($($field:ident),+) => {

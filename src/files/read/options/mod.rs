@@ -7,7 +7,7 @@ mod layered;
 mod order;
 mod preset;
 mod role;
-pub(in crate::files) mod transfer;
+pub(crate) mod transfer;
 
 use std::path::Path;
 

@@ -1,6 +1,7 @@
 //! Transfer functions: from stored values of [0, 1] to reflectance and roughness, and back.
 
-use crate::files::read::options::{Albedo, Roughness};
+use crate::math::srgb;
+use crate::read::options::{Albedo, Roughness};
 
 /// The dark end of the logarithmic encoding.
 const DARK: f64 = 0.01;
@@ -9,8 +10,7 @@ const DARK: f64 = 0.01;
 pub(crate) fn linear(value: f64, albedo: Albedo) -> f64 {
     match albedo {
         Albedo::Linear => value,
-        Albedo::Srgb if value <= 0.040_45 => value / 12.92,
-        Albedo::Srgb => ((value + 0.055) / 1.055).powf(2.4),
+        Albedo::Srgb => srgb::decode(value),
         Albedo::Gamma22 => value.powf(2.2),
         Albedo::Log => (DARK * ((1.0 + DARK) / DARK).powf(value) - DARK).clamp(0.0, 1.0),
     }
@@ -20,8 +20,7 @@ pub(crate) fn linear(value: f64, albedo: Albedo) -> f64 {
 pub(crate) fn encoded(value: f64, albedo: Albedo) -> f64 {
     match albedo {
         Albedo::Linear => value,
-        Albedo::Srgb if value <= 0.003_130_8 => 12.92 * value,
-        Albedo::Srgb => 1.055 * value.powf(1.0 / 2.4) - 0.055,
+        Albedo::Srgb => srgb::encode(value),
         Albedo::Gamma22 => value.powf(1.0 / 2.2),
         Albedo::Log => ((value + DARK) / DARK).ln() / ((1.0 + DARK) / DARK).ln(),
     }

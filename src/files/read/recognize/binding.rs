@@ -2,13 +2,13 @@
 
 use super::layers;
 use crate::error::Error;
-use crate::files::read::decode::Layer;
-use crate::files::read::decode::pictures::DecodedBinding;
-use crate::files::read::located::binding::LocatedBinding;
-use crate::files::read::names::listing;
-use crate::files::read::options::Role;
-use crate::files::read::record::Subject;
-use crate::files::read::stored::StoredMap;
+use crate::read::decode::Layer;
+use crate::read::decode::pictures::DecodedBinding;
+use crate::read::located::binding::LocatedBinding;
+use crate::read::names::listing;
+use crate::read::options::Role;
+use crate::read::record::Subject;
+use crate::read::stored::StoredMap;
 
 /// The map of a binding out of its decoded file.
 ///

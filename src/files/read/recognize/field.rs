@@ -6,11 +6,11 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use crate::error::Error;
-use crate::files::read::options::Albedo;
-use crate::files::read::options::transfer::linear;
-use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::stored::StoredMap;
 use crate::material::resize::{self, Filter};
+use crate::read::options::Albedo;
+use crate::read::options::transfer::linear;
+use crate::read::raster::{Raster, Samples};
+use crate::read::stored::StoredMap;
 
 /// An input of a surface, linear: one value, or one for each texel. Of one channel or three.
 #[derive(Clone, Debug)]

@@ -1,9 +1,9 @@
 //! Hints of names: how the files of a set with such names store their values.
 
-use crate::files::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
-use crate::files::read::options::{Albedo, NormalY, Role, Roughness};
-use crate::files::read::record::{Certainty, Reason, StorageConvention};
-use crate::files::read::stored::{Inferences, StoredMap, StoredMaterial};
+use crate::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
+use crate::read::options::{Albedo, NormalY, Role, Roughness};
+use crate::read::record::{Certainty, Reason, StorageConvention};
+use crate::read::stored::{Inferences, StoredMap, StoredMaterial};
 
 /// Adds the hints of the names of `set` to its material, whose colours `are_floats` and whose specular `is_glossy` in
 /// alpha.

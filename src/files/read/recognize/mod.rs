@@ -17,10 +17,10 @@ pub(super) use binding::recognized as binding;
 pub(super) use picture::material as picture;
 
 use crate::error::Error;
-use crate::files::read::decode::pictures::DecodedCandidate;
-use crate::files::read::options::{ReadOptions, Role};
-use crate::files::read::record::{Note, SpecifiedBy};
-use crate::files::read::stored::{StoredMap, StoredMaterial};
+use crate::read::decode::pictures::DecodedCandidate;
+use crate::read::options::{ReadOptions, Role};
+use crate::read::record::{Note, SpecifiedBy};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// The material of a candidate with the maps `bound`.
 ///

@@ -5,13 +5,13 @@ use std::path::Path;
 
 use super::roles::MapsByRole;
 use crate::error::Error;
-use crate::files::read::decode::pictures::DecodedPicture;
-use crate::files::read::located::mtl::{BUMPS, LocatedMtl, MtlTexture, NORMALS, names_picture};
-use crate::files::read::measure::{NORMAL_AT_LEAST, normal_score};
-use crate::files::read::names::Label;
-use crate::files::read::options::{Albedo, NormalY, ReadOptions, Role};
-use crate::files::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
-use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
+use crate::read::decode::pictures::DecodedPicture;
+use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlTexture, NORMALS, names_picture};
+use crate::read::measure::{NORMAL_AT_LEAST, normal_score};
+use crate::read::names::Label;
+use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
+use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
+use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// The material `located`, whose textures are `pictures`.
 ///

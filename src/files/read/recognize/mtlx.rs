@@ -4,15 +4,15 @@ use super::field::{Field, reflectance, separated};
 use super::roles::MapsByRole;
 use super::scaled_normals::scaled;
 use crate::error::Error;
-use crate::files::read::decode::pictures::DecodedPicture;
-use crate::files::read::located::mtlx::{Bound, BoundPicture, LocatedMtlx, Obstacle};
-use crate::files::read::located::picture::{LocatedPicture, PictureSource};
-use crate::files::read::located::surface_model::{Input, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
-use crate::files::read::options::{Albedo, NormalY, ReadOptions, Role};
-use crate::files::read::record::{
+use crate::read::decode::pictures::DecodedPicture;
+use crate::read::located::mtlx::{Bound, BoundPicture, LocatedMtlx, Obstacle};
+use crate::read::located::picture::{LocatedPicture, PictureSource};
+use crate::read::located::surface_model::{Input, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
+use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
+use crate::read::record::{
     Assumption, Certainty, Note, Reason, SpaceKnown, StorageConvention, Subject, What,
 };
-use crate::files::read::stored::{Inferred, StoredMap, StoredMaterial};
+use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// The reflectance of a dielectric of the default refractive index 1.5.
 const DEFAULT: f32 = 0.04;

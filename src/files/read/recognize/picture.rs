@@ -2,10 +2,10 @@
 
 use super::{layers, packed};
 use crate::error::Error;
-use crate::files::read::decode::Decoded;
-use crate::files::read::located::WholePicture;
-use crate::files::read::options::ReadOptions;
-use crate::files::read::stored::StoredMaterial;
+use crate::read::decode::Decoded;
+use crate::read::located::WholePicture;
+use crate::read::options::ReadOptions;
+use crate::read::stored::StoredMaterial;
 
 /// The material within a decoded picture: in tiles, or in named layers.
 ///

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::read::options::{Preset, ReadOptions, Role, Workflow};
-use crate::files::read::raster::Raster;
-use crate::files::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};
-use crate::files::read::stored::{Inferences, StoredMap, StoredMaterial};
+use crate::read::options::{Preset, ReadOptions, Role, Workflow};
+use crate::read::raster::Raster;
+use crate::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};
+use crate::read::stored::{Inferences, StoredMap, StoredMaterial};
 
 /// The maps of a material that have been recognized, by role.
 #[derive(Debug, Default)]

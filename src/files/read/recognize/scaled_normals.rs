@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::stored::StoredMap;
+use crate::read::raster::{Raster, Samples};
+use crate::read::stored::StoredMap;
 
 /// Normals stored as (n + 1) / 2 with x and y times `scale`, of length 1 again, stored likewise as floats.
 pub(super) fn scaled(source: StoredMap, scale: f64) -> StoredMap {

@@ -3,14 +3,14 @@
 use super::hints;
 use super::roles::MapsByRole;
 use crate::error::Error;
-use crate::files::read::decode::{self, pictures::DecodedPicture};
-use crate::files::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
-use crate::files::read::measure::{Channels, NORMAL_AT_LEAST, is_flat, normal_score};
-use crate::files::read::names::is_named_as;
-use crate::files::read::options::{ReadOptions, Reflectance, Role, Workflow};
-use crate::files::read::raster::Raster;
-use crate::files::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, Subject, Unused, What};
-use crate::files::read::stored::{StoredMap, StoredMaterial};
+use crate::read::decode::{self, pictures::DecodedPicture};
+use crate::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
+use crate::read::measure::{Channels, NORMAL_AT_LEAST, is_flat, normal_score};
+use crate::read::names::is_named_as;
+use crate::read::options::{ReadOptions, Reflectance, Role, Workflow};
+use crate::read::raster::Raster;
+use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, Subject, Unused, What};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// An unlabelled picture is the normal map where this share of its pixels looks like normals.
 const NORMAL_ALL_OVER: f64 = 0.95;

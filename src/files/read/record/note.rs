@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::files::read::options::{Albedo, Role, Workflow};
+use crate::read::options::{Albedo, Role, Workflow};
 
 /// The source of an option or a map that was specified.
 #[derive(Clone, Debug, PartialEq, Eq)]

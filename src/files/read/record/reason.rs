@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::evidence::Evidence;
 use super::note::SpecifiedBy;
 use super::storage_convention::StorageConvention;
-use crate::files::read::options::{Albedo, NormalY, Role};
+use crate::read::options::{Albedo, NormalY, Role};
 
 /// The reason of an assumption.
 #[derive(Clone, Debug, PartialEq)]

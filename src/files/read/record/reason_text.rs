@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::reason::{Reason, SpaceKnown};
-use crate::files::read::options::{Albedo, NormalY, Role};
+use crate::read::options::{Albedo, NormalY, Role};
 
 impl Reason {
     /// Reasons in which maps there are, and how they are called.

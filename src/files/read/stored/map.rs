@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::files::read::options::transfer::{encoded, linear};
-use crate::files::read::options::{Albedo, Workflow};
-use crate::files::read::raster::{Raster, Samples};
-use crate::files::read::record::{Note, Unused};
+use crate::read::options::transfer::{encoded, linear};
+use crate::read::options::{Albedo, Workflow};
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::{Note, Unused};
 
 /// A map as stored.
 #[derive(Clone, Debug)]

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use super::map::StoredMap;
 use crate::error::Error;
-use crate::files::read::options::{Albedo, Energy, NormalY, Role, Roughness};
-use crate::files::read::record::{Assumption, Certainty, Note, Reason, What};
+use crate::read::options::{Albedo, Energy, NormalY, Role, Roughness};
+use crate::read::record::{Assumption, Certainty, Note, Reason, What};
 
 /// Inferences from the files about stored values. `None` where they tell nothing.
 #[derive(Clone, Debug, Default)]

@@ -9,11 +9,11 @@ use std::path::Path;
 use gltf::{Material, Texture};
 
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
-use crate::files::read::located::picture::LocatedPicture;
-use crate::files::read::options::{ReadOptions, Role};
-use crate::files::read::record::Subject;
+use crate::open::NamedFile;
+use crate::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
+use crate::read::located::picture::LocatedPicture;
+use crate::read::options::{ReadOptions, Role};
+use crate::read::record::Subject;
 use textures::GltfFile;
 
 /// Locates material number `exemplar` of the file `path`; without one the first that has a texture, else the first.

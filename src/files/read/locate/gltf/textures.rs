@@ -11,9 +11,9 @@ use percent_encoding::percent_decode_str;
 
 use super::document::bad;
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::located::picture::PictureSource;
-use crate::files::read::record::Subject;
+use crate::open::NamedFile;
+use crate::read::located::picture::PictureSource;
+use crate::read::record::Subject;
 
 /// Extensions of a texture that name its picture, the one that is decoded to more exact values first.
 const SOURCES: [&str; 4] = ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];

@@ -5,12 +5,12 @@ mod statement;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS, names_picture};
-use crate::files::read::located::picture::{LocatedPicture, PictureSource};
-use crate::files::read::names::Label;
-use crate::files::read::options::{ReadOptions, Role};
-use crate::files::read::record::Subject;
+use crate::open::NamedFile;
+use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS, names_picture};
+use crate::read::located::picture::{LocatedPicture, PictureSource};
+use crate::read::names::Label;
+use crate::read::options::{ReadOptions, Role};
+use crate::read::record::Subject;
 use statement::{Texture, entries};
 
 /// Locates material number `exemplar` of the file `path`.

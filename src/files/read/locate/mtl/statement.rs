@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::files::read::located::mtl::MtlEntry;
+use crate::read::located::mtl::MtlEntry;
 
 /// The materials of an .mtl.
 pub(super) fn entries(text: &str) -> Vec<MtlEntry> {

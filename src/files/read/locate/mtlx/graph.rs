@@ -2,7 +2,7 @@
 
 use roxmltree::Node;
 
-use crate::files::read::located::mtlx::{Bound, BoundPicture, Obstacle};
+use crate::read::located::mtlx::{Bound, BoundPicture, Obstacle};
 
 /// Deeper than any chain of nodes from an input to its picture.
 const DEEPEST: usize = 32;

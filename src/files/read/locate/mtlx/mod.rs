@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 use roxmltree::{Document, Node};
 
 use crate::error::Error;
-use crate::files::open::NamedFile;
-use crate::files::read::located::mtlx::{Bound, LocatedMtlx};
-use crate::files::read::located::picture::{LocatedPicture, PictureSource};
-use crate::files::read::located::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
-use crate::files::read::options::{ReadOptions, Role};
-use crate::files::read::record::Subject;
+use crate::open::NamedFile;
+use crate::read::located::mtlx::{Bound, LocatedMtlx};
+use crate::read::located::picture::{LocatedPicture, PictureSource};
+use crate::read::located::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
+use crate::read::options::{ReadOptions, Role};
+use crate::read::record::Subject;
 use graph::{bound, input};
 
 /// Locates surface number `exemplar` of the file `path`.

@@ -1,0 +1,83 @@
+//! Planes of another size: the mean over areas on the way down, bilinear on the way up.
+
+use rayon::prelude::*;
+
+use crate::math::real::Real;
+
+/// In which measure values are averaged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filter {
+    /// As they are.
+    Value,
+    /// Roughness r as alpha^2 = r^4: the variance of slopes adds up.
+    Roughness,
+}
+
+/// `plane` of size `from` (width, height) in the size `to`.
+pub fn plane<T: Real>(plane: Vec<T>, from: [usize; 2], to: [usize; 2], filter: Filter) -> Vec<T> {
+    if from == to {
+        return plane;
+    }
+    let into = |x: f64| if filter == Filter::Roughness { x.powi(4) } else { x };
+    let back = |x: f64| if filter == Filter::Roughness { x.max(0.0).powf(0.25) } else { x };
+    let columns: Vec<_> = (0..to[0]).map(|i| weights(i, from[0], to[0])).collect();
+    let rows: Vec<_> = (0..to[1]).map(|i| weights(i, from[1], to[1])).collect();
+    // A row of the original, of the new width.
+    let narrow = |row: usize, out: &mut [f64]| {
+        let row = &plane[row * from[0]..(row + 1) * from[0]];
+        let value = |taps: &Vec<(usize, f64)>| taps.iter().map(|&(i, w)| w * into(row[i].f64())).sum::<f64>();
+        out.iter_mut().zip(&columns).for_each(|(out, taps)| *out = value(taps));
+    };
+    let mut narrowed = vec![0.0; to[0] * from[1]];
+    narrowed.par_chunks_exact_mut(to[0]).enumerate().for_each(|(row, out)| narrow(row, out));
+    let mut resized = vec![T::zero(); to[0] * to[1]];
+    resized.par_chunks_exact_mut(to[0]).zip(&rows).for_each(|(out, taps)| {
+        let value = |column: usize| taps.iter().map(|&(i, w)| w * narrowed[i * to[0] + column]).sum::<f64>();
+        out.iter_mut().enumerate().for_each(|(column, out)| *out = T::of(back(value(column))));
+    });
+    resized
+}
+
+/// The samples of a line of `from` that make sample `index` of a line of `to`, with weights whose sum is 1.
+fn weights(index: usize, from: usize, to: usize) -> Vec<(usize, f64)> {
+    let scale = from as f64 / to as f64;
+    if from <= to {
+        let at = ((index as f64 + 0.5) * scale - 0.5).clamp(0.0, (from - 1) as f64);
+        let low = at.floor() as usize;
+        let part = at - low as f64;
+        return vec![(low, 1.0 - part), ((low + 1).min(from - 1), part)];
+    }
+    let (start, end) = (index as f64 * scale, (index + 1) as f64 * scale);
+    let overlap = |i: usize| (end.min((i + 1) as f64) - start.max(i as f64)).max(0.0) / scale;
+    (start as usize..(end.ceil() as usize).min(from)).map(|i| (i, overlap(i))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_survive_on_the_way_down() {
+        let line: Vec<f64> = (0..12).map(f64::from).collect();
+        assert_eq!(plane(line.clone(), [4, 3], [2, 3], Filter::Value)[..2], [0.5, 2.5]);
+        let third = plane(line, [12, 1], [5, 1], Filter::Value);
+        assert!((third.iter().sum::<f64>() / 5.0 - 5.5).abs() < 1e-12, "{third:?}");
+    }
+
+    #[test]
+    fn constants_survive_in_both_directions() {
+        for filter in [Filter::Value, Filter::Roughness] {
+            for to in [[3, 5], [14, 9]] {
+                let resized = plane(vec![0.3; 42], [7, 6], to, filter);
+                assert_eq!(resized.len(), to[0] * to[1]);
+                assert!(resized.iter().all(|x| (x - 0.3_f64).abs() < 1e-12));
+            }
+        }
+    }
+
+    #[test]
+    fn roughness_is_averaged_in_alpha_squared() {
+        let resized = plane(vec![0.2_f64, 0.8], [2, 1], [1, 1], Filter::Roughness);
+        assert!((resized[0] - ((0.2_f64.powi(4) + 0.8_f64.powi(4)) / 2.0).powf(0.25)).abs() < 1e-12);
+    }
+}

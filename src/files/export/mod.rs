@@ -1,0 +1,182 @@
+//! Renderings as files: floats into EXR, display values into PNG, both with their provenance.
+
+mod exr;
+mod npy;
+mod png;
+mod provenance;
+pub mod strip;
+pub mod study_csv;
+pub mod study_plot;
+mod text;
+
+use std::path::Path;
+
+pub use crate::atomic::{Destination, check_place, write_text};
+pub use npy::write_npy;
+pub use provenance::{Entries, Provenance};
+
+use crate::error::Error;
+use crate::image::Image;
+use crate::picture::colour_map::heat;
+use crate::progress::Progress;
+
+/// Texels between two panes of a picture.
+pub const GAP: usize = 4;
+/// The colour of the gap of a PNG.
+const MID_GRAY: [u8; 3] = [128; 3];
+
+/// The kinds of files that pictures are written into.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Linear radiance as 32-bit floats.
+    Exr,
+    /// Exposed and sRGB-encoded, 8 bits.
+    Png,
+}
+
+impl Destination<PictureFormat> {
+    /// Checks `path` before there is anything to write.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] for an extension other than exr and png, [`Error::Unwritable`] where its folder is
+    /// missing or it is itself a folder.
+    pub fn new(path: &Path) -> Result<Self, Error> {
+        let format = |extension: &str| match extension {
+            "exr" => Some(PictureFormat::Exr),
+            "png" => Some(PictureFormat::Png),
+            _ => None,
+        };
+        let known = ".exr (linear floats), .png (8 bits for a screen)";
+        Self::among(path, format, "extension of an output file", known)
+    }
+
+    /// Writes `panes`, which are equally high, side by side. The file appears when it is complete, or not at all.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write(
+        &self,
+        panes: &[Image<f32>],
+        provenance: &Provenance,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        self.write_described(panes, provenance, None, progress)
+    }
+
+    /// As [`Self::write`], with this text about the content in place of the one of `provenance`.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write_described(
+        &self,
+        panes: &[Image<f32>],
+        provenance: &Provenance,
+        shows: Option<String>,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        let colour = |rgb| provenance.shown.colour(rgb, provenance.exposure_ev);
+        let mut entries = provenance.entries();
+        if let Some(shows) = shows {
+            Provenance::describe(&mut entries, shows);
+        }
+        self.write_as(panes, colour, &entries, progress)
+    }
+
+    /// Writes maps of numbers, which are equally high, side by side: an EXR has the numbers, a PNG the colours of the means of
+    /// the channels from 0 to `full`, and gray where there is no number.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write_maps(
+        &self,
+        panes: &[Image<f32>],
+        full: f32,
+        entries: &Entries,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        let colour = |rgb: [f32; 3]| match rgb.iter().sum::<f32>() / 3.0 / full {
+            share if share.is_nan() => MID_GRAY,
+            share => heat(share).map(|c| (c * 255.0 + 0.5).floor() as u8),
+        };
+        self.write_as(panes, colour, entries, progress)
+    }
+
+    fn write_as(
+        &self,
+        panes: &[Image<f32>],
+        colour: impl Fn([f32; 3]) -> [u8; 3],
+        entries: &Entries,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        match self.format {
+            PictureFormat::Exr => {
+                let picture = side_by_side(panes, [0.0; 3]);
+                self.replace(progress, |file| exr::write(file, picture, entries))
+            }
+            PictureFormat::Png => {
+                let shown: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
+                let picture = side_by_side(&shown, MID_GRAY);
+                self.replace(progress, |file| png::write(file, &picture, entries))
+            }
+        }
+    }
+}
+
+/// A PNG of a whole picture.
+#[derive(Clone, Debug)]
+pub struct PngDestination(Destination<()>);
+
+impl PngDestination {
+    /// Checks `path` before there is anything to write.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] for an extension other than png, [`Error::Unwritable`] where its folder is missing or it is
+    /// itself a folder.
+    pub fn new(path: &Path) -> Result<Self, Error> {
+        let format = |extension: &str| (extension == "png").then_some(());
+        Destination::among(path, format, "extension of a figure", ".png").map(Self)
+    }
+
+    /// Writes a picture with these (keyword, text) entries of metadata. The file appears when it is complete, or not at
+    /// all.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    pub fn write(&self, picture: &Image<u8>, entries: &Entries, progress: &Progress) -> Result<(), Error> {
+        self.0.replace(progress, |file| png::write(file, picture, entries))
+    }
+}
+
+/// `panes` from left to right, [`GAP`] texels of `gap` between them; the height is that of the least high one.
+fn side_by_side<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
+    let height = panes.iter().map(|p| p.height).min().unwrap_or(0);
+    let gaps = GAP * panes.len().saturating_sub(1);
+    let width = panes.iter().map(|p| p.width).sum::<usize>() + gaps;
+    let mut pixels = Vec::with_capacity(width * height);
+    for row in 0..height {
+        for (i, pane) in panes.iter().enumerate() {
+            pixels.extend(std::iter::repeat_n(gap, if i > 0 { GAP } else { 0 }));
+            pixels.extend_from_slice(&pane.pixels[row * pane.width..][..pane.width]);
+        }
+    }
+    Image { width, height, pixels }
+}
+
+fn displayed(image: &Image<f32>, colour: impl Fn([f32; 3]) -> [u8; 3]) -> Image<u8> {
+    let pixels = image.pixels.iter().map(|&rgb| colour(rgb)).collect();
+    Image { width: image.width, height: image.height, pixels }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panes_stand_side_by_side_with_a_gap() {
+        let pane = |width, value| Image { width, height: 2, pixels: vec![[value; 3]; 2 * width] };
+        let picture = side_by_side(&[pane(1, 1), pane(2, 2)], [9u8; 3]);
+        let row = [1, 9, 9, 9, 9, 2, 2].map(|v| [v; 3]);
+        assert_eq!((picture.width, picture.height), (7, 2));
+        assert_eq!(picture.pixels, [row, row].concat());
+    }
+}

@@ -1,0 +1,66 @@
+//! A study as a CSV table.
+
+use std::path::Path;
+
+use crate::atomic;
+use crate::error::Error;
+use crate::loss::Precision;
+use crate::progress::Progress;
+use crate::study::{Device, Point, Study};
+
+const CSV_HEADING: [&str; 15] = [
+    "scenes",
+    "near",
+    "distant",
+    "sampler",
+    "texels",
+    "precision",
+    "backend",
+    "maps",
+    "seconds",
+    "error",
+    "shift",
+    "seeds",
+    "runs",
+    "pareto",
+    "options",
+];
+
+/// Writes every point of a study, a row each (RFC 4180); the file appears when it is complete, or not at all.
+///
+/// # Errors
+/// [`Error::Unwritable`], [`Error::Cancelled`].
+pub fn write(study: &Study, path: &Path, progress: &Progress) -> Result<(), Error> {
+    atomic::replace(path, progress, |file| {
+        let mut writer = csv::Writer::from_writer(file);
+        writer.write_record(CSV_HEADING)?;
+        for point in &study.points {
+            writer.write_record(csv_row(point))?;
+        }
+        writer.flush()
+    })
+}
+
+fn csv_row(p: &Point) -> [String; 15] {
+    let c = &p.choice;
+    let precision = if c.precision == Precision::F64 { "f64" } else { "f32" };
+    let backend = if c.backend == Device::Gpu { "gpu" } else { "cpu" };
+    let short = |number: f64| format!("{number:.4e}");
+    [
+        c.scenes.to_string(),
+        c.near().to_string(),
+        c.distant().to_string(),
+        c.sampler.to_string(),
+        c.texels.to_string(),
+        precision.to_owned(),
+        backend.to_owned(),
+        c.maps.name().to_owned(),
+        short(p.seconds),
+        short(p.error),
+        short(p.shift),
+        p.seeds.to_string(),
+        p.runs.to_string(),
+        p.pareto.to_string(),
+        c.options(),
+    ]
+}

@@ -1,0 +1,37 @@
+//! Reading and writing of materials. Files are written completely or not at all.
+//!
+//! ```no_run
+//! use std::path::Path;
+//!
+//! use svbrdf_files::read::{self, Read, ReadOptions};
+//! use svbrdf_files::write::{self, FileKind, WriteOptions};
+//! use svbrdf_core::progress::Progress;
+//!
+//! let read: Read<f32> = read::read(Path::new("brick.png"), &ReadOptions::AUTO, &Progress::default())?;
+//! for assumption in &read.assumptions {
+//!     println!("{assumption}");
+//! }
+//! let output = Path::new("brick.exr");
+//! let options = WriteOptions::default();
+//! write::write(&read.material, output, FileKind::new(output, &options)?)?;
+//! # Ok::<(), svbrdf_core::error::Error>(())
+//! ```
+
+pub mod atomic;
+pub mod dataset;
+pub mod export;
+pub mod open;
+pub mod photograph;
+pub mod read;
+pub mod samples;
+pub mod scene_file;
+pub mod session;
+pub mod stamp;
+mod step_names;
+pub mod steps;
+pub mod write;
+
+use crate as files;
+use svbrdf_core::{
+    error, image, loss, material, math, metrics, model, picture, progress, rank, render, study, text,
+};

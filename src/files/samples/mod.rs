@@ -1,0 +1,61 @@
+//! The built-in materials: a ground truth and two predictions, 256 x 256 texels each.
+//!
+//! `examples/make_samples.rs` generates them; they are free to use like the rest of this project.
+//!
+//! ```
+//! let built_in = svbrdf_files::samples::load::<f32>()?;
+//! assert_eq!(built_in.ground_truth.material.size(), [256, 256]);
+//! assert_eq!(built_in.predictions.len(), 2);
+//! # Ok::<(), svbrdf_core::error::Error>(())
+//! ```
+
+pub mod generate;
+mod noise;
+mod tiles;
+
+use crate::error::Error;
+use crate::files::read::{
+    Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes,
+};
+use crate::math::real::Real;
+
+/// How the samples are stored, so that nothing is inferred.
+const STORED: ReadOptions = ReadOptions {
+    albedo: Some(Albedo::Linear),
+    specular: Some(Albedo::Linear),
+    normal_y: Some(NormalY::Up),
+    roughness: Some(Roughness::R),
+    order: Some(Order::NDRS),
+    ..ReadOptions::AUTO
+};
+
+/// Number of samples.
+pub const COUNT: usize = 3;
+
+/// A ground truth and predictions of it, of the same size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BuiltIn<T> {
+    pub ground_truth: Read<T>,
+    pub predictions: Vec<Read<T>>,
+}
+
+/// The ground truth "worn tiles" with the predictions "blurred normals" and "wrong roughness".
+///
+/// # Errors
+/// None, unless the build damaged the embedded files.
+pub fn load<T: Real>() -> Result<BuiltIn<T>, Error> {
+    let read = |name, bytes| -> Result<Read<T>, Error> {
+        let mut read = read_bytes(name, bytes, &STORED)?;
+        for known in read.assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
+            (known.why, known.certainty) = (StorageConvention::BuiltIn.into(), Certainty::Sure);
+        }
+        Ok(read)
+    };
+    Ok(BuiltIn {
+        ground_truth: read("worn tiles", include_bytes!("../../../assets/worn_tiles.png"))?,
+        predictions: vec![
+            read("blurred normals", include_bytes!("../../../assets/blurred_normals.png"))?,
+            read("wrong roughness", include_bytes!("../../../assets/wrong_roughness.png"))?,
+        ],
+    })
+}

@@ -1,0 +1,37 @@
+//! Algorithm 3 on the graphics adapter, offscreen and in a window. Knows the core and wgpu, and no egui.
+//!
+//! Two passes. `Shading` runs one fragment per texel of the map and writes linear floats: Algorithm 3 under a
+//! scene, or one of the maps. `Display` runs one fragment per pixel of the screen: from the camera's ray to the
+//! texels that are seen, averaged where they are smaller than a pixel, exposed and encoded. So shading is never
+//! computed on filtered maps, and moving the camera costs no shading.
+//!
+//! [`GpuLosses`] is Algorithm 1 in compute shaders, for large jobs on a fast adapter.
+//!
+//! `shaders/` holds one idea a file; `shaders` says which files make a shader. Bad input and bad hardware never
+//! panic: they are an [`Error::Gpu`](svbrdf_core::error::Error::Gpu) or wait in [`Gpu::take_fault`].
+
+mod adapter;
+mod context;
+mod display;
+mod fault;
+mod loss;
+mod params;
+mod pipeline;
+mod probe;
+mod read_back;
+mod render;
+pub mod shaders;
+mod shading;
+mod still;
+mod textures;
+pub mod uniforms;
+
+pub use adapter::AdapterReport;
+pub use context::Gpu;
+pub use display::{Display, Pane, PanePlace};
+pub use loss::GpuLosses;
+pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams};
+pub use read_back::read_rgba;
+pub use shading::{Shaded, Shading};
+pub use still::{Blit, Still};
+pub use textures::MaterialTextures;

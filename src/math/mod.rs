@@ -1,3 +1,0 @@
-//! The two precisions that everything is computed in, and their vectors.
-
-pub mod real;
