@@ -21,6 +21,7 @@ pub mod atomic;
 pub mod dataset;
 pub mod export;
 pub mod open;
+mod panics;
 pub mod photograph;
 pub mod read;
 pub mod samples;

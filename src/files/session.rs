@@ -187,6 +187,8 @@ fn relative(path: &Path, folder: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::files::read::{Albedo, Transfer};
     use crate::model::scene::Kind;

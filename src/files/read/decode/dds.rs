@@ -6,7 +6,7 @@ use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision}
 
 use super::place::Place;
 use crate::error::Error;
-use crate::open::panics::caught;
+use crate::panics::caught;
 use crate::read::raster::{Buffer, Raster, Samples};
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {

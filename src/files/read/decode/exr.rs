@@ -11,7 +11,7 @@ use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 use super::dwa;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
 use crate::error::Error;
-use crate::open::panics::caught;
+use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
 

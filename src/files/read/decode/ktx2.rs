@@ -6,7 +6,7 @@ use basisu::{DecodeFlags, TargetFormat, Transcoder};
 
 use super::place::{MAX_BYTES, Place};
 use crate::error::Error;
-use crate::open::panics::caught;
+use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 
 /// How a KTX2 begins.

@@ -16,7 +16,7 @@ use super::head::{self, PngHead};
 use super::known;
 use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::error::Error;
-use crate::open::panics::caught;
+use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
 

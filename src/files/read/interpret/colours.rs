@@ -105,3 +105,33 @@ fn specular_encoding(
     found.assumptions.push(assumption);
     chosen
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_verdict_rests_on_the_evidence_that_was_gathered() {
+        let albedo = |evidence: &[Evidence]| {
+            let (diffuse, specular) = (evidence.to_vec(), evidence.to_vec());
+            let [diffuse, specular] = detected(ColourEvidence::Pair { diffuse, specular });
+            assert_eq!(diffuse, specular);
+            diffuse.map(|(albedo, _, certainty)| (albedo, certainty)).unwrap()
+        };
+        assert_eq!(albedo(&[Evidence::Prior]), (Albedo::Srgb, Certainty::Likely));
+        assert_eq!(albedo(&[Evidence::Research]), (Albedo::Srgb, Certainty::Unsure));
+        let linear = Evidence::LinearDielectrics(1.0);
+        assert_eq!(albedo(&[Evidence::Research, linear]), (Albedo::Linear, Certainty::Likely));
+        let neighbours = |log_odds| Evidence::Neighbours { count: 4, log_odds };
+        assert_eq!(albedo(&[Evidence::Research, neighbours(3.0)]), (Albedo::Linear, Certainty::Unsure));
+        assert_eq!(albedo(&[Evidence::Research, neighbours(-3.0)]), (Albedo::Srgb, Certainty::Likely));
+    }
+
+    #[test]
+    fn a_colour_by_itself_is_encoded_and_unsure_where_it_is_dark() {
+        let of = |dark| detected(ColourEvidence::Alone(dark)).map(|one| one.map(|(a, _, c)| (a, c)));
+        assert_eq!(of(None), [Some((Albedo::Srgb, Certainty::Likely)), None]);
+        assert_eq!(of(Some(Evidence::Dark(0.03))), [Some((Albedo::Srgb, Certainty::Unsure)), None]);
+        assert_eq!(detected(ColourEvidence::Specified), [None, None]);
+    }
+}

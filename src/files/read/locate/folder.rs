@@ -38,10 +38,10 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
     let files = grouping::choose(path, &names, None, bound)?;
     if prefix.is_empty() && files.files.is_empty() && bound.is_empty() && !files.unlabelled.is_empty() {
         let picture = lone_picture(path, folder, &names, &files.unlabelled)?;
-        return Ok(Located::from([Candidate::Picture(picture)]));
+        return Ok(Located::new([Candidate::Picture(picture)]));
     }
     let name = material_name(path, prefix);
-    Ok(Located::from([Candidate::Set(set(path, folder, name, files, &names))]))
+    Ok(Located::new([Candidate::Set(set(path, folder, name, files, &names))]))
 }
 
 fn set(path: &Path, folder: &Path, name: String, files: SetFiles, names: &[String]) -> LocatedSet {

@@ -64,7 +64,7 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
     let around = if may_be_one_map { folder::around(path, bound) } else { None };
     // A set that cannot be located leaves the refusal of the picture as the error.
     let around = around.and_then(Result::ok).map(Candidate::Set);
-    Ok(Located::from([first].into_iter().chain(around)))
+    Ok(Located::new([first].into_iter().chain(around)))
 }
 
 #[cfg(test)]

@@ -31,8 +31,9 @@ pub(crate) struct Located {
     pub name: Option<String>,
 }
 
-impl<I: IntoIterator<Item = Candidate>> From<I> for Located {
-    fn from(candidates: I) -> Self {
+impl Located {
+    /// These candidates, found where the user named the material.
+    pub(crate) fn new(candidates: impl IntoIterator<Item = Candidate>) -> Self {
         let candidates = candidates.into_iter().collect();
         Self { bound: Vec::new(), candidates, folders: Vec::new(), name: None }
     }

@@ -6,7 +6,7 @@ use gltf::json::{Root, Value};
 use gltf::{Document, Glb};
 
 use crate::error::Error;
-use crate::open::panics::caught;
+use crate::panics::caught;
 
 /// Parts of a glTF that materials need.
 const PARTS: [&str; 7] = ["asset", "buffers", "bufferViews", "images", "materials", "samplers", "textures"];

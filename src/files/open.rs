@@ -4,8 +4,6 @@
 //! the same way today, and rules for it (regular files only, within the folder, up to a size) belong into [`opened`].
 //! `clippy.toml` refuses every other way to open a file.
 
-pub(crate) mod panics;
-
 use std::fs::File;
 use std::io::{BufReader, Read as _};
 use std::path::{Path, PathBuf};
