@@ -68,7 +68,9 @@ pub(super) fn chosen(shapes: &[Vec<u64>]) -> impl Iterator<Item = Option<Axes>> 
             [true, false] => Some(*last),
             [false, true] => Some(*first),
             _ => {
-                together.map(|number| [*last, *first][number]).or(Some(Axes { is_ambiguous: true, ..*last }))
+                // Two channels, or four, usually come last.
+                let default = Axes { is_ambiguous: matches!(first.count, 1 | 3), ..*last };
+                Some(together.map_or(default, |number| [*last, *first][number]))
             }
         }
     };
@@ -123,5 +125,7 @@ mod tests {
     fn a_shape_that_nothing_decides_has_its_channels_last() {
         assert_eq!(read(&[&[1, 1, 3]]), [([1, 1], 3, true)]);
         assert_eq!(read(&[&[3, 3, 3], &[3, 3, 3]]), [([3, 3], 3, true); 2]);
+        assert_eq!(read(&[&[3, 4, 4]]), [([3, 4], 4, true)]);
+        assert_eq!(read(&[&[2, 3, 3]]), [([2, 3], 3, false)]);
     }
 }
