@@ -9,6 +9,7 @@ mod bad_input;
 mod cli;
 mod coverage;
 mod detection;
+mod docs;
 #[cfg(feature = "viewer")]
 mod end_to_end;
 mod extremes;

@@ -1,0 +1,111 @@
+//! The README and the pages of `docs/`: their commands run and print what the pages say, and their links lead somewhere.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The README and the pages, each with its text.
+fn pages() -> Vec<(PathBuf, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let in_docs = fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let paths = in_docs.chain(["README.md", "CHANGELOG.md", "python/README.md"].map(|name| root.join(name)));
+    let markdown = paths.filter(|path| path.extension().is_some_and(|extension| extension == "md"));
+    markdown.map(|path| (path.clone(), fs::read_to_string(&path).unwrap())).collect()
+}
+
+/// The blocks of code of a language, without their fences.
+fn blocks<'a>(text: &'a str, language: &str) -> Vec<&'a str> {
+    let fence = format!("```{language}\n");
+    text.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap_or_default()).collect()
+}
+
+/// The commands of a console block, each with the output that the page shows.
+fn commands(block: &str) -> Vec<(&str, &str)> {
+    let parts = block.split("$ ").filter(|part| !part.is_empty());
+    parts.map(|part| part.split_once('\n').unwrap_or((part, ""))).collect()
+}
+
+/// Runs a line of a page in an empty folder, as a shell does, without a display.
+fn run(line: &str) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_svbrdf")).parent().unwrap();
+    let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap_or_default());
+    let mut command = Command::new("sh");
+    command.args(["-c", line]).current_dir(folder.path()).env("PATH", path);
+    command.env("SLURM_ARRAY_TASK_ID", "1").env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
+    command.output().unwrap()
+}
+
+/// What a page shows and the program does not print.
+fn differences(shown: &str, printed: &str) -> Option<String> {
+    (shown.trim_end() != printed.trim_end()).then(|| format!("the page shows\n{shown}\nbut it prints\n{printed}"))
+}
+
+#[test]
+fn commands_of_the_pages_print_what_the_pages_show() {
+    let mut count = 0;
+    for (page, text) in pages() {
+        for (command, shown) in blocks(&text, "console").into_iter().flat_map(commands) {
+            let output = run(command);
+            let printed = String::from_utf8_lossy(&output.stdout);
+            assert!(output.status.success(), "{}: {command}: {output:?}", page.display());
+            if let Some(differences) = differences(shown, &printed) {
+                panic!("{}: {command}: {differences}", page.display());
+            }
+            count += 1;
+        }
+    }
+    assert!(count >= 3, "only {count} commands were found");
+}
+
+#[cfg(feature = "viewer")]
+#[test]
+fn every_command_line_of_the_pages_is_one() {
+    const USAGE: i32 = 64;
+    let mut count = 0;
+    for (page, text) in pages() {
+        for line in blocks(&text, "sh").into_iter().flat_map(str::lines).filter(|line| line.starts_with("svbrdf ")) {
+            // Without the files that it names it may fail, but not as a command line.
+            let output = run(line);
+            assert_ne!(output.status.code(), Some(USAGE), "{}: {line}: {output:?}", page.display());
+            count += 1;
+        }
+    }
+    assert!(count >= 30, "only {count} commands were found");
+    assert_eq!(run("svbrdf loss --no-such-option").status.code(), Some(USAGE), "a planted fault");
+}
+
+#[test]
+fn every_link_of_the_pages_leads_to_a_file_and_its_heading() {
+    let mut count = 0;
+    for (page, text) in pages() {
+        for link in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+            if link.starts_with("http") || link.contains(' ') {
+                continue;
+            }
+            let (file, heading) = link.split_once('#').unwrap_or((link, ""));
+            let target = if file.is_empty() { page.clone() } else { page.with_file_name("").join(file) };
+            assert!(target.exists(), "{} links to {link}", page.display());
+            if !heading.is_empty() {
+                assert!(has_heading(&fs::read_to_string(&target).unwrap(), heading), "{}: {link}", page.display());
+            }
+            count += 1;
+        }
+    }
+    assert!(count >= 20, "only {count} links were found");
+}
+
+/// Whether a page has a heading with this anchor.
+fn has_heading(text: &str, anchor: &str) -> bool {
+    let of_line = |line: &str| line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-");
+    text.lines().filter(|line| line.starts_with('#')).any(|line| of_line(line) == anchor)
+}
+
+#[test]
+fn planted_faults_of_a_page_are_seen() {
+    let text = "## A heading\n```console\n$ svbrdf one\n1\n$ svbrdf two\n2\n```\n```sh\nsvbrdf three\n```\n";
+    let found: Vec<_> = blocks(text, "console").into_iter().flat_map(commands).collect();
+    assert_eq!(found, [("svbrdf one", "1\n"), ("svbrdf two", "2\n")]);
+    assert!(differences("1\n", "1").is_none() && differences("1\n", "2\n").is_some());
+    assert!(has_heading(text, "a-heading") && !has_heading(text, "a-head"));
+}
