@@ -100,7 +100,7 @@ impl fmt::Display for Note {
 }
 
 impl Note {
-    /// The sentences of notes about pixels, and about their metadata.
+    /// The sentences of notes about pixels.
     fn of_pixels(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::AlphaIgnored { map } => {
@@ -119,6 +119,36 @@ impl Note {
                 f,
                 "Specular is read as {chosen}, {by}, but its median is {median:.3}, which suggests {suggests}: check it."
             ),
+            Self::Primaries
+            | Self::DataWindow { .. }
+            | Self::PartialData { .. }
+            | Self::ChannelsLast { .. }
+            | Self::LinearGamma(_)
+            | Self::Orientation(_)
+            | Self::Profile(_) => self.of_metadata(f),
+            // `Display` has their words; the compiler asks here for those of a new note.
+            Self::MapFile { .. }
+            | Self::MapSpecified { .. }
+            | Self::SidecarUsed { .. }
+            | Self::RowsFlipped { .. }
+            | Self::Unused { .. }
+            | Self::InFolder { .. }
+            | Self::Photos { .. }
+            | Self::Rows { .. }
+            | Self::Materials { .. }
+            | Self::NotModelled { .. }
+            | Self::SpecularFactor { .. }
+            | Self::Preview
+            | Self::Substituted { .. }
+            | Self::OptionsUnused { .. }
+            | Self::StatementsUnused(..)
+            | Self::Resized { .. } => Ok(()),
+        }
+    }
+
+    /// The sentences of notes about the metadata of a picture.
+    fn of_metadata(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::Primaries => {
                 f.write_str("The EXR has primaries other than those of Rec. 709; its RGB is used as it is.")
             }
@@ -153,23 +183,7 @@ impl Note {
             Self::Profile(subject) => {
                 write!(f, "The {subject} has an ICC profile other than sRGB, which is ignored.")
             }
-            // `Display` has their words; the compiler asks here for those of a new note.
-            Self::MapFile { .. }
-            | Self::MapSpecified { .. }
-            | Self::SidecarUsed { .. }
-            | Self::RowsFlipped { .. }
-            | Self::Unused { .. }
-            | Self::InFolder { .. }
-            | Self::Photos { .. }
-            | Self::Rows { .. }
-            | Self::Materials { .. }
-            | Self::NotModelled { .. }
-            | Self::SpecularFactor { .. }
-            | Self::Preview
-            | Self::Substituted { .. }
-            | Self::OptionsUnused { .. }
-            | Self::StatementsUnused(..)
-            | Self::Resized { .. } => Ok(()),
+            _ => Ok(()),
         }
     }
 }
