@@ -20,6 +20,8 @@
 pub mod atomic;
 pub mod dataset;
 pub mod export;
+pub mod open;
+mod panics;
 pub mod photograph;
 pub mod read;
 pub mod samples;

@@ -1,6 +1,5 @@
 //! The session file: a comparison that another person can open, with everything that it takes.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -10,6 +9,7 @@ use super::read::{PhotographOptions, ReadOptions};
 use super::session_window::SessionWindow;
 use crate::error::Error;
 use crate::model::scene::Scene;
+use crate::open::NamedFile;
 
 /// What the names of session files end with.
 const ENDING: &str = ".svbrdf-session.json";
@@ -93,7 +93,7 @@ impl Session {
     /// # Errors
     /// [`Error::Unreadable`], [`Error::BadSession`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
+        let bytes = NamedFile::by_user(path).bytes()?;
         let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
         let mut session: Self = serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
         if session.version > VERSION {
@@ -177,6 +177,8 @@ fn relative(path: &Path, folder: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::files::read::{Albedo, Transfer};
     use crate::model::scene::Kind;

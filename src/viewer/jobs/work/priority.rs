@@ -32,6 +32,7 @@ fn lower() {
 /// The priority of the thread that calls it, as `nice` counts.
 #[cfg(all(test, target_os = "linux"))]
 pub fn nice_of_this_thread() -> i32 {
+    #[expect(clippy::disallowed_methods, reason = "a file of the system, which nobody names")]
     let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap_or_default();
     // The 19th field; the second is a name in parentheses.
     let after_name = stat.rsplit_once(") ").map_or("", |(_, rest)| rest);
