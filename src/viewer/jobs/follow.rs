@@ -3,8 +3,8 @@
 use super::Jobs;
 use super::why::WhyQuery;
 use super::work::context::JobContext;
-use crate::loss::Request;
 use crate::error::Error;
+use crate::loss::Request;
 use crate::viewer::model::Model;
 use crate::viewer::model::settings::Tab;
 use crate::viewer::model::settings::loss_query::LossQuery;

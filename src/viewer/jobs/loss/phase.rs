@@ -164,7 +164,9 @@ mod tests {
         let key = key(seed);
         let comparison = Comparison::new(&material, &[&material], key.query.convention).unwrap();
         let mut report = None;
-        let update = |outcome: &Outcome| report = Some(LossReport::new(&comparison, &key.query.request, outcome.clone()));
+        let update = |outcome: &Outcome| {
+            report = Some(LossReport::new(&comparison, &key.query.request, outcome.clone()))
+        };
         comparison.stream(&key.query.request, &crate::progress::Progress::default(), update).unwrap();
         Losses { key, report: report.unwrap(), differences: Vec::new(), elapsed: Duration::ZERO }
     }
