@@ -113,7 +113,7 @@ def assert_is_csv(frame: Any, text: str) -> None:
     assert list(frame.columns) == list(expected[0])
     assert len(frame) == len(expected)
     for column in frame.columns:
-        for got, row in zip(frame[column], expected, strict=True):
+        for got, row in zip(frame[column].to_numpy(), expected, strict=True):
             assert is_cell(got, row[column]), (column, got, row[column])
 
 
