@@ -21,10 +21,13 @@ def of_program(program: str, *arguments: str) -> dict[str, Any]:
 @pytest.mark.parametrize(
     ("options", "arguments"),
     [
-        ({"seed": 7}, ["--near", "6", "--distant", "3", "--seed", "7"]),
+        ({"near": 6, "distant": 3, "seed": 7}, ["--near", "6", "--distant", "3", "--seed", "7"]),
         ({"near": 20, "distant": 12, "sampler": "sobol"}, ["--near", "20", "--distant", "12", "--sampler", "sobol"]),
         ({"near": 30, "distant": 30, "texels": 64}, ["--near", "30", "--distant", "30", "--texels", "64"]),
-        ({"convention": "guided-2020", "seed": 1}, ["--near", "6", "--seed", "1", "--convention", "guided-2020"]),
+        (
+            {"convention": "guided-2020", "seed": 1, "near": 6},
+            ["--near", "6", "--seed", "1", "--convention", "guided-2020"],
+        ),
         ({"precision": "f64", "near": 2, "distant": 1}, ["--near", "2", "--distant", "1", "--precision", "f64"]),
         ({"target_error": 0.03}, ["--target-error", "3%"]),
         ({}, []),

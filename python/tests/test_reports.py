@@ -1,5 +1,6 @@
 """Reports: the text, the JSON and the CSV of the command line."""
 
+import csv
 import io
 import json
 import math
@@ -96,16 +97,34 @@ def test_a_report_has_the_keys_the_numbers_and_the_text_of_the_command_line(
     assert str(report) + "\n" == printed(program, case, materials, "text")
 
 
+def is_cell(got: Any, cell: str) -> bool:
+    """Whether a value of a data frame is that of a cell of the CSV, to its last bit."""
+    if isinstance(got, str):
+        return got == cell
+    if pandas.isna(got):
+        return cell in ("", "NaN")
+    if isinstance(got, bool | np.bool_):
+        return str(got).lower() == cell
+    return bool(type(got)(cell) == got)
+
+
+def assert_is_csv(frame: Any, text: str) -> None:
+    expected = list(csv.DictReader(io.StringIO(text)))
+    assert list(frame.columns) == list(expected[0])
+    assert len(frame) == len(expected)
+    for column in frame.columns:
+        for got, row in zip(frame[column].to_numpy(), expected, strict=True):
+            assert is_cell(got, row[column]), (column, got, row[column])
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_a_data_frame_is_the_csv_of_the_command_line(program: str, materials: Materials, case: str) -> None:
     frame = CASES[case][1](*arguments(case, materials)).to_pandas()
-    text = printed(program, case, materials, "csv")
-    expected = pandas.read_csv(io.StringIO(text), float_precision="round_trip")
-    assert list(frame.columns) == list(expected.columns)
-    assert len(frame) == len(expected) > 0
-    for column in expected:
-        for got, cell in zip(frame[column], expected[column], strict=True):
-            assert got == cell or (pandas.isna(got) and pandas.isna(cell)), (column, got, cell)
+    assert_is_csv(frame, printed(program, case, materials, "csv"))
+    column = next(name for name in frame.columns if isinstance(frame[name].iloc[0], float))
+    frame.loc[0, column] = np.nextafter(frame[column].iloc[0], 7)
+    with pytest.raises(AssertionError, match=column):
+        assert_is_csv(frame, printed(program, case, materials, "csv"))
 
 
 def test_a_planted_key_is_found() -> None:
@@ -127,7 +146,6 @@ def test_changing_a_dictionary_changes_no_report_and_reports_can_be_pickled(mate
     again = pickle.loads(pickle.dumps(report))
     assert again == report
     assert again.to_dict() == report.to_dict()
-    # Exported names with the letters of Python.
     assert repr(again) == str(again) == report.text.rstrip("\n")
 
 
@@ -152,11 +170,7 @@ def test_a_map_over_texels_has_the_mean_of_the_loss_and_the_csv_of_the_command_l
     command = [program, "map", str(ground_truth), *map_to_text(predictions), "-o", str(tmp_path / "map.csv")]
     ended = subprocess.run([*command, "--near", "4", "--distant", "2"], check=True, capture_output=True, text=True)
     assert str(report) + "\n" == ended.stdout
-    expected = pandas.read_csv(tmp_path / "map.csv")
-    frame = report.to_pandas()
-    assert list(frame.columns) == list(expected.columns)
-    for column in expected:
-        assert (frame[column].to_numpy() == expected[column].astype(frame[column].dtype).to_numpy()).all(), column
+    assert_is_csv(report.to_pandas(), (tmp_path / "map.csv").read_text())
 
 
 @pytest.mark.parametrize("over", ["lights", "views"])
@@ -177,8 +191,7 @@ def test_a_map_over_directions_is_that_of_the_command_line(
     options = ["--over", over, "--side", "12", "--fixed", "0.2,0.1,1"]
     ended = subprocess.run([*command, *options], check=True, capture_output=True, text=True)
     assert str(report) + "\n" == ended.stdout
-    expected = pandas.read_csv(tmp_path / "map.csv", float_precision="round_trip")
-    pandas.testing.assert_frame_equal(report.to_pandas(), expected, check_exact=True, check_dtype=False)
+    assert_is_csv(report.to_pandas(), (tmp_path / "map.csv").read_text())
 
 
 def test_the_worst_scene_is_a_scene_with_that_loss(materials: Materials) -> None:

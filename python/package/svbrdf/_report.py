@@ -62,7 +62,7 @@ def data_frame(columns: list[str], rows: Any) -> "pd.DataFrame":
     return pd.DataFrame(rows, columns=columns)
 
 
-def views(found: _core.Views, *, stacklevel: int = 3) -> dict[str, Any]:
+def views(found: "_core.Views", *, stacklevel: int = 3) -> dict[str, Any]:
     """The arguments of `Report` from a report of the core, whose warnings are given.
 
     `stacklevel` leads to the caller of the function that calls this one.
