@@ -27,7 +27,12 @@ fn main() -> ExitCode {
 }
 
 fn make(out: &Path, side: &str, depth: &str) -> Result<(), Error> {
-    let side = side.parse().map_err(|e| Error::Usage(format!("SIDE: {e}")))?;
+    let unknown = |_| Error::UnknownName {
+        what: "SIDE",
+        found: side.to_owned(),
+        known: "a number of texels".to_owned(),
+    };
+    let side = side.parse().map_err(unknown)?;
     let options = WriteOptions { depth: Some(depth.parse::<Depth>()?), ..WriteOptions::default() };
     write::write(&large(side)?, out, FileKind::new(out, &options)?)
 }

@@ -34,6 +34,7 @@
 //! | [`picture`] | renderings as PNG and EXR files |
 //! | [`files`] | reading and writing materials |
 //! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
+//! | [`backend`] | the processor or a graphics adapter, whichever is faster |
 //! | [`report`] | losses as text |
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
@@ -42,6 +43,7 @@
 //! | [`dataset`] | many materials and methods: result files, means with intervals over materials |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`samples`] | built-in materials |
+//! | [`source`] | where a material comes from and how it is read: files, built-in materials, entries of sessions |
 //! | [`progress`], [`error`] | progress and cancellation of long operations; one error variant per cause |
 #![cfg_attr(feature = "gpu", doc = "| [`gpu`] | rendering and loss on a graphics adapter |")]
 #![cfg_attr(feature = "viewer", doc = "| [`viewer`] | the window |")]
@@ -50,12 +52,14 @@
 //! both, and the command line is part of the binary. Without default features the crate is the core with the command line.
 //! The feature `testing` makes internals public for the tests of this repository; it has no stable interface.
 
+pub mod backend;
+
 // Until all callers name the crates themselves.
 pub use svbrdf_core::{
     error, image, loss, material, math, metrics, progress, rank, render, report, text, why,
 };
 pub use svbrdf_files as files;
-pub use svbrdf_files::{dataset, photograph, samples};
+pub use svbrdf_files::{dataset, photograph, samples, source};
 #[cfg(feature = "gpu")]
 pub use svbrdf_gpu as gpu;
 

@@ -2,10 +2,13 @@
 
 mod backend;
 mod ends;
+mod help;
+mod journal;
 mod loss;
 mod materials;
 mod metrics;
 mod notes;
+mod options;
 mod photo;
 mod pictures;
 mod rank;

@@ -69,7 +69,7 @@ fn the_interval_of_a_difference_covers_it() {
     let held = (0..SEEDS).filter(|&seed| {
         let request = Request::Scenes(Sampling { seed, ..Sampling::default() });
         let outcome = comparison.run(&request, &Progress::default()).unwrap();
-        holds(&outcome.difference(&outcome.losses[0], &outcome.losses[1]), expected)
+        holds(&outcome.difference(0, 1), expected)
     });
     let coverage = 100.0 * held.count() as f64 / SEEDS as f64;
     let [least, most] = allowed(SEEDS);

@@ -128,7 +128,7 @@ fn an_error_of_another_kind_or_file_is_not_accepted() {
     assert!(of_picture(&bad("damaged")) && !of_picture(&bad("damaged.png")) && !of_picture(&bad("other")));
     let internal = || Error::Internal("damaged".to_owned());
     for is_expected in [of_picture, of_listing, of_sidecar] {
-        assert!(!is_expected(&internal()) && !is_expected(&Error::Usage("damaged".to_owned())));
+        assert!(!is_expected(&internal()) && !is_expected(&Error::NoPrediction));
     }
     let absent = Error::unreadable(Path::new("damaged"), std::io::ErrorKind::NotFound.into());
     assert!(!of_picture(&absent) && of_listing(&absent) && !of_sidecar(&absent));

@@ -1,17 +1,14 @@
 //! Many materials: the losses of methods over a data set.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use svbrdf::dataset::{
-    self, MaterialResult, MethodSummary, MetricSummary, Pick, RunSettings, Side, summarize_metrics,
+    self, DatasetReading, DatasetResults, DatasetSettings, MaterialResult, MethodSummary, MetricSummary, Pick,
+    summarize_metrics,
 };
-use svbrdf::error::Error;
-use svbrdf::files::read as reading;
-use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
-use svbrdf::progress::Progress;
 
 use crate::errors::exception;
 use crate::material::read_options;
@@ -89,22 +86,20 @@ pub fn rank_dataset(
 ) -> PyResult<(Vec<SummaryItems>, Vec<PredictionItems>)> {
     let convention: Convention = asked.convention.parse().map_err(exception)?;
     let pick: Pick = asked.pick.parse().map_err(exception)?;
-    let options = [read_options(&asked.read[0])?, read_options(&asked.read[1])?];
-    let open = |path: &Path, side: Side| -> Result<Material<f32>, Error> {
-        let options = &options[usize::from(side == Side::Prediction)];
-        let read = reading::read(path, options, &Progress::default())?;
-        if asked.strict {
-            read.refuse_guesses(path)?;
-        }
-        Ok(read.material)
+    let reading = DatasetReading {
+        ground_truths: read_options(&asked.read[0])?,
+        predictions: read_options(&asked.read[1])?,
+        strict: asked.strict,
     };
-    let tasks = dataset::tasks_of_folders(&asked.ground_truths, &asked.methods).map_err(exception)?;
+    let cases = dataset::cases_of_folders(&asked.ground_truths, &asked.methods).map_err(exception)?;
     let settings =
-        RunSettings::new(convention.name, asked.target_error, asked.seed, &tasks).with_metrics(asked.metrics);
+        DatasetSettings::new(convention.name, asked.target_error, asked.seed, &cases).with_metrics(asked.metrics);
     let journal = asked.journal.as_deref();
-    let results = work::run(py, progress, |progress| {
-        dataset::run(&tasks, &settings, &convention, open, journal, progress)
-    })?;
+    let DatasetResults { results, recomputed } =
+        work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, journal, progress))?;
+    for recomputed in recomputed {
+        py.import("warnings")?.call_method1("warn", (recomputed.to_string(),))?;
+    }
     let summaries = dataset::summarize(&settings.methods, &results, pick);
     let summaries = summaries.into_iter().map(|summary| {
         let metrics = summarize_metrics(&summary.method, &results, pick);

@@ -8,12 +8,13 @@ use svbrdf::loss::Request;
 use svbrdf::material::{Map, Material};
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene_file;
+use svbrdf::report::table::{aligned, scenes_line};
 use svbrdf::why::{Attribution, MapShare, attribute};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::{ComparisonArgs, Given, values};
+use super::job::ComparisonJob;
+use super::output::{CommandError, exit, table, target, watched};
 use super::report::{EstimateEntry, ReportFormat};
-use super::{exit, loss, materials, table, target};
 
 /// Prints how much of the rendering loss comes from each map
 ///
@@ -24,7 +25,7 @@ use super::{exit, loss, materials, table, target};
 #[derive(Debug, clap::Args)]
 pub struct BlameArgs {
     /// Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152
-    #[arg(long, value_name = "PERCENT", value_parser = loss::percent, allow_hyphen_values = true, default_value = "1%")]
+    #[arg(long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     target_error: f64,
 
     /// Seed of the sampled scenes
@@ -48,32 +49,31 @@ pub struct BlameArgs {
 /// # Errors
 /// Where a material or the scenes cannot be read or used; with `--strict` where the target error is not reached, after the results
 /// are printed.
-pub fn run(args: &BlameArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
+pub fn run(args: &BlameArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
     let request = match &args.scenes {
         Some(path) => Request::Listed(scene_file::read(path)?),
         None => Request::Accuracy { target: args.target_error, seed: args.seed },
     };
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let opened = job.materials.open::<f32>()?;
     let one = |prediction: &Material<f32>| {
         watched("rendering", |progress| {
-            attribute(&opened.ground_truth, prediction, &args.comparison.convention(), &request, progress)
+            attribute(&opened.ground_truth, prediction, &job.convention, &request, progress)
         })
     };
     let attributions = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     let target = args.scenes.is_none().then_some(args.target_error);
     exit::put(&match args.format {
         ReportFormat::Text => {
-            let one = |a| text(a, &opened.ground_truth, &args.comparison.convention());
+            let one = |a| text(a, &opened.ground_truth, &job.convention);
             attributions.iter().map(one).collect::<Vec<_>>().join("\n")
         }
-        ReportFormat::Json => {
-            json(&attributions, &opened.ground_truth, &args.comparison.convention(), target)?
-        }
+        ReportFormat::Json => json(&attributions, &opened.ground_truth, &job.convention, target)?,
         ReportFormat::Csv => csv(&attributions, target)?,
     })?;
     let missed = |a: &Attribution| target::missed(target?, &a.prediction, &a.loss, a.scenes.len());
-    target::warn_of(attributions.iter().filter_map(missed), args.comparison.materials.reading.both.strict)
+    target::warn_of(attributions.iter().filter_map(missed), job.materials.strict)
 }
 
 /// Whether the loss is known as well as the target error asks for.
@@ -97,9 +97,9 @@ fn text(attribution: &Attribution, ground_truth: &Material<f32>, convention: &Co
     }));
     let [mean, error, interval] = loss.texts();
     rows.push(vec!["all".to_owned(), percent(loss.mean, loss.mean), mean, error, interval]);
-    let scenes = table::scenes_line(sampling.as_ref(), scenes);
+    let scenes = scenes_line(sampling.as_ref(), scenes, ground_truth.size());
     let note = attribution.note().map_or(String::new(), |note| format!("\n{note}\n"));
-    format!("{heading}{scenes}\n{}{note}", table::aligned(&rows))
+    format!("{heading}{scenes}\n{}{note}", aligned(&rows))
 }
 
 fn percent(part: f64, whole: f64) -> String {

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use svbrdf::error::Error;
 use svbrdf::files::read::{Binding, Preset};
 use svbrdf::files::write::{self, Depth, FileKind, WriteOptions};
 use svbrdf::material::Material;
 
-use super::materials::read_one;
-use super::reading::ReadingArgs;
-use super::stop::stoppable;
+use super::args::reading::ReadingArgs;
+use super::job::materials::{noted, read_one};
+use super::output::CommandError;
+use super::output::stop::stoppable;
 
 /// Writes a material as one layered EXR, as a packed PNG or into a folder
 ///
@@ -56,11 +56,10 @@ pub struct ConvertArgs {
 ///
 /// # Errors
 /// Those of the reader and of the writer.
-pub fn run(args: &ConvertArgs) -> Result<(), Error> {
+pub fn run(args: &ConvertArgs) -> Result<(), CommandError> {
     let options = WriteOptions { depth: args.depth, like: args.like, preview: args.preview };
     let kind = FileKind::new(&args.output, &options)?;
-    let read = read_one(&args.material, &args.bindings, &args.reading.options())?;
-    args.reading.check(&args.material, &read)?;
-    let material: Material<f32> = args.reading.noted(read);
-    stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))
+    let read = read_one(&args.material, &args.bindings, &args.reading)?;
+    let material: Material<f32> = noted(read, args.reading.verbose);
+    Ok(stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))?)
 }

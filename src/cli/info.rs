@@ -1,16 +1,16 @@
-//! `svbrdf info`: what the files of a material hold.
+//! `svbrdf info`: the content of the files of a material, and the assumptions in reading them.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
 use serde::Serialize;
-use svbrdf::error::Error;
 use svbrdf::files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
-use super::materials::read_one;
-use super::reading::ReadingArgs;
-use super::{advice, exit};
+use super::args::reading::ReadingArgs;
+use super::args::{Given, modes};
+use super::job::materials::read_one;
+use super::output::{CommandError, advice, exit, table};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]
@@ -61,10 +61,10 @@ struct Info<'a> {
 /// Reads the material and prints the report.
 ///
 /// # Errors
-/// Those of the reader; [`Error::Guessed`] with `--strict`; [`Error::Unwritable`] with `--save`.
-pub fn run(args: &InfoArgs) -> Result<(), Error> {
-    let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading.options())?;
-    args.reading.check(&args.material, &read)?;
+/// Those of the reader; [`Error::Guessed`](svbrdf::error::Error::Guessed) with `--strict`; [`Error::Unwritable`](svbrdf::error::Error::Unwritable) with `--save`.
+pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
+    given.check(&modes::INFO)?;
+    let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading)?;
     if args.save {
         let saved = Sidecar::load(&args.material)?.overridden_by(&args.reading.options(), &args.bindings);
         exit::tell(&format!("note: saved in {}", saved.save(&args.material)?.display()));
@@ -76,13 +76,11 @@ pub fn run(args: &InfoArgs) -> Result<(), Error> {
         assumptions: &read.assumptions,
         notes: &read.notes,
     };
-    match args.format {
-        InfoFormat::Text => exit::put(&text(&info)),
-        InfoFormat::Json => {
-            let json = serde_json::to_string_pretty(&info).map_err(|e| exit::unwritable(e.into()))?;
-            exit::put(&(json + "\n"))
-        }
-    }
+    let printed = match args.format {
+        InfoFormat::Text => text(&info),
+        InfoFormat::Json => table::json(&info)?,
+    };
+    Ok(exit::put(&printed)?)
 }
 
 fn text(info: &Info<'_>) -> String {

@@ -3,18 +3,18 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use svbrdf::backend::{self, Adapter};
 use svbrdf::error::Error;
 use svbrdf::loss::{ALL_SCENES_TARGET, Comparison, Compute, Precision, Request, Sampling, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene_file;
 use svbrdf::report::Report;
 
-use super::backend::{self, DeviceChoice};
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::values::{duration, percent};
+use super::args::{ComparisonArgs, Given, modes};
+use super::job::ComparisonJob;
+use super::output::{CommandError, exit, target, watched};
 use super::report::{Printed, ReportFormat};
-use super::session::SessionSettings;
-use super::{exit, materials, table, target};
 
 /// Prints the rendering loss of predictions against a ground truth
 ///
@@ -76,34 +76,51 @@ pub struct LossArgs {
     comparison: ComparisonArgs,
 }
 
+/// The requested device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum DeviceChoice {
+    /// The CPU, which the window uses, too
+    #[default]
+    Cpu,
+    /// The graphics adapter: equal to about 6 digits; faster for many scenes and large maps on a fast adapter
+    Gpu,
+    /// Measures both on a few scenes and uses the faster one
+    Auto,
+}
+
+/// A loss to compute: the arguments, resolved.
+struct LossJob {
+    comparison: ComparisonJob,
+    request: Request,
+    /// Whether the losses over all scenes stand beside those of the request: where nothing chooses scenes.
+    over_all_scenes: bool,
+    /// Names the scenes of the losses over all scenes.
+    seed: u64,
+    device: DeviceChoice,
+}
+
 /// Prints the losses to stdout.
 ///
 /// # Errors
 /// Where a material or the scenes cannot be read or used; with `--strict` where a target error is not reached, after the
 /// losses are printed.
-pub fn run(mut args: LossArgs) -> Result<(), Error> {
+pub fn run(mut args: LossArgs, given: &Given) -> Result<(), CommandError> {
     let steps = args.comparison.materials.expand_steps()?;
-    let args = &args;
-    table::check_predictions(&args.comparison.materials)?;
-    let saved = saved_request(args)?;
-    let is_chosen = saved.is_some() || chooses_scenes(args);
-    let request = saved.map_or_else(|| request(args), Ok)?;
-    check_backend(args, &request)?;
+    if (args.precision, args.backend) == (Precision::F64, DeviceChoice::Auto) {
+        exit::tell("note: computed on the CPU: graphics adapters compute in f32");
+    }
+    let job = LossJob::new(&args, given)?;
     let report = match args.precision {
-        Precision::F32 => {
-            report(args, is_chosen, |comparison| backend::run(args.backend, comparison, &request))?
-        }
-        Precision::F64 => report(args, is_chosen, |comparison: Comparison<'_, f64>| {
-            let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
-            Ok(Report::new(&comparison, outcome))
-        })?,
+        Precision::F32 => job.report(|comparison| job.run(comparison))?,
+        Precision::F64 => job.report(|comparison: Comparison<'_, f64>| job.run_on(&comparison))?,
     };
     let all_scenes = report.all_scenes.as_ref();
     let missed_by_all_scenes = all_scenes.and_then(|known| target::missed_by_any(ALL_SCENES_TARGET, known));
-    let printed = Printed { missed: missed(&request, &report), report, request, paths: paths(args), steps };
+    let LossJob { comparison: ComparisonJob { materials, .. }, request, .. } = job;
+    let paths = materials.paths.iter().map(|path| path.display().to_string()).collect();
+    let printed = Printed { missed: missed(&request, &report), report, request, paths, steps };
     exit::put(&args.format.write(&printed).map_err(exit::unwritable)?)?;
-    let missed = printed.missed.into_iter().chain(missed_by_all_scenes);
-    target::warn_of(missed, args.comparison.materials.reading.both.strict)
+    target::warn_of(printed.missed.into_iter().chain(missed_by_all_scenes), materials.strict)
 }
 
 /// The error of a target that is not reached.
@@ -112,37 +129,62 @@ fn missed(request: &Request, report: &Report) -> Option<Error> {
     target::missed_by_any(target, &report.outcome)
 }
 
-/// The paths of the ground truth and of the predictions; none of the built-in ones.
-fn paths(args: &LossArgs) -> Vec<String> {
-    let all = args.comparison.materials.ground_truth.iter().chain(&args.comparison.materials.predictions);
-    all.map(|path| path.display().to_string()).collect()
+impl LossJob {
+    fn new(args: &LossArgs, given: &Given) -> Result<Self, CommandError> {
+        let comparison = ComparisonJob::new(&args.comparison, given)?;
+        comparison.materials.check_predictions()?;
+        let session = comparison.session.as_ref().filter(|_| !chooses_scenes(args));
+        let saved = session.and_then(|session| session.request(args.seed));
+        if let Some(Request::Listed(_)) = saved {
+            given.check(&modes::SESSION_SCENES)?;
+        }
+        let over_all_scenes = saved.is_none() && !chooses_scenes(args);
+        let request = saved.map_or_else(|| request(args), Ok)?;
+        check_backend(args, &request)?;
+        let seed = args.seed.unwrap_or(0);
+        Ok(Self { comparison, request, over_all_scenes, seed, device: args.backend })
+    }
+
+    /// Opens the materials in precision `T` and computes the losses with `run`.
+    fn report<T: Compute>(
+        &self,
+        run: impl FnOnce(Comparison<'_, T>) -> Result<Report, Error>,
+    ) -> Result<Report, CommandError> {
+        let opened = self.comparison.materials.open::<T>()?;
+        let predictions: Vec<_> = opened.predictions.iter().collect();
+        let comparison = Comparison::new(&opened.ground_truth, &predictions, self.comparison.convention)?;
+        let all_scenes = match self.over_all_scenes {
+            true => Some(watched("rendering", |progress| comparison.over_all_scenes(self.seed, progress))?),
+            false => None,
+        };
+        Ok(Report { all_scenes, ..run(comparison)? })
+    }
+
+    /// The report of the request, computed on the requested device.
+    fn run(&self, comparison: Comparison<'_, f32>) -> Result<Report, Error> {
+        let adapter = match self.device {
+            DeviceChoice::Cpu => None,
+            DeviceChoice::Gpu => Some(Adapter::start()?),
+            DeviceChoice::Auto => {
+                let fastest = backend::fastest(&comparison, &self.request)?;
+                exit::tell(&format!("note: {fastest}"));
+                fastest.adapter
+            }
+        };
+        match &adapter {
+            Some(adapter) => self.run_on(&comparison.on(adapter.backend())),
+            None => self.run_on(&comparison),
+        }
+    }
+
+    /// The report of the request, computed by the backend of `comparison`.
+    fn run_on<T: Compute>(&self, comparison: &Comparison<'_, T>) -> Result<Report, Error> {
+        let outcome = watched("rendering", |progress| comparison.run(&self.request, progress))?;
+        Ok(Report::new(comparison, outcome))
+    }
 }
 
-/// What the session asks for, unless an option chooses the scenes.
-fn saved_request(args: &LossArgs) -> Result<Option<Request>, Error> {
-    let saved = SessionSettings::of(&args.comparison.materials)?;
-    Ok(saved.filter(|_| !chooses_scenes(args)).and_then(|saved| saved.request(args.seed)))
-}
-
-/// Opens the materials in precision `T` and computes the losses with `run`. Where scenes are not chosen, the losses over all
-/// scenes stand beside them.
-fn report<T: Compute>(
-    args: &LossArgs,
-    is_chosen: bool,
-    run: impl FnOnce(Comparison<'_, T>) -> Result<Report, Error>,
-) -> Result<Report, Error> {
-    let opened = materials::open::<T>(&args.comparison.materials)?;
-    let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?;
-    let seed = args.seed.unwrap_or(0);
-    let all_scenes = match is_chosen {
-        true => None,
-        false => Some(watched("rendering", |progress| comparison.over_all_scenes(seed, progress))?),
-    };
-    Ok(Report { all_scenes, ..run(comparison)? })
-}
-
-/// Whether an option says which scenes and texels are compared; a seed does not.
+/// Whether an option chooses which scenes and texels are compared; a seed does not.
 fn chooses_scenes(args: &LossArgs) -> bool {
     let LossArgs { near, distant, sampler, texels, target_error, time_budget, scenes, .. } = args;
     let counts = near.is_some() || distant.is_some() || sampler.is_some() || texels.is_some();
@@ -150,7 +192,7 @@ fn chooses_scenes(args: &LossArgs) -> bool {
 }
 
 /// A graphics adapter compares all texels, in f32.
-fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
+fn check_backend(args: &LossArgs, request: &Request) -> Result<(), CommandError> {
     let problem = match (args.backend, args.precision, request) {
         (DeviceChoice::Cpu | DeviceChoice::Auto, ..) => return Ok(()),
         (DeviceChoice::Gpu, Precision::F64, _) => {
@@ -168,7 +210,7 @@ fn check_backend(args: &LossArgs, request: &Request) -> Result<(), Error> {
             --texels, --target-error and --time-budget"
         }
     };
-    Err(Error::Usage(problem.to_owned()))
+    Err(CommandError::usage(problem))
 }
 
 /// The request that the options make.
@@ -192,40 +234,4 @@ fn request(args: &LossArgs) -> Result<Request, Error> {
             Request::Scenes(sampling)
         }
     })
-}
-
-/// A share such as `1%` or `0.01`.
-pub fn percent(text: &str) -> Result<f64, String> {
-    let (number, scale) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
-    let share = number.trim().parse::<f64>().map(|number| number * scale);
-    share
-        .ok()
-        .filter(|s| *s > 0.0 && *s < 1.0)
-        .ok_or("expected more than 0% and less than 100%, as in 1%".to_owned())
-}
-
-/// A time such as `500ms`, `2s` or `0.5` (seconds).
-fn duration(text: &str) -> Result<Duration, String> {
-    let units = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0)];
-    let with_unit = units.iter().find_map(|(unit, scale)| Some((text.strip_suffix(unit)?, *scale)));
-    let (number, scale) = with_unit.unwrap_or((text, 1.0));
-    let seconds = number.trim().parse::<f64>().map(|number| number * scale);
-    let time = seconds.ok().filter(|s| *s > 0.0 && *s <= 86_400.0).map(Duration::from_secs_f64);
-    time.ok_or(
-        "expected a time above 0, at most a day, in us, ms or s (the default), as in 500ms or 2s".to_owned(),
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn times_are_positive_and_have_units() {
-        let times = ["100us", "500ms", "2s", "0.5", "1 s"].map(|text| duration(text).unwrap().as_micros());
-        assert_eq!(times, [100, 500_000, 2_000_000, 500_000, 1_000_000]);
-        for wrong in ["0", "-1s", "2m", "1e9s", "nan", "s", ""] {
-            assert!(duration(wrong).is_err_and(|said| said.contains("above 0")), "{wrong}");
-        }
-    }
 }

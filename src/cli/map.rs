@@ -6,14 +6,15 @@ use svbrdf::error::Error;
 use svbrdf::image::{Image, mean_of_channels};
 use svbrdf::loss::Comparison;
 use svbrdf::picture::export::{Destination, PictureFormat, Provenance, check_place, write_text};
+use svbrdf::report::table::aligned;
 use svbrdf::why::{self, Hemisphere, Moved};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
-use super::scene_args::{self, SceneArgs};
-use super::scenes::triple;
-use super::stop::stoppable;
-use super::{exit, materials, table};
+use super::args::scenes::SceneArgs;
+use super::args::{ComparisonArgs, Given, modes, values};
+use super::job::ComparisonJob;
+use super::output::stop::stoppable;
+use super::output::table::triple;
+use super::output::{CommandError, exit, table, watched};
 
 /// Writes the loss over texels, light directions or view directions to a file
 ///
@@ -31,7 +32,7 @@ pub struct MapArgs {
     over: Over,
 
     /// Direction of the view of a map over lights, or of the light of a map over views
-    #[arg(long, value_name = "X,Y,Z", value_parser = scene_args::triple, allow_hyphen_values = true,
+    #[arg(long, value_name = "X,Y,Z", value_parser = values::triple, allow_hyphen_values = true,
         default_value = "0,0,1")]
     fixed: [f64; 3],
 
@@ -61,13 +62,17 @@ enum Over {
 ///
 /// # Errors
 /// Where a material or the scenes cannot be read or used, or the file cannot be written.
-pub fn run(args: &MapArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
+pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
+    given.check(match args.over {
+        Over::Texels => &modes::MAP_OVER_TEXELS,
+        Over::Lights | Over::Views => &modes::MAP_OVER_DIRECTIONS,
+    })?;
     let output = Output::new(&args.output)?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let opened = job.materials.open::<f32>()?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison =
-        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?.without_pilot();
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
     let map = match args.over {
         Over::Texels => over_texels(args, &comparison)?,
         Over::Lights => over_directions(args, &comparison, Moved::Light)?,
@@ -79,7 +84,7 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
     let entries = [
         ("svbrdf:shows", format!("{}; the last colour is {largest}", map.shows)),
         ("svbrdf:sources", sources.join(" | ")),
-        ("svbrdf:convention", args.comparison.convention().name.to_owned()),
+        ("svbrdf:convention", job.convention.name.to_owned()),
         ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
     ];
     stoppable(|progress| match &output {
@@ -88,11 +93,8 @@ pub fn run(args: &MapArgs) -> Result<(), Error> {
         }
         Output::Table(path) => write_text(path, &map.table()?, progress),
     })?;
-    exit::put(
-        &(table::heading(&map.shows, &opened.ground_truth, &args.comparison.convention())
-            + "\n"
-            + &map.summary),
-    )
+    let heading = table::heading(&map.shows, &opened.ground_truth, &job.convention);
+    Ok(exit::put(&format!("{heading}\n{}", map.summary))?)
 }
 
 /// Where the map goes.
@@ -113,7 +115,7 @@ impl<'a> Output<'a> {
 
 /// A map of every prediction.
 struct LossMap {
-    /// What the numbers are.
+    /// The meaning of the numbers.
     shows: String,
     panes: Vec<Image<f32>>,
     summary: String,
@@ -148,7 +150,7 @@ fn over_texels(args: &MapArgs, comparison: &Comparison<'_, f32>) -> Result<LossM
     Ok(LossMap {
         shows: format!("mean log difference of each texel over {count} scenes"),
         panes,
-        summary: table::aligned(&summary),
+        summary: aligned(&summary),
         heading: ["prediction", "column", "row", "red", "green", "blue"].map(str::to_owned).to_vec(),
         rows,
     })
@@ -176,7 +178,7 @@ fn over_directions(args: &MapArgs, comparison: &Comparison<'_, f32>, moved: Move
     Ok(LossMap {
         shows: format!("loss over distant {what} directions, {other} {}", triple(args.fixed)),
         panes: map.losses.iter().map(pane).collect(),
-        summary: table::aligned(&summary),
+        summary: aligned(&summary),
         heading: ["prediction", "x", "y", "z", "loss", "standard_error"].map(str::to_owned).to_vec(),
         rows: rows(comparison, &map),
     })

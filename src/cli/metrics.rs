@@ -3,14 +3,15 @@
 use svbrdf::error::Error;
 use svbrdf::material::Material;
 use svbrdf::metrics::{Metric, of_maps, of_renderings};
+use svbrdf::report::table::{aligned, scenes_line};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
-use super::metric_table::{MetricsHeading, json, rows};
+use super::args::scenes::SceneArgs;
+use super::args::{ComparisonArgs, Given, modes};
+use super::job::ComparisonJob;
+use super::output::metric_table::{MetricsHeading, json, rows};
+use super::output::{CommandError, exit, table, watched};
 use super::protocol::{self, ProtocolArgs};
 use super::report::ReportFormat;
-use super::scene_args::SceneArgs;
-use super::{exit, materials, table};
 
 /// Prints metrics of maps and renderings, each with its convention in its name
 ///
@@ -37,30 +38,32 @@ pub struct MetricsArgs {
 ///
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
-pub fn run(args: &MetricsArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
+pub fn run(args: &MetricsArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
     if args.protocol.is_given() {
-        return protocol::run(&args.protocol, &args.comparison, args.format);
+        given.check(&modes::PROTOCOL)?;
+        return protocol::run(&args.protocol, &job, args.format);
     }
-    let (sampling, scenes) = args.scenes.scenes(&args.comparison.convention())?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let (sampling, scenes) = args.scenes.scenes(&job.convention)?;
+    let opened = job.materials.open::<f32>()?;
     let truth = &opened.ground_truth;
     let one = |prediction: &Material<f32>| -> Result<Vec<Metric>, Error> {
         let renderings = watched("rendering", |progress| {
-            of_renderings(truth, prediction, &scenes, &args.comparison.convention(), progress)
+            of_renderings(truth, prediction, &scenes, &job.convention, progress)
         })?;
         Ok([of_maps(truth, prediction)?, renderings].concat())
     };
     let metrics = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     let names: Vec<&str> = opened.predictions.iter().map(Material::name).collect();
-    exit::put(&match args.format {
+    Ok(exit::put(&match args.format {
         ReportFormat::Text => {
-            let heading = table::heading("metrics", truth, &args.comparison.convention());
+            let heading = table::heading("metrics", truth, &job.convention);
             let rows = rows(&names, &metrics, |value| format!("{value:.6}"));
-            format!("{heading}{}\n{}", table::scenes_line(sampling.as_ref(), &scenes), table::aligned(&rows))
+            format!("{heading}{}\n{}", scenes_line(sampling.as_ref(), &scenes, truth.size()), aligned(&rows))
         }
         ReportFormat::Json => {
-            let convention = args.comparison.convention().name;
+            let convention = job.convention.name;
             json(
                 &MetricsHeading { ground_truth: truth.name(), convention: Some(convention), protocol: None },
                 &names,
@@ -68,5 +71,5 @@ pub fn run(args: &MetricsArgs) -> Result<(), Error> {
             )?
         }
         ReportFormat::Csv => table::csv(rows(&names, &metrics, |value| value.to_string()))?,
-    })
+    })?)
 }

@@ -1,40 +1,32 @@
 //! The command line: one file per subcommand.
 
-mod advice;
-mod backend;
-mod bar;
+mod args;
 mod blame;
-mod comparison_args;
 mod convert;
-mod exit;
 mod info;
+mod job;
 mod loss;
 mod map;
-mod materials;
-mod metric_table;
 mod metrics;
+mod output;
 mod photo;
 mod protocol;
 mod rank;
-mod reading;
 mod render;
 mod report;
-mod scene_args;
 mod scenes;
-mod session;
-mod stop;
 mod strip;
 mod study;
-mod table;
-mod target;
 mod view;
-mod wildcards;
 mod worst;
 
-use clap::{Parser, Subcommand};
-use svbrdf::error::Error;
+use std::process::ExitCode;
 
-pub use exit::{exit_code, explain};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+
+use args::Given;
+use output::CommandError;
+use output::exit::{exit_code, explain};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -65,7 +57,7 @@ Exit codes:
 /// EXR or npz, a glTF, MaterialX or MTL file, or a folder or name prefix with one file per map. Without a subcommand: `view`.
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
-pub struct Cli {
+struct Cli {
     #[command(subcommand)]
     command: Option<Subcommands>,
     #[command(flatten)]
@@ -91,26 +83,35 @@ enum Subcommands {
     Convert(convert::ConvertArgs),
 }
 
+/// Runs the program with the arguments of this process.
+pub fn main() -> ExitCode {
+    let command = Cli::command();
+    match command
+        .clone()
+        .try_get_matches()
+        .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
+    {
+        Ok((cli, matches)) => exit_code(cli.run(&Given::of(&command, &matches))),
+        Err(unusual) => explain(&unusual),
+    }
+}
+
 impl Cli {
-    /// Runs the subcommand.
-    ///
-    /// # Errors
-    /// Those of the subcommand.
-    pub fn run(self) -> Result<(), Error> {
+    fn run(self, given: &Given) -> Result<(), CommandError> {
         match self.command.unwrap_or(Subcommands::View(self.view)) {
-            Subcommands::View(args) => view::run(args),
-            Subcommands::Loss(args) => loss::run(args),
-            Subcommands::Render(args) => render::run(&args),
-            Subcommands::Strip(args) => strip::run(&args),
-            Subcommands::Rank(args) => rank::run(args),
-            Subcommands::Blame(args) => blame::run(&args),
-            Subcommands::Scenes(args) => scenes::run(&args),
-            Subcommands::Worst(args) => worst::run(&args),
-            Subcommands::Map(args) => map::run(&args),
-            Subcommands::Metrics(args) => metrics::run(&args),
-            Subcommands::Photo(args) => photo::run(&args),
-            Subcommands::Study(args) => study::run(&args),
-            Subcommands::Info(args) => info::run(&args),
+            Subcommands::View(args) => view::run(args, given),
+            Subcommands::Loss(args) => loss::run(args, given),
+            Subcommands::Render(args) => render::run(&args, given),
+            Subcommands::Strip(args) => strip::run(&args, given),
+            Subcommands::Rank(args) => rank::run(args, given),
+            Subcommands::Blame(args) => blame::run(&args, given),
+            Subcommands::Scenes(args) => scenes::run(&args, given),
+            Subcommands::Worst(args) => worst::run(&args, given),
+            Subcommands::Map(args) => map::run(&args, given),
+            Subcommands::Metrics(args) => metrics::run(&args, given),
+            Subcommands::Photo(args) => photo::run(&args, given),
+            Subcommands::Study(args) => study::run(&args, given),
+            Subcommands::Info(args) => info::run(&args, given),
             Subcommands::Convert(args) => convert::run(&args),
         }
     }

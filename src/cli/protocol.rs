@@ -4,18 +4,18 @@ use std::path::{Path, PathBuf};
 
 use svbrdf::error::Error;
 use svbrdf::files::read::{self, Energy, ReadOptions};
-use svbrdf::files::session::Session;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::{Material, Planes};
 use svbrdf::metrics::{Metric, matfusion_renderings, of_matfusion};
 use svbrdf::picture::export::write_npy;
 use svbrdf::progress::Progress;
+use svbrdf::report::table::aligned;
+use svbrdf::source::{MaterialSource, Place};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
-use super::metric_table::{MetricsHeading, json, rows};
+use super::job::{ComparisonJob, MaterialJob};
+use super::output::metric_table::{MetricsHeading, json, rows};
+use super::output::{CommandError, exit, table, watched};
 use super::report::ReportFormat;
-use super::{exit, materials, table};
 
 #[derive(Debug, clap::Args)]
 pub struct ProtocolArgs {
@@ -53,11 +53,14 @@ struct ProtocolMaterial {
 ///
 /// # Errors
 /// Where a material cannot be read or used, or renderings cannot be written.
-pub fn run(args: &ProtocolArgs, comparison: &ComparisonArgs, format: ReportFormat) -> Result<(), Error> {
-    let all = opened(comparison)?;
-    let Some((truth, predictions)) = all.split_first() else {
-        return Err(Error::Internal("there is no ground truth".to_owned()));
-    };
+pub fn run(args: &ProtocolArgs, job: &ComparisonJob, format: ReportFormat) -> Result<(), CommandError> {
+    if job.session.is_some() {
+        return Err(CommandError::usage(
+            "a protocol takes the files of materials; name them instead of a session",
+        ));
+    }
+    let all = opened(&job.materials)?;
+    let (truth, predictions) = (&all[0], &all[1..]);
     if let Some(folder) = &args.renderings {
         write_renderings(folder, &all)?;
     }
@@ -66,13 +69,13 @@ pub fn run(args: &ProtocolArgs, comparison: &ComparisonArgs, format: ReportForma
     };
     let metrics: Vec<Vec<Metric>> = predictions.iter().map(of).collect::<Result<_, _>>()?;
     let names: Vec<&str> = predictions.iter().map(|prediction| prediction.name.as_str()).collect();
-    exit::put(&match format {
+    Ok(exit::put(&match format {
         ReportFormat::Text => {
             let [width, height] = truth.size;
             let heading =
                 format!("metrics of MatFusion's score.py against {}, {width} x {height} texels", truth.name);
             let rows = rows(&names, &metrics, |value| format!("{value:.6}"));
-            format!("{heading}\n\n{}", table::aligned(&rows))
+            format!("{heading}\n\n{}", aligned(&rows))
         }
         ReportFormat::Json => {
             let ground_truth = &truth.name;
@@ -83,42 +86,27 @@ pub fn run(args: &ProtocolArgs, comparison: &ComparisonArgs, format: ReportForma
             )?
         }
         ReportFormat::Csv => table::csv(rows(&names, &metrics, |value| value.to_string()))?,
-    })
+    })?)
 }
 
 /// The ground truth, then the predictions, of one size.
-fn opened(comparison: &ComparisonArgs) -> Result<Vec<ProtocolMaterial>, Error> {
-    let args = &comparison.materials;
-    if args.reading.resize_to.is_some() {
-        return Err(Error::Usage(
-            "a protocol compares materials as they are; leave out --resize-to".to_owned(),
-        ));
-    }
-    if args.ground_truth.as_deref().is_some_and(Session::is_named) {
-        return Err(Error::Usage(
-            "a protocol takes the files of materials; name them instead of a session".to_owned(),
-        ));
-    }
-    let materials: Vec<Material<f64>> = materials::open(args)?.into_all();
+fn opened(job: &MaterialJob) -> Result<Vec<ProtocolMaterial>, CommandError> {
+    let materials: Vec<Material<f64>> = job.open()?.into_all();
     for prediction in &materials[1..] {
         check_same_size(&materials[0], prediction)?;
     }
-    let paths = args.ground_truth.iter().chain(&args.predictions);
-    let mut paths = paths.map(PathBuf::as_path);
-    // Diffuse as stored, whatever renderer it was made for.
-    let as_stored =
-        |options: ReadOptions| ReadOptions { energy: options.energy.or(Some(Energy::Scaled)), ..options };
-    let [first, others] = [args.reading.of_ground_truth(), args.reading.of_predictions()].map(as_stored);
-    let stored = |(index, material): (usize, Material<f64>)| -> Result<ProtocolMaterial, Error> {
+    let stored = |(source, material): (&MaterialSource, &Material<f64>)| -> Result<_, CommandError> {
         let (name, size) = (material.name().to_owned(), material.size());
-        let options = if index == 0 { &first } else { &others };
-        let planes = match paths.next() {
-            Some(path) => read::read_unnormalized(path, options, &Progress::default())?.0,
-            None => material.planes().clone(),
+        // Diffuse as stored, whatever renderer it was made for.
+        let energy = source.options.energy.or(Some(Energy::Scaled));
+        let options = ReadOptions { energy, ..source.options };
+        let planes = match &source.place {
+            Place::Path(path) => read::read_unnormalized(path, &options, &Progress::default())?.0,
+            Place::BuiltIn(_) => material.planes().clone(),
         };
         Ok(ProtocolMaterial { name, planes, size })
     };
-    materials.into_iter().enumerate().map(stored).collect()
+    job.sources().iter().zip(&materials).map(stored).collect()
 }
 
 /// Writes the renderings of every material; the folder is made.

@@ -1,24 +1,24 @@
 //! `svbrdf render`: renders materials (Algorithm 3) to a file.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use svbrdf::error::Error;
 use svbrdf::image::Image;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
+use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::Scene;
 use svbrdf::picture::difference::Difference;
-use svbrdf::picture::export::{Destination, Provenance};
+use svbrdf::picture::export::{Destination, PictureFormat, Provenance};
 use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::shown::{Shown, ShownDifference, ShownPictures};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
-use super::materials;
-use super::scene_args::OneSceneArgs;
-use super::session::SessionSettings;
-use super::stop::stoppable;
+use super::args::scenes::OneSceneArgs;
+use super::args::values::{Range, stops};
+use super::args::{ComparisonArgs, Given, modes};
+use super::job::{ComparisonJob, SessionSettings, check_heights};
+use super::output::stop::stoppable;
+use super::output::{CommandError, watched};
 
 /// Renders one material, or several side by side, to a file; or their maps, or differences
 ///
@@ -61,45 +61,71 @@ pub struct RenderArgs {
     comparison: ComparisonArgs,
 }
 
+/// A picture to write: the arguments, resolved.
+struct RenderJob {
+    comparison: ComparisonJob,
+    destination: Destination<PictureFormat>,
+    scene: Scene,
+    shown: Shown,
+    exposure_ev: f32,
+    on_adapter: bool,
+}
+
 /// Renders and writes the file.
 ///
 /// # Errors
 /// Where the output cannot be written, or a material cannot be read or rendered.
-pub fn run(args: &RenderArgs) -> Result<(), Error> {
-    let destination = Destination::new(&args.output)?;
-    let saved = SessionSettings::of(&args.comparison.materials)?;
-    let scene = args.scene.scene(saved.as_ref().map(|saved| saved.scene))?;
-    let shown = shown(args, saved.as_ref())?;
-    let materials = materials::open::<f32>(&args.comparison.materials)?.into_all();
-    match materials.as_slice() {
-        [_] if shown.difference.is_some() => {
-            let problem = "--difference compares predictions with a ground truth; give both";
-            return Err(Error::Usage(problem.to_owned()));
-        }
-        [ground_truth, predictions @ ..] if shown.difference.is_some() => {
-            predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
-        }
-        _ => {}
+pub fn run(args: &RenderArgs, given: &Given) -> Result<(), CommandError> {
+    let job = RenderJob::new(args, given)?;
+    let materials = job.comparison.materials.open::<f32>()?.into_all();
+    if let ([ground_truth, predictions @ ..], Some(_)) = (materials.as_slice(), job.shown.difference) {
+        predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
     }
     check_heights(&materials)?;
-    let (values, renderer) = values(args, shown.quantity, &materials, &scene)?;
-    let ShownPictures { images, shown } = shown.of_values(values, &args.comparison.convention());
-    let exposure_ev = args.exposure.or(saved.map(|saved| saved.exposure_ev)).unwrap_or(0.0);
-    let provenance = Provenance {
-        shown,
-        scene,
-        convention: args.comparison.convention(),
-        exposure_ev,
-        sources: materials.iter().map(|m| m.name().to_owned()).collect(),
-        renderer,
-    };
-    stoppable(|progress| destination.write(&images, &provenance, progress))
+    let (values, renderer) = job.values(&materials)?;
+    let RenderJob { comparison: ComparisonJob { convention, .. }, destination, scene, exposure_ev, .. } = job;
+    let ShownPictures { images, shown } = job.shown.of_values(values, &convention);
+    let sources = materials.iter().map(|m| m.name().to_owned()).collect();
+    let provenance = Provenance { shown, scene, convention, exposure_ev, sources, renderer };
+    Ok(stoppable(|progress| destination.write(&images, &provenance, progress))?)
 }
 
-/// What is written: what the session shows, unless an option says otherwise.
-fn shown(args: &RenderArgs, saved: Option<&SessionSettings>) -> Result<Shown, Error> {
-    if let (Some(saved), None, None) = (saved, args.show, &args.difference) {
-        return Ok(saved.shown());
+impl RenderJob {
+    fn new(args: &RenderArgs, given: &Given) -> Result<Self, CommandError> {
+        let destination = Destination::new(&args.output)?;
+        let comparison = ComparisonJob::new(&args.comparison, given)?;
+        let session = comparison.session.as_ref();
+        let scene = args.scene.scene(session.map(|session| session.scene))?;
+        let shown = shown(args, session)?;
+        if shown.quantity != Quantity::Rendering {
+            given.check(&modes::RENDER_MAPS)?;
+        }
+        if shown.difference.is_some() && comparison.materials.predictions() == 0 {
+            let problem = "--difference compares predictions with a ground truth; give both";
+            return Err(CommandError::usage(problem));
+        }
+        let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
+        Ok(Self { comparison, destination, scene, shown, exposure_ev, on_adapter: args.gpu })
+    }
+
+    /// The renderings or maps, and the name of the device that rendered them.
+    fn values(&self, materials: &[Material<f32>]) -> Result<(Vec<Image<f32>>, String), Error> {
+        let Self { comparison: ComparisonJob { convention, .. }, scene, shown, .. } = self;
+        if self.on_adapter {
+            return rendered_on_adapter(materials, scene, convention);
+        }
+        let one = |material| {
+            watched("rendering", |progress| shown.quantity.image(material, scene, convention, progress))
+        };
+        let images = materials.iter().map(one).collect::<Result<_, _>>()?;
+        Ok((images, "CPU, f32".to_owned()))
+    }
+}
+
+/// The quantity and difference that are written: those of the session, unless an option specifies others.
+fn shown(args: &RenderArgs, session: Option<&SessionSettings>) -> Result<Shown, CommandError> {
+    if let (Some(session), None, None) = (session, args.show, &args.difference) {
+        return Ok(session.shown());
     }
     let quantity = args.show.unwrap_or_default();
     let difference = args.difference.as_ref().map(|kind| difference_of(quantity, kind, args.range));
@@ -109,14 +135,20 @@ fn shown(args: &RenderArgs, saved: Option<&SessionSettings>) -> Result<Shown, Er
 /// The difference of this name, or the default one of `quantity`.
 ///
 /// # Errors
-/// [`Error::UnknownName`], [`Error::Usage`] where the quantity has no such difference.
-pub fn difference_of(quantity: Quantity, name: &str, range: Option<Range>) -> Result<ShownDifference, Error> {
+/// [`Error::UnknownName`], [`CommandError::Usage`] where the quantity has no such difference.
+pub fn difference_of(
+    quantity: Quantity,
+    name: &str,
+    range: Option<Range>,
+) -> Result<ShownDifference, CommandError> {
     let all = Difference::all(quantity);
     let kind = if name.is_empty() { all[0] } else { name.parse()? };
     if !all.contains(&kind) {
         let known = all.iter().map(|kind| kind.key()).collect::<Vec<_>>().join(", ");
         let (quantity, found) = (quantity.name(), kind.key());
-        return Err(Error::Usage(format!("expected a difference of {quantity}, {known}; found {found}")));
+        return Err(CommandError::Usage(format!(
+            "expected a difference of {quantity}, {known}; found {found}"
+        )));
     }
     let range = match range {
         Some(Range::Auto) => None,
@@ -126,93 +158,27 @@ pub fn difference_of(quantity: Quantity, name: &str, range: Option<Range>) -> Re
     Ok(ShownDifference { kind, range })
 }
 
-/// The difference that has the last colour.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Range {
-    Auto,
-    Last(f64),
-}
-
-impl FromStr for Range {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match (text, text.parse()) {
-            ("auto", _) => Ok(Self::Auto),
-            (_, Ok(range)) if range > 0.0 && f64::is_finite(range) => Ok(Self::Last(range)),
-            _ => Err("expected auto or a number above 0".to_owned()),
-        }
-    }
-}
-
-/// Materials stand side by side only where they are equally high.
-///
-/// # Errors
-/// [`Error::SizesDiffer`].
-pub fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
-    let different = |pair: &&[Material<f32>]| pair[0].height() != pair[1].height();
-    let Some(pair) = materials.windows(2).find(different) else { return Ok(()) };
-    Err(Error::SizesDiffer {
-        first: pair[0].name().to_owned(),
-        first_size: pair[0].size(),
-        second: pair[1].name().to_owned(),
-        second_size: pair[1].size(),
-        remedy: "only equally high materials can stand side by side; render them one by one",
-    })
-}
-
-/// The renderings or maps, and the name of the device that rendered them.
-fn values(
-    args: &RenderArgs,
-    quantity: Quantity,
-    materials: &[Material<f32>],
-    scene: &Scene,
-) -> Result<(Vec<Image<f32>>, String), Error> {
-    if args.gpu && quantity == Quantity::Rendering {
-        return panes_of_gpu(args, materials, scene);
-    }
-    let one = |material| {
-        watched("rendering", |progress| {
-            quantity.image(material, scene, &args.comparison.convention(), progress)
-        })
-    };
-    let panes = materials.iter().map(one).collect::<Result<_, _>>()?;
-    Ok((panes, "CPU, f32".to_owned()))
-}
-
 #[cfg(feature = "gpu")]
-fn panes_of_gpu(
-    args: &RenderArgs,
+fn rendered_on_adapter(
     materials: &[Material<f32>],
     scene: &Scene,
+    convention: &Convention,
 ) -> Result<(Vec<Image<f32>>, String), Error> {
     let gpu = svbrdf::gpu::Gpu::headless()?;
     let renderer = gpu.report.to_string();
-    super::exit::tell(&format!("note: {renderer}"));
-    let one = |material| gpu.render(material, scene, &args.comparison.convention());
+    super::output::exit::tell(&format!("note: {renderer}"));
+    let one = |material| gpu.render(material, scene, convention);
     Ok((materials.iter().map(one).collect::<Result<_, _>>()?, renderer))
 }
 
 #[cfg(not(feature = "gpu"))]
-fn panes_of_gpu(_: &RenderArgs, _: &[Material<f32>], _: &Scene) -> Result<(Vec<Image<f32>>, String), Error> {
+fn rendered_on_adapter(
+    _: &[Material<f32>],
+    _: &Scene,
+    _: &Convention,
+) -> Result<(Vec<Image<f32>>, String), Error> {
     Err(Error::NoAdapter {
         problem: "this program was built without GPU support".to_owned(),
         remedy: "leave out --gpu, or build with the feature `gpu`",
     })
-}
-
-pub fn stops(text: &str) -> Result<f32, String> {
-    let finite = text.parse().ok().filter(|stops: &f32| stops.is_finite());
-    finite.ok_or_else(|| format!("expected a number of stops like -1.5, found `{text}`"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn stops_are_finite() {
-        assert_eq!(stops("-1.5"), Ok(-1.5));
-        assert!(["nan", "inf", "", "x"].iter().all(|wrong| stops(wrong).is_err()));
-    }
 }

@@ -1,17 +1,19 @@
-//! `svbrdf scenes`: which scenes a loss comes from.
+//! `svbrdf scenes`: the scenes with the largest losses.
 
 use svbrdf::error::Error;
 use svbrdf::loss::{Comparison, Outcome};
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::{Kind, Scene};
+use svbrdf::model::scene::Scene;
+use svbrdf::report::table::{aligned, scenes_line};
 use svbrdf::why::{Distribution, RankedScene, SceneReport, worst_first};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::scenes::SceneArgs;
+use super::args::{ComparisonArgs, Given};
+use super::job::ComparisonJob;
+use super::output::table::{kind_name, triple};
+use super::output::{CommandError, exit, table, watched};
 use super::report::ReportFormat;
-use super::scene_args::SceneArgs;
-use super::{exit, materials, table};
 
 /// Prints the scenes with the largest losses, worst first
 ///
@@ -38,24 +40,24 @@ pub struct ScenesArgs {
 ///
 /// # Errors
 /// Where a material or the scenes cannot be read or used.
-pub fn run(args: &ScenesArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
+pub fn run(args: &ScenesArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
     let request = args.scenes.request()?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let opened = job.materials.open::<f32>()?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison =
-        Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?.without_pilot();
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let mut ranked = worst_first(&outcome);
     ranked.truncate(args.top);
-    exit::put(&match args.format {
-        ReportFormat::Text => text(&outcome, &ranked, &opened.ground_truth, &args.comparison.convention()),
+    Ok(exit::put(&match args.format {
+        ReportFormat::Text => text(&outcome, &ranked, &opened.ground_truth, &job.convention),
         ReportFormat::Json => {
-            let (name, convention) = (opened.ground_truth.name(), args.comparison.convention());
-            table::json(&SceneReport::new(name, &convention, &outcome, &ranked))?
+            let name = opened.ground_truth.name();
+            table::json(&SceneReport::new(name, &job.convention, &outcome, &ranked))?
         }
         ReportFormat::Csv => csv(&outcome, &ranked)?,
-    })
+    })?)
 }
 
 fn text(
@@ -65,7 +67,7 @@ fn text(
     convention: &Convention,
 ) -> String {
     let heading = table::heading("losses of scenes", ground_truth, convention);
-    let scenes = table::scenes_line(outcome.sampling.as_ref(), &outcome.scenes);
+    let scenes = scenes_line(outcome.sampling.as_ref(), &outcome.scenes, ground_truth.size());
     let distributions: String = outcome
         .losses
         .iter()
@@ -79,7 +81,7 @@ fn text(
         let start = [ranked.index.to_string(), kind_name(kind).to_owned(), triple(view), triple(light)];
         start.into_iter().chain(ranked.losses.iter().map(|loss| format!("{loss:.6}"))).collect()
     }));
-    format!("{heading}{scenes}\n{distributions}\n{}", table::aligned(&rows))
+    format!("{heading}{scenes}\n{distributions}\n{}", aligned(&rows))
 }
 
 fn line(prediction: &str, d: &Distribution) -> String {
@@ -89,18 +91,6 @@ fn line(prediction: &str, d: &Distribution) -> String {
          the worst tenth of the scenes adds {:.0}% of the loss\n",
         100.0 * worst_tenth
     )
-}
-
-pub fn kind_name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Near => "near",
-        Kind::Distant => "distant",
-    }
-}
-
-/// A position or direction as people read it.
-pub fn triple([x, y, z]: [f64; 3]) -> String {
-    format!("({x:.3}, {y:.3}, {z:.3})")
 }
 
 fn csv(outcome: &Outcome, ranked: &[RankedScene]) -> Result<String, Error> {

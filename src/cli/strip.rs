@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use svbrdf::error::Error;
 use svbrdf::loss::check_same_size;
 use svbrdf::material::Material;
 use svbrdf::model::scene_file;
@@ -11,13 +10,13 @@ use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::shown::Shown;
 use svbrdf::picture::strip::{Column, Strip};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
-use super::materials;
-use super::render::{Range, difference_of, stops};
-use super::scene_args::OneSceneArgs;
-use super::session::SessionSettings;
-use super::stop::stoppable;
+use super::args::scenes::OneSceneArgs;
+use super::args::values::{Range, stops};
+use super::args::{ComparisonArgs, Given, modes};
+use super::job::{ComparisonJob, SessionSettings};
+use super::output::stop::stoppable;
+use super::output::{CommandError, watched};
+use super::render::difference_of;
 
 /// Writes a labelled figure: a row per material, a column per map, rendering or difference
 ///
@@ -62,26 +61,39 @@ pub struct StripArgs {
 ///
 /// # Errors
 /// Where the output cannot be written, or a material cannot be read or rendered.
-pub fn run(args: &StripArgs) -> Result<(), Error> {
+pub fn run(args: &StripArgs, given: &Given) -> Result<(), CommandError> {
     let destination = PngDestination::new(&args.output)?;
-    let saved = SessionSettings::of(&args.comparison.materials)?;
-    let columns = columns(args, saved.as_ref())?;
-    let materials = materials::open::<f32>(&args.comparison.materials)?.into_all();
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    let session = job.session.as_ref();
+    let columns = columns(args, session)?;
+    check_options(&columns, given)?;
+    let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
+    let strip = Strip { columns, convention: job.convention, exposure_ev };
+    let materials = job.materials.open::<f32>()?.into_all();
     if let [ground_truth, predictions @ ..] = materials.as_slice() {
         predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
     }
-    let exposure_ev = args.exposure.or(saved.map(|saved| saved.exposure_ev)).unwrap_or(0.0);
-    let strip = Strip { columns, convention: args.comparison.convention(), exposure_ev };
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
     let all: Vec<&Material<f32>> = materials.iter().collect();
     let picture = watched("rendering", |progress| strip.picture(&all, &names, progress))?;
-    stoppable(|progress| destination.write(&picture, &strip.entries(&names), progress))
+    Ok(stoppable(|progress| destination.write(&picture, &strip.entries(&names), progress))?)
 }
 
-fn columns(args: &StripArgs, saved: Option<&SessionSettings>) -> Result<Vec<Column>, Error> {
+/// Refuses options that no column uses.
+fn check_options(columns: &[Column], given: &Given) -> Result<(), CommandError> {
+    if columns.iter().all(|column| column.shown.quantity != Quantity::Rendering) {
+        given.check(&modes::STRIP_MAPS)?;
+    }
+    if columns.iter().all(|column| column.shown.difference.is_none()) {
+        given.check(&modes::STRIP_VALUES)?;
+    }
+    Ok(())
+}
+
+fn columns(args: &StripArgs, session: Option<&SessionSettings>) -> Result<Vec<Column>, CommandError> {
     let scenes = match &args.scenes {
         Some(path) => scene_file::read(path)?,
-        None => vec![args.scene.scene(saved.map(|saved| saved.scene))?],
+        None => vec![args.scene.scene(session.map(|session| session.scene))?],
     };
     let mut columns = Vec::new();
     for text in &args.columns {
@@ -90,8 +102,8 @@ fn columns(args: &StripArgs, saved: Option<&SessionSettings>) -> Result<Vec<Colu
             None => (text.as_str(), None),
         };
         let quantity: Quantity = quantity.trim().parse()?;
-        let difference = match (difference, saved) {
-            (Some(""), Some(saved)) if args.range.is_none() => Some(saved.difference(quantity)),
+        let difference = match (difference, session) {
+            (Some(""), Some(session)) if args.range.is_none() => Some(session.difference(quantity)),
             _ => difference.map(|kind| difference_of(quantity, kind, args.range)).transpose()?,
         };
         let count = if quantity == Quantity::Rendering { scenes.len() } else { 1 };

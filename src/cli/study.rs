@@ -2,16 +2,15 @@
 
 use std::path::PathBuf;
 
-use svbrdf::error::Error;
+use svbrdf::backend::Adapter;
 use svbrdf::loss::check_same_size;
 use svbrdf::picture::export;
 use svbrdf::study::{self, Pair, Study, plot, study_csv};
 
-use super::backend::Adapter;
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
-use super::stop::stoppable;
-use super::{exit, materials};
+use super::args::{ComparisonArgs, Given};
+use super::job::{ComparisonJob, MaterialJob};
+use super::output::stop::stoppable;
+use super::output::{CommandError, exit, watched};
 
 /// Measures the time and the error of the loss in many settings, for one pair on this machine
 ///
@@ -36,32 +35,33 @@ pub struct StudyArgs {
 ///
 /// # Errors
 /// Where a material cannot be read, the two are of different sizes or look the same, or a file cannot be written.
-pub fn run(args: &StudyArgs) -> Result<(), Error> {
-    check_predictions(&args.comparison.materials)?;
+pub fn run(args: &StudyArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    check_predictions(&job.materials)?;
     let plot = args.plot.as_deref().map(plot::destination).transpose()?;
     args.output.as_deref().map_or(Ok(()), export::check_place)?;
-    let study = measured(args)?;
+    let study = measured(&job)?;
     stoppable(|progress| {
         if let Some(path) = &args.output {
             study_csv::write(&study, path, progress)?;
         }
         plot.map_or(Ok(()), |plot| plot::write(&study, &plot, progress))
     })?;
-    exit::put(&study.summary())
+    Ok(exit::put(&study.summary())?)
 }
 
-fn check_predictions(materials: &materials::MaterialArgs) -> Result<(), Error> {
-    match (&materials.ground_truth, materials.predictions.len()) {
+fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {
+    match (materials.paths.first(), materials.predictions()) {
         (None, _) | (Some(_), 1) => Ok(()),
-        (Some(path), count) => Err(Error::Usage(format!(
+        (Some(path), count) => Err(CommandError::Usage(format!(
             "a study takes one prediction of {}, not {count}; give one after it",
             path.display()
         ))),
     }
 }
 
-fn measured(args: &StudyArgs) -> Result<Study, Error> {
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+fn measured(job: &ComparisonJob) -> Result<Study, CommandError> {
+    let opened = job.materials.open::<f32>()?;
     let (ground_truth, prediction) = (&opened.ground_truth, &opened.predictions[0]);
     check_same_size(ground_truth, prediction)?;
     let adapter = match Adapter::start() {
@@ -75,6 +75,6 @@ fn measured(args: &StudyArgs) -> Result<Study, Error> {
         }
     };
     let gpu = adapter.as_ref().map(Adapter::backend);
-    let pair = Pair { ground_truth, prediction, convention: args.comparison.convention(), gpu };
-    watched("measuring", |progress| study::run(&pair, progress, |_| ()))
+    let pair = Pair { ground_truth, prediction, convention: job.convention, gpu };
+    Ok(watched("measuring", |progress| study::run(&pair, progress, |_| ()))?)
 }

@@ -3,13 +3,19 @@
 use std::path::PathBuf;
 
 use svbrdf::error::Error;
+use svbrdf::files::scene_file;
+use svbrdf::files::session::Session;
 #[cfg(feature = "viewer")]
+use svbrdf::files::session::SessionPhotograph;
 #[cfg(feature = "viewer")]
-use svbrdf::{files::scene_file, loss::FileScenes};
+use svbrdf::loss::FileScenes;
+#[cfg(feature = "viewer")]
+use svbrdf::model::scene::Scene;
 
-use super::exit::tell;
-use super::materials::MaterialArgs;
-use super::photo::{PhotoReadingArgs, PhotoSceneArgs};
+use super::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
+use super::args::{Given, MaterialArgs, modes};
+use super::output::CommandError;
+use super::output::exit::tell;
 
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("predictions", |arg| arg.help("Predictions of it, of the same size. A scene file (JSON) among them has the \
@@ -34,34 +40,41 @@ pub struct ViewArgs {
 ///
 /// # Errors
 /// [`Error::NoWindow`] without a display, [`Error::NoAdapter`] without a graphics adapter.
-pub fn run(args: ViewArgs) -> Result<(), Error> {
-    let shown = open_window(args);
-    if let Err(Error::NoWindow { .. } | Error::NoAdapter { .. }) = shown {
+pub fn run(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
+    given.check(&modes::VIEW)?;
+    let materials: Vec<_> = args.materials.paths().filter(|path| !scene_file::is_named(path)).collect();
+    match materials.as_slice() {
+        [path, ..] if Session::is_named(path) => given.check(&modes::SESSION)?,
+        [] | [_] => given.check(&modes::NO_PREDICTION)?,
+        _ => {}
+    }
+    let closed = open_window(args);
+    if let Err(CommandError::Library(Error::NoWindow { .. } | Error::NoAdapter { .. })) = closed {
         tell("note: `svbrdf loss` and `svbrdf render` work without a window");
     }
-    shown
+    closed
 }
 
 #[cfg(feature = "viewer")]
-fn open_window(args: ViewArgs) -> Result<(), Error> {
-    use super::reading::ResizeTo;
+fn open_window(args: ViewArgs) -> Result<(), CommandError> {
+    use super::args::reading::ResizeTo;
+    use super::job::session;
 
     let fit = match args.materials.reading.resize_to {
         None => false,
         Some(ResizeTo::GroundTruth) => true,
         Some(_) => {
-            return Err(Error::Usage(
+            return Err(CommandError::usage(
                 "the window brings predictions to the size of the ground truth only (--resize-to gt); \
-                 `svbrdf convert` writes a material of any size"
-                    .to_owned(),
+                 `svbrdf convert` writes a material of any size",
             ));
         }
     };
     let photograph = photograph_of(&args)?;
     let mut materials = args.materials;
     let scenes = take_scenes(&mut materials)?;
-    let session = session_of(&materials)?;
-    svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
+    let session = session::given(&materials)?;
+    Ok(svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
         session,
         photograph,
         scenes,
@@ -71,14 +84,12 @@ fn open_window(args: ViewArgs) -> Result<(), Error> {
         prediction_read: materials.reading.of_predictions(),
         ground_truth: materials.ground_truth,
         predictions: materials.predictions,
-    })
+    })?)
 }
 
 /// The photograph, and its light and view where they are specified.
 #[cfg(feature = "viewer")]
-fn photograph_of(
-    args: &ViewArgs,
-) -> Result<Option<(svbrdf::files::session::SessionPhotograph, Option<svbrdf::model::scene::Scene>)>, Error> {
+fn photograph_of(args: &ViewArgs) -> Result<Option<(SessionPhotograph, Option<Scene>)>, CommandError> {
     let Some(path) = args.photo.clone() else { return Ok(None) };
     let scene = args.photo_scene.specified()?;
     Ok(Some((args.photo_reading.of_session(path), scene)))
@@ -95,22 +106,10 @@ fn take_scenes(materials: &mut MaterialArgs) -> Result<Option<FileScenes>, Error
     scene_file::read_one(&files)
 }
 
-/// The session file that is given in place of a ground truth.
-#[cfg(feature = "viewer")]
-fn session_of(materials: &MaterialArgs) -> Result<Option<svbrdf::files::session::Session>, Error> {
-    use svbrdf::files::session::Session;
-
-    let session = materials.ground_truth.as_ref().filter(|path| Session::is_named(path));
-    if session.is_some() && !materials.predictions.is_empty() {
-        return Err(Error::Usage("a session names its predictions itself; give it alone".to_owned()));
-    }
-    session.map(|path| Session::read(path)).transpose()
-}
-
 #[cfg(not(feature = "viewer"))]
-fn open_window(_: ViewArgs) -> Result<(), Error> {
-    Err(Error::NoWindow {
+fn open_window(_: ViewArgs) -> Result<(), CommandError> {
+    Err(CommandError::Library(Error::NoWindow {
         problem: "this program was built without the window".to_owned(),
         remedy: "build with the default features",
-    })
+    }))
 }

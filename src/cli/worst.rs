@@ -6,13 +6,14 @@ use svbrdf::loss::ALL_SCENES_TARGET;
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::Scene;
+use svbrdf::report::table::aligned;
 use svbrdf::why::{Worst, worst};
 
-use super::bar::watched;
-use super::comparison_args::ComparisonArgs;
+use super::args::{ComparisonArgs, Given};
+use super::job::ComparisonJob;
+use super::output::table::{kind_name, triple};
+use super::output::{CommandError, exit, table, target, watched};
 use super::report::ReportFormat;
-use super::scenes::{kind_name, triple};
-use super::{exit, materials, table, target};
 
 /// Searches for the scene with the largest loss of each prediction
 ///
@@ -37,25 +38,26 @@ pub struct WorstArgs {
 ///
 /// # Errors
 /// Where a material cannot be read or used; with `--strict` where a mean is known less well, after the results are printed.
-pub fn run(args: &WorstArgs) -> Result<(), Error> {
-    table::check_predictions(&args.comparison.materials)?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+pub fn run(args: &WorstArgs, given: &Given) -> Result<(), CommandError> {
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
+    let opened = job.materials.open::<f32>()?;
     let one = |prediction: &Material<f32>| {
         watched("searching", |progress| {
-            worst(&opened.ground_truth, prediction, &args.comparison.convention(), args.seed, progress)
+            worst(&opened.ground_truth, prediction, &job.convention, args.seed, progress)
         })
     };
     let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     exit::put(&match args.format {
-        ReportFormat::Text => text(&found, &opened.ground_truth, &args.comparison.convention()),
-        ReportFormat::Json => json(&found, &opened.ground_truth, &args.comparison.convention())?,
+        ReportFormat::Text => text(&found, &opened.ground_truth, &job.convention),
+        ReportFormat::Json => json(&found, &opened.ground_truth, &job.convention)?,
         ReportFormat::Csv => csv(&found)?,
     })?;
     let missed = |worst: &Worst| {
         let Worst { prediction, mean, mean_scenes, .. } = worst;
         target::missed(ALL_SCENES_TARGET, &format!("the mean of {prediction}"), mean, *mean_scenes)
     };
-    target::warn_of(found.iter().filter_map(missed), args.comparison.materials.reading.both.strict)
+    target::warn_of(found.iter().filter_map(missed), job.materials.strict)
 }
 
 fn is_reached(worst: &Worst) -> bool {
@@ -82,7 +84,7 @@ fn text(found: &[Worst], ground_truth: &Material<f32>, convention: &Convention) 
             worst.evaluations.to_string(),
         ]
     }));
-    format!("{}\n{}", table::heading("worst scenes", ground_truth, convention), table::aligned(&rows))
+    format!("{}\n{}", table::heading("worst scenes", ground_truth, convention), aligned(&rows))
 }
 
 fn csv(found: &[Worst]) -> Result<String, Error> {

@@ -105,7 +105,7 @@ pub enum Error {
     AboveLimit { name: String, loss: f64, limit: f64 },
 
     /// A file of results of a data set cannot be continued or joined with others.
-    #[error("{} cannot be used: {problem}; name another file, or give what it was made with", path.display())]
+    #[error("{} cannot be used: {problem}; delete it or name another file, or give what it was made with", path.display())]
     BadJournal { path: PathBuf, problem: String },
 
     /// A scene given by hand cannot be rendered.
@@ -141,9 +141,21 @@ pub enum Error {
     #[error("the session {} cannot be opened: {problem}; save it again from the window", path.display())]
     BadSession { path: PathBuf, problem: String },
 
-    /// A command line that makes no sense. Only the command line makes this error.
-    #[error("{0}")]
-    Usage(String),
+    /// A session names a built-in material that does not exist.
+    #[error("there is no built-in material {number}: expected a number from 0 to {}; correct the session file", count - 1)]
+    NoSuchBuiltIn { number: usize, count: usize },
+
+    /// More than one scene file, where the scenes of a loss come from one.
+    #[error("expected one scene file, found {} and {}; give one of them", first.display(), second.display())]
+    SeveralSceneFiles { first: PathBuf, second: PathBuf },
+
+    /// There is nothing to compare a ground truth with.
+    #[error("there is no prediction to compare; open one")]
+    NoPrediction,
+
+    /// A result is saved before it has been computed.
+    #[error("{0} is not complete yet: save it once it is displayed")]
+    Incomplete(&'static str),
 
     /// A kind of file that a material cannot be written to in this way.
     #[error("{} {problem}", path.display())]

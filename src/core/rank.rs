@@ -22,16 +22,16 @@ pub struct Ranked {
 
 /// The predictions of an outcome, smallest loss first. Equal losses keep their order.
 pub fn places(outcome: &Outcome) -> Vec<Ranked> {
-    let loss = |index: usize| &outcome.losses[index];
+    let mean = |index: usize| outcome.losses[index].estimate.mean;
     let mut order: Vec<usize> = (0..outcome.losses.len()).collect();
-    order.sort_by(|&a, &b| loss(a).estimate.mean.total_cmp(&loss(b).estimate.mean));
+    order.sort_by(|&a, &b| mean(a).total_cmp(&mean(b)));
     let Some(&best) = order.first() else { return Vec::new() };
     let (mut first, mut group) = (best, 1);
     let place = |&index: &usize| {
-        if index != first && separated(&outcome.difference(loss(index), loss(first))) {
+        if index != first && separated(&outcome.difference(index, first)) {
             (first, group) = (index, group + 1);
         }
-        let to_best = (index != best).then(|| outcome.difference(loss(index), loss(best)));
+        let to_best = (index != best).then(|| outcome.difference(index, best));
         Ranked { index, to_best, group }
     };
     order.iter().map(place).collect()

@@ -27,6 +27,7 @@ pub mod read;
 pub mod samples;
 pub mod scene_file;
 pub mod session;
+pub mod source;
 pub mod stamp;
 mod step_names;
 pub mod steps;

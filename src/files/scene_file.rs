@@ -42,16 +42,12 @@ pub fn read_named(path: &Path) -> Result<FileScenes, Error> {
 /// Reads the only one of some scene files; `None` without any.
 ///
 /// # Errors
-/// As [`read`], and [`Error::Usage`] where there are several.
+/// As [`read`], and [`Error::SeveralSceneFiles`].
 pub fn read_one(paths: &[PathBuf]) -> Result<Option<FileScenes>, Error> {
     match paths {
         [] => Ok(None),
         [path] => read_named(path).map(Some),
-        [first, second, ..] => Err(Error::Usage(format!(
-            "expected one scene file, found {} and {}",
-            first.display(),
-            second.display()
-        ))),
+        [first, second, ..] => Err(Error::SeveralSceneFiles { first: first.clone(), second: second.clone() }),
     }
 }
 

@@ -157,6 +157,7 @@ mod tests {
             source: Source::file("small.png".into(), ReadOptions::AUTO),
         };
         let sizes = Box::new(sizes);
+        let saved = Error::AboveLimit { name: "Saved".to_owned(), loss: 2.0, limit: 1.0 };
         let text = "small is 128 x 64 and the ground truth large is 256 x 256";
         for (message, severity, start) in [
             (Message::Saved("a.png".into()), Severity::Success, "Saved a.png".to_owned()),
@@ -164,7 +165,7 @@ mod tests {
             (Message::Refused(sizes), Severity::Error, format!("Not opened: {text}")),
             (Message::NotPasted(PasteProblem::NoScene), Severity::Error, "Not pasted".to_owned()),
             // A file of this name is still an error where it cannot be read.
-            (Message::Failed(Error::Usage("Saved".to_owned())), Severity::Error, "Saved".to_owned()),
+            (Message::Failed(saved), Severity::Error, "Saved".to_owned()),
         ] {
             assert_eq!(message.severity(), severity, "{message}");
             assert!(message.to_string().starts_with(&start), "{message}");

@@ -77,7 +77,7 @@ mod tests {
 
     fn not_read(path: &str) -> Message {
         let source = Box::new(Source::file(path.into(), ReadOptions::AUTO));
-        Message::NotRead { source, error: Error::Usage(format!("{path} is broken")), opening: 1 }
+        Message::NotRead { source, error: Error::Internal(format!("{path} is broken")), opening: 1 }
     }
 
     #[test]
@@ -92,7 +92,7 @@ mod tests {
         assert!(list.passing().is_none() && list.lasting().count() == 2);
         list.settle(Path::new("a.png"));
         let left: Vec<_> = list.iter().map(ToString::to_string).collect();
-        assert_eq!(left, ["b.png is broken"]);
+        assert_eq!(left, [not_read("b.png").to_string()]);
     }
 
     #[test]
@@ -102,7 +102,7 @@ mod tests {
             list.add(not_read(path), 0.0);
         }
         let texts: Vec<_> = list.iter().map(ToString::to_string).collect();
-        assert_eq!(texts, ["b.png is broken", "a.png is broken"]);
+        assert_eq!(texts, ["b.png", "a.png"].map(|path| not_read(path).to_string()));
         list.dismiss(0);
         assert_eq!(list.iter().count(), 1);
     }

@@ -112,9 +112,7 @@ impl App {
         let text = self.photograph_text();
         Task::start(ctx, move |progress| {
             let destination = Destination::new(&path)?;
-            let all = all.ok_or_else(|| {
-                Error::Usage("the photograph is still being read: save once it is shown".to_owned())
-            })?;
+            let all = all.ok_or(Error::Incomplete("the comparison with the photograph"))?;
             let images: Vec<_> = if difference {
                 all.comparisons.iter().map(|one| one.difference(kind)).collect()
             } else {
@@ -140,9 +138,7 @@ impl App {
         let range = self.range() as f32;
         Task::start(ctx, move |progress| {
             let destination = Destination::new(&path)?;
-            let maps = maps.ok_or_else(|| {
-                Error::Usage("the error map is still being computed: save it once it is shown".to_owned())
-            })?;
+            let maps = maps.ok_or(Error::Incomplete("the error map"))?;
             destination.write_maps(&maps.images, range, &entries, progress)?;
             Ok(path)
         })

@@ -181,16 +181,16 @@ fn a_strip_has_the_pixels_that_render_writes() {
     let side = 256;
     let left = strip.width() as usize - 7 * (side + GAP);
     let scene = "--view 0.2,-0.3,2 --light -1,0.5,0.8 --exposure 0.5";
-    for (column, ask, first) in [
-        (0, "--show normal", 0),
-        (1, "--show diffuse", 0),
-        (2, "--show roughness", 0),
-        (3, "--show specular", 0),
-        (4, "", 0),
-        (5, "--difference --range auto", 1),
-        (6, "--show normal --difference --range auto", 1),
+    for (column, options, first) in [
+        (0, "--show normal".to_owned(), 0),
+        (1, "--show diffuse".to_owned(), 0),
+        (2, "--show roughness".to_owned(), 0),
+        (3, "--show specular".to_owned(), 0),
+        (4, scene.to_owned(), 0),
+        (5, format!("{scene} --difference --range auto"), 1),
+        (6, "--show normal --difference --range auto".to_owned(), 1),
     ] {
-        succeed(folder.path(), &format!("render -o one.png {scene} {ask}"));
+        succeed(folder.path(), &format!("render -o one.png {options}"));
         let one = open("one.png");
         for row in first..3 {
             let cell = crop(&strip, [left + column * (side + GAP), HEADER + row * (side + GAP)], side);

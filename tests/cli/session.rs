@@ -32,20 +32,72 @@ fn a_command_takes_from_a_session_what_no_option_says() {
     assert_eq!(succeed(at, &format!("loss {SESSION} --near 3")), of_files("--near 3"));
     assert_ne!(of_files("--near 4 --distant 2"), of_files("--near 4 --distant 2 --seed 5"));
 
-    let scene = "--view 0,0.1,2 --exposure 1.5 --convention guided-2020";
+    let scene = "--view 0,0.1,2 --exposure 1.5 --convention guided-2020 --light";
     for (of_session, rest) in [
-        ("", "--show roughness --difference --range auto"),
-        ("--show rendering", ""),
-        ("--show rendering --light 1,0,1", "--light 1,0,1"),
+        ("", "--show roughness --difference --range auto".to_owned()),
+        ("--show rendering", format!("{scene} 0.5,0.5,1")),
+        ("--show rendering --light 1,0,1", format!("{scene} 1,0,1")),
     ] {
-        // An option is given once.
-        let light = if rest.contains("--light") { "" } else { "--light 0.5,0.5,1" };
         succeed(at, &format!("render {SESSION} -o one.png {of_session}"));
-        succeed(at, &format!("render gt.png a.png -o two.png {scene} {light} {rest}"));
+        succeed(at, &format!("render gt.png a.png -o two.png {rest}"));
         assert!(pixels(at, "one.png") == pixels(at, "two.png"), "{of_session}");
     }
     succeed(at, "render gt.png a.png -o usual.png");
     assert!(pixels(at, "usual.png") != pixels(at, "one.png"));
+}
+
+/// The commands that take a session, with what each needs beside it.
+const COMMANDS: [&str; 10] = [
+    "loss {}",
+    "render {} -o x.png",
+    "strip {} -o x.png",
+    "rank {} --target-error 30%",
+    "blame {} --scenes one.json",
+    "scenes {}",
+    "worst {}",
+    "map {} --over lights --side 4 -o x.csv",
+    "metrics {}",
+    "photo photo.png {}",
+];
+
+#[test]
+fn every_command_refuses_a_session_with_an_unknown_convention() {
+    let folder = folder();
+    let at = folder.path();
+    succeed(at, "render gt.png -o photo.png");
+    write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
+    let text = std::fs::read_to_string(at.join(SESSION)).unwrap();
+    std::fs::write(at.join(SESSION), text.replace("guided-2020", "guided-2120")).unwrap();
+    for command in COMMANDS.into_iter().chain(["study {}"]) {
+        let stderr = fail(at, &command.replace("{}", SESSION), 1);
+        assert!(stderr.contains(SESSION) && stderr.contains("guided-2120"), "{command}: {stderr}");
+        assert!(stderr.contains("printed, single-image-2018"), "{command}: {stderr}");
+    }
+}
+
+/// A session that can be opened once: a pipe, which is removed as soon as it has been opened.
+#[cfg(unix)]
+#[test]
+fn every_command_opens_a_session_once() {
+    use std::process::Command;
+
+    let folder = folder();
+    let at = folder.path();
+    succeed(at, "render gt.png -o photo.png");
+    write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
+    let text = std::fs::read_to_string(at.join(SESSION)).unwrap();
+    std::fs::remove_file(at.join(SESSION)).unwrap();
+    for command in COMMANDS {
+        assert!(Command::new("mkfifo").arg(at.join(SESSION)).status().unwrap().success());
+        let (pipe, text) = (at.join(SESSION), text.clone());
+        let writer = std::thread::spawn(move || {
+            let mut file = std::fs::File::options().write(true).open(&pipe).unwrap();
+            std::fs::remove_file(&pipe).unwrap();
+            std::io::Write::write_all(&mut file, text.as_bytes()).unwrap();
+        });
+        succeed(at, &command.replace("{}", SESSION));
+        writer.join().unwrap();
+    }
 }
 
 #[test]

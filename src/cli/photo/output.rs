@@ -1,4 +1,4 @@
-//! What `svbrdf photo` prints and records.
+//! Results of `svbrdf photo`: text, JSON, CSV, and the metadata of pictures.
 
 use serde::Serialize;
 use svbrdf::error::Error;
@@ -6,11 +6,11 @@ use svbrdf::model::scene::Scene;
 use svbrdf::picture::difference::Difference;
 use svbrdf::picture::export::Provenance;
 use svbrdf::picture::statistics::{Distributions, Statistics};
+use svbrdf::report::table::aligned;
 
 use super::results::{PhotoResult, Setting};
+use crate::cli::output::table::{self, kind_name, triple};
 use crate::cli::report::ReportFormat;
-use crate::cli::scenes::{kind_name, triple};
-use crate::cli::table;
 
 /// The differences that are printed.
 pub const KINDS: [Difference; 3] = [Difference::Log, Difference::Absolute, Difference::Relative];
@@ -37,7 +37,7 @@ impl PhotoResult {
 }
 
 fn text(setting: &Setting<'_>, results: &[PhotoResult]) -> String {
-    let convention = setting.args.comparison.convention();
+    let convention = setting.convention;
     let Scene { kind, view, light } = setting.scene;
     let falloff = if setting.args.reading.falloff { "\nfalloff of the light divided out" } else { "" };
     let titles = [
@@ -74,7 +74,7 @@ fn text(setting: &Setting<'_>, results: &[PhotoResult]) -> String {
         kind_name(kind),
         triple(view),
         triple(light),
-        table::aligned(&rows)
+        aligned(&rows)
     )
 }
 
@@ -92,7 +92,7 @@ fn source(setting: &Setting<'_>) -> String {
 }
 
 fn csv(setting: &Setting<'_>, results: &[PhotoResult]) -> Result<String, Error> {
-    let convention = setting.args.comparison.convention();
+    let convention = setting.convention;
     let statistics = KINDS
         .into_iter()
         .flat_map(|kind| ["mean", "median", "p95"].map(|what| format!("{}_{what}", kind.key())));
@@ -141,7 +141,7 @@ struct PhotoEntry<'a> {
     size: [usize; 2],
     /// Number of texels that are left out.
     clipped: usize,
-    /// What the photograph was multiplied by.
+    /// The factor of the photograph.
     factor: f64,
     exposure_ev: f64,
     log: PhotoStatistics,
@@ -157,7 +157,7 @@ struct PhotoStatistics {
 }
 
 fn json(setting: &Setting<'_>, results: &[PhotoResult]) -> Result<String, Error> {
-    let convention = setting.args.comparison.convention();
+    let convention = setting.convention;
     fn entry(result: &PhotoResult) -> PhotoEntry<'_> {
         let statistics = |kind| {
             let [mean, median, p95] = result.summary(kind);
@@ -195,7 +195,7 @@ pub fn last_colour(results: &[PhotoResult], kind: Difference) -> f64 {
     Distributions::of(&values, kind.is_signed()).auto_range
 }
 
-/// What a picture of the differences says of itself.
+/// The metadata of a picture of the differences.
 pub fn entries(setting: &Setting<'_>, results: &[PhotoResult], last: f64) -> [(&'static str, String); 7] {
     let kind = setting.args.difference;
     let names: Vec<_> = results.iter().map(|result| result.material.name()).collect();
@@ -211,7 +211,7 @@ pub fn entries(setting: &Setting<'_>, results: &[PhotoResult], last: f64) -> [(&
         ("svbrdf:photograph", source(setting)),
         ("svbrdf:factors", factors.join(" | ")),
         ("svbrdf:sources", names.join(" | ")),
-        ("svbrdf:convention", setting.args.comparison.convention().name.to_owned()),
+        ("svbrdf:convention", setting.convention.name.to_owned()),
         ("svbrdf:scene", format!("{}, view {}, light {}", kind_name(near), triple(view), triple(light))),
         ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
     ]

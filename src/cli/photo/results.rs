@@ -1,23 +1,25 @@
-//! Every material against the photograph.
+//! Comparisons of every material with the photograph.
 
 use svbrdf::error::Error;
 use svbrdf::files::read::Photograph;
 use svbrdf::material::Material;
+use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::Scene;
 use svbrdf::photograph::{Corners, PhotographComparison, Rectified};
 use svbrdf::picture::difference::Difference;
 
 use super::args::PhotoArgs;
-use crate::cli::bar::watched;
-use crate::cli::exit::tell;
+use crate::cli::output::exit::tell;
+use crate::cli::output::watched;
 
-/// What all materials are compared with.
+/// A photograph and its scene, with which all materials are compared.
 #[derive(Debug)]
 pub struct Setting<'a> {
     pub args: &'a PhotoArgs,
     pub photograph: Photograph,
     pub corners: Corners,
     pub scene: Scene,
+    pub convention: Convention,
 }
 
 /// A material and its comparison.
@@ -47,9 +49,8 @@ pub fn results(setting: &Setting<'_>, materials: Vec<Material<f32>>) -> Result<V
             }
         };
         let photograph = &rectified[place].1;
-        let convention = setting.args.comparison.convention();
         let compared = watched("rendering", |progress| {
-            photograph.compare(&material, &setting.scene, &convention, progress)
+            photograph.compare(&material, &setting.scene, &setting.convention, progress)
         })?;
         results.push(PhotoResult { material, compared, clipped: photograph.clipped() });
     }

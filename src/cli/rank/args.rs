@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use svbrdf::dataset::{Pick, Shard};
 use svbrdf::error::Error;
 
-use crate::cli::comparison_args::ComparisonArgs;
-use crate::cli::loss;
+use crate::cli::args::{ComparisonArgs, values};
+use crate::cli::output::CommandError;
 
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
 ///
@@ -49,7 +49,7 @@ pub struct RankArgs {
     pub fail_above: Option<f64>,
 
     /// Samples as many scenes as this relative error of every loss needs at 95% confidence
-    #[arg(long, value_name = "PERCENT", value_parser = loss::percent, allow_hyphen_values = true, default_value = "1%")]
+    #[arg(long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     pub target_error: f64,
 
     /// Seed of the sampled scenes
@@ -75,8 +75,11 @@ pub enum RankFormat {
 }
 
 /// The error of losses that are above a limit, if any is.
-pub fn check_limit(limit: Option<f64>, losses: impl IntoIterator<Item = (String, f64)>) -> Result<(), Error> {
+pub fn check_limit(
+    limit: Option<f64>,
+    losses: impl IntoIterator<Item = (String, f64)>,
+) -> Result<(), CommandError> {
     let Some(limit) = limit else { return Ok(()) };
     let above = losses.into_iter().find(|(_, loss)| loss.is_nan() || *loss > limit);
-    above.map_or(Ok(()), |(name, loss)| Err(Error::AboveLimit { name, loss, limit }))
+    above.map_or(Ok(()), |(name, loss)| Err(Error::AboveLimit { name, loss, limit }.into()))
 }

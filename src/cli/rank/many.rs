@@ -5,22 +5,20 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 use svbrdf::dataset::{
-    self, Case, MaterialResult, MethodSummary, Pick, PredictionResult, RunSettings, Side, summarize,
-    tasks_of_folders, tasks_of_table,
+    self, Case, DatasetReading, DatasetResults, DatasetSettings, MaterialResult, MethodSummary, Pick,
+    PredictionResult, cases_of_folders, cases_of_table, summarize,
 };
 use svbrdf::error::Error;
-use svbrdf::files::read;
-use svbrdf::material::Material;
-use svbrdf::progress::Progress;
+use svbrdf::report::distinct_names;
+use svbrdf::report::table::aligned;
 
 use super::args::{RankArgs, RankFormat, check_limit};
 use super::metric_columns::{self, MetricEntry};
-use crate::cli::bar::watched;
-use crate::cli::{exit, table, target, wildcards};
+use crate::cli::args::{ComparisonArgs, Given, modes, wildcards};
+use crate::cli::output::{CommandError, exit, latex, table, target, watched};
 
-pub fn run(args: &RankArgs) -> Result<(), Error> {
-    let (settings, results) =
-        if args.merge { dataset::merged(&wildcards::expanded(&paths(args))?)? } else { evaluated(args)? };
+pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
+    let (settings, results) = if args.merge { merged(args, given)? } else { evaluated(args, given)? };
     for (material, prediction, problem) in failures(&results) {
         exit::tell(&format!("note: {material}, {prediction}: {problem}"));
     }
@@ -32,14 +30,23 @@ pub fn run(args: &RankArgs) -> Result<(), Error> {
         }
         RankFormat::Json => table::json(&DatasetJson::new(&settings, &results, &summaries, args.pick))?,
         RankFormat::Csv => csv(&results)?,
-        RankFormat::Latex => latex(&summaries) + &metric_columns::latex(&summaries, &results, args.pick),
+        RankFormat::Latex => {
+            latex_table(&summaries) + &metric_columns::latex(&summaries, &results, args.pick)
+        }
     })?;
     target::warn_of(missed(&settings, &results), args.comparison.materials.reading.both.strict)?;
     check_limit(args.fail_above, summaries.into_iter().map(|summary| (summary.method, summary.mean)))
 }
 
+/// The results of the journals that stand for GT and PRED.
+fn merged(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<MaterialResult>), CommandError> {
+    given.check(&modes::RANK_MERGE)?;
+    let paths: Vec<PathBuf> = args.comparison.materials.paths().cloned().collect();
+    Ok(dataset::merged(&wildcards::expanded(&paths)?)?)
+}
+
 /// The errors of predictions whose loss is not known as well as the target error asks for.
-fn missed(settings: &RunSettings, results: &[MaterialResult]) -> Vec<Error> {
+fn missed(settings: &DatasetSettings, results: &[MaterialResult]) -> Vec<Error> {
     let of = |result: &MaterialResult, prediction: &PredictionResult| {
         let known = prediction.result.as_ref().ok()?;
         let name = format!("{}, {}", result.material, prediction.method);
@@ -47,17 +54,6 @@ fn missed(settings: &RunSettings, results: &[MaterialResult]) -> Vec<Error> {
     };
     let all = results.iter().flat_map(|result| result.predictions.iter().filter_map(|p| of(result, p)));
     all.collect()
-}
-
-/// What stands for GT and PRED.
-fn paths(args: &RankArgs) -> Vec<PathBuf> {
-    args.comparison
-        .materials
-        .ground_truth
-        .iter()
-        .chain(&args.comparison.materials.predictions)
-        .cloned()
-        .collect()
 }
 
 /// The predictions without a loss: material, method and what is wrong.
@@ -68,58 +64,48 @@ fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &st
     })
 }
 
-fn evaluated(args: &RankArgs) -> Result<(RunSettings, Vec<MaterialResult>), Error> {
-    if args.comparison.materials.reading.resize_to.is_some() {
-        let problem = "materials of a data set are not resized; convert them first, or leave out --resize-to";
-        return Err(Error::Usage(problem.to_owned()));
-    }
-    let tasks = tasks(args)?;
-    let settings = RunSettings::new(args.comparison.convention().name, args.target_error, args.seed, &tasks)
+fn evaluated(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<MaterialResult>), CommandError> {
+    given.check(&modes::RANK_DATA_SET)?;
+    let cases = cases(args)?;
+    let ComparisonArgs { convention, materials } = &args.comparison;
+    let convention = convention.unwrap_or_default();
+    let settings = DatasetSettings::new(convention.name, args.target_error, args.seed, &cases)
         .with_metrics(args.metrics);
-    let tasks = args.shard.map_or(tasks.clone(), |shard| shard.part(tasks));
-    let options = [
-        args.comparison.materials.reading.of_ground_truth(),
-        args.comparison.materials.reading.of_predictions(),
-    ];
-    let strict = args.comparison.materials.reading.both.strict;
-    let open = |path: &Path, side: Side| -> Result<Material<f32>, Error> {
-        let options = &options[usize::from(side == Side::Prediction)];
-        let read = read::read(path, options, &Progress::default())?;
-        if strict {
-            read.refuse_guesses(path)?;
-        }
-        Ok(read.material)
+    let cases = args.shard.map_or(cases.clone(), |shard| shard.part(cases));
+    let reading = DatasetReading {
+        ground_truths: materials.reading.of_ground_truth(),
+        predictions: materials.reading.of_predictions(),
+        strict: materials.reading.both.strict,
     };
-    let results = watched("comparing materials", |progress| {
-        let convention = args.comparison.convention();
-        dataset::run(&tasks, &settings, &convention, open, args.journal.as_deref(), progress)
+    let DatasetResults { results, recomputed } = watched("comparing materials", |progress| {
+        dataset::run(&cases, &settings, &reading, args.journal.as_deref(), progress)
     })?;
+    recomputed.iter().for_each(|recomputed| exit::tell(&format!("note: {recomputed}")));
     Ok((settings, results))
 }
 
-fn tasks(args: &RankArgs) -> Result<Vec<Case>, Error> {
+fn cases(args: &RankArgs) -> Result<Vec<Case>, CommandError> {
     let Some(ground_truth) = &args.comparison.materials.ground_truth else {
-        return Err(Error::Usage("give a folder of ground truths, or a table of pairs".to_owned()));
+        return Err(CommandError::usage("give a folder of ground truths, or a table of pairs"));
     };
     if args.pairs {
         return match args.comparison.materials.predictions.as_slice() {
-            [] => tasks_of_table(ground_truth),
-            _ => Err(Error::Usage("--pairs takes one CSV table, which names the predictions".to_owned())),
+            [] => Ok(cases_of_table(ground_truth)?),
+            _ => Err(CommandError::usage("--pairs takes one CSV table, which names the predictions")),
         };
     }
     let folders = wildcards::expanded(&args.comparison.materials.predictions)?;
     if folders.is_empty() {
-        let problem = format!(
+        return Err(CommandError::Usage(format!(
             "there is no method to compare with {}; give one or more folders",
             ground_truth.display()
-        );
-        return Err(Error::Usage(problem));
+        )));
     }
     let named: Vec<(String, &Path)> = folders.iter().map(|path| (name(path), path.as_path())).collect();
     let named: Vec<(&str, &Path)> = named.iter().map(|(name, path)| (name.as_str(), *path)).collect();
-    let names = svbrdf::report::distinct_names(&named);
+    let names = distinct_names(&named);
     let methods: Vec<(String, PathBuf)> = names.into_iter().zip(folders.iter().cloned()).collect();
-    tasks_of_folders(ground_truth, &methods)
+    Ok(cases_of_folders(ground_truth, &methods)?)
 }
 
 fn name(folder: &Path) -> String {
@@ -129,7 +115,7 @@ fn name(folder: &Path) -> String {
 }
 
 fn text(
-    settings: &RunSettings,
+    settings: &DatasetSettings,
     results: &[MaterialResult],
     summaries: &[MethodSummary],
     pick: Pick,
@@ -166,13 +152,13 @@ fn text(
             of_difference,
         ]
     }));
-    let RunSettings { convention, target_error, seed, materials, .. } = settings;
+    let DatasetSettings { convention, target_error, seed, materials, .. } = settings;
     format!(
         "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {pick}\n\n{}",
         results.len(),
         materials.len(),
         100.0 * target_error,
-        table::aligned(&rows)
+        aligned(&rows)
     )
 }
 
@@ -211,22 +197,22 @@ fn csv(results: &[MaterialResult]) -> Result<String, Error> {
     table::csv([heading].into_iter().chain(rows))
 }
 
-fn latex(summaries: &[MethodSummary]) -> String {
+fn latex_table(summaries: &[MethodSummary]) -> String {
     let row = |summary: &MethodSummary| {
-        let mean = table::bold(&format!("{:.4}", summary.mean), summary.ties_with_best());
+        let mean = latex::bold(&format!("{:.4}", summary.mean), summary.ties_with_best());
         let interval = summary
             .interval95_materials
             .map_or("--".to_owned(), |[low, high]| format!("[{low:.4}, {high:.4}]"));
-        let method = table::escaped(&summary.method);
+        let method = latex::escaped(&summary.method);
         format!("{method} & {mean} & {interval} & {:.4} & {} \\\\\n", summary.median, summary.materials)
     };
     let rows: String = summaries.iter().map(row).collect();
-    table::latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows)
+    latex::table("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows)
 }
 
 #[derive(Serialize)]
 struct DatasetJson<'a> {
-    settings: &'a RunSettings,
+    settings: &'a DatasetSettings,
     pick: String,
     /// Best first.
     methods: Vec<MethodEntry<'a>>,
@@ -252,7 +238,7 @@ struct MethodEntry<'a> {
 
 impl<'a> DatasetJson<'a> {
     fn new(
-        settings: &'a RunSettings,
+        settings: &'a DatasetSettings,
         results: &'a [MaterialResult],
         summaries: &'a [MethodSummary],
         pick: Pick,

@@ -7,10 +7,11 @@ use svbrdf::dataset::{
     MaterialResult, MethodSummary, MetricSummary, Pick, PredictionResult, best_by_metric, is_better_larger,
     summarize_metrics,
 };
+use svbrdf::report::table::aligned;
 
-use crate::cli::table;
+use crate::cli::output::latex;
 
-/// The names of the metrics that results have.
+/// The names of the metrics of the results.
 pub fn names(results: &[MaterialResult]) -> Vec<&str> {
     let first = results.iter().flat_map(|result| &result.predictions).find(|p| !p.metrics.is_empty());
     first.into_iter().flat_map(|prediction| prediction.metrics.keys()).map(String::as_str).collect()
@@ -36,7 +37,7 @@ pub fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -
         [name.to_owned()].into_iter().chain(cells).collect()
     };
     let rows: Vec<Vec<String>> = [heading].into_iter().chain(names.iter().map(|name| row(name))).collect();
-    format!("\n{}", table::aligned(&rows))
+    format!("\n{}", aligned(&rows))
 }
 
 /// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
@@ -52,16 +53,16 @@ pub fn latex(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) 
         let cell = |(metrics, &best): (&BTreeMap<String, MetricSummary>, &bool)| {
             metrics
                 .get(name)
-                .map_or("--".to_owned(), |metric| table::bold(&format!("{:.4}", metric.mean), best))
+                .map_or("--".to_owned(), |metric| latex::bold(&format!("{:.4}", metric.mean), best))
         };
         let cells: Vec<String> = columns.iter().zip(best).map(cell).collect();
         let arrow = if is_better_larger(name) { "$\\uparrow$" } else { "$\\downarrow$" };
-        format!("{} {arrow} & {} \\\\\n", table::escaped(name), cells.join(" & "))
+        format!("{} {arrow} & {} \\\\\n", latex::escaped(name), cells.join(" & "))
     };
     let rows: String = best.iter().map(row).collect();
-    let names: Vec<String> = methods.iter().map(|method| table::escaped(method)).collect();
+    let names: Vec<String> = methods.iter().map(|method| latex::escaped(method)).collect();
     let heading = format!("Metric, mean over materials & {}", names.join(" & "));
-    format!("\n{}", table::latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
+    format!("\n{}", latex::table(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
 }
 
 fn cells(metric: Option<&MetricSummary>) -> [String; 2] {

@@ -5,14 +5,14 @@ mod many;
 mod metric_columns;
 mod one;
 
-use svbrdf::error::Error;
-
+use super::args::Given;
+use super::output::CommandError;
 pub use args::RankArgs;
 
 /// Prints the ranking to stdout.
 ///
 /// # Errors
 /// Where a material cannot be read or used, other than in a data set; where a loss is above `--fail-above`, after all are printed.
-pub fn run(args: RankArgs) -> Result<(), Error> {
-    if args.dataset || args.pairs || args.merge { many::run(&args) } else { one::run(args) }
+pub fn run(args: RankArgs, given: &Given) -> Result<(), CommandError> {
+    if args.dataset || args.pairs || args.merge { many::run(&args, given) } else { one::run(args, given) }
 }

@@ -6,44 +6,37 @@ use svbrdf::loss::{Comparison, Outcome, Request};
 use svbrdf::material::Material;
 use svbrdf::model::convention::Convention;
 use svbrdf::rank::{Ranked, most_scenes, places};
+use svbrdf::report::table::{aligned, scenes_line};
 
 use super::args::{RankArgs, RankFormat, check_limit};
-use crate::cli::bar::watched;
+use crate::cli::args::{Given, modes, wildcards};
+use crate::cli::job::ComparisonJob;
+use crate::cli::output::{CommandError, exit, latex, table, target, watched};
 use crate::cli::report::EstimateEntry;
-use crate::cli::{exit, materials, table, target, wildcards};
 
-pub fn run(mut args: RankArgs) -> Result<(), Error> {
-    if args.metrics {
-        return Err(Error::Usage(
-            "--metrics adds the metrics of a data set; `svbrdf metrics` prints those of predictions of one material"
-                .to_owned(),
-        ));
-    }
-    if args.journal.is_some() {
-        return Err(Error::Usage(
-            "--journal keeps the results of a data set; add --dataset or --pairs".to_owned(),
-        ));
-    }
+pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
+    given.check(&modes::RANK_PREDICTIONS)?;
     args.comparison.materials.predictions = wildcards::expanded(&args.comparison.materials.predictions)?;
     args.comparison.materials.expand_steps()?;
-    table::check_predictions(&args.comparison.materials)?;
-    let opened = materials::open::<f32>(&args.comparison.materials)?;
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    job.materials.check_predictions()?;
+    let opened = job.materials.open::<f32>()?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, args.comparison.convention())?
+    let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?
         .at_most(most_scenes(predictions.len()));
     let request = Request::Accuracy { target: args.target_error, seed: args.seed };
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let places = places(&outcome);
     exit::put(&match args.format {
-        RankFormat::Text => text(&outcome, &places, &opened.ground_truth, &args.comparison.convention()),
+        RankFormat::Text => text(&outcome, &places, &opened.ground_truth, &job.convention),
         RankFormat::Json => {
-            json(&outcome, &places, &opened.ground_truth, &args.comparison.convention(), args.target_error)?
+            json(&outcome, &places, &opened.ground_truth, &job.convention, args.target_error)?
         }
         RankFormat::Csv => csv(&outcome, &places, args.target_error)?,
-        RankFormat::Latex => latex(&outcome, &places),
+        RankFormat::Latex => latex_table(&outcome, &places),
     })?;
     let missed = target::missed_by_any(args.target_error, &outcome);
-    target::warn_of(missed, args.comparison.materials.reading.both.strict)?;
+    target::warn_of(missed, job.materials.strict)?;
     check_limit(args.fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
 }
 
@@ -63,8 +56,8 @@ fn text(
         vec![loss.prediction.clone(), mean, interval, difference, of_difference, place.group.to_string()]
     }));
     let heading = table::heading("rendering loss", ground_truth, convention);
-    let scenes = table::scenes_line(outcome.sampling.as_ref(), &outcome.scenes);
-    format!("{heading}{scenes}\n{}", table::aligned(&rows))
+    let scenes = scenes_line(outcome.sampling.as_ref(), &outcome.scenes, ground_truth.size());
+    format!("{heading}{scenes}\n{}", aligned(&rows))
 }
 
 fn csv(outcome: &Outcome, places: &[Ranked], target: f64) -> Result<String, Error> {
@@ -96,15 +89,15 @@ fn csv(outcome: &Outcome, places: &[Ranked], target: f64) -> Result<String, Erro
     table::csv([heading.map(str::to_owned).to_vec()].into_iter().chain(places.iter().enumerate().map(row)))
 }
 
-fn latex(outcome: &Outcome, places: &[Ranked]) -> String {
+fn latex_table(outcome: &Outcome, places: &[Ranked]) -> String {
     let row = |place: &Ranked| {
         let loss = &outcome.losses[place.index];
         let [low, high] = loss.estimate.interval95.unwrap_or([f64::NAN; 2]);
-        let mean = table::bold(&format!("{:.4}", loss.estimate.mean), place.group == 1);
-        format!("{} & {mean} & [{low:.4}, {high:.4}] \\\\\n", table::escaped(&loss.prediction))
+        let mean = latex::bold(&format!("{:.4}", loss.estimate.mean), place.group == 1);
+        format!("{} & {mean} & [{low:.4}, {high:.4}] \\\\\n", latex::escaped(&loss.prediction))
     };
     let rows: String = places.iter().map(row).collect();
-    table::latex("lrl", "Prediction & Loss & 95\\% interval", &rows)
+    latex::table("lrl", "Prediction & Loss & 95\\% interval", &rows)
 }
 
 #[derive(Serialize)]

@@ -1,4 +1,4 @@
-//! What a comparison gives.
+//! The outcome of a comparison: scenes, losses with their errors, paired differences.
 
 use std::fmt;
 
@@ -99,13 +99,17 @@ impl Outcome {
         self.losses.iter().map(|loss| loss.estimate.relative_error95()).fold(0.0, f64::max)
     }
 
-    /// `loss - other`, both of this outcome, on the same scenes: negative where `loss` is closer to the ground truth.
-    pub fn difference(&self, loss: &Loss, other: &Loss) -> Estimate {
+    /// The loss of the prediction with index `of` - that with index `from`, on the same scenes: negative where the first is closer to
+    /// the ground truth.
+    ///
+    /// # Panics
+    /// Where there is no such prediction, as indexing a slice does.
+    pub fn difference(&self, of: usize, from: usize) -> Estimate {
         let sampler = self.sampling.map_or(Sampler::Random, |sampling| sampling.sampler);
-        let mut e = Estimate::of_difference(sampler, &self.scenes, &loss.per_scene, &other.per_scene);
-        let index = |loss: &Loss| self.losses.iter().position(|l| l.per_scene == loss.per_scene);
-        if let (Some(pilot), Some(a), Some(b)) = (&self.pilot, index(loss), index(other)) {
-            e.interval95 = Some(pilot.interval_of_difference(a, b, e.mean));
+        let [first, second] = [of, from].map(|index| self.losses[index].per_scene.as_slice());
+        let mut e = Estimate::of_difference(sampler, &self.scenes, first, second);
+        if let Some(pilot) = &self.pilot {
+            e.interval95 = Some(pilot.interval_of_difference(of, from, e.mean));
         }
         e
     }

@@ -19,6 +19,7 @@
 //! ```
 
 mod names;
+pub mod table;
 mod text;
 
 pub use names::distinct_names;
@@ -76,8 +77,8 @@ impl Report {
 
     /// The paired difference of each further loss from the first: `loss - first`, over the same scenes.
     pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
-        let Some((first, others)) = self.outcome.losses.split_first() else { return Vec::new() };
-        others.iter().map(|loss| (loss, self.outcome.difference(loss, first))).collect()
+        let others = self.outcome.losses.iter().enumerate().skip(1);
+        others.map(|(index, loss)| (loss, self.outcome.difference(index, 0))).collect()
     }
 
     /// The seed that names the scenes; `None` where they were listed.

@@ -1,8 +1,8 @@
 //! The text form of a report: a table and the paired differences.
 
 use super::Report;
-use crate::loss::{Estimate, Loss, Texels};
-use crate::model::sampler::Sampler;
+use super::table::{aligned, scenes_line};
+use crate::loss::{Estimate, Loss};
 use crate::model::scene::Kind;
 
 const HEADINGS: [&str; 4] = ["prediction", "loss", "+- std. error", "95% interval"];
@@ -35,12 +35,9 @@ impl Report {
     }
 
     fn table(&self) -> String {
-        let mut rows = vec![HEADINGS.map(str::to_owned)];
+        let mut rows = vec![HEADINGS.map(str::to_owned).to_vec()];
         rows.extend(self.outcome.losses.iter().map(cells));
-        let widths: [usize; 4] =
-            std::array::from_fn(|c| rows.iter().map(|row| row[c].chars().count()).max().unwrap_or(0));
-        let lines: String = rows.iter().map(|row| line(row, widths)).collect();
-        format!("{}\n{lines}{}", header(self), differences(self))
+        format!("{}\n{}{}", header(self), aligned(&rows), differences(self))
     }
 }
 
@@ -57,30 +54,15 @@ fn differences(report: &Report) -> String {
 
 fn header(report: &Report) -> String {
     let Report { convention, ground_truth, size: [width, height], precision, backend, .. } = report;
-    let (near, distant) = (report.count(Kind::Near), report.count(Kind::Distant));
-    let origin = report.seed().map_or(" from a file".to_owned(), |seed| format!(", seed {seed}"));
-    let sampler = match report.sampler() {
-        Some(Sampler::Sobol) => ", scrambled Sobol",
-        _ => "",
-    };
-    let texels = match report.texels() {
-        Texels::All => String::new(),
-        Texels::Sampled(1) => ", 1 random texel per scene".to_owned(),
-        Texels::Sampled(count) => format!(", {count} random texels per scene"),
-    };
+    let scenes = scenes_line(report.outcome.sampling.as_ref(), &report.outcome.scenes, report.size);
     format!(
         "rendering loss against {ground_truth}, {width} x {height} texels, {precision} on the {backend}\n\
-         convention {}, epsilon {}\n\
-         {near} near-field and {distant} distant scenes{origin}{sampler}{texels}\n",
+         convention {}, epsilon {}\n{scenes}",
         convention.name, convention.epsilon
     )
 }
 
-fn cells(loss: &Loss) -> [String; 4] {
+fn cells(loss: &Loss) -> Vec<String> {
     let [mean, error, interval] = loss.estimate.texts();
-    [loss.prediction.clone(), mean, error, interval]
-}
-
-fn line([name, loss, error, interval]: &[String; 4], [a, b, c, d]: [usize; 4]) -> String {
-    format!("{name:<a$}  {loss:>b$}  {error:>c$}  {interval:>d$}\n")
+    vec![loss.prediction.clone(), mean, error, interval]
 }

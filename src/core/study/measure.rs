@@ -6,7 +6,7 @@ use super::choice::{Choice, Family};
 use super::pair::Pair;
 use super::result::{Point, Reference, Study};
 use crate::error::Error;
-use crate::loss::{Backend, Comparison, Compute, Outcome, Request, Sampling, Texels};
+use crate::loss::{Backend, Comparison, Compute, Estimate, Outcome, Request, Sampling, Texels};
 use crate::material::{Depth, Material};
 use crate::model::convention::Convention;
 use crate::progress::Progress;
@@ -52,7 +52,7 @@ fn outcome<T: Compute>(
     comparison.run(&Request::Scenes(*sampling), progress)
 }
 
-/// What a study has found out so far that further points need.
+/// A study in progress: its pair, and the losses that further points are compared with.
 pub(super) struct Bench<'a> {
     pair: Pair<'a>,
     progress: &'a Progress,
@@ -78,7 +78,8 @@ impl<'a> Bench<'a> {
         let loss = fast(&many, self.progress)?;
         let exact = kernel(pair, Family::F64)?(&few, &self.progress.part())?;
         let rounded = fast(&few, &self.progress.part())?;
-        let correction = rounded.difference(&exact.losses[0], &rounded.losses[0]);
+        let [of, from] = [&exact, &rounded].map(|outcome| outcome.losses[0].per_scene.as_slice());
+        let correction = Estimate::of_difference(few.sampler, &rounded.scenes, of, from);
 
         let estimate = loss.losses[0].estimate;
         let mean = estimate.mean + correction.mean;

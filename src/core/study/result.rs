@@ -1,4 +1,4 @@
-//! What a study measures: points of time and error, and the Pareto front among them.
+//! The result of a study: points of time and error, and the Pareto front among them.
 
 use super::choice::Choice;
 use crate::material::Depth;

@@ -1,119 +1,278 @@
-//! Results in a file, while they come: the first line has the settings, every other line a material, as JSON.
+//! The journal of a run over a data set: a JSON lines file to which results are added as they come.
+//!
+//! The first line, the head, has everything that all results depend on: the version of the program, the settings and the options of
+//! reading. Every other line is the result of a material with the fingerprints of the files that it was computed from. A journal with
+//! another head is refused; a line whose files have changed is computed again.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
 use std::fs::{File, OpenOptions};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use super::record::{Case, MaterialResult, RunSettings};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::evaluate::Evaluated;
+use super::fingerprint::MaterialFiles;
+use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
 use crate::error::Error;
 use crate::files::atomic::write_text;
+use crate::open::NamedFile;
 use crate::progress::Progress;
+
+/// The version of the format that is written and read.
+const FORMAT: u32 = 2;
+/// The key of the format in the head.
+const KEY: &str = "svbrdf-journal";
+/// Journals of the first format have no such key, but this one.
+const KEY_OF_FIRST: &str = "target_error";
+/// Most differences of two heads that an error names.
+const MOST_NAMED: usize = 3;
+
+/// Everything that all results of a journal depend on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Head {
+    #[serde(rename = "svbrdf-journal")]
+    format: u32,
+    program: String,
+    #[serde(flatten)]
+    settings: DatasetSettings,
+    reading: DatasetReading,
+}
+
+/// The result of a material, and what it was computed from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Line {
+    #[serde(flatten)]
+    pub(super) result: MaterialResult,
+    /// Of the ground truth, then of each prediction.
+    files: Vec<MaterialFiles>,
+}
+
+/// A result of a journal that was computed again, because its files had changed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recomputed {
+    pub material: String,
+    /// The first file that had changed.
+    pub file: String,
+}
+
+/// `m3 is computed again: ours/m3.png has changed since its result was kept`.
+impl fmt::Display for Recomputed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { material, file } = self;
+        write!(f, "{material} is computed again: {file} has changed since its result was kept")
+    }
+}
 
 /// A file to which results are added.
 #[derive(Debug)]
 pub(super) struct Journal {
     path: PathBuf,
+    head: Head,
     file: Mutex<File>,
 }
 
 impl Journal {
-    /// Opens the journal at `path`, which may be there already, and the results that it holds.
+    /// Opens the journal at `path`, which may be there already, and the lines that it holds; those of `cases` whose files have
+    /// changed are dropped and named.
     ///
     /// A last line that was cut off, as when the program was ended, is dropped.
     ///
     /// # Errors
-    /// [`Error::Unreadable`], [`Error::Unwritable`]; [`Error::BadJournal`] where the file is of other settings, or is no journal.
-    pub(super) fn open(path: &Path, settings: &RunSettings) -> Result<(Self, Vec<MaterialResult>), Error> {
-        let results = if path.exists() {
-            let (found, results) = read(path)?;
-            if found != *settings {
-                return Err(bad(path, "it is of other settings, materials or methods".to_owned()));
+    /// [`Error::Unreadable`], [`Error::Unwritable`]; [`Error::BadJournal`] where the file has another head, or is no journal.
+    pub(super) fn open(
+        path: &Path,
+        head: Head,
+        cases: &[Case],
+    ) -> Result<(Self, Vec<Line>, Vec<Recomputed>), Error> {
+        let mut lines = Vec::new();
+        if path.exists() {
+            let (found, known) = read(path)?;
+            if found != head {
+                let problem = format!(
+                    "it is of other settings, materials or methods: {}",
+                    found.differences(&head, "this run")
+                );
+                return Err(bad(path, problem));
             }
-            results
-        } else {
-            Vec::new()
-        };
-        write(path, settings, &results)?;
+            lines = known;
+        }
+        let mut recomputed = Vec::new();
+        lines.retain(|line| {
+            let case = cases.iter().find(|case| case.index == line.result.index);
+            let Some(file) = case.and_then(|case| line.changed(case)) else { return true };
+            recomputed.push(Recomputed { material: line.result.material.clone(), file });
+            false
+        });
+        write(path, &head, &lines)?;
         let file = OpenOptions::new().append(true).open(path).map_err(|source| unwritable(path, source))?;
-        Ok((Self { path: path.to_owned(), file: Mutex::new(file) }, results))
+        Ok((Self { path: path.to_owned(), head, file: Mutex::new(file) }, lines, recomputed))
     }
 
-    /// Adds a result.
+    /// Adds a result with the fingerprints of its files, and returns its line.
     ///
     /// # Errors
     /// [`Error::Unwritable`].
-    pub(super) fn add(&self, result: &MaterialResult) -> Result<(), Error> {
-        let line = line(&self.path, result)?;
+    pub(super) fn add(&self, evaluated: Evaluated) -> Result<Line, Error> {
+        let Evaluated { result, read, start } = evaluated;
+        let files = read.iter().map(|(path, files)| MaterialFiles::new(path, files, start)).collect();
+        let line = Line { result, files };
+        let text = text_of(&self.path, &line)?;
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        file.write_all(line.as_bytes()).map_err(|source| unwritable(&self.path, source))
+        file.write_all(text.as_bytes()).map_err(|source| unwritable(&self.path, source))?;
+        Ok(line)
+    }
+
+    /// Writes the whole journal again: its bytes depend on `lines` alone, which are in order.
+    ///
+    /// # Errors
+    /// [`Error::Unwritable`].
+    pub(super) fn finish(&self, lines: &[Line]) -> Result<(), Error> {
+        write(&self.path, &self.head, lines)
     }
 }
 
-/// Writes the whole journal: its bytes depend on `results` alone, which are in order.
-///
-/// # Errors
-/// [`Error::Unwritable`].
-pub(super) fn write(path: &Path, settings: &RunSettings, results: &[MaterialResult]) -> Result<(), Error> {
-    let mut text = line(path, settings)?;
-    for result in results {
-        text += &line(path, result)?;
+impl Head {
+    pub(super) fn new(settings: &DatasetSettings, reading: &DatasetReading) -> Self {
+        let program = concat!("svbrdf ", env!("CARGO_PKG_VERSION")).to_owned();
+        Self { format: FORMAT, program, settings: settings.clone(), reading: reading.clone() }
     }
-    write_text(path, &text, &Progress::default())
+
+    /// The fields in which `other` differs, with both values; `name` says what the other one is of.
+    fn differences(&self, other: &Self, name: &str) -> String {
+        let mut found = Vec::new();
+        let [a, b] = [self, other].map(|head| serde_json::to_value(head).unwrap_or_default());
+        compare(&a, &b, "", &mut found);
+        let more = found.len().saturating_sub(MOST_NAMED);
+        found.truncate(MOST_NAMED);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        format!("{}{more} in {name}", found.join(", "))
+    }
+}
+
+/// Adds the leaves in which two values differ, each with its path from the root.
+fn compare(a: &Value, b: &Value, path: &str, found: &mut Vec<String>) {
+    match (a, b) {
+        (Value::Object(a), Value::Object(b)) => {
+            let keys: BTreeSet<&String> = a.keys().chain(b.keys()).collect();
+            for key in keys {
+                let [a, b] = [a, b].map(|all| all.get(key).unwrap_or(&Value::Null));
+                compare(a, b, &format!("{path}.{key}"), found);
+            }
+        }
+        _ if a == b => {}
+        _ => {
+            let text = |value: &Value| match value {
+                Value::Null => "unspecified".to_owned(),
+                Value::Array(all) => format!("a list of {}", all.len()),
+                value => value.to_string(),
+            };
+            found.push(format!("{} is {}, but {}", path.trim_start_matches('.'), text(a), text(b)));
+        }
+    }
+}
+
+impl Line {
+    /// The first file of a case that is not what it was when the result was computed.
+    fn changed(&self, case: &Case) -> Option<String> {
+        let predictions = case.candidates.iter().map(|candidate| candidate.path.as_path());
+        let paths: Vec<&Path> = [case.ground_truth.as_path()].into_iter().chain(predictions).collect();
+        let changed = |index: usize| match (paths.get(index), self.files.get(index)) {
+            (Some(path), Some(files)) => files.changed(path),
+            (Some(path), None) => Some(path.display().to_string()),
+            (None, files) => files.map(|files| files.path.clone()),
+        };
+        (0..paths.len().max(self.files.len())).find_map(changed)
+    }
 }
 
 /// The results of several journals of one data set, in order.
 ///
 /// # Errors
-/// [`Error::Unreadable`]; [`Error::BadJournal`] where they are of different settings, or results are missing or not the same.
-pub fn merged(paths: &[PathBuf]) -> Result<(RunSettings, Vec<MaterialResult>), Error> {
-    let mut common: Option<RunSettings> = None;
+/// [`Error::Unreadable`]; [`Error::BadJournal`] where they have different heads, or results are missing or not the same.
+pub fn merged(paths: &[PathBuf]) -> Result<(DatasetSettings, Vec<MaterialResult>), Error> {
+    let mut first: Option<(&Path, Head)> = None;
     let mut all: BTreeMap<usize, MaterialResult> = BTreeMap::new();
-    let Some(last) = paths.last() else { return Err(bad(Path::new(""), "there is no journal".to_owned())) };
     for path in paths {
-        let (settings, results) = read(path)?;
-        if common.as_ref().is_some_and(|common| *common != settings) {
-            return Err(bad(path, "it is of other settings, materials or methods than the first".to_owned()));
+        let (head, lines) = read(path)?;
+        match &first {
+            None => first = Some((path, head)),
+            Some((other, expected)) if head != *expected => {
+                let differences = head.differences(expected, &other.display().to_string());
+                return Err(bad(
+                    path,
+                    format!("it is of other settings, materials or methods: {differences}"),
+                ));
+            }
+            Some(_) => {}
         }
-        common = Some(settings);
-        for result in results {
+        for Line { result, .. } in lines {
             let name = result.material.clone();
             if all.insert(result.index, result.clone()).is_some_and(|before| before != result) {
                 return Err(bad(path, format!("its result of {name} differs from that of another journal")));
             }
         }
     }
-    let settings = common.ok_or_else(|| bad(last, "it is empty".to_owned()))?;
-    let missing = (0..settings.materials.len()).filter(|index| !all.contains_key(index)).count();
+    let (Some((_, head)), Some(last)) = (first, paths.last()) else {
+        return Err(bad(Path::new(""), "there is no journal".to_owned()));
+    };
+    let count = head.settings.materials.len();
+    let missing = (0..count).filter(|index| !all.contains_key(index)).count();
     if missing > 0 {
-        let count = settings.materials.len();
         return Err(bad(last, format!("{missing} of {count} materials are in none of the journals")));
     }
-    Ok((settings, all.into_values().collect()))
+    Ok((head.settings, all.into_values().collect()))
 }
 
-/// The tasks whose results are not there yet.
-pub(super) fn remaining(tasks: &[Case], results: &[MaterialResult]) -> Vec<Case> {
-    let is_done = |task: &&Case| results.iter().any(|result| result.index == task.index);
-    tasks.iter().filter(|task| !is_done(task)).cloned().collect()
+/// The cases whose results are not there yet.
+pub(super) fn remaining(cases: &[Case], lines: &[Line]) -> Vec<Case> {
+    let is_done = |case: &&Case| lines.iter().any(|line| line.result.index == case.index);
+    cases.iter().filter(|case| !is_done(case)).cloned().collect()
 }
 
-fn read(path: &Path) -> Result<(RunSettings, Vec<MaterialResult>), Error> {
-    let text = std::fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
+fn read(path: &Path) -> Result<(Head, Vec<Line>), Error> {
+    let text = NamedFile::by_user(path).text()?;
     let complete = text.rfind('\n').map_or("", |end| &text[..end]);
     let mut lines = complete.lines();
     let is_not =
         |problem: serde_json::Error| bad(path, format!("it is no journal of a data set ({problem})"));
-    let settings = serde_json::from_str(lines.next().unwrap_or_default()).map_err(is_not)?;
-    let mut results: Vec<MaterialResult> =
-        lines.map(serde_json::from_str).collect::<Result<_, _>>().map_err(is_not)?;
-    results.sort_by_key(|result| result.index);
-    results.dedup_by_key(|result| result.index);
-    Ok((settings, results))
+    let head: Value = serde_json::from_str(lines.next().unwrap_or_default()).map_err(is_not)?;
+    if let Some(problem) = unknown_format(&head) {
+        return Err(bad(path, problem));
+    }
+    let head = serde_json::from_value(head).map_err(is_not)?;
+    let mut lines: Vec<Line> = lines.map(serde_json::from_str).collect::<Result<_, _>>().map_err(is_not)?;
+    lines.sort_by_key(|line| line.result.index);
+    lines.dedup_by_key(|line| line.result.index);
+    Ok((head, lines))
 }
 
-fn line(path: &Path, value: &impl serde::Serialize) -> Result<String, Error> {
+/// The problem of a head of another format.
+fn unknown_format(head: &Value) -> Option<String> {
+    match head.get(KEY).and_then(Value::as_u64) {
+        Some(format) if format == u64::from(FORMAT) => None,
+        Some(format) => Some(format!("its format is {format}, expected {FORMAT}: another version of the program made it")),
+        None if head.get(KEY_OF_FIRST).is_some() => Some(
+            "it was made by an earlier version, which did not record how the materials were read; its results have to be computed \
+                again"
+                .to_owned(),
+        ),
+        None => None,
+    }
+}
+
+fn write(path: &Path, head: &Head, lines: &[Line]) -> Result<(), Error> {
+    let mut text = text_of(path, head)?;
+    for line in lines {
+        text += &text_of(path, line)?;
+    }
+    write_text(path, &text, &Progress::default())
+}
+
+fn text_of(path: &Path, value: &impl Serialize) -> Result<String, Error> {
     let text = serde_json::to_string(value).map_err(|problem| unwritable(path, problem.into()))?;
     Ok(text + "\n")
 }

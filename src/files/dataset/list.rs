@@ -1,4 +1,4 @@
-//! Which files belong together.
+//! Lists of cases: materials of folders matched by name, and tables of pairs.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use super::record::{Candidate, Case};
 use crate::error::Error;
+use crate::open::NamedFile;
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];
@@ -19,9 +20,9 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// The tasks of this part.
-    pub fn part(self, tasks: Vec<Case>) -> Vec<Case> {
-        tasks.into_iter().filter(|task| task.index % self.of == self.number - 1).collect()
+    /// The cases of this part.
+    pub fn part(self, cases: Vec<Case>) -> Vec<Case> {
+        cases.into_iter().filter(|case| case.index % self.of == self.number - 1).collect()
     }
 }
 
@@ -49,13 +50,13 @@ impl FromStr for Shard {
 ///
 /// # Errors
 /// [`Error::Unreadable`], and [`Error::NotAMaterial`] where there are no materials.
-pub fn tasks_of_folders(ground_truths: &Path, methods: &[(String, PathBuf)]) -> Result<Vec<Case>, Error> {
+pub fn cases_of_folders(ground_truths: &Path, methods: &[(String, PathBuf)]) -> Result<Vec<Case>, Error> {
     let truths = entries(ground_truths)?;
     if truths.is_empty() {
         return Err(nothing_in(ground_truths, "materials"));
     }
     let found = methods.iter().map(|(_, folder)| entries(folder)).collect::<Result<Vec<_>, _>>()?;
-    let task = |(index, (material, ground_truth)): (usize, (&String, &PathBuf))| {
+    let case = |(index, (material, ground_truth)): (usize, (&String, &PathBuf))| {
         let mut candidates = Vec::new();
         for ((method, folder), found) in methods.iter().zip(&found) {
             let mut paths: Vec<PathBuf> = found.get(material).into_iter().cloned().collect();
@@ -68,7 +69,7 @@ pub fn tasks_of_folders(ground_truths: &Path, methods: &[(String, PathBuf)]) -> 
         }
         Case { index, material: material.clone(), ground_truth: ground_truth.clone(), candidates }
     };
-    Ok(truths.iter().enumerate().map(task).collect())
+    Ok(truths.iter().enumerate().map(case).collect())
 }
 
 /// The materials of a folder by name.
@@ -100,7 +101,7 @@ fn collect(folder: &Path, prefix: &str, found: &mut BTreeMap<String, PathBuf>) -
     Ok(())
 }
 
-/// What is in a folder, by name.
+/// The entries of a folder, by name.
 fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let listed = || -> std::io::Result<Vec<PathBuf>> {
         std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect()
@@ -117,9 +118,10 @@ fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 ///
 /// # Errors
 /// [`Error::Unreadable`], and [`Error::NotAMaterial`] where a column is missing or there are no rows.
-pub fn tasks_of_table(path: &Path) -> Result<Vec<Case>, Error> {
+pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
     let bad = |problem: csv::Error| Error::unreadable(path, std::io::Error::other(problem));
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(bad)?;
+    let file = NamedFile::by_user(path).reader()?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
     let heading = reader.headers().map_err(bad)?.clone();
     let column = |name: &str| heading.iter().position(|heading| heading == name);
     let (Some(truth), Some(prediction)) = (column("ground_truth"), column("prediction")) else {
@@ -127,23 +129,23 @@ pub fn tasks_of_table(path: &Path) -> Result<Vec<Case>, Error> {
     };
     let [method, material] = [column("method"), column("material")];
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut tasks: Vec<Case> = Vec::new();
+    let mut cases: Vec<Case> = Vec::new();
     for row in reader.records() {
         let row = row.map_err(bad)?;
         let cell = |column: usize| row.get(column).unwrap_or_default();
         let ground_truth = folder.join(cell(truth));
         let method = method.map_or("prediction", cell).to_owned();
-        let at = tasks.iter().position(|task| task.ground_truth == ground_truth).unwrap_or(tasks.len());
-        if at == tasks.len() {
+        let at = cases.iter().position(|case| case.ground_truth == ground_truth).unwrap_or(cases.len());
+        if at == cases.len() {
             let stem = ground_truth.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let material = material.map_or(stem, |column| cell(column).to_owned());
-            tasks.push(Case { index: at, material, ground_truth, candidates: Vec::new() });
+            cases.push(Case { index: at, material, ground_truth, candidates: Vec::new() });
         }
-        let candidates = &mut tasks[at].candidates;
+        let candidates = &mut cases[at].candidates;
         let sample = candidates.iter().filter(|candidate| candidate.method == method).count();
         candidates.push(Candidate { method, sample, path: folder.join(cell(prediction)) });
     }
-    if tasks.is_empty() { Err(nothing_in(path, "rows")) } else { Ok(tasks) }
+    if cases.is_empty() { Err(nothing_in(path, "rows")) } else { Ok(cases) }
 }
 
 fn nothing_in(path: &Path, expected: &str) -> Error {

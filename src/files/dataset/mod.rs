@@ -1,11 +1,12 @@
 //! Many materials: the losses of several methods over a data set, with intervals over materials.
 //!
-//! A data set is a list of [`Case`]s, one for each material: [`tasks_of_folders`] matches folders by name, [`tasks_of_table`] reads a table of
+//! A data set is a list of [`Case`]s, one for each material: [`cases_of_folders`] matches folders by name, [`cases_of_table`] reads a table of
 //! pairs. [`run`] gives a [`MaterialResult`] for each and keeps them in a journal, so that an interrupted run continues; [`merged`]
-//! joins the journals of parts of a run, and [`summarize`] tells what they say about the methods.
+//! joins the journals of parts of a run, and [`summarize`] compares the methods by them.
 
 mod bootstrap;
 mod evaluate;
+mod fingerprint;
 mod journal;
 mod list;
 mod metric_summary;
@@ -14,10 +15,11 @@ mod run;
 mod summary;
 
 pub use bootstrap::interval_of_mean;
-pub use evaluate::Side;
-pub use journal::merged;
-pub use list::{Shard, tasks_of_folders, tasks_of_table};
+pub use journal::{Recomputed, merged};
+pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
-pub use record::{Candidate, Case, KnownLoss, MaterialResult, PredictionResult, RunSettings};
-pub use run::run;
+pub use record::{
+    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, MaterialResult, PredictionResult,
+};
+pub use run::{DatasetResults, run};
 pub use summary::{MethodDifference, MethodSummary, Pick, summarize};

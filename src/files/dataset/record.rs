@@ -1,10 +1,11 @@
-//! What is compared, and what comes of it.
+//! Records of a data set: the cases to compare, the settings of a run and the results.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::files::read::ReadOptions;
 use crate::loss::Estimate;
 
 /// A material: its ground truth, and the predictions of all methods.
@@ -26,9 +27,9 @@ pub struct Candidate {
     pub path: PathBuf,
 }
 
-/// What the results of all materials have in common: results of other settings cannot be joined with them.
+/// The settings that the results of all materials have in common: results of other settings cannot be joined with them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RunSettings {
+pub struct DatasetSettings {
     pub convention: String,
     /// Half of the 95% interval of each loss over scenes, as a share of the loss.
     pub target_error: f64,
@@ -43,16 +44,16 @@ pub struct RunSettings {
     pub metrics: bool,
 }
 
-impl RunSettings {
-    /// The settings for `tasks`, which are those of the whole data set.
-    pub fn new(convention: &str, target_error: f64, seed: u64, tasks: &[Case]) -> Self {
+impl DatasetSettings {
+    /// The settings for `cases`, which are those of the whole data set.
+    pub fn new(convention: &str, target_error: f64, seed: u64, cases: &[Case]) -> Self {
         let mut methods: Vec<String> = Vec::new();
-        for candidate in tasks.iter().flat_map(|task| &task.candidates) {
+        for candidate in cases.iter().flat_map(|case| &case.candidates) {
             if !methods.contains(&candidate.method) {
                 methods.push(candidate.method.clone());
             }
         }
-        let materials = tasks.iter().map(|task| task.material.clone()).collect();
+        let materials = cases.iter().map(|case| case.material.clone()).collect();
         Self { convention: convention.to_owned(), target_error, seed, materials, methods, metrics: false }
     }
 
@@ -61,6 +62,16 @@ impl RunSettings {
     pub fn with_metrics(self, metrics: bool) -> Self {
         Self { metrics, ..self }
     }
+}
+
+/// How the materials of a data set are read.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct DatasetReading {
+    pub ground_truths: ReadOptions,
+    pub predictions: ReadOptions,
+    /// Whether a material that can only be read by guesses has no result.
+    pub strict: bool,
 }
 
 /// The results of one material.
@@ -81,7 +92,7 @@ pub struct PredictionResult {
     pub method: String,
     pub sample: usize,
     pub path: String,
-    /// The loss; what is wrong where there is none.
+    /// The loss, or why there is none.
     pub result: Result<KnownLoss, String>,
     /// The metrics of its maps by name, where they were asked for.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

@@ -3,49 +3,68 @@
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use super::evaluate::{Side, evaluate};
-use super::journal::{self, Journal};
-use super::record::{Case, MaterialResult, RunSettings};
+use super::evaluate::{Evaluated, evaluate};
+use super::journal::{Head, Journal, Recomputed, remaining};
+use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
 use crate::error::Error;
-use crate::material::Material;
-use crate::model::convention::Convention;
 use crate::progress::Progress;
 
-/// The results of `tasks` in order, computed in parallel.
+/// The results of a run over a data set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DatasetResults {
+    /// Of every case, in order.
+    pub results: Vec<MaterialResult>,
+    /// The results of the journal that were computed again.
+    pub recomputed: Vec<Recomputed>,
+}
+
+/// The results of `cases` in order, computed in parallel.
 ///
-/// All predictions of a material are compared in the same scenes, as many as the target error of every one needs. What cannot be
-/// read or compared is a result, too: it says why. A material is one step of `progress`. The results do not depend on the
-/// number of threads, nor on which other materials there are.
+/// All predictions of a material are compared in the same scenes, as many as the target error of every one needs. A material that
+/// cannot be read or compared has a result, too, with the reason. A material is one step of `progress`. The results do not depend on
+/// the number of threads, nor on which other materials there are.
 ///
-/// What the file `journal` holds is not computed again. New results are added to it as they come, and in the end it holds
-/// all of them in order. It is created where there is none.
+/// A result in the file `journal` is not computed again, unless a file that it was computed from has changed. New results are added to
+/// it as they come, and in the end it holds all of them in order. It is created where there is none.
 ///
 /// # Errors
-/// [`Error::Cancelled`]; [`Error::Unreadable`] and [`Error::Unwritable`] of the journal; [`Error::BadJournal`] where it is
-/// of other settings, or is no journal.
+/// [`Error::Cancelled`], [`Error::UnknownName`] for an unknown convention; [`Error::Unreadable`] and [`Error::Unwritable`] of the
+/// journal; [`Error::BadJournal`] where it is of other settings, of another version of this program, or is no journal.
 pub fn run(
-    tasks: &[Case],
-    settings: &RunSettings,
-    convention: &Convention,
-    read: impl Fn(&Path, Side) -> Result<Material<f32>, Error> + Sync,
+    cases: &[Case],
+    settings: &DatasetSettings,
+    reading: &DatasetReading,
     journal: Option<&Path>,
     progress: &Progress,
-) -> Result<Vec<MaterialResult>, Error> {
-    let (file, known) = match journal {
-        Some(path) => Journal::open(path, settings).map(|(file, known)| (Some(file), known))?,
-        None => (None, Vec::new()),
+) -> Result<DatasetResults, Error> {
+    let Some(path) = journal else {
+        let results = Mutex::new(Vec::new());
+        evaluate(cases, settings, reading, progress, |evaluated| {
+            lock(&results).push(evaluated.result);
+            Ok(())
+        })?;
+        return Ok(DatasetResults { results: sorted(results), recomputed: Vec::new() });
     };
-    let remaining = journal::remaining(tasks, &known);
-    let results = Mutex::new(known);
-    let done = |result: &MaterialResult| {
-        results.lock().unwrap_or_else(PoisonError::into_inner).push(result.clone());
-        file.as_ref().map_or(Ok(()), |file| file.add(result))
-    };
-    evaluate(&remaining, settings, convention, read, progress, done)?;
+    let (journal, known, recomputed) = Journal::open(path, Head::new(settings, reading), cases)?;
+    let remaining = remaining(cases, &known);
+    let lines = Mutex::new(known);
+    evaluate(&remaining, settings, reading, progress, |evaluated: Evaluated| {
+        let line = journal.add(evaluated)?;
+        lock(&lines).push(line);
+        Ok(())
+    })?;
+    let mut lines = lines.into_inner().unwrap_or_else(PoisonError::into_inner);
+    lines.sort_by_key(|line| line.result.index);
+    journal.finish(&lines)?;
+    Ok(DatasetResults { results: lines.into_iter().map(|line| line.result).collect(), recomputed })
+}
+
+fn lock<T>(shared: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn sorted(results: Mutex<Vec<MaterialResult>>) -> Vec<MaterialResult> {
     let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
     results.sort_by_key(|result| result.index);
-    if let Some(path) = journal {
-        journal::write(path, settings, &results)?;
-    }
-    Ok(results)
+    results
 }

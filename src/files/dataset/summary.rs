@@ -1,4 +1,4 @@
-//! What the results of all materials say about the methods.
+//! Summaries of methods over all materials: means, medians, intervals and paired differences.
 
 use std::fmt;
 use std::str::FromStr;

@@ -39,23 +39,33 @@ pub struct BuiltIn<T> {
     pub predictions: Vec<Read<T>>,
 }
 
+/// Name and packed image of each sample, the ground truth first.
+const SAMPLES: [(&str, &[u8]); COUNT] = [
+    ("worn tiles", include_bytes!("../../../assets/worn_tiles.png")),
+    ("blurred normals", include_bytes!("../../../assets/blurred_normals.png")),
+    ("wrong roughness", include_bytes!("../../../assets/wrong_roughness.png")),
+];
+
 /// The ground truth "worn tiles" with the predictions "blurred normals" and "wrong roughness".
 ///
 /// # Errors
 /// None, unless the build damaged the embedded files.
 pub fn load<T: Real>() -> Result<BuiltIn<T>, Error> {
-    let read = |name, bytes| -> Result<Read<T>, Error> {
-        let mut read = read_bytes(name, bytes, &STORED)?;
-        for known in read.assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
-            (known.why, known.certainty) = (StorageConvention::BuiltIn.into(), Certainty::Sure);
-        }
-        Ok(read)
+    let predictions = (1..COUNT).map(load_one).collect::<Result<_, _>>()?;
+    Ok(BuiltIn { ground_truth: load_one(0)?, predictions })
+}
+
+/// The sample of this number: 0 for the ground truth, then the predictions.
+///
+/// # Errors
+/// [`Error::NoSuchBuiltIn`].
+pub fn load_one<T: Real>(number: usize) -> Result<Read<T>, Error> {
+    let Some((name, bytes)) = SAMPLES.get(number) else {
+        return Err(Error::NoSuchBuiltIn { number, count: COUNT });
     };
-    Ok(BuiltIn {
-        ground_truth: read("worn tiles", include_bytes!("../../../assets/worn_tiles.png"))?,
-        predictions: vec![
-            read("blurred normals", include_bytes!("../../../assets/blurred_normals.png"))?,
-            read("wrong roughness", include_bytes!("../../../assets/wrong_roughness.png"))?,
-        ],
-    })
+    let mut read = read_bytes(name, bytes, &STORED)?;
+    for known in read.assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
+        (known.why, known.certainty) = (StorageConvention::BuiltIn.into(), Certainty::Sure);
+    }
+    Ok(read)
 }

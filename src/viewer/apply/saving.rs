@@ -112,7 +112,7 @@ impl App {
         let pair = ComparedPair::of(&self.slots.slots, &self.state);
         let request = self.settings.loss.listed_scenes();
         Task::start(ctx, move |progress| {
-            let pair = pair.ok_or_else(|| Error::Usage("there is no prediction to compare".to_owned()))?;
+            let pair = pair.ok_or(Error::NoPrediction)?;
             atomic::check_place(&path)?;
             let outcome = pair.comparison()?.run(&request, progress)?;
             let name = pair.ground_truth().name();

@@ -200,6 +200,7 @@ fn key(slots: &Slots, asked: &Asked) -> LossKey {
 /// For each prediction the differences of all losses from its own.
 fn differences(report: &Report) -> Vec<Vec<Estimate>> {
     let outcome = &report.outcome;
-    let to = |other| outcome.losses.iter().map(|loss| outcome.difference(loss, other)).collect();
-    outcome.losses.iter().map(to).collect()
+    let predictions = 0..outcome.losses.len();
+    let from = |other| predictions.clone().map(|index| outcome.difference(index, other)).collect();
+    predictions.clone().map(from).collect()
 }

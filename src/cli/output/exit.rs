@@ -1,4 +1,4 @@
-//! How the program ends, and what it prints.
+//! The end of the program: its exit code, its error, and the lines and results that it prints.
 
 use std::error::Error as _;
 use std::io::{self, Write};
@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use svbrdf::error::Error;
 
 use super::advice;
+use super::error::CommandError;
 
 /// Bad input, or the work failed.
 const FAILED: u8 = 1;
@@ -19,7 +20,7 @@ const USAGE: u8 = 64;
 pub const INTERRUPTED: u8 = 130;
 
 /// Prints the error of the program, if any, and says with which code it ends.
-pub fn exit_code(result: Result<(), Error>) -> ExitCode {
+pub fn exit_code(result: Result<(), CommandError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     let advice = advice::of_error(&error).map(|advice| format!("; {advice}")).unwrap_or_default();
     tell(&format!("error: {error}{advice}"));
@@ -36,7 +37,7 @@ pub fn explain(unusual: &clap::Error) -> ExitCode {
         let _ = unusual.print();
         return ExitCode::from(USAGE);
     }
-    exit_code(accepted(unusual.print().and_then(|()| io::stdout().flush())))
+    exit_code(accepted(unusual.print().and_then(|()| io::stdout().flush())).map_err(CommandError::from))
 }
 
 /// A line on stderr, under the program's name. A closed stderr is no reason to stop.
@@ -67,11 +68,15 @@ pub fn unwritable(source: io::Error) -> Error {
     Error::Unwritable { path, source, remedy: "check where it is redirected to" }
 }
 
-fn code_of(error: &Error) -> u8 {
+fn code_of(error: &CommandError) -> u8 {
+    let error = match error {
+        CommandError::Usage(_) => return USAGE,
+        CommandError::Library(error) => error,
+    };
     match error {
         Error::NoWindow { .. } | Error::NoAdapter { .. } => NO_GRAPHICS,
-        Error::Usage(_)
-        | Error::SceneCount { .. }
+        Error::SceneCount { .. }
+        | Error::SeveralSceneFiles { .. }
         | Error::UnknownName { .. }
         | Error::UnsupportedOutput { .. } => USAGE,
         Error::Cancelled => INTERRUPTED,
@@ -79,8 +84,8 @@ fn code_of(error: &Error) -> u8 {
     }
 }
 
-/// The causes of an error whose text does not already contain theirs.
-fn unspoken_causes(error: &Error) -> Vec<String> {
+/// The causes of an error whose texts its own text does not contain.
+fn unspoken_causes(error: &CommandError) -> Vec<String> {
     let text = error.to_string();
     let causes = std::iter::successors(error.source(), |&cause| cause.source());
     causes.map(ToString::to_string).filter(|cause| !text.contains(cause.as_str())).collect()

@@ -1,10 +1,13 @@
-//! Which options of the command line help: the library names none.
+//! Advice: the options of the command line that help with an error or a note. The library names none.
 
 use svbrdf::error::{Error, OutputProblem};
 use svbrdf::files::read::{Assumption, Note, Reason, Subject};
 
-/// What to do about an error on the command line.
-pub fn of_error(error: &Error) -> Option<&'static str> {
+use super::error::CommandError;
+
+/// The option that helps with an error.
+pub fn of_error(error: &CommandError) -> Option<&'static str> {
+    let CommandError::Library(error) = error else { return None };
     Some(match error {
         Error::Guessed { .. } => "specify it by an option, or leave out --strict",
         Error::SizesDiffer { .. } => "--resize-to gt, pred or a width brings materials to one size",

@@ -1,4 +1,6 @@
-//! What a session file says beyond its materials: it holds where the command line says nothing.
+//! Settings of a session file beside its materials: they apply where no option specifies otherwise.
+
+use std::path::Path;
 
 use serde::Deserialize;
 use svbrdf::error::Error;
@@ -10,7 +12,8 @@ use svbrdf::picture::differences::Differences;
 use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::shown::{Shown, ShownDifference};
 
-use super::materials::MaterialArgs;
+use crate::cli::args::MaterialArgs;
+use crate::cli::output::CommandError;
 
 /// The display and the loss settings of a session.
 #[derive(Debug)]
@@ -31,26 +34,37 @@ struct SavedView {
     differences: Differences,
 }
 
+/// The session file that stands for the ground truth and its predictions, read; `None` where the ground truth is none.
+///
+/// # Errors
+/// Those of [`Session::read`]; [`CommandError::Usage`] where predictions are given beside it.
+pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> {
+    let Some(path) = materials.ground_truth.as_ref().filter(|path| Session::is_named(path)) else {
+        return Ok(None);
+    };
+    if !materials.predictions.is_empty() {
+        return Err(CommandError::usage("a session names its predictions itself; give it alone"));
+    }
+    Ok(Some(Session::read(path)?))
+}
+
 impl SessionSettings {
-    /// Those of the session file that is given in place of a ground truth.
+    /// The settings of `session`, which was read from `path`.
     ///
     /// # Errors
-    /// Those of [`Session::read`], [`Error::UnknownName`] for an unknown convention.
-    pub fn of(materials: &MaterialArgs) -> Result<Option<Self>, Error> {
-        let Some(path) = materials.ground_truth.as_ref().filter(|path| Session::is_named(path)) else {
-            return Ok(None);
-        };
-        let session = Session::read(path)?;
-        Ok(Some(Self {
+    /// [`Error::BadSession`] for an unknown convention.
+    pub fn new(session: &Session, path: &Path) -> Result<Self, Error> {
+        let bad = |problem: Error| Error::BadSession { path: path.to_owned(), problem: problem.to_string() };
+        Ok(Self {
             scene: session.scene,
-            convention: session.convention.parse()?,
+            convention: session.convention.parse().map_err(bad)?,
             exposure_ev: session.exposure,
             view: session.window_part(Session::VIEW).unwrap_or_default(),
             loss: session.window_part(Session::LOSS),
-        }))
+        })
     }
 
-    /// What the panes of the window show.
+    /// The quantity and difference that the panes of the window display.
     pub fn shown(&self) -> Shown {
         let quantity = self.view.quantity;
         Shown { quantity, difference: self.view.difference.then(|| self.difference(quantity)) }
@@ -62,7 +76,7 @@ impl SessionSettings {
         ShownDifference { kind: differences.kind(quantity), range: differences.range(quantity) }
     }
 
-    /// What is asked of the loss, with this seed where one is specified.
+    /// The request for the loss, with this seed where one is specified.
     pub fn request(&self, seed: Option<u64>) -> Option<Request> {
         let settings = self.loss.clone()?;
         Some(LossSettings { seed: seed.unwrap_or(settings.seed), ..settings }.request())

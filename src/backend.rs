@@ -1,57 +1,72 @@
-//! The device that computes a loss.
+//! Devices that compute a loss: the processor, a graphics adapter, or the faster of the two.
+//!
+//! ```no_run
+//! use svbrdf::backend;
+//! use svbrdf::loss::{Comparison, Request};
+//! use svbrdf::model::convention::Convention;
+//! use svbrdf::progress::Progress;
+//! use svbrdf::samples;
+//!
+//! let built_in = samples::load::<f32>()?;
+//! let prediction = &built_in.predictions[0].material;
+//! let comparison = Comparison::new(&built_in.ground_truth.material, &[prediction], Convention::default())?;
+//! let request = Request::default();
+//! let fastest = backend::fastest(&comparison, &request)?;
+//! let comparison = match &fastest.adapter {
+//!     Some(adapter) => comparison.on(adapter.backend()),
+//!     None => comparison,
+//! };
+//! let outcome = comparison.run(&request, &Progress::default())?;
+//! # Ok::<(), svbrdf::error::Error>(())
+//! ```
 
+use std::fmt;
 use std::time::{Duration, Instant};
 
-use svbrdf::error::Error;
-use svbrdf::loss::{Backend, Comparison, Outcome, Request, Sampling, Texels};
-use svbrdf::model::scene::Scene;
-use svbrdf::progress::Progress;
-use svbrdf::report::Report;
-
-use super::bar::watched;
-use super::exit::tell;
+use crate::error::Error;
+use crate::loss::{Backend, Comparison, Outcome, Request, Sampling, Texels};
+use crate::model::scene::Scene;
+use crate::progress::Progress;
 
 /// Starting an adapter takes about this long: shorter losses stay on the CPU.
 const SHORT: Duration = Duration::from_millis(100);
 /// Measurements end with one that takes this long.
 const LONG: Duration = Duration::from_millis(500);
 
-/// The requested device.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-pub enum DeviceChoice {
-    /// The CPU, which the window uses, too
-    #[default]
-    Cpu,
-    /// The graphics adapter: equal to about 6 digits; faster for many scenes and large maps on a fast adapter
-    Gpu,
-    /// Measures both on a few scenes and uses the faster one
-    Auto,
+/// The faster device for a loss.
+#[derive(Debug)]
+pub struct Fastest {
+    /// The graphics adapter; `None` where the processor is faster, or there is no adapter.
+    pub adapter: Option<Adapter>,
+    /// The measured times, or why nothing was measured on an adapter.
+    pub reason: String,
 }
 
-/// The report of `request`, computed on the chosen backend.
+impl fmt::Display for Fastest {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let device = if self.adapter.is_some() { "GPU" } else { "CPU" };
+        write!(f, "computed on the {device}: {}", self.reason)
+    }
+}
+
+/// The faster device for `request`, by measurements over a few of its scenes.
+///
+/// An adapter computes a fixed number of scenes on all texels; other requests are for the processor. A loss that takes the processor
+/// less than about 100 ms starts no adapter.
 ///
 /// # Errors
-/// Those of the loss, and [`Error::NoAdapter`] where the GPU is asked for and there is none.
-pub fn run(
-    choice: DeviceChoice,
-    comparison: Comparison<'_, f32>,
-    request: &Request,
-) -> Result<Report, Error> {
-    let gpu = match (choice, on_all_texels(&comparison, request)?) {
-        (DeviceChoice::Cpu, _) | (DeviceChoice::Auto, None) => None,
-        (DeviceChoice::Gpu, _) => Some(Adapter::start()?),
-        (DeviceChoice::Auto, Some(scenes)) => {
-            let (gpu, why) = faster(&comparison, &scenes)?;
-            tell(&format!("note: computed on the {}: {why}", if gpu.is_some() { "GPU" } else { "CPU" }));
-            gpu
+/// Those of [`Comparison::run`] on the processor. An adapter that is missing or fails is slower.
+pub fn fastest(comparison: &Comparison<'_, f32>, request: &Request) -> Result<Fastest, Error> {
+    match on_all_texels(comparison, request)? {
+        Some(scenes) => faster(comparison, &scenes),
+        None => {
+            Ok(on_processor("graphics adapters compare a fixed number of scenes on all texels".to_owned()))
         }
-    };
-    let comparison = match &gpu {
-        Some(gpu) => comparison.on(gpu.backend()),
-        None => comparison,
-    };
-    let outcome = watched("rendering", |progress| comparison.run(request, progress))?;
-    Ok(Report::new(&comparison, outcome))
+    }
+}
+
+fn on_processor(reason: String) -> Fastest {
+    Fastest { adapter: None, reason }
 }
 
 /// The scenes of a request that an adapter can compute: a fixed number of scenes on all texels.
@@ -73,26 +88,27 @@ fn over_first(
     |count| comparison.run(&Request::Listed(scenes[..count].to_vec()), &Progress::default())
 }
 
-/// The adapter, if it is the faster for this comparison, and why or why not.
-fn faster(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Result<(Option<Adapter>, String), Error> {
+/// The faster device for a comparison in all of `scenes`.
+fn faster(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Result<Fastest, Error> {
     let on_cpu = predict(scenes.len(), LONG, timed(over_first(comparison, scenes)))?;
     if on_cpu < SHORT {
-        return Ok((None, format!("about {}, less than starting an adapter takes", milliseconds(on_cpu))));
+        let reason = format!("about {}, less than starting an adapter takes", milliseconds(on_cpu));
+        return Ok(on_processor(reason));
     }
-    let gpu = match Adapter::start() {
-        Ok(gpu) => gpu,
-        Err(problem) => return Ok((None, problem.to_string())),
+    let adapter = match Adapter::start() {
+        Ok(adapter) => adapter,
+        Err(problem) => return Ok(on_processor(problem.to_string())),
     };
     // A measurement that takes longer than the whole loss on the CPU is the last.
     let long = LONG.min(on_cpu);
-    let compared = comparison.clone().on(gpu.backend());
+    let compared = comparison.clone().on(adapter.backend());
     match predict(scenes.len(), long, timed(over_first(&compared, scenes))) {
-        Ok(on_gpu) => {
-            let [cpu, adapter] = [on_cpu, on_gpu].map(milliseconds);
-            let why = format!("measured, about {cpu} on the CPU and {adapter} on {}", gpu.name());
-            Ok(((on_gpu < on_cpu).then_some(gpu), why))
+        Ok(on_adapter) => {
+            let [cpu, gpu] = [on_cpu, on_adapter].map(milliseconds);
+            let reason = format!("measured, about {cpu} on the CPU and {gpu} on {}", adapter.name());
+            Ok(Fastest { adapter: (on_adapter < on_cpu).then_some(adapter), reason })
         }
-        Err(problem) => Ok((None, problem.to_string())),
+        Err(problem) => Ok(on_processor(problem.to_string())),
     }
 }
 
@@ -100,7 +116,7 @@ fn milliseconds(time: Duration) -> String {
     format!("{:.1} ms", 1e3 * time.as_secs_f64())
 }
 
-/// How long `work` takes for a number of scenes.
+/// The time that `work` takes for a number of scenes.
 fn timed<R>(work: impl Fn(usize) -> Result<R, Error>) -> impl FnMut(usize) -> Result<Duration, Error> {
     move |scenes| {
         let start = Instant::now();
@@ -129,18 +145,25 @@ fn predict(
 
 /// A graphics adapter that is ready to compute losses.
 #[cfg(feature = "gpu")]
-pub struct Adapter(svbrdf::gpu::GpuLosses);
+#[derive(Debug)]
+pub struct Adapter(crate::gpu::GpuLosses);
 
 #[cfg(feature = "gpu")]
 impl Adapter {
+    /// Starts the adapter that suits best.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`] without one, [`Error::Gpu`] where it fails.
     pub fn start() -> Result<Self, Error> {
-        Ok(Self(svbrdf::gpu::GpuLosses::new(&svbrdf::gpu::Gpu::headless()?)?))
+        Ok(Self(crate::gpu::GpuLosses::new(&crate::gpu::Gpu::headless()?)?))
     }
 
+    /// Its name, as its driver gives it.
     pub fn name(&self) -> &str {
         self.0.adapter()
     }
 
+    /// What a comparison computes on: see [`Comparison::on`].
     pub fn backend(&self) -> &dyn Backend<f32> {
         &self.0
     }
@@ -148,21 +171,28 @@ impl Adapter {
 
 /// No adapter: this program was built without the GPU layer.
 #[cfg(not(feature = "gpu"))]
+#[derive(Debug)]
 pub enum Adapter {}
 
 #[cfg(not(feature = "gpu"))]
 impl Adapter {
+    /// Starts no adapter.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`].
     pub fn start() -> Result<Self, Error> {
         Err(Error::NoAdapter {
             problem: "this program was built without GPU support".to_owned(),
-            remedy: "leave out --backend, or build with the feature `gpu`",
+            remedy: "compute on the processor, or build with the feature `gpu`",
         })
     }
 
+    /// Its name.
     pub fn name(&self) -> &str {
         match *self {}
     }
 
+    /// What a comparison computes on.
     pub fn backend(&self) -> &dyn Backend<f32> {
         match *self {}
     }
@@ -174,7 +204,7 @@ mod tests {
 
     const MS: Duration = Duration::from_millis(1);
 
-    /// What is predicted, and the largest number of scenes that was measured.
+    /// The predicted time, and the largest number of scenes that was measured.
     fn predicted(scenes: usize, fixed: Duration, each: Duration) -> (Duration, usize) {
         let mut most = 0;
         let time = predict(scenes, 500 * MS, |n| {

@@ -1,4 +1,4 @@
-//! The scenes of a subcommand.
+//! The scenes of a subcommand, as arguments.
 
 use std::path::PathBuf;
 
@@ -8,6 +8,8 @@ use svbrdf::model::convention::Convention;
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene::{Kind, Scene};
 use svbrdf::model::scene_file;
+
+use super::values::triple;
 
 #[derive(Debug, clap::Args)]
 pub struct SceneArgs {
@@ -88,29 +90,5 @@ impl OneSceneArgs {
         let scene = Scene { kind, view, light };
         scene.check().map_err(|problem| Error::UnusableScene { problem })?;
         Ok(scene)
-    }
-}
-
-/// Three numbers with commas between them.
-pub fn triple(text: &str) -> Result<[f64; 3], String> {
-    numbers(text).ok_or_else(|| format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`"))
-}
-
-/// `N` numbers with commas between them.
-pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    numbers.ok().and_then(|numbers| numbers.try_into().ok())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_triple_is_three_numbers() {
-        assert_eq!(triple("1,-2, 3e-1"), Ok([1.0, -2.0, 0.3]));
-        for wrong in ["1,2", "1,2,3,4", "", "a,b,c", "1,,2"] {
-            assert!(triple(wrong).is_err(), "{wrong}");
-        }
     }
 }

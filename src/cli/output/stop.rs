@@ -1,4 +1,4 @@
-//! Ctrl+C while files are written.
+//! Signals, such as that of Ctrl+C, while files are written.
 
 use std::process;
 

@@ -1,21 +1,14 @@
-//! How the files of materials are read.
+//! Options of reading: how the files of materials are read, and the size that materials are brought to.
 
-use std::path::Path;
 use std::str::FromStr;
 
-use svbrdf::error::Error;
 use svbrdf::files::read::{
-    Albedo, Assumption, Certainty, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, Read,
-    ReadOptions, Reflectance, Roughness, TileGrid, What, Workflow,
+    Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Roughness,
+    TileGrid, Workflow,
 };
-use svbrdf::material::Material;
-use svbrdf::math::real::Real;
-
-use super::advice;
-use super::exit::tell;
 
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "PairReadingArgs materials")]
+#[command(next_help_heading = "Reading materials")]
 pub struct PairReadingArgs {
     #[command(flatten)]
     pub both: ReadingArgs,
@@ -35,7 +28,7 @@ pub struct PairReadingArgs {
 
 /// How one material is read. Options that are left out are inferred from the files and reported.
 #[derive(Clone, Copy, Debug, clap::Args)]
-#[command(next_help_heading = "PairReadingArgs materials")]
+#[command(next_help_heading = "Reading materials")]
 pub struct ReadingArgs {
     /// Conventions of a source of materials, for the options that are left out
     #[arg(long, value_name = "NAME", requires = "ground_truth", long_help = preset_help())]
@@ -100,7 +93,7 @@ pub struct ReadingArgs {
 
     /// Reports everything noticed and assumed in reading, not only what is unsure or was changed
     #[arg(short, long)]
-    verbose: bool,
+    pub verbose: bool,
 }
 
 impl ReadingArgs {
@@ -122,34 +115,6 @@ impl ReadingArgs {
             non_finite: self.non_finite,
         }
     }
-
-    /// Refuses guesses where the user wants none.
-    ///
-    /// # Errors
-    /// [`Error::Guessed`].
-    pub fn check<T>(&self, path: &Path, read: &Read<T>) -> Result<(), Error> {
-        if self.strict { read.refuse_guesses(path) } else { Ok(()) }
-    }
-
-    /// The material, after reporting what is unsure, changed or left out in its files, or everything.
-    pub fn noted<T: Real>(&self, read: Read<T>) -> Material<T> {
-        for note in messages(&read, self.verbose) {
-            tell(&format!("note: {}: {note}", read.material.name()));
-        }
-        read.material
-    }
-}
-
-/// What there is to report about the reading of a material: everything, or what a user should know before using it.
-fn messages<T>(read: &Read<T>, everything: bool) -> Vec<String> {
-    let is_doubtful = |a: &Assumption| match a.certainty {
-        Certainty::Given => false,
-        Certainty::Unsure => true,
-        _ => matches!(a.what, What::Missing | What::Size | What::Values),
-    };
-    let notes = read.notes.iter().filter(|note| everything || !note.is_routine());
-    let assumptions = read.assumptions.iter().filter(|a| everything || is_doubtful(a));
-    notes.map(advice::with_option).chain(assumptions.map(advice::assumption_with_option)).collect()
 }
 
 impl PairReadingArgs {

@@ -9,11 +9,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use svbrdf::progress::Progress;
 
 /// Operations that end sooner get no bar.
-const PATIENCE: Duration = Duration::from_millis(500);
+const DELAY: Duration = Duration::from_millis(500);
 const REFRESH: Duration = Duration::from_millis(100);
 
-/// Runs `work`, with a progress bar titled `what` if it takes long and stderr is a terminal.
-pub fn watched<R>(what: &str, work: impl FnOnce(&Progress) -> R) -> R {
+/// Runs `work`, with a progress bar of this title if it takes long and stderr is a terminal.
+pub fn watched<R>(title: &str, work: impl FnOnce(&Progress) -> R) -> R {
     let progress = Progress::default();
     if !stderr().is_terminal() {
         return work(&progress);
@@ -21,7 +21,7 @@ pub fn watched<R>(what: &str, work: impl FnOnce(&Progress) -> R) -> R {
     let (working, finished) = channel::<()>();
     thread::scope(|scope| {
         let progress = &progress;
-        scope.spawn(move || show(what, progress, &finished));
+        scope.spawn(move || show(title, progress, &finished));
         let result = work(progress);
         drop(working);
         result
@@ -29,12 +29,12 @@ pub fn watched<R>(what: &str, work: impl FnOnce(&Progress) -> R) -> R {
 }
 
 /// Shows a bar until the other end of `finished` is dropped.
-fn show(what: &str, progress: &Progress, finished: &Receiver<()>) {
+fn show(title: &str, progress: &Progress, finished: &Receiver<()>) {
     let waits = |time| finished.recv_timeout(time) == Err(RecvTimeoutError::Timeout);
-    if !waits(PATIENCE) {
+    if !waits(DELAY) {
         return;
     }
-    let bar = ProgressBar::new(0).with_message(what.to_owned()).with_style(style());
+    let bar = ProgressBar::new(0).with_message(title.to_owned()).with_style(style());
     while {
         let (done, total) = progress.counts();
         bar.set_length(total);

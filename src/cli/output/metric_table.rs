@@ -17,7 +17,7 @@ pub fn rows(names: &[&str], metrics: &[Vec<Metric>], text: impl Fn(f64) -> Strin
     [heading].into_iter().chain(first.iter().enumerate().map(row)).collect()
 }
 
-/// What metrics are of.
+/// The subject of metrics.
 #[derive(Serialize)]
 pub struct MetricsHeading<'a> {
     pub ground_truth: &'a str,

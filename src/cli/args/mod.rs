@@ -1,0 +1,13 @@
+//! Arguments that several subcommands share, their values, and the options that a mode of a subcommand does not use.
+
+pub mod comparison;
+pub mod given;
+pub mod modes;
+pub mod photograph;
+pub mod reading;
+pub mod scenes;
+pub mod values;
+pub mod wildcards;
+
+pub use comparison::{ComparisonArgs, MaterialArgs};
+pub use given::Given;

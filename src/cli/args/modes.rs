@@ -1,0 +1,107 @@
+//! Modes of subcommands, and the options that each does not use: they are refused.
+//!
+//! Options that exclude each other whatever their values are declared with the options themselves. `tests/cli/options.rs` tries every
+//! option in every mode.
+
+/// A way of using a subcommand.
+#[derive(Debug)]
+pub struct Mode {
+    /// Why it does not use the options.
+    pub reason: &'static str,
+    /// The names of the options that it does not use, without dashes.
+    pub unused: &'static [&'static [&'static str]],
+}
+
+impl Mode {
+    pub fn ignores(&self, option: &str) -> bool {
+        self.unused.iter().any(|group| group.contains(&option))
+    }
+}
+
+/// How a material is read.
+const READING: &[&str] = &[
+    "preset",
+    "albedo",
+    "specular-albedo",
+    "normal-y",
+    "roughness",
+    "normal-encoding",
+    "workflow",
+    "dielectric-f0",
+    "energy",
+    "order",
+    "grid",
+    "flip-v",
+    "exemplar",
+    "non-finite",
+];
+/// How a ground truth and its predictions are read where they differ, and their size.
+const PAIR: &[&str] = &["gt-albedo", "pred-albedo", "resize-to"];
+/// The scenes of a command that samples them.
+const SCENES: &[&str] = &["near", "distant", "seed", "sampler", "scenes"];
+/// The one scene of a picture.
+const ONE_SCENE: &[&str] = &["view", "light", "distant"];
+
+/// Any command with a session file in place of the ground truth.
+pub const SESSION: Mode =
+    Mode { reason: "a session specifies how its materials are read", unused: &[READING, PAIR] };
+/// Any command with a ground truth alone.
+pub const NO_PREDICTION: Mode = Mode { reason: "there is no prediction", unused: &[&["pred-albedo"]] };
+
+/// `loss` with a session whose scenes are of a file.
+pub const SESSION_SCENES: Mode =
+    Mode { reason: "the session lists its scenes, which have no seed", unused: &[&["seed"]] };
+
+/// `map --over texels`.
+pub const MAP_OVER_TEXELS: Mode = Mode {
+    reason: "a map over texels has no fixed direction and the size of its material",
+    unused: &[&["fixed", "side"]],
+};
+/// `map --over lights` and `map --over views`.
+pub const MAP_OVER_DIRECTIONS: Mode =
+    Mode { reason: "a map over directions samples no scenes", unused: &[SCENES] };
+
+/// `metrics --protocol`.
+pub const PROTOCOL: Mode =
+    Mode { reason: "a protocol compares materials as they are", unused: &[&["resize-to"]] };
+
+/// `rank` of the predictions of one ground truth.
+pub const RANK_PREDICTIONS: Mode = Mode {
+    reason: "a ranking of the predictions of one material has no journal, no samples and no metrics, unlike one with --dataset or \
+        --pairs (`svbrdf metrics` prints metrics)",
+    unused: &[&["journal", "shard", "pick", "metrics"]],
+};
+/// `rank --dataset` and `rank --pairs`.
+pub const RANK_DATA_SET: Mode = Mode {
+    reason: "materials of a data set are not resized, and remarks on their reading not printed",
+    unused: &[&["resize-to", "verbose"]],
+};
+/// `rank --merge`.
+pub const RANK_MERGE: Mode = Mode {
+    reason: "journals hold results, and what these were made with",
+    unused: &[
+        READING,
+        PAIR,
+        &["verbose", "journal", "shard", "target-error", "seed", "metrics", "convention"],
+    ],
+};
+
+/// `render` of maps.
+pub const RENDER_MAPS: Mode = Mode {
+    reason: "a map has no light, no view, no exposure and no convention, and is not rendered",
+    unused: &[ONE_SCENE, &["exposure", "convention", "gpu"]],
+};
+/// `strip` without a rendering among its columns.
+pub const STRIP_MAPS: Mode = Mode {
+    reason: "maps have no light, no view, no exposure and no convention, and no column is a rendering",
+    unused: &[ONE_SCENE, &["scenes", "exposure", "convention"]],
+};
+/// `strip` without a difference among its columns.
+pub const STRIP_VALUES: Mode = Mode { reason: "no column is a difference", unused: &[&["range"]] };
+
+/// `info`.
+pub const INFO: Mode =
+    Mode { reason: "everything noticed and assumed is printed in any case", unused: &[&["verbose"]] };
+/// `view`.
+pub const VIEW: Mode =
+    Mode { reason: "the window lists what is noticed and assumed", unused: &[&["verbose"]] };

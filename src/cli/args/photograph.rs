@@ -1,0 +1,121 @@
+//! A photograph as arguments: its light and view, how it is read, and the material in it. The window takes them, too.
+
+use std::path::{Path, PathBuf};
+
+use svbrdf::files::read::{PhotographOptions, Transfer};
+#[cfg(feature = "viewer")]
+use svbrdf::files::session::SessionPhotograph;
+use svbrdf::model::scene::Scene;
+use svbrdf::model::scene_file;
+use svbrdf::photograph::{Corners, flash};
+
+use super::values::{degrees, pair, positive};
+use crate::cli::output::CommandError;
+
+/// Light and view of a photograph.
+#[derive(Debug, clap::Args)]
+pub struct PhotoSceneArgs {
+    /// Light and view from a JSON file of scenes, or from a MaterialGAN capture (render.json)
+    #[arg(long, value_name = "FILE", conflicts_with = "flash", requires = "photo")]
+    scene: Option<PathBuf>,
+
+    /// The number of the scene in a file of several, from 0
+    #[arg(long, value_name = "K", requires = "scene", allow_negative_numbers = true)]
+    scene_number: Option<usize>,
+
+    /// The light is a flash at the camera, which is straight above the middle of the material
+    #[arg(long, requires_all = ["fov", "photo"])]
+    flash: bool,
+
+    /// Angle that the width of the material spans at the camera: the horizontal field of view where it fills the photograph
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, requires = "flash", conflicts_with = "scene", allow_negative_numbers = true)]
+    fov: Option<f64>,
+}
+
+/// How a photograph is read, and where the material is in it.
+#[derive(Debug, clap::Args)]
+pub struct PhotoReadingArgs {
+    /// Corners of the material in the photograph, in pixels: top left, top right, bottom right, bottom left [default: the whole
+    /// picture]
+    #[arg(long, value_name = "X,Y", value_parser = pair, num_args = 4, allow_hyphen_values = true)]
+    #[arg(requires = "photo")]
+    corners: Option<Vec<[f64; 2]>>,
+
+    /// Transfer curve of the photograph [default: linear for floats and PNG files that declare it, srgb for other integers]
+    #[arg(long, value_name = "linear|srgb", requires = "photo")]
+    transfer: Option<Transfer>,
+
+    /// Stored value from which on a pixel is clipped, where 1 is the largest integer [default: 1, none for floats]
+    #[arg(long, value_name = "VALUE", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(requires = "photo")]
+    clip: Option<f64>,
+
+    /// Divides the photograph by the falloff of a point light, which Algorithm 3 does not model: use it for photographs with a
+    /// flash or lamp near the material
+    #[arg(long, requires = "photo")]
+    pub falloff: bool,
+}
+
+impl PhotoSceneArgs {
+    /// Light and view as specified, or else of a session.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`] where nothing specifies them; or where a scene file cannot be read.
+    pub fn scene(&self, saved: Option<Scene>) -> Result<Scene, CommandError> {
+        self.specified()?.or(saved).ok_or_else(|| {
+            CommandError::usage(
+                "light and view of the photograph are missing; give --scene FILE, or --flash with --fov DEGREES",
+            )
+        })
+    }
+
+    /// Light and view, where they are specified.
+    ///
+    /// # Errors
+    /// Where a scene file cannot be read.
+    pub fn specified(&self) -> Result<Option<Scene>, CommandError> {
+        match &self.scene {
+            Some(path) => self.of_file(path).map(Some),
+            None => Ok(self.fov.map(flash).transpose()?),
+        }
+    }
+
+    fn of_file(&self, path: &Path) -> Result<Scene, CommandError> {
+        let scenes = scene_file::read(path)?;
+        let number = self.scene_number.unwrap_or(0);
+        let count = scenes.len();
+        match scenes.get(number) {
+            Some(scene) if count == 1 || self.scene_number.is_some() => Ok(*scene),
+            found => Err(CommandError::Usage(format!(
+                "{} lists {count} scenes, of which a photograph has one{}; give its number from 0 to {} as --scene-number",
+                path.display(),
+                if found.is_none() { format!(", found number {number}") } else { String::new() },
+                count - 1
+            ))),
+        }
+    }
+}
+
+impl PhotoReadingArgs {
+    pub fn options(&self) -> PhotographOptions {
+        PhotographOptions { transfer: self.transfer, clip: self.clip }
+    }
+
+    /// The photograph at `path`, as the window opens it.
+    #[cfg(feature = "viewer")]
+    pub fn of_session(&self, path: PathBuf) -> SessionPhotograph {
+        let corners = self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok());
+        SessionPhotograph { path, read: self.options(), corners, falloff: self.falloff }
+    }
+
+    /// The corners in a photograph of `size`.
+    pub fn corners(&self, size: [usize; 2]) -> Corners {
+        let specified = self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok());
+        specified.map_or_else(|| Corners::whole(size), Corners)
+    }
+
+    /// Whether the whole photograph is taken as the material.
+    pub fn is_whole(&self) -> bool {
+        self.corners.is_none()
+    }
+}

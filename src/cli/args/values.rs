@@ -1,0 +1,117 @@
+//! Values of options: numbers with units, positions, ranges.
+
+use std::str::FromStr;
+use std::time::Duration;
+
+/// A share such as `1%` or `0.01`.
+pub fn percent(text: &str) -> Result<f64, String> {
+    let (number, scale) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
+    let share = number.trim().parse::<f64>().map(|number| number * scale);
+    share
+        .ok()
+        .filter(|s| *s > 0.0 && *s < 1.0)
+        .ok_or("expected more than 0% and less than 100%, as in 1%".to_owned())
+}
+
+/// A time such as `500ms`, `2s` or `0.5` (seconds).
+pub fn duration(text: &str) -> Result<Duration, String> {
+    let units = [("us", 1e-6), ("ms", 1e-3), ("s", 1.0)];
+    let with_unit = units.iter().find_map(|(unit, scale)| Some((text.strip_suffix(unit)?, *scale)));
+    let (number, scale) = with_unit.unwrap_or((text, 1.0));
+    let seconds = number.trim().parse::<f64>().map(|number| number * scale);
+    let time = seconds.ok().filter(|s| *s > 0.0 && *s <= 86_400.0).map(Duration::from_secs_f64);
+    time.ok_or(
+        "expected a time above 0, at most a day, in us, ms or s (the default), as in 500ms or 2s".to_owned(),
+    )
+}
+
+/// A number of stops.
+pub fn stops(text: &str) -> Result<f32, String> {
+    let finite = text.parse().ok().filter(|stops: &f32| stops.is_finite());
+    finite.ok_or_else(|| format!("expected a number of stops like -1.5, found `{text}`"))
+}
+
+/// A position or direction.
+pub fn triple(text: &str) -> Result<[f64; 3], String> {
+    numbers(text).ok_or_else(|| format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`"))
+}
+
+/// A place in a picture.
+pub fn pair(text: &str) -> Result<[f64; 2], String> {
+    numbers(text).ok_or_else(|| format!("expected two numbers like 120,80.5, found `{text}`"))
+}
+
+/// `N` numbers with commas between them.
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    numbers.ok().and_then(|numbers| numbers.try_into().ok())
+}
+
+/// An angle of view.
+pub fn degrees(text: &str) -> Result<f64, String> {
+    let angle = text.parse().ok().filter(|angle| (0.1..=179.0).contains(angle));
+    angle.ok_or_else(|| format!("expected an angle of 0.1 to 179 degrees, found `{text}`"))
+}
+
+/// A finite number above 0.
+pub fn positive(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    value.ok_or_else(|| format!("expected a number above 0, found `{text}`"))
+}
+
+/// The difference that has the last colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    Auto,
+    Last(f64),
+}
+
+impl FromStr for Range {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match (text, text.parse()) {
+            ("auto", _) => Ok(Self::Auto),
+            (_, Ok(range)) if range > 0.0 && f64::is_finite(range) => Ok(Self::Last(range)),
+            _ => Err("expected auto or a number above 0".to_owned()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_positive_and_have_units() {
+        let times = ["100us", "500ms", "2s", "0.5", "1 s"].map(|text| duration(text).unwrap().as_micros());
+        assert_eq!(times, [100, 500_000, 2_000_000, 500_000, 1_000_000]);
+        for wrong in ["0", "-1s", "2m", "1e9s", "nan", "s", ""] {
+            assert!(duration(wrong).is_err_and(|said| said.contains("above 0")), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn stops_are_finite() {
+        assert_eq!(stops("-1.5"), Ok(-1.5));
+        assert!(["nan", "inf", "", "x"].iter().all(|wrong| stops(wrong).is_err()));
+    }
+
+    #[test]
+    fn a_triple_is_three_numbers() {
+        assert_eq!(triple("1,-2, 3e-1"), Ok([1.0, -2.0, 0.3]));
+        for wrong in ["1,2", "1,2,3,4", "", "a,b,c", "1,,2"] {
+            assert!(triple(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn corners_angles_and_limits_are_numbers_in_their_ranges() {
+        assert_eq!(pair("12,-3.5"), Ok([12.0, -3.5]));
+        assert!(["1", "1,2,3", "a,b", ""].iter().all(|wrong| pair(wrong).is_err()));
+        assert_eq!(degrees("45"), Ok(45.0));
+        assert!(["0", "180", "-3", "nan", "wide"].iter().all(|wrong| degrees(wrong).is_err()));
+        assert_eq!(positive("0.98"), Ok(0.98));
+        assert!(["0", "-1", "inf", "x"].iter().all(|wrong| positive(wrong).is_err()));
+    }
+}

@@ -1,0 +1,229 @@
+//! The materials of a command: resolved to their sources, then opened.
+
+use std::path::{Path, PathBuf};
+
+use svbrdf::error::Error;
+use svbrdf::files::read::{self, Assumption, Binding, Certainty, Read, What};
+use svbrdf::files::session::Session;
+use svbrdf::material::Material;
+use svbrdf::math::real::Real;
+use svbrdf::report::distinct_names;
+use svbrdf::samples;
+use svbrdf::source::MaterialSource;
+
+use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
+use crate::cli::args::{Given, MaterialArgs, modes};
+use crate::cli::output::{CommandError, advice, exit, watched};
+
+/// Longest side of a material that is resized, as of one that is read.
+const MAX_SIDE: usize = 16_384;
+/// Most bytes of one, as of one that is read.
+const MAX_BYTES: usize = 4 << 30;
+
+/// The ground truth and its predictions, to be opened.
+#[derive(Debug)]
+pub struct MaterialJob {
+    /// The ground truth first.
+    sources: Vec<MaterialSource>,
+    /// The paths on the command line: those of the sources, or that of a session; none for the built-in materials.
+    pub paths: Vec<PathBuf>,
+    resize_to: Option<ResizeTo>,
+    /// Whether a guess in reading, or an accuracy that is not reached, is an error.
+    pub strict: bool,
+    verbose: bool,
+}
+
+impl MaterialJob {
+    /// The materials of `session`, or those that the command line names, or the built-in ones where it names none.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`] for options that are not used.
+    pub fn new(args: &MaterialArgs, session: Option<&Session>, given: &Given) -> Result<Self, CommandError> {
+        let sources = match (session, &args.ground_truth) {
+            (Some(session), _) => {
+                given.check(&modes::SESSION)?;
+                session.materials.iter().map(MaterialSource::of_session).collect()
+            }
+            (None, Some(ground_truth)) => {
+                let [first, others] = [args.reading.of_ground_truth(), args.reading.of_predictions()];
+                let predictions =
+                    args.predictions.iter().map(|path| MaterialSource::path(path.clone(), others));
+                std::iter::once(MaterialSource::path(ground_truth.clone(), first))
+                    .chain(predictions)
+                    .collect()
+            }
+            (None, None) => (0..samples::COUNT).map(MaterialSource::built_in).collect::<Vec<_>>(),
+        };
+        if sources.len() == 1 {
+            given.check(&modes::NO_PREDICTION)?;
+        }
+        let PairReadingArgs { resize_to, both: ReadingArgs { strict, verbose, .. }, .. } = args.reading;
+        Ok(Self { sources, paths: args.paths().cloned().collect(), resize_to, strict, verbose })
+    }
+
+    /// The ground truth, then the predictions.
+    pub fn sources(&self) -> &[MaterialSource] {
+        &self.sources
+    }
+
+    /// The number of predictions.
+    pub fn predictions(&self) -> usize {
+        self.sources.len() - 1
+    }
+
+    /// Refuses a ground truth without predictions.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn check_predictions(&self) -> Result<(), CommandError> {
+        match self.paths.first() {
+            Some(path) if self.predictions() == 0 => Err(CommandError::Usage(format!(
+                "there is no prediction to compare with {}; give one or more after it",
+                path.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Opens the materials under distinct names, reports what is unsure, changed or left out in their files, and brings them to
+    /// one size where that is asked for.
+    ///
+    /// # Errors
+    /// Those of the reader; [`Error::TooLarge`].
+    pub fn open<T: Real>(&self) -> Result<Opened<T>, CommandError> {
+        let read =
+            self.sources.iter().map(|source| self.read(source)).collect::<Result<Vec<Read<T>>, _>>()?;
+        let named: Vec<_> = read
+            .iter()
+            .zip(&self.sources)
+            .map(|(read, source)| (read.material.name(), source.location()))
+            .collect();
+        let mut materials: Vec<Material<T>> = Vec::new();
+        let mut files: Vec<PathBuf> =
+            self.paths.iter().filter(|path| Session::is_named(path)).cloned().collect();
+        let names = distinct_names(&named);
+        for ((mut read, name), source) in read.into_iter().zip(names).zip(&self.sources) {
+            read.material = read.material.renamed(name);
+            files.append(&mut read.files);
+            let material = noted(read, self.verbose);
+            let size = materials.first().map_or_else(|| material.size(), Material::size);
+            materials.push(if source.fit { material.resized(size)? } else { material });
+        }
+        if let Some(to) = self.resize_to {
+            materials = resized(materials, to)?;
+        }
+        let mut materials = materials.into_iter();
+        // There is a source at least.
+        let Some(ground_truth) = materials.next() else {
+            return Err(Error::Internal("there is no ground truth".to_owned()).into());
+        };
+        Ok(Opened { ground_truth, predictions: materials.collect(), files })
+    }
+
+    fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {
+        let read = watched(&format!("reading {source}"), |progress| source.read(progress))?;
+        if self.strict {
+            read.refuse_guesses(source.location())?;
+        }
+        Ok(read)
+    }
+}
+
+/// The ground truth and its predictions.
+#[derive(Debug)]
+pub struct Opened<T> {
+    pub ground_truth: Material<T>,
+    pub predictions: Vec<Material<T>>,
+    /// Every file that was read.
+    #[expect(dead_code, reason = "outputs will be compared with them before they are written")]
+    pub files: Vec<PathBuf>,
+}
+
+impl<T> Opened<T> {
+    /// The ground truth, then the predictions.
+    pub fn into_all(self) -> Vec<Material<T>> {
+        std::iter::once(self.ground_truth).chain(self.predictions).collect()
+    }
+}
+
+/// Reads one material with the maps of `bindings` in place of its own.
+///
+/// # Errors
+/// Those of the reader; [`Error::Guessed`] with `--strict`.
+pub fn read_one<T: Real>(path: &Path, bindings: &[Binding], args: &ReadingArgs) -> Result<Read<T>, Error> {
+    let read: Read<T> = watched(&format!("reading {}", path.display()), |progress| {
+        read::read_bound(path, bindings, &args.options(), progress)
+    })?;
+    if args.strict {
+        read.refuse_guesses(path)?;
+    }
+    Ok(read)
+}
+
+/// The material of what was read, after a note for everything unsure, changed or left out in its files; with `verbose` for
+/// everything noticed and assumed.
+pub fn noted<T: Real>(read: Read<T>, verbose: bool) -> Material<T> {
+    let is_doubtful = |a: &&Assumption| match a.certainty {
+        _ if verbose => true,
+        Certainty::Given => false,
+        Certainty::Unsure => true,
+        _ => matches!(a.what, What::Missing | What::Size | What::Values),
+    };
+    let notes = read.notes.iter().filter(|note| verbose || !note.is_routine()).map(advice::with_option);
+    let doubtful = read.assumptions.iter().filter(is_doubtful).map(advice::assumption_with_option);
+    for note in notes.chain(doubtful) {
+        exit::tell(&format!("note: {}: {note}", read.material.name()));
+    }
+    read.material
+}
+
+/// Materials stand side by side only where they are equally high.
+///
+/// # Errors
+/// [`Error::SizesDiffer`].
+pub fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
+    let different = |pair: &&[Material<f32>]| pair[0].height() != pair[1].height();
+    let Some(pair) = materials.windows(2).find(different) else { return Ok(()) };
+    Err(Error::SizesDiffer {
+        first: pair[0].name().to_owned(),
+        first_size: pair[0].size(),
+        second: pair[1].name().to_owned(),
+        second_size: pair[1].size(),
+        remedy: "only equally high materials can stand side by side; render them one by one",
+    })
+}
+
+/// Every material in one size.
+fn resized<T: Real>(materials: Vec<Material<T>>, to: ResizeTo) -> Result<Vec<Material<T>>, Error> {
+    let of = match to {
+        ResizeTo::Prediction if materials.len() > 1 => &materials[1],
+        _ => &materials[0],
+    };
+    let [w, h] = of.size();
+    let size = match to {
+        ResizeTo::Width(width) => {
+            let size = [width, (h * width + w / 2).checked_div(w).unwrap_or(1).max(1)];
+            check_size::<T>(size)?;
+            size
+        }
+        _ => [w, h],
+    };
+    let bring = |material: Material<T>| {
+        let ([w, h], [width, height]) = (material.size(), size);
+        if material.size() != size {
+            exit::tell(&format!("note: {} is resized from {w} x {h} to {width} x {height}", material.name()));
+        }
+        material.resized(size)
+    };
+    materials.into_iter().map(bring).collect()
+}
+
+/// Whether a material of this size can be expected to fit into memory.
+fn check_size<T>([width, height]: [usize; 2]) -> Result<(), Error> {
+    // Three planes each of normals, diffuse and specular, one of roughness.
+    let bytes = width.saturating_mul(height).saturating_mul(10 * size_of::<T>());
+    if width.max(height) <= MAX_SIDE && bytes <= MAX_BYTES {
+        return Ok(());
+    }
+    Err(Error::TooLarge { width, height, bytes, max_side: MAX_SIDE, max_bytes: MAX_BYTES })
+}

@@ -1,0 +1,37 @@
+//! A job: what a command compares, resolved once from its arguments before anything is computed.
+
+pub mod materials;
+pub mod session;
+
+use svbrdf::model::convention::Convention;
+
+use super::args::{ComparisonArgs, Given};
+use super::output::CommandError;
+pub use materials::{MaterialJob, check_heights};
+pub use session::SessionSettings;
+
+/// The materials and the convention of a comparison. A session file is read once, here.
+#[derive(Debug)]
+pub struct ComparisonJob {
+    /// As specified, or as in the session, or the default.
+    pub convention: Convention,
+    pub materials: MaterialJob,
+    /// The settings of the session file that stands for the materials.
+    pub session: Option<SessionSettings>,
+}
+
+impl ComparisonJob {
+    /// # Errors
+    /// Where a session cannot be read or used; [`CommandError::Usage`] for options of reading that are not used.
+    pub fn new(args: &ComparisonArgs, given: &Given) -> Result<Self, CommandError> {
+        let file = session::given(&args.materials)?;
+        let settings = |(file, path)| SessionSettings::new(file, path);
+        let session = file.as_ref().zip(args.materials.ground_truth.as_deref()).map(settings).transpose()?;
+        let of_session = session.as_ref().map(|session| session.convention);
+        Ok(Self {
+            convention: args.convention.or(of_session).unwrap_or_default(),
+            materials: MaterialJob::new(&args.materials, file.as_ref(), given)?,
+            session,
+        })
+    }
+}

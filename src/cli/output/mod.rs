@@ -1,0 +1,14 @@
+//! Everything that a command prints: results, tables, notes, progress, errors and the exit code.
+
+pub mod advice;
+pub mod bar;
+pub mod error;
+pub mod exit;
+pub mod latex;
+pub mod metric_table;
+pub mod stop;
+pub mod table;
+pub mod target;
+
+pub use bar::watched;
+pub use error::CommandError;

@@ -1,0 +1,94 @@
+//! A source of a material: where it comes from and how it is read. The command line opens everything through it: files, built-in
+//! materials and the entries of a session.
+//!
+//! ```
+//! use svbrdf_core::progress::Progress;
+//! use svbrdf_files::read::Read;
+//! use svbrdf_files::source::MaterialSource;
+//!
+//! let read: Read<f32> = MaterialSource::built_in(1).read(&Progress::default())?;
+//! assert_eq!(read.material.name(), "blurred normals");
+//! # Ok::<(), svbrdf_core::error::Error>(())
+//! ```
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::error::Error;
+use crate::files::read::{self, Read, ReadOptions};
+use crate::files::session::SessionMaterial;
+use crate::math::real::Real;
+use crate::progress::Progress;
+use crate::samples;
+
+/// Where a material is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A file, a folder or a prefix of files.
+    Path(PathBuf),
+    /// The built-in material of this number, 0 for the ground truth.
+    BuiltIn(usize),
+}
+
+/// Where a material comes from and how it is read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialSource {
+    pub place: Place,
+    /// What is specified; a built-in material is read in its own way.
+    pub options: ReadOptions,
+    /// Whether a sidecar file completes the options.
+    pub uses_sidecar: bool,
+    /// Whether the material is resized to the ground truth.
+    pub fit: bool,
+}
+
+impl MaterialSource {
+    /// The material at `path`, whose sidecar file completes `options`.
+    pub fn path(path: PathBuf, options: ReadOptions) -> Self {
+        Self { place: Place::Path(path), options, uses_sidecar: true, fit: false }
+    }
+
+    /// The built-in material of this number, 0 for the ground truth.
+    pub fn built_in(number: usize) -> Self {
+        Self { place: Place::BuiltIn(number), options: ReadOptions::AUTO, uses_sidecar: false, fit: false }
+    }
+
+    /// An entry of a session, which alone specifies how the material is read.
+    pub fn of_session(entry: &SessionMaterial) -> Self {
+        let place = match (&entry.path, entry.built_in) {
+            (Some(path), _) => Place::Path(path.clone()),
+            (None, number) => Place::BuiltIn(number.unwrap_or(0)),
+        };
+        Self { place, options: entry.read, uses_sidecar: false, fit: entry.fit }
+    }
+
+    /// Its path; empty for a built-in material.
+    pub fn location(&self) -> &Path {
+        match &self.place {
+            Place::Path(path) => path,
+            Place::BuiltIn(_) => Path::new(""),
+        }
+    }
+
+    /// Reads the material, in its own size; each file is one step of `progress`.
+    ///
+    /// # Errors
+    /// As [`read::read`]; [`Error::NoSuchBuiltIn`].
+    pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
+        match &self.place {
+            Place::BuiltIn(number) => samples::load_one(*number),
+            Place::Path(path) if self.uses_sidecar => read::read(path, &self.options, progress),
+            Place::Path(path) => read::read_as(path, &self.options, progress),
+        }
+    }
+}
+
+/// Its path, or that it is built in.
+impl fmt::Display for MaterialSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.place {
+            Place::Path(path) => path.display().fmt(f),
+            Place::BuiltIn(number) => write!(f, "built-in material {number}"),
+        }
+    }
+}

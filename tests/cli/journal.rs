@@ -1,0 +1,145 @@
+//! Journals: what results depend on is recorded, and whatever differs is refused or computed again.
+
+use std::fs::{self, File};
+use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::{fail, run_in, succeed, text, write_material};
+
+const RANK: &str = "rank --dataset gt ours theirs --target-error 10%";
+
+/// Ground truths and two methods with three materials each.
+fn data_set() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        for i in 0..3_u8 {
+            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
+        }
+    }
+    folder
+}
+
+/// The results of a run that must succeed as JSON, and its notes.
+fn results(folder: &Path, args: &str) -> (Value, String) {
+    let output = run_in(folder, &format!("{args} --format json"));
+    assert!(output.status.success(), "{args}: {}", text(&output.stderr));
+    (serde_json::from_slice(&output.stdout).unwrap(), text(&output.stderr).to_owned())
+}
+
+#[test]
+fn a_journal_of_other_options_of_reading_is_refused() {
+    let folder = data_set();
+    let run = |options: &str| format!("{RANK} --journal run.jsonl {options}");
+    succeed(folder.path(), &run("--albedo gamma2.2"));
+    let before = fs::read(folder.path().join("run.jsonl")).unwrap();
+    for (options, difference) in [
+        ("--albedo linear", r#"reading.ground-truths.albedo is "gamma2.2", but "linear""#),
+        ("", r#"reading.predictions.albedo is "gamma2.2", but unspecified"#),
+        ("--albedo gamma2.2 --normal-y down", r#"normal-y is unspecified, but "down""#),
+        (
+            "--albedo gamma2.2 --pred-albedo linear",
+            r#"reading.predictions.albedo is "gamma2.2", but "linear""#,
+        ),
+        ("--albedo gamma2.2 --roughness gloss", "roughness"),
+        ("--albedo gamma2.2 --flip-v", "flip-v"),
+        ("--albedo gamma2.2 --strict", "reading.strict is false, but true"),
+        ("--albedo gamma2.2 --convention guided-2020", r#"convention is "printed", but "guided-2020""#),
+        ("--albedo gamma2.2 --seed 3", "seed is 0, but 3 in this run"),
+        ("--albedo gamma2.2 --metrics", "metrics"),
+    ] {
+        let stderr = fail(folder.path(), &run(options), 1);
+        assert!(stderr.contains("of other settings") && stderr.contains(difference), "{options}: {stderr}");
+    }
+    assert_eq!(fs::read(folder.path().join("run.jsonl")).unwrap(), before);
+    succeed(folder.path(), &run("--albedo gamma2.2"));
+}
+
+#[test]
+fn parts_that_were_read_differently_are_not_joined() {
+    let folder = data_set();
+    for (part, albedo) in [(1, "gamma2.2"), (2, "linear")] {
+        succeed(folder.path(), &format!("{RANK} --shard {part}/2 --journal {part}.jsonl --albedo {albedo}"));
+    }
+    let stderr = fail(folder.path(), "rank --merge 1.jsonl 2.jsonl", 1);
+    for part in ["2.jsonl cannot be used", r#"albedo is "linear", but "gamma2.2""#, "in 1.jsonl"] {
+        assert!(stderr.contains(part), "{part}: {stderr}");
+    }
+    succeed(folder.path(), &format!("{RANK} --shard 2/2 --journal 3.jsonl --albedo gamma2.2"));
+    succeed(folder.path(), "rank --merge 1.jsonl 3.jsonl");
+}
+
+#[test]
+fn results_of_replaced_files_are_computed_again() {
+    let folder = data_set();
+    let of = |name: &str| folder.path().join(name);
+    let with_journal = format!("{RANK} --journal run.jsonl");
+    let (old, _) = results(folder.path(), &with_journal);
+    // A method is replaced by files of the same size, and a sidecar file changes how a ground truth is read.
+    let bytes = |name: &str| fs::metadata(of(name)).unwrap().len();
+    let size = bytes("theirs/m1.png");
+    let other = (0..).find_map(|roughness| {
+        write_material(&of("theirs/m1.png"), 8, roughness);
+        (bytes("theirs/m1.png") == size).then_some(roughness)
+    });
+    assert!(other.is_some());
+    fs::write(of("gt/m2.svbrdf.json"), r#"{"albedo": "gamma2.2"}"#).unwrap();
+    let (whole, _) = results(folder.path(), RANK);
+    assert_ne!(whole["methods"], old["methods"]);
+    let (resumed, notes) = results(folder.path(), &with_journal);
+    assert_eq!(resumed, whole);
+    for note in [
+        "m1 is computed again: theirs/m1.png has changed",
+        "m2 is computed again: gt/m2.svbrdf.json has changed",
+    ] {
+        assert!(notes.contains(note), "{note}: {notes}");
+    }
+    assert_eq!(notes.matches("computed again").count(), 2, "{notes}");
+    let (_, notes) = results(folder.path(), &with_journal);
+    assert!(!notes.contains("computed again"), "{notes}");
+    fs::remove_file(of("ours/m0.png")).unwrap();
+    let (_, notes) = results(folder.path(), &with_journal);
+    assert!(notes.contains("m0 is computed again: ours/m0"), "{notes}");
+}
+
+#[test]
+fn files_that_were_copied_or_touched_have_the_same_results() {
+    let folder = data_set();
+    let with_journal = format!("{RANK} --journal run.jsonl");
+    let (old, _) = results(folder.path(), &with_journal);
+    // A planted loss shows that nothing is computed again.
+    let journal = folder.path().join("run.jsonl");
+    let loss = old["results"][1]["predictions"][0]["result"]["Ok"]["loss"].to_string();
+    fs::write(
+        &journal,
+        fs::read_to_string(&journal).unwrap().replace(&format!("\"loss\":{loss}"), "\"loss\":0.125"),
+    )
+    .unwrap();
+    for name in ["gt", "ours", "theirs"] {
+        let file = File::options().write(true).open(folder.path().join(name).join("m1.png")).unwrap();
+        file.set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(1_000_000_000)).unwrap();
+    }
+    let (touched, notes) = results(folder.path(), &with_journal);
+    assert_eq!(touched["results"][1]["predictions"][0]["result"]["Ok"]["loss"], 0.125, "{notes}");
+    assert!(!notes.contains("computed again"), "{notes}");
+}
+
+#[test]
+fn a_journal_without_a_head_is_refused_with_what_to_do() {
+    let folder = data_set();
+    let first = r#"{"convention":"printed","target_error":0.1,"seed":0,"materials":["m0","m1","m2"],"methods":["ours","theirs"]}"#;
+    fs::write(folder.path().join("old.jsonl"), format!("{first}\n")).unwrap();
+    for args in [format!("{RANK} --journal old.jsonl"), "rank --merge old.jsonl".to_owned()] {
+        let stderr = fail(folder.path(), &args, 1);
+        for part in ["did not record how the materials were read", "delete it or name another file"] {
+            assert!(stderr.contains(part), "{part}: {stderr}");
+        }
+    }
+    let newer = r#"{"svbrdf-journal":3,"program":"svbrdf 9.0.0"}"#;
+    fs::write(folder.path().join("new.jsonl"), format!("{newer}\n")).unwrap();
+    let stderr = fail(folder.path(), &format!("{RANK} --journal new.jsonl"), 1);
+    assert!(stderr.contains("its format is 3, expected 2"), "{stderr}");
+}
