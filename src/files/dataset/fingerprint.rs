@@ -153,7 +153,7 @@ mod tests {
         let path = folder.path().join("a.png");
         fs::write(&path, "12345").unwrap();
         set_time(&path, 1000);
-        let files = MaterialFiles::new(&path, &[path.clone()], SystemTime::now());
+        let files = MaterialFiles::new(&path, std::slice::from_ref(&path), SystemTime::now());
         assert_eq!(files.changed(&path), None);
         let text = serde_json::to_string(&files).unwrap();
         assert_eq!(serde_json::from_str::<MaterialFiles>(&text).unwrap(), files);
