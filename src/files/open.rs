@@ -45,6 +45,14 @@ impl NamedFile {
         &self.by
     }
 
+    /// Opens it.
+    ///
+    /// # Errors
+    /// Those of the system, without the name of the file.
+    pub fn open(&self) -> std::io::Result<File> {
+        opened(self)
+    }
+
     /// Opens it for reading from its beginning.
     ///
     /// # Errors

@@ -2,15 +2,14 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, Metadata};
-use std::io::Read as _;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
-use crate::files::open::NamedFile;
 use crate::files::read::{EXTENSIONS, Sidecar};
+use crate::open::NamedFile;
 
 /// The files of a material: those that were read, its sidecar file, and all pictures of a folder or prefix, which would be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -112,12 +111,12 @@ fn nanoseconds(metadata: &Metadata) -> Option<u64> {
 }
 
 /// FNV-1a of the content of a file (Fowler, Noll and Vo), 64 bits.
-fn hash(path: &Path) -> Result<String, Error> {
+fn hash(path: &Path) -> io::Result<String> {
     const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0100_0000_01b3;
-    let (mut file, mut buffer, mut hash) = (NamedFile::by_user(path).reader()?, vec![0; 1 << 16], BASIS);
+    let (mut file, mut buffer, mut hash) = (NamedFile::by_user(path).open()?, vec![0; 1 << 16], BASIS);
     loop {
-        match file.read(&mut buffer).map_err(|source| Error::unreadable(path, source))? {
+        match file.read(&mut buffer)? {
             0 => return Ok(format!("{hash:016x}")),
             count => {
                 buffer[..count].iter().for_each(|byte| hash = (hash ^ u64::from(*byte)).wrapping_mul(PRIME))

@@ -19,7 +19,7 @@ use super::fingerprint::MaterialFiles;
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
 use crate::error::Error;
 use crate::files::atomic::write_text;
-use crate::files::open::NamedFile;
+use crate::open::NamedFile;
 use crate::progress::Progress;
 
 /// The version of the format that is written and read.

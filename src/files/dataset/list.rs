@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use super::record::{Candidate, Case};
 use crate::error::Error;
-use crate::files::open::NamedFile;
+use crate::open::NamedFile;
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];
