@@ -38,7 +38,8 @@ fn run(line: &str) -> Output {
 
 /// What a page shows and the program does not print.
 fn differences(shown: &str, printed: &str) -> Option<String> {
-    (shown.trim_end() != printed.trim_end()).then(|| format!("the page shows\n{shown}\nbut it prints\n{printed}"))
+    (shown.trim_end() != printed.trim_end())
+        .then(|| format!("the page shows\n{shown}\nbut it prints\n{printed}"))
 }
 
 #[test]
@@ -64,7 +65,9 @@ fn every_command_line_of_the_pages_is_one() {
     const USAGE: i32 = 64;
     let mut count = 0;
     for (page, text) in pages() {
-        for line in blocks(&text, "sh").into_iter().flat_map(str::lines).filter(|line| line.starts_with("svbrdf ")) {
+        for line in
+            blocks(&text, "sh").into_iter().flat_map(str::lines).filter(|line| line.starts_with("svbrdf "))
+        {
             // Without the files that it names it may fail, but not as a command line.
             let output = run(line);
             assert_ne!(output.status.code(), Some(USAGE), "{}: {line}: {output:?}", page.display());
@@ -87,7 +90,11 @@ fn every_link_of_the_pages_leads_to_a_file_and_its_heading() {
             let target = if file.is_empty() { page.clone() } else { page.with_file_name("").join(file) };
             assert!(target.exists(), "{} links to {link}", page.display());
             if !heading.is_empty() {
-                assert!(has_heading(&fs::read_to_string(&target).unwrap(), heading), "{}: {link}", page.display());
+                assert!(
+                    has_heading(&fs::read_to_string(&target).unwrap(), heading),
+                    "{}: {link}",
+                    page.display()
+                );
             }
             count += 1;
         }
