@@ -6,7 +6,7 @@ use pyo3::PyErr;
 use pyo3::exceptions::{
     PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyPermissionError, PyRuntimeError,
 };
-use svbrdf::error::Error as CoreError;
+use svbrdf_core::error::Error as CoreError;
 
 #[allow(missing_docs, reason = "the macro makes public items without comments")]
 mod class {

@@ -4,13 +4,17 @@
 //! `svbrdf` beside it is the interface for users. It checks shapes and types and gives results their classes.
 
 mod arrays;
-mod blame;
+mod asked;
 mod dataset;
 mod errors;
 mod loss;
 mod material;
+mod metrics;
 mod model;
+mod photo;
+mod report;
 mod session;
+mod why;
 mod work;
 
 use pyo3::prelude::*;
@@ -30,7 +34,13 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(model::sample_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(model::read_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(loss::loss, module)?)?;
-    module.add_function(wrap_pyfunction!(blame::blame, module)?)?;
+    module.add_function(wrap_pyfunction!(loss::rank, module)?)?;
+    module.add_function(wrap_pyfunction!(why::blame, module)?)?;
+    module.add_function(wrap_pyfunction!(why::worst, module)?)?;
+    module.add_function(wrap_pyfunction!(why::scenes, module)?)?;
+    module.add_function(wrap_pyfunction!(why::map, module)?)?;
+    module.add_function(wrap_pyfunction!(metrics::metrics, module)?)?;
+    module.add_function(wrap_pyfunction!(photo::photo, module)?)?;
     module.add_function(wrap_pyfunction!(dataset::rank_dataset, module)?)?;
     module.add_function(wrap_pyfunction!(session::session, module)?)?;
     Ok(())

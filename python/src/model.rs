@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf::loss::{Sampling, Texels};
-use svbrdf::model::convention::{self, Convention};
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::model::scene_file;
+use svbrdf_core::loss::{Sampling, Texels};
+use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_files::scene_file;
 
 use crate::errors::{Error, exception};
 
@@ -76,11 +76,7 @@ impl SceneTuple {
 
 impl From<&Scene> for SceneTuple {
     fn from(scene: &Scene) -> Self {
-        let kind = match scene.kind {
-            Kind::Near => "near",
-            Kind::Distant => "distant",
-        };
-        Self(kind.to_owned(), scene.view, scene.light)
+        Self(scene.kind.to_string(), scene.view, scene.light)
     }
 }
 

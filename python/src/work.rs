@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use svbrdf::error::Error;
-use svbrdf::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 
 use crate::errors::exception;
 

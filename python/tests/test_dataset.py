@@ -34,6 +34,12 @@ def of_command_line(program: str, dataset: Path, *options: str) -> Any:
     return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
 
 
+def text_of_command_line(program: str, dataset: Path, *options: str) -> str:
+    folders = [str(dataset / name) for name in ("gt", "good", "bad")]
+    command = [program, "rank", "--dataset", *folders, "--target-error", "5%", *options]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
 def ranked(dataset: Path, **options: Any) -> svbrdf.DatasetReport:
     methods = [dataset / name for name in ("good", "bad")]
     return svbrdf.rank_dataset(dataset / "gt", methods, **{"target_error": 0.05, **options})
@@ -44,11 +50,13 @@ def test_a_data_set_has_the_numbers_of_the_command_line(program: str, dataset: P
     found = of_command_line(program, dataset, "--pick", pick)
     report = ranked(dataset, pick=pick)
     got = json.loads(json.dumps(report.to_dict()))
-    assert got["methods"] == found["methods"]
+    assert got == found
     expected = [p["result"].get("Ok", {}).get("loss") for result in found["results"] for p in result["predictions"]]
     assert [result.loss for result in report.results] == expected
     assert [summary.method for summary in report.methods] == ["good", "bad"]
-    assert repr(report).splitlines()[1].split()[:3] == ["good", "7", "1"]
+    assert repr(report) + "\n" == text_of_command_line(program, dataset, "--pick", pick)
+    assert report.methods[0].failures == 1
+    assert list(report.to_pandas()["loss"].dropna()) == [loss for loss in expected if loss is not None]
 
 
 def test_a_broken_file_is_a_result_that_says_why(dataset: Path) -> None:
@@ -83,7 +91,8 @@ def test_metrics_are_those_of_the_command_line(program: str, dataset: Path, pick
     found = of_command_line(program, dataset, "--pick", pick, "--metrics")
     report = ranked(dataset, pick=pick, metrics=True)
     got = json.loads(json.dumps(report.to_dict()))
-    assert got["methods"] == found["methods"]
+    assert got == found
+    assert repr(report) + "\n" == text_of_command_line(program, dataset, "--pick", pick, "--metrics")
     expected = [prediction for result in found["results"] for prediction in result["predictions"]]
     assert [dict(result.metrics) for result in report.results] == [p.get("metrics", {}) for p in expected]
     worse, better = (report.methods[i].metrics["rmse_roughness"] for i in (1, 0))
@@ -92,7 +101,7 @@ def test_metrics_are_those_of_the_command_line(program: str, dataset: Path, pick
     assert f"{worse.mean:.6f}" in repr(report)
     without = ranked(dataset, pick=pick)
     assert all(not summary.metrics for summary in without.methods)
-    assert "metrics" not in without.to_dict()["results"][0]
+    assert "metrics" not in without.to_dict()["results"][0]["predictions"][0]
 
 
 def test_an_interrupted_run_continues_from_its_journal(program: str, dataset: Path) -> None:

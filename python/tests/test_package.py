@@ -35,17 +35,23 @@ def test_the_wheel_is_built_from_the_versions_of_the_program() -> None:
     assert {name for name in only_wheel if not name.startswith("pyo3")} == own
 
 
+def test_the_wheel_has_no_graphics_and_no_command_line() -> None:
+    packages = tomllib.loads((REPOSITORY / "python" / "Cargo.lock").read_text())["package"]
+    names = {package["name"] for package in packages}
+    assert {"svbrdf-core", "svbrdf-files"} <= names
+    assert not names & {"svbrdf", "svbrdf-gpu", "wgpu", "egui", "eframe", "clap"}
+
+
 def test_libraries_are_optimized_as_those_of_the_program() -> None:
     def levels(folder: Path, name: str) -> dict[str, Any]:
         profile: dict[str, Any] = tomllib.loads((folder / "Cargo.toml").read_text())["profile"][name]
-        packages = {name: levels for name, levels in profile["package"].items() if name != "svbrdf-python"}
+        packages = {name: levels for name, levels in profile["package"].items() if name in (*of_wheel, "*")}
         return {"all others": profile["opt-level"], **packages}
 
+    locked = tomllib.loads((REPOSITORY / "python" / "Cargo.lock").read_text())["package"]
+    of_wheel = {package["name"] for package in locked} - {"svbrdf-python"}
     for name in ("dev", "release"):
-        expected = levels(REPOSITORY, name)
-        # Only the benchmarks of the program use it.
-        expected.pop("divan", None)
-        assert levels(REPOSITORY / "python", name) == expected
+        assert levels(REPOSITORY / "python", name) == levels(REPOSITORY, name)
 
 
 def test_the_example_evaluates_a_folder(tmp_path: Path) -> None:

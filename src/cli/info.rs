@@ -10,7 +10,7 @@ use svbrdf::files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 use super::args::reading::ReadingArgs;
 use super::args::{Given, modes};
 use super::job::materials::read_one;
-use super::output::{CommandError, advice, exit, table};
+use super::output::{CommandError, advice, exit, json};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]
@@ -78,7 +78,7 @@ pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
     };
     let printed = match args.format {
         InfoFormat::Text => text(&info),
-        InfoFormat::Json => table::json(&info)?,
+        InfoFormat::Json => json::text(&info)?,
     };
     Ok(exit::put(&printed)?)
 }

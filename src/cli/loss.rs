@@ -5,16 +5,16 @@ use std::time::Duration;
 
 use svbrdf::backend::{self, Adapter};
 use svbrdf::error::Error;
-use svbrdf::loss::{ALL_SCENES_TARGET, Comparison, Compute, Precision, Request, Sampling, Texels};
+use svbrdf::loss::{Comparison, Compute, Precision, Question, Request, Sampling, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::model::scene_file;
-use svbrdf::report::Report;
+use svbrdf::report::{LossReport, Report as _};
 
 use super::args::values::{duration, percent};
 use super::args::{ComparisonArgs, Given, modes};
 use super::job::ComparisonJob;
 use super::output::{CommandError, exit, target, watched};
-use super::report::{Printed, ReportFormat};
+use super::report::ReportFormat;
 
 /// Prints the rendering loss of predictions against a ground truth
 ///
@@ -91,11 +91,7 @@ enum DeviceChoice {
 /// A loss to compute: the arguments, resolved.
 struct LossJob {
     comparison: ComparisonJob,
-    request: Request,
-    /// Whether the losses over all scenes stand beside those of the request: where nothing chooses scenes.
-    over_all_scenes: bool,
-    /// Names the scenes of the losses over all scenes.
-    seed: u64,
+    question: Question,
     device: DeviceChoice,
 }
 
@@ -111,22 +107,14 @@ pub fn run(mut args: LossArgs, given: &Given) -> Result<(), CommandError> {
     }
     let job = LossJob::new(&args, given)?;
     let report = match args.precision {
-        Precision::F32 => job.report(|comparison| job.run(comparison))?,
-        Precision::F64 => job.report(|comparison: Comparison<'_, f64>| job.run_on(&comparison))?,
+        Precision::F32 => job.report(|comparison, request| job.run(comparison, request))?,
+        Precision::F64 => job.report(on_backend::<f64>)?,
     };
-    let all_scenes = report.all_scenes.as_ref();
-    let missed_by_all_scenes = all_scenes.and_then(|known| target::missed_by_any(ALL_SCENES_TARGET, known));
-    let LossJob { comparison: ComparisonJob { materials, .. }, request, .. } = job;
-    let paths = materials.paths.iter().map(|path| path.display().to_string()).collect();
-    let printed = Printed { missed: missed(&request, &report), report, request, paths, steps };
-    exit::put(&args.format.write(&printed).map_err(exit::unwritable)?)?;
-    target::warn_of(printed.missed.into_iter().chain(missed_by_all_scenes), materials.strict)
-}
-
-/// The error of a target that is not reached.
-fn missed(request: &Request, report: &Report) -> Option<Error> {
-    let Request::Accuracy { target, .. } = *request else { return None };
-    target::missed_by_any(target, &report.outcome)
+    let materials = job.comparison.materials;
+    let paths = materials.paths.iter().map(|path| Some(path.display().to_string())).collect();
+    let report = LossReport { paths, steps, ..report };
+    exit::put(&args.format.write(&report)?)?;
+    target::warn_of(report.missed(), materials.strict)
 }
 
 impl LossJob {
@@ -138,50 +126,52 @@ impl LossJob {
         if let Some(Request::Listed(_)) = saved {
             given.check(&modes::SESSION_SCENES)?;
         }
-        let over_all_scenes = saved.is_none() && !chooses_scenes(args);
-        let request = saved.map_or_else(|| request(args), Ok)?;
-        check_backend(args, &request)?;
-        let seed = args.seed.unwrap_or(0);
-        Ok(Self { comparison, request, over_all_scenes, seed, device: args.backend })
+        let question = match saved {
+            Some(request) => request.into(),
+            None if chooses_scenes(args) => request(args)?.into(),
+            None => Question::of_seed(args.seed.unwrap_or(0)),
+        };
+        check_backend(args, &question)?;
+        Ok(Self { comparison, question, device: args.backend })
     }
 
-    /// Opens the materials in precision `T` and computes the losses with `run`.
+    /// Opens the materials in precision `T` and answers the question: with `run`, but what few scenes stand beside on the CPU.
     fn report<T: Compute>(
         &self,
-        run: impl FnOnce(Comparison<'_, T>) -> Result<Report, Error>,
-    ) -> Result<Report, CommandError> {
+        run: impl FnOnce(Comparison<'_, T>, &Request) -> Result<LossReport, Error>,
+    ) -> Result<LossReport, CommandError> {
         let opened = self.comparison.materials.open::<T>()?;
         let predictions: Vec<_> = opened.predictions.iter().collect();
         let comparison = Comparison::new(&opened.ground_truth, &predictions, self.comparison.convention)?;
-        let all_scenes = match self.over_all_scenes {
-            true => Some(watched("rendering", |progress| comparison.over_all_scenes(self.seed, progress))?),
-            false => None,
+        let Question { request, few_scenes: Some(few) } = &self.question else {
+            return Ok(run(comparison, &self.question.request)?);
         };
-        Ok(Report { all_scenes, ..run(comparison)? })
+        let report = on_backend(comparison.clone(), request)?;
+        Ok(report.beside(run(comparison, &Request::Scenes(*few))?))
     }
 
-    /// The report of the request, computed on the requested device.
-    fn run(&self, comparison: Comparison<'_, f32>) -> Result<Report, Error> {
+    /// The report of `request`, computed on the requested device.
+    fn run(&self, comparison: Comparison<'_, f32>, request: &Request) -> Result<LossReport, Error> {
         let adapter = match self.device {
             DeviceChoice::Cpu => None,
             DeviceChoice::Gpu => Some(Adapter::start()?),
             DeviceChoice::Auto => {
-                let fastest = backend::fastest(&comparison, &self.request)?;
+                let fastest = backend::fastest(&comparison, request)?;
                 exit::tell(&format!("note: {fastest}"));
                 fastest.adapter
             }
         };
         match &adapter {
-            Some(adapter) => self.run_on(&comparison.on(adapter.backend())),
-            None => self.run_on(&comparison),
+            Some(adapter) => on_backend(comparison.on(adapter.backend()), request),
+            None => on_backend(comparison, request),
         }
     }
+}
 
-    /// The report of the request, computed by the backend of `comparison`.
-    fn run_on<T: Compute>(&self, comparison: &Comparison<'_, T>) -> Result<Report, Error> {
-        let outcome = watched("rendering", |progress| comparison.run(&self.request, progress))?;
-        Ok(Report::new(comparison, outcome))
-    }
+/// The report of `request`, computed by the backend of `comparison`.
+fn on_backend<T: Compute>(comparison: Comparison<'_, T>, request: &Request) -> Result<LossReport, Error> {
+    let outcome = watched("rendering", |progress| comparison.run(request, progress))?;
+    Ok(LossReport::new(&comparison, request, outcome))
 }
 
 /// Whether an option chooses which scenes and texels are compared; a seed does not.
@@ -192,8 +182,9 @@ fn chooses_scenes(args: &LossArgs) -> bool {
 }
 
 /// A graphics adapter compares all texels, in f32.
-fn check_backend(args: &LossArgs, request: &Request) -> Result<(), CommandError> {
-    let problem = match (args.backend, args.precision, request) {
+fn check_backend(args: &LossArgs, question: &Question) -> Result<(), CommandError> {
+    let few_scenes = question.few_scenes.map(Request::Scenes);
+    let problem = match (args.backend, args.precision, few_scenes.as_ref().unwrap_or(&question.request)) {
         (DeviceChoice::Cpu | DeviceChoice::Auto, ..) => return Ok(()),
         (DeviceChoice::Gpu, Precision::F64, _) => {
             "graphics adapters compute in f32; leave out --backend gpu, or --precision f64"

@@ -3,18 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::error::Error;
-use svbrdf::image::{Image, mean_of_channels};
 use svbrdf::loss::Comparison;
 use svbrdf::picture::export::{Destination, PictureFormat, Provenance, check_place, write_text};
-use svbrdf::report::table::aligned;
-use svbrdf::why::{self, Hemisphere, Moved};
+use svbrdf::report::{MapReport, Report as _};
+use svbrdf::why::Moved;
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};
 use super::job::ComparisonJob;
 use super::output::stop::stoppable;
-use super::output::table::triple;
-use super::output::{CommandError, exit, table, watched};
+use super::output::{CommandError, exit, watched};
 
 /// Writes the loss over texels, light directions or view directions to a file
 ///
@@ -73,12 +71,20 @@ pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
     let opened = job.materials.open::<f32>()?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
-    let map = match args.over {
-        Over::Texels => over_texels(args, &comparison)?,
-        Over::Lights => over_directions(args, &comparison, Moved::Light)?,
-        Over::Views => over_directions(args, &comparison, Moved::View)?,
+    let over = |moved| {
+        watched("rendering", |progress| {
+            MapReport::over_directions(&comparison, moved, args.fixed, usize::from(args.side), progress)
+        })
     };
-    let largest = map.panes.iter().flat_map(|pane| pane.pixels.as_flattened()).copied().fold(0.0, f32::max);
+    let map = match args.over {
+        Over::Texels => {
+            let (_, scenes) = args.scenes.scenes(comparison.convention())?;
+            watched("rendering", |progress| MapReport::over_texels(&comparison, &scenes, progress))?
+        }
+        Over::Lights => over(Moved::Light)?,
+        Over::Views => over(Moved::View)?,
+    };
+    let largest = map.images.iter().flat_map(|pane| pane.pixels.as_flattened()).copied().fold(0.0, f32::max);
     let sources: Vec<_> =
         [comparison.ground_truth()].into_iter().chain(predictions).map(|m| m.name()).collect();
     let entries = [
@@ -89,12 +95,11 @@ pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
     ];
     stoppable(|progress| match &output {
         Output::Picture(destination) => {
-            destination.write_maps(&map.panes, largest.max(f32::MIN_POSITIVE), &entries, progress)
+            destination.write_maps(&map.images, largest.max(f32::MIN_POSITIVE), &entries, progress)
         }
-        Output::Table(path) => write_text(path, &map.table()?, progress),
+        Output::Table(path) => write_text(path, &map.csv()?, progress),
     })?;
-    let heading = table::heading(&map.shows, &opened.ground_truth, &job.convention);
-    Ok(exit::put(&format!("{heading}\n{}", map.summary))?)
+    Ok(exit::put(&map.text())?)
 }
 
 /// Where the map goes.
@@ -111,87 +116,4 @@ impl<'a> Output<'a> {
         }
         Destination::<PictureFormat>::new(path).map(Self::Picture)
     }
-}
-
-/// A map of every prediction.
-struct LossMap {
-    /// The meaning of the numbers.
-    shows: String,
-    panes: Vec<Image<f32>>,
-    summary: String,
-    heading: Vec<String>,
-    rows: Vec<Vec<String>>,
-}
-
-impl LossMap {
-    fn table(&self) -> Result<String, Error> {
-        table::csv([self.heading.clone()].into_iter().chain(self.rows.iter().cloned()))
-    }
-}
-
-fn over_texels(args: &MapArgs, comparison: &Comparison<'_, f32>) -> Result<LossMap, Error> {
-    let (_, scenes) = args.scenes.scenes(comparison.convention())?;
-    let panes = watched("rendering", |progress| why::error_maps(comparison, &scenes, progress))?;
-    let names: Vec<_> = comparison.predictions().iter().map(|prediction| prediction.name()).collect();
-    let mut summary = vec![["prediction", "mean", "largest", "column", "row"].map(str::to_owned).to_vec()];
-    let mut rows = Vec::new();
-    for (name, pane) in names.iter().zip(&panes) {
-        let all = pane.pixels.iter().map(mean_of_channels).enumerate();
-        let (at, largest) = all.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
-        let place = [at % pane.width, at / pane.width].map(|i| i.to_string());
-        let numbers = [format!("{:.6}", why::mean(pane)), format!("{largest:.6}")];
-        summary.push([(*name).to_owned()].into_iter().chain(numbers).chain(place).collect());
-        rows.extend(pane.pixels.iter().enumerate().map(|(at, pixel)| {
-            let place = [at % pane.width, at / pane.width].map(|i| i.to_string());
-            [(*name).to_owned()].into_iter().chain(place).chain(pixel.map(|c| c.to_string())).collect()
-        }));
-    }
-    let count = scenes.len();
-    Ok(LossMap {
-        shows: format!("mean log difference of each texel over {count} scenes"),
-        panes,
-        summary: aligned(&summary),
-        heading: ["prediction", "column", "row", "red", "green", "blue"].map(str::to_owned).to_vec(),
-        rows,
-    })
-}
-
-fn over_directions(args: &MapArgs, comparison: &Comparison<'_, f32>, moved: Moved) -> Result<LossMap, Error> {
-    let side = usize::from(args.side);
-    let map = watched("rendering", |progress| {
-        why::hemisphere(comparison, moved, args.fixed, side, progress, |_| ())
-    })?;
-    let (what, other) = if moved == Moved::Light { ("light", "view") } else { ("view", "light") };
-    let titles = ["prediction", "mean", "largest", "+- std. error", what].map(str::to_owned);
-    let mut summary = vec![titles.to_vec()];
-    for (p, prediction) in comparison.predictions().iter().enumerate() {
-        let Some((direction, loss)) = map.worst(p) else { continue };
-        let numbers = [map.mean(p), loss, map.standard_error(p)].map(|x| format!("{x:.6}"));
-        let start = [prediction.name().to_owned()].into_iter();
-        summary.push(start.chain(numbers).chain([triple(direction)]).collect());
-    }
-    let pane = |losses: &Vec<f64>| Image {
-        width: side,
-        height: side,
-        pixels: losses.iter().map(|&loss| [loss as f32; 3]).collect(),
-    };
-    Ok(LossMap {
-        shows: format!("loss over distant {what} directions, {other} {}", triple(args.fixed)),
-        panes: map.losses.iter().map(pane).collect(),
-        summary: aligned(&summary),
-        heading: ["prediction", "x", "y", "z", "loss", "standard_error"].map(str::to_owned).to_vec(),
-        rows: rows(comparison, &map),
-    })
-}
-
-fn rows(comparison: &Comparison<'_, f32>, map: &Hemisphere) -> Vec<Vec<String>> {
-    let of = |(p, prediction): (usize, &&svbrdf::material::Material<f32>)| {
-        let name = prediction.name().to_owned();
-        let cell = move |i: usize| {
-            let numbers = map.directions[i]?.into_iter().chain([map.losses[p][i], map.standard_errors[p][i]]);
-            Some([name.clone()].into_iter().chain(numbers.map(|x| x.to_string())).collect())
-        };
-        (0..map.directions.len()).filter_map(cell).collect::<Vec<_>>()
-    };
-    comparison.predictions().iter().enumerate().flat_map(of).collect()
 }

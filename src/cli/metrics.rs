@@ -3,13 +3,12 @@
 use svbrdf::error::Error;
 use svbrdf::material::Material;
 use svbrdf::metrics::{Metric, of_maps, of_renderings};
-use svbrdf::report::table::{aligned, scenes_line};
+use svbrdf::report::{Compared, MetricsReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given, modes};
 use super::job::ComparisonJob;
-use super::output::metric_table::{MetricsHeading, json, rows};
-use super::output::{CommandError, exit, table, watched};
+use super::output::{CommandError, exit, watched};
 use super::protocol::{self, ProtocolArgs};
 use super::report::ReportFormat;
 
@@ -48,28 +47,14 @@ pub fn run(args: &MetricsArgs, given: &Given) -> Result<(), CommandError> {
     let (sampling, scenes) = args.scenes.scenes(&job.convention)?;
     let opened = job.materials.open::<f32>()?;
     let truth = &opened.ground_truth;
-    let one = |prediction: &Material<f32>| -> Result<Vec<Metric>, Error> {
+    let one = |prediction: &Material<f32>| -> Result<(String, Vec<Metric>), Error> {
         let renderings = watched("rendering", |progress| {
             of_renderings(truth, prediction, &scenes, &job.convention, progress)
         })?;
-        Ok([of_maps(truth, prediction)?, renderings].concat())
+        Ok((prediction.name().to_owned(), [of_maps(truth, prediction)?, renderings].concat()))
     };
-    let metrics = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let names: Vec<&str> = opened.predictions.iter().map(Material::name).collect();
-    Ok(exit::put(&match args.format {
-        ReportFormat::Text => {
-            let heading = table::heading("metrics", truth, &job.convention);
-            let rows = rows(&names, &metrics, |value| format!("{value:.6}"));
-            format!("{heading}{}\n{}", scenes_line(sampling.as_ref(), &scenes, truth.size()), aligned(&rows))
-        }
-        ReportFormat::Json => {
-            let convention = job.convention.name;
-            json(
-                &MetricsHeading { ground_truth: truth.name(), convention: Some(convention), protocol: None },
-                &names,
-                &metrics,
-            )?
-        }
-        ReportFormat::Csv => table::csv(rows(&names, &metrics, |value| value.to_string()))?,
-    })?)
+    let results = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    let compared = Compared::new(truth, &job.convention);
+    let report = MetricsReport::new(&compared, sampling.as_ref(), &scenes, results);
+    Ok(exit::put(&args.format.write(&report)?)?)
 }

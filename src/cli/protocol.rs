@@ -9,12 +9,11 @@ use svbrdf::material::{Material, Planes};
 use svbrdf::metrics::{Metric, matfusion_renderings, of_matfusion};
 use svbrdf::picture::export::write_npy;
 use svbrdf::progress::Progress;
-use svbrdf::report::table::aligned;
+use svbrdf::report::MetricsReport;
 use svbrdf::source::{MaterialSource, Place};
 
 use super::job::{ComparisonJob, MaterialJob};
-use super::output::metric_table::{MetricsHeading, json, rows};
-use super::output::{CommandError, exit, table, watched};
+use super::output::{CommandError, exit, watched};
 use super::report::ReportFormat;
 
 #[derive(Debug, clap::Args)]
@@ -64,29 +63,14 @@ pub fn run(args: &ProtocolArgs, job: &ComparisonJob, format: ReportFormat) -> Re
     if let Some(folder) = &args.renderings {
         write_renderings(folder, &all)?;
     }
-    let of = |prediction: &ProtocolMaterial| {
-        watched("rendering", |progress| of_matfusion(&truth.planes, &prediction.planes, truth.size, progress))
+    let of = |prediction: &ProtocolMaterial| -> Result<(String, Vec<Metric>), Error> {
+        let metrics = watched("rendering", |progress| {
+            of_matfusion(&truth.planes, &prediction.planes, truth.size, progress)
+        })?;
+        Ok((prediction.name.clone(), metrics))
     };
-    let metrics: Vec<Vec<Metric>> = predictions.iter().map(of).collect::<Result<_, _>>()?;
-    let names: Vec<&str> = predictions.iter().map(|prediction| prediction.name.as_str()).collect();
-    Ok(exit::put(&match format {
-        ReportFormat::Text => {
-            let [width, height] = truth.size;
-            let heading =
-                format!("metrics of MatFusion's score.py against {}, {width} x {height} texels", truth.name);
-            let rows = rows(&names, &metrics, |value| format!("{value:.6}"));
-            format!("{heading}\n\n{}", aligned(&rows))
-        }
-        ReportFormat::Json => {
-            let ground_truth = &truth.name;
-            json(
-                &MetricsHeading { ground_truth, convention: None, protocol: Some("matfusion") },
-                &names,
-                &metrics,
-            )?
-        }
-        ReportFormat::Csv => table::csv(rows(&names, &metrics, |value| value.to_string()))?,
-    })?)
+    let results = predictions.iter().map(of).collect::<Result<_, _>>()?;
+    Ok(exit::put(&format.write(&MetricsReport::matfusion(&truth.name, truth.size, results))?)?)
 }
 
 /// The ground truth, then the predictions, of one size.

@@ -14,11 +14,11 @@
 //! | [`render`] | Algorithm 3 over a whole material |
 //! | [`picture`] | what a picture shows of materials: quantities, differences, tone and colour maps |
 //! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
-//! | [`report`] | losses as text |
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
 //! | [`rank`] | many predictions of one ground truth, best first |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
+//! | [`report`] | results with their settings as values, and as text, JSON, CSV and LaTeX |
 //! | [`progress`], [`error`], [`text`] | progress and cancellation of long operations; one error variant per cause; numbers as text |
 //!
 //! Modules use those above them only, except that `error`, `progress` and `text` serve all; a test checks it.

@@ -28,8 +28,11 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
 #[test]
 fn json_is_one_object_with_exactly_these_keys() {
     let folder = folder();
-    let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 5 --convention multi-image-2019");
-    let top = "all_scenes backend convention differences distant epsilon ground_truth ground_truth_path interval95_from near \
+    let json = losses_as_json(
+        folder.path(),
+        "gt.png a.png b.png --seed 5 --near 6 --distant 3 --convention multi-image-2019",
+    );
+    let top = "backend convention differences distant epsilon few_scenes ground_truth ground_truth_path interval95_from near \
         precision results \
         sampler scenes seed size target_error target_reached texels";
     assert_eq!(keys(&json).join(" "), top);
@@ -52,22 +55,45 @@ fn json_is_one_object_with_exactly_these_keys() {
 }
 
 #[test]
-fn without_options_the_loss_over_all_scenes_leads_and_six_and_three_scenes_follow() {
+fn without_options_the_loss_is_over_all_scenes_in_every_format_and_few_scenes_have_a_name_of_their_own() {
     let folder = folder();
     let json = losses_as_json(folder.path(), "gt.png a.png b.png --seed 3");
-    let known = &json["all_scenes"][1];
+    let many = losses_as_json(folder.path(), "gt.png a.png b.png --seed 3 --target-error 1%");
+    let few = losses_as_json(folder.path(), "gt.png a.png b.png --seed 3 --near 6 --distant 3");
+    // The report is that of the accuracy; what is of few scenes says so.
+    let mut rest = json.clone();
+    rest["few_scenes"] = Value::Null;
+    for (entry, few) in
+        rest["results"].as_array_mut().unwrap().iter_mut().zip(few["results"].as_array().unwrap())
+    {
+        let entry = entry.as_object_mut().unwrap();
+        for key in ["loss", "standard_error", "interval95", "losses"] {
+            assert_eq!(entry.remove(&format!("few_scenes_{key}")), Some(few[key].clone()), "{key}");
+        }
+    }
+    assert_eq!(rest, many);
+    let settings = json["few_scenes"].as_object().unwrap();
+    assert!(settings.iter().all(|(key, value)| few[key] == *value), "{settings:?}");
+    assert_eq!(settings["scenes"].as_array().unwrap().len(), 9);
+    let known = &json["results"][1];
     let [loss, low, high] = [&known["loss"], &known["interval95"][0], &known["interval95"][1]];
     let [loss, low, high] = [loss, low, high].map(|number| number.as_f64().unwrap());
     assert!(low < loss && loss < high && (high - low) / 2.0 <= 0.01 * loss, "{known}");
-    assert_eq!(json["results"][1]["losses"].as_array().unwrap().len(), 9);
+    let few_loss = known["few_scenes_loss"].as_f64().unwrap();
+    let csv = succeed(folder.path(), "loss gt.png a.png b.png --seed 3 --format csv");
+    let row = csv.lines().nth(2).unwrap();
+    assert!(row.starts_with(&format!("b,{loss},")) && row.contains(&format!(",{few_loss},")), "{csv}");
     let text = succeed(folder.path(), "loss gt.png a.png b.png --seed 3");
-    let few = text.find("6 + 3 scenes: ").unwrap();
-    assert!(text.find(&format!("{loss:.6}")).unwrap() < few, "{text}");
-    assert!(text[few..].contains("(95% "), "{text}");
+    let line = text.find("6 + 3 scenes: ").unwrap();
+    assert!(text.find(&format!("{loss:.6}")).unwrap() < line, "{text}");
+    assert!(text[line..].contains(&format!("{few_loss:.3} (95% ")), "{text}");
     // An option that chooses scenes asks for these alone.
     for options in ["--near 6", "--sampler random", "--texels all", "--time-budget 1ms"] {
         let json = losses_as_json(folder.path(), &format!("gt.png a.png {options}"));
-        assert_eq!(json["all_scenes"], Value::Null, "{options}");
+        assert_eq!(
+            (&json["few_scenes"], &json["results"][0]["few_scenes_loss"]),
+            (&Value::Null, &Value::Null)
+        );
     }
 }
 

@@ -109,7 +109,7 @@ fn materials_of_one_name_are_told_apart_by_their_paths() {
         (&json["results"][1]["prediction"], &json["results"][1]["path"]),
         (&json!("a"), &json!("a.png"))
     );
-    let csv = succeed(folder.path(), "loss gt.png runA/out runB/out --format csv");
+    let csv = succeed(folder.path(), "loss gt.png runA/out runB/out --near 6 --format csv");
     assert!(csv.lines().nth(2).unwrap().starts_with("runB/out,"), "{csv}");
     assert!(csv.lines().nth(2).unwrap().contains(",runB/out,gt,gt.png,pilot,"), "{csv}");
 }

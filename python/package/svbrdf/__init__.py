@@ -6,51 +6,76 @@ compares renderings of predictions with renderings of the ground truth in sample
 >>> import svbrdf
 >>> ground_truth, *predictions = svbrdf.built_in()
 >>> report = svbrdf.loss(ground_truth, predictions)
->>> print(f"{report.loss:.4f}")
-0.3712
+>>> print(f"{report.loss:.2f}")
+0.32
 >>> report.results[1].prediction
 'wrong roughness'
 
-The numbers are those of the command line `svbrdf loss`, bit for bit. `svbrdf.torch` has the same loss for training.
+Results print as the tables of the command line, and have `to_dict()`, its JSON, and `to_pandas()`, its CSV. The numbers
+are those of the command line, bit for bit. `svbrdf.torch` has the same loss for training.
 """
 
-from ._blame import Attribution, Estimate, MapShare, blame
+from ._blame import Attribution, BlameReport, MapShare, blame
 from ._core import Error, __version__
 from ._dataset import DatasetLoss, DatasetReport, MethodSummary, MetricSummary, rank_dataset
-from ._loss import Difference, Loss, LossReport, Place, loss, rank
+from ._loss import Difference, FewScenes, Loss, LossReport, RankedPrediction, RankReport, loss, rank
 from ._material import Assumption, AssumptionWarning, Material, built_in, read, write
+from ._metrics import Metrics, MetricsReport, metrics
+from ._photo import PhotoReport, PhotoResult, PhotoStatistics, photo
+from ._report import Estimate, Report
 from ._scenes import CONVENTIONS, Convention, Scene, read_scenes, render, sample_scenes
 from ._show import show
+from ._why import MapReport, MapSummary, ScenesLoss, ScenesReport, Worst, WorstReport, map, scenes, worst
 
 __all__ = [
     "CONVENTIONS",
     "Assumption",
     "AssumptionWarning",
     "Attribution",
+    "BlameReport",
     "Convention",
     "DatasetLoss",
     "DatasetReport",
     "Difference",
     "Error",
     "Estimate",
+    "FewScenes",
     "Loss",
     "LossReport",
+    "MapReport",
     "MapShare",
+    "MapSummary",
     "Material",
     "MethodSummary",
     "MetricSummary",
-    "Place",
+    "Metrics",
+    "MetricsReport",
+    "PhotoReport",
+    "PhotoResult",
+    "PhotoStatistics",
+    "RankReport",
+    "RankedPrediction",
+    "Report",
     "Scene",
+    "ScenesLoss",
+    "ScenesReport",
+    "Worst",
+    "WorstReport",
     "__version__",
     "blame",
     "built_in",
     "loss",
+    "map",
+    "metrics",
+    "photo",
     "rank",
     "rank_dataset",
     "read",
     "read_scenes",
     "render",
     "sample_scenes",
+    "scenes",
     "show",
+    "worst",
     "write",
 ]

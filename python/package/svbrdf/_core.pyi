@@ -41,13 +41,60 @@ def distinct_names(named: Sequence[tuple[str, str]]) -> list[str]: ...
 def conventions() -> list[dict[str, Any]]: ...
 def sample_scenes(near: int, distant: int, seed: int, sampler: str, convention: str) -> list[SceneTuple]: ...
 def read_scenes(path: str | PathLike[str]) -> list[SceneTuple]: ...
-def blame(
-    ground_truth: CoreMaterial, prediction: CoreMaterial, asked: Mapping[str, Any], progress: Report
-) -> dict[str, Any]: ...
+
+class Views(TypedDict):
+    json: str
+    text: str
+    columns: list[str]
+    rows: list[list[str | int | float | bool | None]]
+    warnings: list[str]
+
+class MapItems(TypedDict):
+    views: Views
+    maps: list[bytearray]
+    standard_errors: list[bytearray]
+    directions: bytearray | None
+
+class PhotoItems(TypedDict):
+    views: Views
+    notes: list[str]
+    differences: list[bytearray]
+
 def loss(
     ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
-) -> dict[str, Any]: ...
-def rank_dataset(asked: Mapping[str, Any], progress: Report) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]: ...
+) -> Views: ...
+def rank(
+    ground_truth: CoreMaterial,
+    predictions: Sequence[CoreMaterial],
+    asked: Mapping[str, Any],
+    target_error: float,
+    progress: Report,
+) -> tuple[Views, list[int]]: ...
+def blame(
+    ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
+) -> Views: ...
+def worst(
+    ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
+) -> Views: ...
+def scenes(
+    ground_truth: CoreMaterial,
+    predictions: Sequence[CoreMaterial],
+    asked: Mapping[str, Any],
+    top: int,
+    progress: Report,
+) -> Views: ...
+def map(
+    ground_truth: CoreMaterial,
+    predictions: Sequence[CoreMaterial],
+    asked: Mapping[str, Any],
+    over: Mapping[str, Any] | None,
+    progress: Report,
+) -> MapItems: ...
+def metrics(
+    ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
+) -> Views: ...
+def photo(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> PhotoItems: ...
+def rank_dataset(asked: Mapping[str, Any], progress: Report) -> Views: ...
 def session(
     path: str | PathLike[str],
     materials: Sequence[tuple[str | PathLike[str], str | None]],

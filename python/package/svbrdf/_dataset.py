@@ -1,17 +1,18 @@
 """Methods over a data set of materials."""
 
 import json
-import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
 from . import _core
-from ._loss import check_goals
+from ._asked import check_goals
 from ._material import Source
-from ._progress import Report, reported
+from ._progress import Report as Progress
+from ._progress import reported
+from ._report import Report, pair, views
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,8 @@ class DatasetLoss:
     """Of the maps by name; empty where they were not asked for or the maps cannot be compared."""
 
 
-@dataclass(frozen=True, repr=False)
-class DatasetReport:
+@dataclass(frozen=True, repr=False, kw_only=True)
+class DatasetReport(Report):
     """The losses of methods over a data set."""
 
     convention: str
@@ -82,31 +83,6 @@ class DatasetReport:
     """Smallest mean loss first."""
     results: tuple[DatasetLoss, ...]
     """Every prediction, in the order of the materials."""
-
-    def to_dict(self) -> dict[str, Any]:
-        """The report as numbers, words, lists and dictionaries. Methods have the keys of the command line's JSON."""
-        report = asdict(self)
-        for entry in (*report["methods"], *report["results"]):
-            if not entry["metrics"]:
-                del entry["metrics"]
-        return report
-
-    def __repr__(self) -> str:
-        width = max(len(summary.method) for summary in self.methods)
-        rows = [f"{'method':{width}}  materials  failed  mean loss    median    95% over materials"]
-        for summary in self.methods:
-            low, high = summary.interval95_materials or (math.nan, math.nan)
-            rows.append(
-                f"{summary.method:{width}}  {summary.materials:9}  {summary.failures:6}  {summary.mean:9.6f}  "
-                f"{summary.median:8.6f}  {low:.6f} to {high:.6f}"
-            )
-        names = {name: None for summary in self.methods for name in summary.metrics}
-        if names:
-            rows.append("metric, mean over materials: " + ", ".join(summary.method for summary in self.methods))
-        for name in names:
-            means = [summary.metrics[name].mean if name in summary.metrics else math.nan for summary in self.methods]
-            rows.append(f"{name:{max(map(len, names))}}  " + "  ".join(f"{mean:9.6f}" for mean in means))
-        return "\n".join(rows)
 
 
 def rank_dataset(
@@ -122,7 +98,7 @@ def rank_dataset(
     journal: Source | None = None,
     read_ground_truth: Mapping[str, Any] | None = None,
     read_predictions: Mapping[str, Any] | None = None,
-    progress: bool | Report = False,
+    progress: bool | Progress = False,
 ) -> DatasetReport:
     """Compares methods over a data set: `svbrdf rank --dataset`, with the same numbers.
 
@@ -149,7 +125,7 @@ def rank_dataset(
         OSError: A folder cannot be read, or the journal cannot be written.
         svbrdf.Error: A folder has no materials, an option has no such value, or the journal is of other settings.
     """
-    check_goals(target_error, None, None)
+    check_goals(target_error=target_error)
     asked = {
         "ground_truths": ground_truths,
         "methods": _named(methods),
@@ -163,19 +139,45 @@ def rank_dataset(
         "read": [_options(given) for given in (read_ground_truth, read_predictions)],
     }
     with reported("comparing materials", progress) as report:
-        summaries, results = _core.rank_dataset(asked, report)
+        found = _core.rank_dataset(asked, report)
+    arguments = views(found)
+    values = arguments["_values"]
+    settings = values["settings"]
     return DatasetReport(
-        convention=convention,
-        target_error=target_error,
-        seed=seed,
-        pick=pick,
-        methods=tuple(_summary(**items) for items in summaries),
-        results=tuple(DatasetLoss(**items) for items in results),
+        **arguments,
+        convention=settings["convention"],
+        target_error=settings["target_error"],
+        seed=settings["seed"],
+        pick=values["pick"],
+        methods=tuple(_summary(entry) for entry in values["methods"]),
+        results=tuple(_result(result, entry) for result in values["results"] for entry in result["predictions"]),
     )
 
 
-def _summary(metrics: Mapping[str, Mapping[str, Any]], **items: Any) -> MethodSummary:
-    return MethodSummary(metrics={name: MetricSummary(**metric) for name, metric in metrics.items()}, **items)
+def _summary(entry: dict[str, Any]) -> MethodSummary:
+    intervals = ("interval95_materials", "interval95_scenes", "to_best_interval95_materials")
+    metrics = {
+        name: MetricSummary(**{**metric, "interval95_materials": pair(metric["interval95_materials"])})
+        for name, metric in entry.get("metrics", {}).items()
+    }
+    return MethodSummary(**{**entry, **{name: pair(entry[name]) for name in intervals}, "metrics": metrics})
+
+
+def _result(result: dict[str, Any], entry: dict[str, Any]) -> DatasetLoss:
+    known = entry["result"].get("Ok", {"loss": None, "standard_error": None, "interval95": None})
+    return DatasetLoss(
+        material=result["material"],
+        method=entry["method"],
+        sample=entry["sample"],
+        path=entry["path"],
+        seed=result["seed"],
+        scenes=result["scenes"],
+        loss=known["loss"],
+        standard_error=known["standard_error"],
+        interval95=pair(known["interval95"]),
+        error=entry["result"].get("Err"),
+        metrics=entry.get("metrics", {}),
+    )
 
 
 def _named(methods: Source | Sequence[Source] | Mapping[str, Source]) -> list[tuple[str, str]]:

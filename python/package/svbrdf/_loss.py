@@ -1,16 +1,17 @@
-"""The rendering loss (Algorithm 1)."""
+"""The rendering loss (Algorithm 1), and rankings by it."""
 
-import os
-import warnings
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from . import _core
 from ._arrays import Precision
-from ._material import Material, Source, opened
-from ._progress import Report, reported
-from ._scenes import Scene, read_scenes, scenes_of
+from ._asked import Asked, Predictions, Scenes, check_goals, check_unused
+from ._material import Material, Source
+from ._progress import Report as Progress
+from ._progress import reported
+from ._report import Estimate, Report, estimate, pair, views
+from ._scenes import Scene, scenes_from
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,12 @@ class Loss:
     """The 95% confidence interval of the loss over all scenes."""
     losses: tuple[float, ...] | None
     """The loss of each scene; None where an accuracy or a time decided how many there are."""
+    few_scenes_loss: float | None = None
+    """The loss over the 6 + 3 random scenes of the papers, beside a loss over all scenes."""
+    few_scenes_standard_error: float | None = None
+    few_scenes_interval95: tuple[float, float] | None = None
+    few_scenes_losses: tuple[float, ...] | None = None
+    """The loss of each of the few scenes."""
 
 
 @dataclass(frozen=True)
@@ -46,20 +53,24 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class Place:
-    """A prediction in a ranking."""
+class FewScenes:
+    """The scenes of the losses over few scenes."""
 
-    index: int
-    """The index of its result."""
-    to_best: Difference | None
-    """Its loss minus that of the best prediction, in the same scenes; None for the best."""
-    group: int
-    """From 1. Predictions of one group are not separated from its first at 95% confidence."""
+    near: int
+    distant: int
+    seed: int | None
+    sampler: str | None
+    texels: int | Literal["all"]
+    backend: str
+    interval95_from: str
+    differences: tuple[Difference, ...]
+    """One per prediction but the first, in these scenes."""
+    scenes: tuple[Scene, ...]
 
 
-@dataclass(frozen=True, repr=False)
-class LossReport:
-    """Losses with the settings that they depend on. The `repr` is the table of the command line."""
+@dataclass(frozen=True, repr=False, kw_only=True)
+class LossReport(Report):
+    """Losses with the settings that they depend on."""
 
     ground_truth: str
     ground_truth_path: str | None
@@ -79,59 +90,84 @@ class LossReport:
     texels: int | Literal["all"]
     """The number of random texels in each scene."""
     interval95_from: str
-    """What the intervals come from: "pilot", many other scenes, or "scenes", those of the losses."""
+    """The source of the intervals: "pilot", many other scenes, or "scenes", those of the losses."""
     target_error: float | None
+    """The requested accuracy: half of the 95% interval, as a share of the loss."""
     target_reached: bool | None
+    few_scenes: FewScenes | None
+    """The scenes of the `few_scenes_loss` of the results; None where an argument chooses the scenes."""
     results: tuple[Loss, ...]
     """One per prediction, in their order."""
     differences: tuple[Difference, ...]
     """One per prediction but the first."""
     scenes: tuple[Scene, ...] | None
     """None where an accuracy or a time decided how many there are: `svbrdf.sample_scenes` gives them."""
-    places: tuple[Place, ...]
-    """The predictions, smallest loss first."""
-    text: str
-    """The table of the command line."""
 
     @property
     def loss(self) -> float:
         """The loss of the first prediction."""
         return self.results[0].loss
 
-    def to_dict(self) -> dict[str, Any]:
-        """The report as the command line's JSON has it: numbers, words, lists and dictionaries."""
-        values = asdict(self)
-        del values["text"], values["places"]
-        if self.scenes is not None:
-            values["scenes"] = [scene._asdict() for scene in self.scenes]
-        return values
 
-    def __repr__(self) -> str:
-        return self.text.rstrip("\n")
+@dataclass(frozen=True)
+class RankedPrediction:
+    """A prediction in a ranking."""
+
+    index: int
+    """Its index among the given predictions."""
+    prediction: str
+    """Its name."""
+    loss: Estimate
+    to_best: Estimate | None
+    """Its loss minus that of the best prediction, in the same scenes; None for the best."""
+    group: int
+    """From 1. Predictions of one group are not separated from its first at 95% confidence."""
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class RankReport(Report):
+    """Predictions of one ground truth, smallest loss first."""
+
+    ground_truth: str
+    convention: str
+    epsilon: float
+    scenes: int
+    """The number of scenes."""
+    seed: int
+    target_error: float
+    """The requested accuracy of every loss: half of its 95% interval, as a share of it."""
+    target_reached: bool
+    ranking: tuple[RankedPrediction, ...]
 
 
 def loss(
     ground_truth: Material | Source,
-    predictions: Material | Source | Sequence[Material | Source],
+    predictions: Predictions,
     *,
     target_error: float | None = None,
     time_budget: float | None = None,
-    near: int = 6,
-    distant: int = 3,
+    near: int | None = None,
+    distant: int | None = None,
     seed: int = 0,
-    sampler: Literal["random", "sobol"] = "random",
-    texels: int | Literal["all"] = "all",
+    sampler: Literal["random", "sobol"] | None = None,
+    texels: int | Literal["all"] | None = None,
     convention: str = "printed",
-    scenes: Sequence[Scene] | Source | None = None,
+    scenes: Scenes | None = None,
     precision: Precision = "f32",
-    progress: bool | Report = False,
+    progress: bool | Progress = False,
 ) -> LossReport:
     """The rendering loss of predictions against a ground truth of the same size.
 
+    Where no argument chooses the scenes, the answer is that of the command line: the loss over all scenes to +-1% and,
+    beside it as `few_scenes_loss`, the loss over the 6 + 3 random scenes of the papers.
+
     >>> import svbrdf
     >>> ground_truth, *predictions = svbrdf.built_in()
-    >>> report = svbrdf.loss(ground_truth, predictions, seed=1)
-    >>> [f"{result.loss:.4f}" for result in report.results]
+    >>> report = svbrdf.loss(ground_truth, predictions)
+    >>> [f"{result.loss:.3f}, over few scenes {result.few_scenes_loss:.3f}" for result in report.results]
+    ['0.322, over few scenes 0.371', '0.205, over few scenes 0.220']
+    >>> few = svbrdf.loss(ground_truth, predictions, near=6, distant=3, seed=1)
+    >>> [f"{result.loss:.4f}" for result in few.results]
     ['0.2900', '0.1994']
 
     All cores work on it, without the lock of the interpreter, and Ctrl+C ends it. The result does not depend on the
@@ -140,14 +176,13 @@ def loss(
     Args:
         ground_truth: A material, or the path of one.
         predictions: One or several materials or paths.
-        target_error: As many scenes as this relative error needs at 95% confidence, such as 0.01. `near`, `distant`,
-            `sampler` and `texels` do not apply.
-        time_budget: As many scenes as fit into this time, in seconds. The same do not apply.
-        near: The number of sampled near-field scenes.
-        distant: The number of sampled distant scenes.
+        target_error: As many scenes as this relative error needs at 95% confidence, such as 0.01.
+        time_budget: As many scenes as fit into this time, in seconds.
+        near: The number of sampled near-field scenes; 6 where another argument chooses scenes.
+        distant: The number of sampled distant scenes; 3 where another argument chooses scenes.
         seed: Names the sampled scenes.
-        sampler: "random", or "sobol", which gives less error with as many scenes.
-        texels: "all", or the number of random texels that are compared in each scene.
+        sampler: "random", the default, or "sobol", which gives less error with as many scenes.
+        texels: "all", the default, or the number of random texels that are compared in each scene.
         convention: A name of `svbrdf.CONVENTIONS`.
         scenes: These scenes, or those of a scene file, in place of sampled ones.
         precision: "f32", or "f64" for reference, which is many times slower.
@@ -156,120 +191,94 @@ def loss(
     Raises:
         OSError: A file cannot be read.
         svbrdf.Error: A material or a scene cannot be used, the sizes differ, or an option has no such value.
-        TypeError, ValueError: An argument has a wrong type, or a number that makes no sense.
+        TypeError, ValueError: An argument has a wrong type, a number that makes no sense, or is not used.
     """
-    check_goals(target_error, time_budget, scenes)
-    if isinstance(predictions, Material | str | os.PathLike):
-        predictions = [predictions]
-    if not predictions:
-        raise ValueError("predictions: expected at least one, found none; give a material, a path or a list of them")
-    gt = opened(ground_truth, precision)
-    others = [opened(prediction, precision) for prediction in predictions]
-    if isinstance(scenes, str | os.PathLike):
-        scenes = read_scenes(scenes)
-    asked = {
-        "names": _names(gt, others),
-        "near": near,
-        "distant": distant,
-        "seed": seed,
-        "sampler": sampler,
-        "texels": str(texels),
-        "target_error": target_error,
-        "time_budget": time_budget,
-        "scenes": None if scenes is None else [tuple(scene) for scene in scenes],
-        "convention": convention,
-        "precision": precision,
-    }
+    goals = {"target_error": target_error, "time_budget": time_budget, "scenes": scenes}
+    check_goals(**goals)
+    deciding = next((name for name, value in goals.items() if value is not None), None)
+    check_unused(deciding, near=near, distant=distant, sampler=sampler, texels=texels)
+    asked = Asked(
+        ground_truth,
+        predictions,
+        convention=convention,
+        seed=seed,
+        precision=precision,
+        scenes=scenes,
+        near=near,
+        distant=distant,
+        sampler=sampler,
+        texels=None if texels is None else str(texels),
+        target_error=target_error,
+        time_budget=time_budget,
+    )
     with reported("rendering", progress) as report:
-        items = _core.loss(gt._core, [other._core for other in others], asked, report)
-    return _report(items, gt, others, target_error, lists_scenes=target_error is None and time_budget is None)
+        found = _core.loss(*asked.core, report)
+    return _loss_report(views(found))
 
 
 def rank(
     ground_truth: Material | Source,
-    predictions: Sequence[Material | Source],
+    predictions: Predictions,
     *,
     target_error: float = 0.01,
     seed: int = 0,
     convention: str = "printed",
-    progress: bool | Report = False,
-) -> list[tuple[Loss, Place]]:
+    progress: bool | Progress = False,
+) -> RankReport:
     """The predictions of one ground truth, smallest loss first, with what the data can separate.
 
     >>> import svbrdf
     >>> ground_truth, *predictions = svbrdf.built_in()
-    >>> [(loss.prediction, place.group) for loss, place in svbrdf.rank(ground_truth, predictions)]
+    >>> [(place.prediction, place.group) for place in svbrdf.rank(ground_truth, predictions).ranking]
     [('wrong roughness', 1), ('blurred normals', 2)]
 
-    Args and errors are those of `svbrdf.loss`.
+    Args and errors are those of `svbrdf.loss`. At most 786,432 / (predictions + 1) scenes are sampled.
     """
-    report = loss(
-        ground_truth, predictions, target_error=target_error, seed=seed, convention=convention, progress=progress
-    )
-    return [(report.results[place.index], place) for place in report.places]
-
-
-def check_goals(target_error: float | None, time_budget: float | None, scenes: object) -> None:
-    """Whether at most one goal decides the scenes, and makes sense."""
-    given = {"target_error": target_error, "time_budget": time_budget, "scenes": scenes}
-    named = [name for name, value in given.items() if value is not None]
-    if len(named) > 1:
-        raise ValueError(f"{' and '.join(named)}: expected one of them; each decides the scenes")
-    if target_error is not None and not 0 < target_error < 1:
-        raise ValueError(f"target_error: expected a number above 0 and below 1, such as 0.01, found {target_error}")
-    if time_budget is not None and not 0 < time_budget <= 86_400:
-        raise ValueError(f"time_budget: expected seconds above 0, at most a day, found {time_budget}")
-
-
-def _names(ground_truth: Material, predictions: list[Material]) -> list[str]:
-    """What the report calls them: names that tell them apart."""
-
-    def name(material: Material, otherwise: str) -> str:
-        return material.name if material._is_named else otherwise
-
-    several = len(predictions) > 1
-    words = [f"prediction {i}" if several else "prediction" for i in range(1, len(predictions) + 1)]
-    named = [(name(ground_truth, "ground truth"), ground_truth.path or "")]
-    named += [(name(p, word), p.path or "") for p, word in zip(predictions, words, strict=True)]
-    return _core.distinct_names(named)
-
-
-def _report(
-    items: dict[str, Any],
-    ground_truth: Material,
-    predictions: list[Material],
-    target_error: float | None,
-    *,
-    lists_scenes: bool,
-) -> LossReport:
-    relative_error = items.pop("relative_error95")
-    reached = None if target_error is None else relative_error <= target_error
-    results = []
-    for result, prediction in zip(items.pop("results"), predictions, strict=True):
-        losses = tuple(result.pop("losses")) if lists_scenes else None
-        results.append(Loss(**{**result, "losses": losses}, path=prediction.path))
-    listed = items.pop("scenes")
-    scenes = tuple(scenes_of(listed)) if lists_scenes else None
-    texels = items.pop("texels")
-    places = [
-        Place(index, None if to_best is None else Difference(**to_best), group)
-        for index, to_best, group in items.pop("places")
-    ]
-    report = LossReport(
-        **{**items, "differences": tuple(Difference(**values) for values in items["differences"])},
-        ground_truth_path=ground_truth.path,
-        texels="all" if texels == "all" else int(texels),
-        target_error=target_error,
-        target_reached=reached,
-        results=tuple(results),
-        places=tuple(places),
-        scenes=scenes,
-    )
-    if reached is False:
-        count = report.near + report.distant
-        warnings.warn(
-            f"the losses are known to +-{relative_error:.2%}, not to the target of +-{target_error:.2%}: "
-            f"{count} scenes, the limit, are not enough; go by the interval, or set a larger target",
-            stacklevel=3,
+    check_goals(target_error=target_error)
+    asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
+    with reported("rendering", progress) as report:
+        found, order = _core.rank(*asked.core, target_error, report)
+    arguments = views(found)
+    values = arguments["_values"]
+    ranking = [
+        RankedPrediction(
+            index=index,
+            **{
+                **entry,
+                "loss": estimate(entry["loss"]),
+                "to_best": None if entry["to_best"] is None else estimate(entry["to_best"]),
+            },
         )
-    return report
+        for index, entry in zip(order, values["ranking"], strict=True)
+    ]
+    return RankReport(**arguments, **{**values, "ranking": tuple(ranking)})
+
+
+def _loss_report(arguments: dict[str, Any]) -> LossReport:
+    values = arguments["_values"]
+    few = values["few_scenes"]
+    if few is not None:
+        few = FewScenes(
+            **{**few, "differences": _differences(few["differences"]), "scenes": scenes_from(few["scenes"])}
+        )
+    fields = {
+        **values,
+        "size": tuple(values["size"]),
+        "few_scenes": few,
+        "results": tuple(_loss(entry) for entry in values["results"]),
+        "differences": _differences(values["differences"]),
+        "scenes": None if values["scenes"] is None else scenes_from(values["scenes"]),
+    }
+    return LossReport(**arguments, **fields)
+
+
+def _loss(entry: dict[str, Any]) -> Loss:
+    def numbers(name: str) -> tuple[float, ...] | None:
+        return None if entry.get(name) is None else tuple(entry[name])
+
+    arrays = ("losses", "interval95", "few_scenes_losses", "few_scenes_interval95")
+    return Loss(**{**entry, **{name: numbers(name) for name in arrays}})
+
+
+def _differences(entries: Sequence[dict[str, Any]]) -> tuple[Difference, ...]:
+    return tuple(Difference(**{**entry, "interval95": pair(entry["interval95"])}) for entry in entries)

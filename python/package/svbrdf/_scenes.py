@@ -64,6 +64,11 @@ def scenes_of(found: Sequence[tuple[Any, Any, Any]]) -> list[Scene]:
     return [_scene(*scene) for scene in found]
 
 
+def scenes_from(listed: Sequence[dict[str, Any]]) -> tuple[Scene, ...]:
+    """Scenes of the JSON."""
+    return tuple(_scene(scene["kind"], scene["view"], scene["light"]) for scene in listed)
+
+
 def sample_scenes(
     near: int = 6,
     distant: int = 3,

@@ -4,10 +4,8 @@ pub mod advice;
 pub mod bar;
 pub mod error;
 pub mod exit;
-pub mod latex;
-pub mod metric_table;
+pub mod json;
 pub mod stop;
-pub mod table;
 pub mod target;
 
 pub use bar::watched;

@@ -2,10 +2,11 @@
 
 mod args;
 mod output;
-mod results;
 
 use svbrdf::error::Error;
 use svbrdf::files::read::read_photograph;
+use svbrdf::material::Material;
+use svbrdf::photograph::{PhotoReport, PhotoSetting};
 use svbrdf::picture::difference::Difference;
 use svbrdf::picture::export::{Destination, PictureFormat};
 
@@ -15,7 +16,6 @@ use super::output::exit::{put, tell};
 use super::output::stop::stoppable;
 use super::output::{CommandError, watched};
 pub use args::PhotoArgs;
-use results::{PhotoResult, Setting, results};
 
 /// Compares, prints the differences to stdout and writes the file.
 ///
@@ -23,8 +23,9 @@ use results::{PhotoResult, Setting, results};
 /// Where the photograph, a scene or a material cannot be read or used, or the file cannot be written.
 pub fn run(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
     let destination = args.output.as_deref().map(Destination::<PictureFormat>::new).transpose()?;
-    if !output::KINDS.contains(&args.difference) {
-        let (known, found) = (output::KINDS.map(Difference::key).join(", "), args.difference.key());
+    let known = PhotoReport::DIFFERENCES;
+    if !known.contains(&args.difference) {
+        let (known, found) = (known.map(Difference::key).join(", "), args.difference.key());
         return Err(CommandError::Usage(format!("expected one of the differences {known}, found {found}")));
     }
     let job = ComparisonJob::new(&args.comparison, given)?;
@@ -33,29 +34,53 @@ pub fn run(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
     let photograph = watched(&text, |_| read_photograph(&args.photo, &args.reading.options()))?;
     let corners = args.reading.corners(photograph.size());
     corners.check(photograph.size())?;
-    let setting = Setting { args, photograph, corners, scene, convention: job.convention };
-    for note in &setting.photograph.notes {
+    for note in &photograph.notes {
         tell(&format!("note: {note}"));
     }
     let materials = job.materials.open::<f32>()?.into_all();
     if destination.is_some() {
         check_heights(&materials)?;
     }
-    let results = results(&setting, materials)?;
+    note_stretching(args, photograph.size(), &materials);
+    let setting = PhotoSetting {
+        name: args.photo.display().to_string(),
+        photograph,
+        corners,
+        falloff: args.reading.falloff,
+        scene,
+        convention: job.convention,
+    };
+    let named = materials.iter().map(|material| (material.name(), material));
+    let report = watched("rendering", |progress| PhotoReport::new(setting, named, progress))?;
     if let Some(destination) = destination {
-        write_differences(&destination, &setting, &results)?;
+        write_differences(&destination, &report, args.difference)?;
     }
-    Ok(put(&output::report(&setting, &results, args.format)?)?)
+    Ok(put(&args.format.write(&report)?)?)
+}
+
+/// Notes for each size of `materials` where the whole photograph of size (`w`, `h`) has another shape.
+fn note_stretching(args: &PhotoArgs, [w, h]: [usize; 2], materials: &[Material<f32>]) {
+    let mut sizes: Vec<[usize; 2]> = Vec::new();
+    for size in materials.iter().map(Material::size) {
+        let [width, height] = size;
+        let ratio = (w * height) as f64 / (h * width) as f64;
+        if args.reading.is_whole() && !(0.99..=1.01).contains(&ratio) && !sizes.contains(&size) {
+            sizes.push(size);
+            tell(&format!(
+                "note: all {w} x {h} pixels of the photograph are taken as the {width} x {height} texels of the material; \
+                 --corners gives the corners of the material in it"
+            ));
+        }
+    }
 }
 
 fn write_differences(
     destination: &Destination<PictureFormat>,
-    setting: &Setting<'_>,
-    results: &[PhotoResult],
+    report: &PhotoReport,
+    kind: Difference,
 ) -> Result<(), Error> {
-    let kind = setting.args.difference;
-    let panes: Vec<_> = results.iter().map(|result| result.compared.difference(kind)).collect();
-    let last = output::last_colour(results, kind);
-    let entries = output::entries(setting, results, last);
+    let panes: Vec<_> = report.results.iter().map(|result| result.compared.difference(kind)).collect();
+    let last = output::last_colour(report, kind);
+    let entries = output::entries(report, kind, last);
     stoppable(|progress| destination.write_maps(&panes, last as f32, &entries, progress))
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use svbrdf::dataset::{Pick, Shard};
 use svbrdf::error::Error;
+use svbrdf::report::Report;
 
 use crate::cli::args::{ComparisonArgs, values};
 use crate::cli::output::CommandError;
@@ -72,6 +73,21 @@ pub enum RankFormat {
     Csv,
     /// A table for a paper: the best and what ties with it in bold
     Latex,
+}
+
+impl RankFormat {
+    /// The report in this format; `latex` writes the table for a paper.
+    ///
+    /// # Errors
+    /// As [`Report::json`] and [`Report::csv`].
+    pub fn write<R: Report>(self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<String, Error> {
+        match self {
+            Self::Text => Ok(report.text()),
+            Self::Json => report.json(),
+            Self::Csv => report.csv(),
+            Self::Latex => Ok(latex(report)),
+        }
+    }
 }
 
 /// The error of losses that are above a limit, if any is.

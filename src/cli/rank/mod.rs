@@ -2,7 +2,6 @@
 
 mod args;
 mod many;
-mod metric_columns;
 mod one;
 
 use super::args::Given;

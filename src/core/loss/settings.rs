@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use super::question::Question;
 use super::request::{Request, Sampling, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Scene;
@@ -126,9 +127,9 @@ impl LossSettings {
         Request::Scenes(Sampling { texels: Texels::All, ..few.unwrap_or(default) })
     }
 
-    /// The 6 near-field and 3 distant random scenes of the papers, of this seed.
-    pub fn few_scenes(&self) -> Request {
-        Request::Scenes(Sampling { seed: self.seed, ..Sampling::default() })
+    /// The request with the 6 + 3 scenes of the papers beside it, unless it asks for just these.
+    pub fn question(&self) -> Question {
+        Question::from(self.request()).beside_few_scenes(self.seed)
     }
 
     /// These settings with the numbers, sampler and texels of `sampling`; the seed stays.

@@ -1,12 +1,13 @@
 //! The error of a loss that was estimated from a few scenes.
 
+use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use crate::model::sampler::Sampler;
 use crate::model::scene::{Kind, Scene};
 
 /// A mean over scenes and how far it may be from the mean over all scenes there are.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The mean over the scenes.
     pub mean: f64,

@@ -4,6 +4,8 @@
 //! chooses the points; [`sample`] takes them from a counter-based generator whose i-th point depends on the seed and on i
 //! only.
 
+use std::fmt;
+
 use glam::DVec3;
 use rand::distr::Open01;
 use rand::rngs::ChaCha8Rng;
@@ -33,6 +35,15 @@ pub enum Kind {
     Near,
     /// Infinitely far: the same directions at every texel.
     Distant,
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Near => "near",
+            Self::Distant => "distant",
+        })
+    }
 }
 
 /// One view and one light.

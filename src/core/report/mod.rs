@@ -1,104 +1,85 @@
-//! Losses with the settings that they depend on, as text: what the command line prints and the window copies.
+//! Reports: results with the settings that they depend on, as text, JSON and CSV.
+//!
+//! The command line prints them, the window copies their text, and Python has the same keys and values.
 //!
 //! ```
-//! use svbrdf_core::loss::{Comparison, Request};
+//! use svbrdf_core::loss::{Comparison, Question};
 //! use svbrdf_core::material::Material;
 //! use svbrdf_core::model::brdf::Texel;
 //! use svbrdf_core::model::convention::Convention;
 //! use svbrdf_core::progress::Progress;
-//! use svbrdf_core::report::Report;
+//! use svbrdf_core::report::{LossReport, Report};
 //!
 //! let texel = |roughness| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
 //! let truth = Material::uniform("truth", 64, 64, &texel(0.6))?;
 //! let prediction = Material::uniform("too rough", 64, 64, &texel(0.7))?;
 //! let comparison = Comparison::new(&truth, &[&prediction], Convention::default())?;
-//! let outcome = comparison.run(&Request::default(), &Progress::default())?;
-//! let report = Report::new(&comparison, outcome);
+//! let report = LossReport::answer(&comparison, &Question::default(), &Progress::default())?;
 //! assert!(report.text().starts_with("rendering loss against truth, 64 x 64 texels, f32 on the cpu"));
+//! assert!(report.csv()?.starts_with("prediction,loss,standard_error,"));
 //! # Ok::<(), svbrdf_core::error::Error>(())
 //! ```
 
+mod blame;
+mod heading;
+mod latex;
+mod loss;
+mod loss_json;
+mod loss_table;
+mod loss_text;
+mod map;
+mod metrics;
+mod missed;
 mod names;
-pub mod table;
-mod text;
+mod rank;
+mod scenes;
+mod table;
+mod worst;
 
+pub use blame::BlameReport;
+pub use heading::{Compared, position, scenes_line};
+pub use latex::{bold, escaped, latex};
+pub use loss::{FewScenes, LossReport};
+pub use map::MapReport;
+pub use metrics::MetricsReport;
+pub use missed::missed;
 pub use names::distinct_names;
+pub use rank::RankReport;
+pub use scenes::ScenesReport;
+pub use table::{Cell, Table, aligned};
+pub use worst::WorstReport;
 
-use crate::loss::{Comparison, Compute, Estimate, Loss, Outcome, Texels};
-use crate::model::convention::Convention;
-use crate::model::sampler::Sampler;
-use crate::model::scene::Kind;
+use serde::Serialize;
 
-/// Losses with the settings that they depend on.
-#[derive(Clone, Debug)]
-pub struct Report {
-    /// The convention that the losses follow.
-    pub convention: Convention,
-    /// The name of the ground truth.
-    pub ground_truth: String,
-    /// Width and height in texels.
-    pub size: [usize; 2],
-    /// `f32` or `f64`.
-    pub precision: &'static str,
-    /// What computed it: `cpu` or `gpu`.
-    pub backend: &'static str,
-    /// The scenes and the losses.
-    pub outcome: Outcome,
-    /// The losses over all scenes, to +-1%: reports of a few scenes lead with them.
-    pub all_scenes: Option<Outcome>,
-}
+use crate::error::Error;
 
-impl Report {
-    /// The report of an outcome of `comparison`.
-    pub fn new<T: Compute>(comparison: &Comparison<'_, T>, outcome: Outcome) -> Self {
-        Self {
-            convention: *comparison.convention(),
-            ground_truth: comparison.ground_truth().name().to_owned(),
-            size: comparison.ground_truth().size(),
-            precision: T::NAME,
-            backend: comparison.backend().name(),
-            outcome,
-            all_scenes: None,
-        }
+/// A result with the settings that it depends on; its serialization is its JSON.
+pub trait Report: Serialize {
+    /// Tables for people with the settings above them; ends with a line break.
+    fn text(&self) -> String;
+
+    /// The results as rows for spreadsheets.
+    fn table(&self) -> Table;
+
+    /// An [`Error::Inaccurate`] for each result that is known less well than requested.
+    fn missed(&self) -> Vec<Error> {
+        Vec::new()
     }
 
-    /// The same report with other names: the ground truth first, then each prediction.
-    #[must_use]
-    pub fn renamed(mut self, names: &[String]) -> Self {
-        let Some((ground_truth, predictions)) = names.split_first() else { return self };
-        self.ground_truth.clone_from(ground_truth);
-        for outcome in [&mut self.outcome].into_iter().chain(&mut self.all_scenes) {
-            for (loss, name) in outcome.losses.iter_mut().zip(predictions) {
-                loss.prediction.clone_from(name);
-            }
-        }
-        self
+    /// One JSON object; ends with a line break.
+    ///
+    /// # Errors
+    /// [`Error::Internal`], which no report of this crate gives.
+    fn json(&self) -> Result<String, Error> {
+        let text = serde_json::to_string_pretty(self).map_err(|problem| Error::Internal(problem.to_string()));
+        Ok(text? + "\n")
     }
 
-    /// The paired difference of each further loss from the first: `loss - first`, over the same scenes.
-    pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
-        let others = self.outcome.losses.iter().enumerate().skip(1);
-        others.map(|(index, loss)| (loss, self.outcome.difference(index, 0))).collect()
-    }
-
-    /// The seed that names the scenes; `None` where they were listed.
-    pub fn seed(&self) -> Option<u64> {
-        self.outcome.sampling.map(|sampling| sampling.seed)
-    }
-
-    /// How the scenes were sampled; `None` where they were listed.
-    pub fn sampler(&self) -> Option<Sampler> {
-        self.outcome.sampling.map(|sampling| sampling.sampler)
-    }
-
-    /// The texels that are compared in each scene.
-    pub fn texels(&self) -> Texels {
-        let sampled = self.outcome.sampling.and_then(|sampling| sampling.texels.sampled(self.size));
-        sampled.map_or(Texels::All, Texels::Sampled)
-    }
-
-    /// The number of scenes of a kind.
-    pub fn count(&self, kind: Kind) -> usize {
-        self.outcome.scenes.iter().filter(|scene| scene.kind == kind).count()
+    /// The [`Report::table`] as CSV (RFC 4180) with a heading.
+    ///
+    /// # Errors
+    /// [`Error::Internal`], which no table in memory gives.
+    fn csv(&self) -> Result<String, Error> {
+        self.table().csv()
     }
 }

@@ -1,14 +1,126 @@
-//! Tables of text, and the line about scenes above them.
+//! Tables: typed cells for CSV and data frames, and aligned columns for people.
 
-use crate::loss::Sampling;
-use crate::model::sampler::Sampler;
-use crate::model::scene::{Kind, Scene};
+use std::fmt;
 
-/// Lines of aligned columns, the first to the left, the others to the right. Rows may be shorter than others.
+use crate::error::Error;
+use crate::loss::Estimate;
+
+/// A value of a [`Table`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// An unknown value.
+    Empty,
+    Text(String),
+    Integer(u64),
+    Number(f64),
+    /// A number of 32 bits, which has fewer digits.
+    Single(f32),
+    Truth(bool),
+}
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => Ok(()),
+            Self::Text(text) => text.fmt(f),
+            Self::Integer(number) => number.fmt(f),
+            Self::Number(number) => number.fmt(f),
+            Self::Single(number) => number.fmt(f),
+            Self::Truth(truth) => truth.fmt(f),
+        }
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(number: usize) -> Self {
+        Self::Integer(number as u64)
+    }
+}
+
+impl From<u64> for Cell {
+    fn from(number: u64) -> Self {
+        Self::Integer(number)
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<bool> for Cell {
+    fn from(truth: bool) -> Self {
+        Self::Truth(truth)
+    }
+}
+
+impl<T: Into<Self>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Empty, Into::into)
+    }
+}
+
+impl Cell {
+    /// The standard error of an estimate and the ends of its 95% interval.
+    pub fn errors(estimate: &Estimate) -> [Self; 3] {
+        let [low, high] = [0, 1].map(|end| estimate.interval95.map(|interval| interval[end]).into());
+        [estimate.standard_error.into(), low, high]
+    }
+}
+
+/// Rows of values under the names of their columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    pub columns: Vec<String>,
+    /// Each has a cell for every column.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// The table of `rows` under `columns`.
+    pub fn new<C: Into<String>>(
+        columns: impl IntoIterator<Item = C>,
+        rows: impl IntoIterator<Item = Vec<Cell>>,
+    ) -> Self {
+        Self { columns: columns.into_iter().map(Into::into).collect(), rows: rows.into_iter().collect() }
+    }
+
+    /// The table as CSV (RFC 4180) with a heading; an unknown value is an empty cell.
+    ///
+    /// # Errors
+    /// [`Error::Internal`], which a table in memory does not give.
+    pub fn csv(&self) -> Result<String, Error> {
+        let internal = |problem: csv::Error| Error::Internal(problem.to_string());
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(&self.columns).map_err(internal)?;
+        for row in &self.rows {
+            writer.write_record(row.iter().map(ToString::to_string)).map_err(internal)?;
+        }
+        let bytes = writer.into_inner().map_err(|problem| Error::Internal(problem.to_string()))?;
+        String::from_utf8(bytes).map_err(|problem| Error::Internal(problem.to_string()))
+    }
+}
+
+/// Lines of aligned columns, the first to the left, the others to the right.
 pub fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |c| rows.iter().filter_map(|row| row.get(c)).map(|cell: &String| cell.chars().count()).max();
-    let widths: Vec<usize> = (0..columns).map(|c| width(c).unwrap_or(0)).collect();
+    let width = |c| {
+        rows.iter().filter_map(|row| row.get(c)).map(|cell: &String| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
     let cell = |(c, cell): (usize, &String)| match c {
         0 => format!("{cell:<w$}", w = widths[0]),
         _ => format!("  {cell:>w$}", w = widths[c]),
@@ -18,37 +130,20 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
     rows.iter().map(line).collect()
 }
 
-/// The numbers of scenes, how they were sampled and the texels of each, for materials of `size`: a line. `None` for `sampling`: the
-/// scenes are of a file.
-pub fn scenes_line(sampling: Option<&Sampling>, scenes: &[Scene], size: [usize; 2]) -> String {
-    let count = |kind| scenes.iter().filter(|scene| scene.kind == kind).count();
-    let counts = format!("{} near-field and {} distant scenes", count(Kind::Near), count(Kind::Distant));
-    let Some(sampling) = sampling else { return counts + " from a file\n" };
-    let sampler = if sampling.sampler == Sampler::Sobol { ", scrambled Sobol" } else { "" };
-    let texels = match sampling.texels.sampled(size) {
-        None => String::new(),
-        Some(1) => ", 1 random texel per scene".to_owned(),
-        Some(count) => format!(", {count} random texels per scene"),
-    };
-    format!("{counts}, seed {}{sampler}{texels}\n", sampling.seed)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::loss::Texels;
 
     #[test]
-    fn a_line_about_scenes_has_the_texels_that_are_compared() {
-        let line = |texels| {
-            let sampling = Sampling { texels, ..Sampling::default() };
-            scenes_line(Some(&sampling), &[], [2, 2])
-        };
-        let of_all = "0 near-field and 0 distant scenes, seed 0\n";
-        assert_eq!(line(Texels::All), of_all);
-        assert_eq!(line(Texels::Sampled(4)), of_all, "the maps have no more");
-        assert!(line(Texels::Sampled(3)).ends_with(", 3 random texels per scene\n"));
-        assert!(line(Texels::Sampled(1)).ends_with(", 1 random texel per scene\n"));
-        assert_eq!(scenes_line(None, &[], [2, 2]), "0 near-field and 0 distant scenes from a file\n");
+    fn csv_has_a_heading_quotes_names_and_leaves_unknown_values_empty() {
+        let row = vec!["a, b".into(), 0.1.into(), Option::<f64>::None.into(), 3_usize.into(), true.into()];
+        let table = Table::new(["name", "loss", "error", "scenes", "reached"], [row]);
+        assert_eq!(table.csv().unwrap(), "name,loss,error,scenes,reached\n\"a, b\",0.1,,3,true\n");
+    }
+
+    #[test]
+    fn columns_are_as_wide_as_their_widest_cell_and_lines_have_no_blanks_at_their_end() {
+        let rows = [["name", "1.5"], ["é", "10.25"], ["x", ""]].map(|row| row.map(str::to_owned).to_vec());
+        assert_eq!(aligned(&rows), "name    1.5\né     10.25\nx\n");
     }
 }

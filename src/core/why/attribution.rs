@@ -8,6 +8,8 @@
 //! All 16 mixtures are rendered in the same scenes on the same texels, so that the values add up to rounding in each scene, and
 //! variance that the mixtures have in common cancels.
 
+use serde::Serialize;
+
 use crate::error::Error;
 use crate::loss::{self, Comparison, Compute, Estimate, Request, Sampling};
 use crate::material::{Map, Material};
@@ -40,7 +42,7 @@ pub struct Attribution {
 }
 
 /// What a map adds to a loss. Estimates have the unit of the loss; their errors are due to the sampling of scenes and texels.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MapShare {
     pub map: Map,
     /// The Shapley value.

@@ -23,12 +23,10 @@ mod attribution;
 mod error_map;
 mod hemisphere;
 mod scene_losses;
-mod scene_report;
 mod worst;
 
 pub use attribution::{Attribution, MOST_SCENES, MapShare, attribute};
 pub use error_map::{error_maps, mean};
 pub use hemisphere::{Hemisphere, Moved, hemisphere};
 pub use scene_losses::{Distribution, RankedScene, worst_first};
-pub use scene_report::SceneReport;
 pub use worst::{Worst, worst};

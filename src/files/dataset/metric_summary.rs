@@ -2,12 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde::Serialize;
+
 use super::bootstrap::interval_of_mean;
 use super::record::{MaterialResult, PredictionResult};
 use super::summary::{Pick, median};
 
 /// A metric of a method over the materials that it has a prediction of.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MetricSummary {
     pub mean: f64,
     pub median: f64,

@@ -9,8 +9,10 @@ mod evaluate;
 mod fingerprint;
 mod journal;
 mod list;
+mod metric_report;
 mod metric_summary;
 mod record;
+mod report;
 mod run;
 mod summary;
 
@@ -21,5 +23,6 @@ pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summar
 pub use record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, MaterialResult, PredictionResult,
 };
+pub use report::DatasetReport;
 pub use run::{DatasetResults, run};
 pub use summary::{MethodDifference, MethodSummary, Pick, summarize};

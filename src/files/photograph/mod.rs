@@ -37,10 +37,12 @@ mod comparison;
 mod corners;
 mod exposure;
 mod rectified;
+mod report;
 
 pub use comparison::PhotographComparison;
 pub use corners::Corners;
 pub use rectified::Rectified;
+pub use report::{PhotoReport, PhotoResult, PhotoSetting};
 
 use crate::error::Error;
 use crate::model::scene::{Kind, Scene};

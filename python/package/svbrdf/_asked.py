@@ -1,0 +1,109 @@
+"""The arguments that the comparisons have in common."""
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+from . import _core
+from ._arrays import Precision
+from ._material import Material, Source, opened
+from ._scenes import Scene, read_scenes
+
+Scenes = Sequence[Scene] | Source
+Predictions = Material | Source | Sequence[Material | Source]
+
+
+class Asked:
+    """Opened materials, and the arguments of a function of the core."""
+
+    def __init__(
+        self,
+        ground_truth: Material | Source,
+        predictions: Predictions,
+        *,
+        convention: str,
+        seed: int = 0,
+        precision: Precision = "f32",
+        scenes: Scenes | None = None,
+        **choice: Any,
+    ) -> None:
+        self.ground_truth = opened(ground_truth, precision)
+        self.predictions = [opened(prediction, precision) for prediction in listed(predictions, "predictions")]
+        if isinstance(scenes, str | os.PathLike):
+            scenes = read_scenes(scenes)
+        materials = [self.ground_truth, *self.predictions]
+        self._options = {
+            "names": names(self.ground_truth, self.predictions),
+            "paths": [material.path for material in materials],
+            "convention": convention,
+            "precision": precision,
+            "seed": seed,
+            "scenes": None if scenes is None else [tuple(scene) for scene in scenes],
+        }
+        for name in ("near", "distant", "sampler", "texels", "target_error", "time_budget"):
+            self._options[name] = choice.pop(name, None)
+        if choice:
+            raise TypeError(f"unexpected arguments: {', '.join(choice)}")
+
+    @property
+    def core(self) -> tuple[_core.CoreMaterial, list[_core.CoreMaterial], dict[str, Any]]:
+        """The first arguments of the function."""
+        return self.ground_truth._core, [prediction._core for prediction in self.predictions], self._options
+
+
+def listed(materials: Predictions, argument: str) -> Sequence[Material | Source]:
+    """One material or several as a list.
+
+    Raises:
+        ValueError: There is none.
+    """
+    if isinstance(materials, Material | str | os.PathLike):
+        return [materials]
+    if not materials:
+        raise ValueError(f"{argument}: expected at least one, found none; give a material, a path or a list of them")
+    return materials
+
+
+def names(ground_truth: Material, predictions: Sequence[Material]) -> list[str]:
+    """Names of the materials in reports, which tell them apart."""
+    several = len(predictions) > 1
+    words = [f"prediction {i}" if several else "prediction" for i in range(1, len(predictions) + 1)]
+    return distinct([ground_truth, *predictions], ["ground truth", *words])
+
+
+def distinct(materials: Sequence[Material], words: Sequence[str]) -> list[str]:
+    """The names of materials, or the words for those that have none, told apart by their paths."""
+    named = [
+        (material.name if material._is_named else word, material.path or "")
+        for material, word in zip(materials, words, strict=True)
+    ]
+    return _core.distinct_names(named)
+
+
+def check_goals(**given: object) -> None:
+    """Whether at most one argument decides the scenes, and makes sense.
+
+    Raises:
+        ValueError: Several are given, or one is out of its range.
+    """
+    named = [name for name, value in given.items() if value is not None]
+    if len(named) > 1:
+        raise ValueError(f"{' and '.join(named)}: expected one of them; each decides the scenes")
+    target_error, time_budget = given.get("target_error"), given.get("time_budget")
+    if isinstance(target_error, int | float) and not 0 < target_error < 1:
+        raise ValueError(f"target_error: expected a number above 0 and below 1, such as 0.01, found {target_error}")
+    if isinstance(time_budget, int | float) and not 0 < time_budget <= 86_400:
+        raise ValueError(f"time_budget: expected seconds above 0, at most a day, found {time_budget}")
+
+
+def check_unused(deciding: str | None, **given: object) -> None:
+    """Whether none of the arguments is given that do not apply beside the one that decides the scenes.
+
+    Raises:
+        ValueError: One is given.
+    """
+    unused = [name for name, value in given.items() if value is not None]
+    if deciding is not None and unused:
+        raise ValueError(
+            f"{' and '.join(unused)}: not used with {deciding}, which decides the scenes; leave out either"
+        )

@@ -1,0 +1,79 @@
+"""Metrics beside the loss."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from . import _core
+from ._asked import Asked, Predictions, Scenes
+from ._material import Material, Source
+from ._progress import Report as Progress
+from ._progress import reported
+from ._report import Report, views
+from ._why import scene_choice
+
+
+@dataclass(frozen=True)
+class Metrics:
+    """The metrics of one prediction."""
+
+    prediction: str
+    metrics: Mapping[str, float | None]
+    """By name; None for the infinite PSNR of equal renderings."""
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class MetricsReport(Report):
+    """Metrics of maps and renderings, each with its convention in its name: docs/metrics.md defines them."""
+
+    ground_truth: str
+    convention: str
+    """The convention of the renderings."""
+    results: tuple[Metrics, ...]
+    """One per prediction."""
+
+
+def metrics(
+    ground_truth: Material | Source,
+    predictions: Predictions,
+    *,
+    near: int | None = None,
+    distant: int | None = None,
+    seed: int | None = None,
+    sampler: Literal["random", "sobol"] | None = None,
+    scenes: Scenes | None = None,
+    convention: str = "printed",
+    progress: bool | Progress = False,
+) -> MetricsReport:
+    """Metrics of maps and renderings: root mean square and mean absolute differences, angles, SSIM and PSNR.
+
+    >>> import svbrdf
+    >>> ground_truth, blurred, _ = svbrdf.built_in()
+    >>> report = svbrdf.metrics(ground_truth, blurred, near=2, distant=1)
+    >>> report.results[0].metrics["rmse_roughness"]
+    0.0
+
+    Args:
+        ground_truth: A material, or the path of one.
+        predictions: One or several materials of the same size, or paths.
+        near: The number of sampled near-field scenes; 128 where `scenes` are not given.
+        distant: The number of sampled distant scenes; 64 where `scenes` are not given.
+        seed: Names the sampled scenes; 0 where `scenes` are not given.
+        sampler: "sobol", the default, or "random".
+        scenes: These scenes, or those of a scene file, in place of sampled ones.
+        convention: A name of `svbrdf.CONVENTIONS`.
+        progress: True for a bar of tqdm, or a function of (steps done, steps in all).
+
+    Raises:
+        OSError: A file cannot be read.
+        svbrdf.Error: A material or a scene cannot be used, or the sizes differ.
+        ValueError: Options of sampled scenes are given together with `scenes`.
+    """
+    choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
+    asked = Asked(ground_truth, predictions, convention=convention, **choice)
+    with reported("rendering", progress) as report:
+        found = _core.metrics(*asked.core, report)
+    arguments = views(found)
+    values = arguments["_values"]
+    results = tuple(Metrics(**entry) for entry in values["results"])
+    return MetricsReport(**arguments, **{**values, "results": results})

@@ -1,0 +1,177 @@
+"""Materials against a photograph."""
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from numpy.typing import NDArray
+
+from . import _core
+from ._arrays import from_bytes
+from ._asked import Predictions, distinct, listed
+from ._material import Source, opened
+from ._progress import Report as Progress
+from ._progress import reported
+from ._report import Report, views
+from ._scenes import Scene, read_scenes, scenes_from
+
+
+@dataclass(frozen=True)
+class PhotoStatistics:
+    """A difference over the texels that are not clipped."""
+
+    mean: float
+    median: float
+    p95: float
+    """The 95th percentile."""
+
+
+@dataclass(frozen=True)
+class PhotoResult:
+    """A material against the photograph."""
+
+    material: str
+    """The name of the material."""
+    size: tuple[int, int]
+    """(width, height) in texels."""
+    clipped: int
+    """The number of texels that are left out."""
+    factor: float
+    """The photograph was multiplied by it: the median of rendering / photograph."""
+    exposure_ev: float
+    """The factor in stops."""
+    log: PhotoStatistics
+    absolute: PhotoStatistics
+    relative: PhotoStatistics
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class PhotoReport(Report):
+    """Materials against a photograph, the smallest mean log difference first."""
+
+    photograph: str
+    """Its path."""
+    size: tuple[int, int]
+    """(width, height) in pixels."""
+    transfer: str
+    corners: tuple[tuple[float, float], ...]
+    """Top left, top right, bottom right and bottom left of the material, in pixels."""
+    falloff: bool
+    """Whether the falloff of the light is divided out of the photograph."""
+    convention: str
+    epsilon: float
+    results: tuple[PhotoResult, ...]
+    scenes: tuple[Scene, ...]
+    """The one scene of the photograph."""
+    notes: tuple[str, ...]
+    """What reading the photograph noticed."""
+    differences: tuple[NDArray[Any], ...] = field(compare=False)
+    """The difference of each result: height x width x 3, NaN where the photograph is clipped."""
+
+
+def photo(
+    photo: Source,
+    materials: Predictions,
+    *,
+    scene: Scene | Source | None = None,
+    scene_number: int | None = None,
+    flash: bool = False,
+    fov: float | None = None,
+    corners: Sequence[tuple[float, float]] | None = None,
+    transfer: Literal["linear", "srgb"] | None = None,
+    clip: float | None = None,
+    falloff: bool = False,
+    difference: Literal["log", "absolute", "relative"] = "log",
+    convention: str = "printed",
+    progress: bool | Progress = False,
+) -> PhotoReport:
+    """Compares renderings of materials with a photograph, at one exposure.
+
+    Each material is rendered under the light and the view of the photograph (Algorithm 3). One factor brings the
+    photograph to the exposure of the rendering. Beyond the four corners, nothing is aligned or calibrated.
+
+    Args:
+        photo: The photograph: PNG, JPEG, EXR or another picture format.
+        materials: One or several materials or paths.
+        scene: The light and the view, or a scene file or a MaterialGAN capture (render.json).
+        scene_number: The number of the scene in a file of several, from 0.
+        flash: The light is a flash at the camera, which is straight above the middle of the material.
+        fov: With `flash`: the angle that the width of the material spans at the camera, in degrees.
+        corners: Corners of the material in the photograph, in pixels: top left, top right, bottom right, bottom left;
+            without, the whole picture.
+        transfer: The transfer curve of the photograph; without, linear for floats and PNG files that declare it, sRGB
+            for other integers.
+        clip: The stored value from which on a pixel is clipped, where 1 is the largest integer; without, 1, and none
+            for floats.
+        falloff: Divides the photograph by the falloff of a point light, which Algorithm 3 does not model.
+        difference: The difference that `PhotoReport.differences` has.
+        convention: A name of `svbrdf.CONVENTIONS`.
+        progress: True for a bar of tqdm, or a function of (steps done, steps in all).
+
+    Raises:
+        OSError: A file cannot be read.
+        svbrdf.Error: The photograph, a material or the scene cannot be used.
+        ValueError: Light and view are missing, or specified twice, or the corners are not four.
+    """
+    if corners is not None and len(corners) != 4:
+        raise ValueError(f"corners: expected 4, found {len(corners)}")
+    if clip is not None and not 0 < clip < float("inf"):
+        raise ValueError(f"clip: expected a number above 0, found {clip}")
+    chosen = _scene(scene, scene_number, flash, fov)
+    found_materials = [opened(material) for material in listed(materials, "materials")]
+    several = len(found_materials) > 1
+    words = [f"material {i}" if several else "material" for i in range(1, len(found_materials) + 1)]
+    asked = {
+        "photo": photo,
+        "names": distinct(found_materials, words),
+        "scene": None if chosen is None else tuple(chosen),
+        "fov": fov,
+        "corners": None if corners is None else [[float(x), float(y)] for x, y in corners],
+        "transfer": transfer,
+        "clip": clip,
+        "falloff": falloff,
+        "difference": difference,
+        "convention": convention,
+    }
+    with reported("rendering", progress) as report:
+        found = _core.photo([material._core for material in found_materials], asked, report)
+    arguments = views(found["views"])
+    values = arguments["_values"]
+    results = tuple(_result(entry) for entry in values["results"])
+    fields = {
+        **values,
+        "size": tuple(values["size"]),
+        "corners": tuple(tuple(corner) for corner in values["corners"]),
+        "results": results,
+        "scenes": scenes_from(values["scenes"]),
+        "notes": tuple(found["notes"]),
+    }
+    pictures = zip(found["differences"], results, strict=True)
+    differences = tuple(from_bytes(data, result.size, 3, "f32") for data, result in pictures)
+    return PhotoReport(**arguments, **fields, differences=differences)
+
+
+def _result(entry: dict[str, Any]) -> PhotoResult:
+    statistics = {key: PhotoStatistics(**entry[key]) for key in ("log", "absolute", "relative")}
+    return PhotoResult(**{**entry, **statistics, "size": tuple(entry["size"])})
+
+
+def _scene(scene: Scene | Source | None, number: int | None, flash: bool, fov: float | None) -> Scene | None:
+    """The scene; None for a flash."""
+    if flash != (fov is not None):
+        raise ValueError("flash and fov: expected both or neither; a flash needs the field of view in degrees")
+    if flash == (scene is not None):
+        raise ValueError("light and view of the photograph: expected either scene, or flash with fov")
+    if not isinstance(scene, str | os.PathLike):
+        if number is not None:
+            raise ValueError("scene_number: expected only with the path of a scene file")
+        return scene
+    scenes = read_scenes(scene)
+    if (number is None and len(scenes) > 1) or (number is not None and not 0 <= number < len(scenes)):
+        found = "" if number is None else f", found {number}"
+        raise ValueError(
+            f"scene_number: {os.fspath(scene)} lists {len(scenes)} scenes, of which a photograph has one{found}; "
+            f"give its number from 0 to {len(scenes) - 1}"
+        )
+    return scenes[number or 0]

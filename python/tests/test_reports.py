@@ -1,0 +1,223 @@
+"""Reports: the text, the JSON and the CSV of the command line."""
+
+import io
+import json
+import math
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import svbrdf
+from conftest import maps
+
+pandas = pytest.importorskip("pandas", reason="pandas is not installed")
+
+Materials = tuple[Path, list[Path]]
+
+CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
+    "loss": (["--seed", "2"], lambda gt, p: svbrdf.loss(gt, p, seed=2)),
+    "loss of few scenes": (["--near", "5"], lambda gt, p: svbrdf.loss(gt, p, near=5)),
+    "loss to an accuracy": (["--target-error", "5%"], lambda gt, p: svbrdf.loss(gt, p, target_error=0.05)),
+    "blame": (["--target-error", "5%"], lambda gt, p: svbrdf.blame(gt, p, target_error=0.05)),
+    "rank": (["--target-error", "5%"], lambda gt, p: svbrdf.rank(gt, p, target_error=0.05)),
+    "worst": (["--seed", "1"], lambda gt, p: svbrdf.worst(gt, p, seed=1)),
+    "scenes": (
+        ["--near", "9", "--distant", "4", "--top", "5"],
+        lambda gt, p: svbrdf.scenes(gt, p, near=9, distant=4, top=5),
+    ),
+    "metrics": (["--near", "2", "--seed", "3"], lambda gt, p: svbrdf.metrics(gt, p, near=2, seed=3)),
+    "photo": (["--flash", "--fov", "45", "--falloff"], lambda photo, p: photo_of(photo, p)),
+}
+
+
+def photo_of(photo: Path, materials: list[Path]) -> svbrdf.PhotoReport:
+    return svbrdf.photo(photo, materials, flash=True, fov=45.0, falloff=True)
+
+
+@pytest.fixture(scope="module")
+def materials(tmp_path_factory: pytest.TempPathFactory) -> Materials:
+    """A ground truth and two predictions, the second of which has the same roughness."""
+    folder = tmp_path_factory.mktemp("materials")
+    truth = maps(13, 11)
+    blurred = {**truth, "normal": np.broadcast_to(np.array([0, 0, 1], np.float32), (13, 11, 3))}
+    paths = []
+    for name, given in {"gt": truth, "rough": {**maps(13, 11, 1), "normal": truth["normal"]}, "flat": blurred}.items():
+        paths.append(folder / f"{name}.exr")
+        svbrdf.write(svbrdf.Material(**given), paths[-1], depth="float")
+    return paths[0], paths[1:]
+
+
+def photograph(materials: Materials) -> Path:
+    """A picture of the ground truth, in any exposure."""
+    from PIL import Image
+
+    scene = svbrdf.Scene("near", (0, 0, 2), (0, 0, 2))
+    radiance = svbrdf.render(materials[0], scene)
+    path = materials[0].with_name("photo.png")
+    Image.fromarray((255 * np.clip(radiance, 0, 1) ** (1 / 2.2)).astype(np.uint8)).save(path)
+    return path
+
+
+def arguments(case: str, materials: Materials) -> tuple[Path, list[Path]]:
+    ground_truth, predictions = materials
+    return (photograph(materials), [ground_truth, *predictions]) if case == "photo" else (ground_truth, predictions)
+
+
+def printed(program: str, case: str, materials: Materials, output: str) -> str:
+    first, others = arguments(case, materials)
+    command = [program, case.split()[0], str(first), *map_to_text(others), *CASES[case][0], "--format", output]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def map_to_text(paths: list[Path]) -> list[str]:
+    return [str(path) for path in paths]
+
+
+def keys(value: Any) -> Any:
+    """The keys of a JSON value, at every depth."""
+    if isinstance(value, dict):
+        return {key: keys(entry) for key, entry in value.items()}
+    return [keys(entry) for entry in value] if isinstance(value, list) else None
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_report_has_the_keys_the_numbers_and_the_text_of_the_command_line(
+    program: str, materials: Materials, case: str
+) -> None:
+    report = CASES[case][1](*arguments(case, materials))
+    expected = json.loads(printed(program, case, materials, "json"))
+    assert keys(report.to_dict()) == keys(expected)
+    assert report.to_dict() == expected
+    assert str(report) + "\n" == printed(program, case, materials, "text")
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_data_frame_is_the_csv_of_the_command_line(program: str, materials: Materials, case: str) -> None:
+    frame = CASES[case][1](*arguments(case, materials)).to_pandas()
+    text = printed(program, case, materials, "csv")
+    expected = pandas.read_csv(io.StringIO(text), float_precision="round_trip")
+    assert list(frame.columns) == list(expected.columns)
+    assert len(frame) == len(expected) > 0
+    for column in expected:
+        for got, cell in zip(frame[column], expected[column], strict=True):
+            assert got == cell or (pandas.isna(got) and pandas.isna(cell)), (column, got, cell)
+
+
+def test_a_planted_key_is_found() -> None:
+    report = {"results": [{"loss": 1.0}]}
+    assert keys(report) == {"results": [{"loss": None}]}
+    assert keys(report) != keys({"results": [{"loss": 1.0, "path": None}]})
+
+
+def test_the_fields_of_a_report_are_the_keys_of_its_dictionary(materials: Materials) -> None:
+    for case, (_, make) in CASES.items():
+        report = make(*arguments(case, materials))
+        assert set(report.to_dict()) <= set(dir(report)), case
+
+
+def test_changing_a_dictionary_changes_no_report_and_reports_can_be_pickled(materials: Materials) -> None:
+    report = svbrdf.loss(*materials, near=2)
+    report.to_dict()["results"][0]["loss"] = 7
+    assert report.to_dict()["results"][0]["loss"] == report.loss
+    again = pickle.loads(pickle.dumps(report))
+    assert again == report
+    assert again.to_dict() == report.to_dict()
+    # Exported names with the letters of Python.
+    assert repr(again) == str(again) == report.text.rstrip("\n")
+
+
+def test_without_pandas_the_error_says_what_to_install(materials: Materials, monkeypatch: pytest.MonkeyPatch) -> None:
+    report = svbrdf.loss(*materials, near=2)
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match="to_pandas needs pandas, which is not installed; `pip install pandas`"):
+        report.to_pandas()
+
+
+def test_a_map_over_texels_has_the_mean_of_the_loss_and_the_csv_of_the_command_line(
+    program: str, materials: Materials, tmp_path: Path
+) -> None:
+    ground_truth, predictions = materials
+    report = svbrdf.map(ground_truth, predictions, near=4, distant=2)
+    losses = svbrdf.scenes(ground_truth, predictions, near=4, distant=2).results
+    for values, summary, loss in zip(report.maps, report.results, losses, strict=True):
+        assert values.shape == (13, 11, 3)
+        assert values.mean() == pytest.approx(summary.mean, rel=1e-6) == pytest.approx(loss.loss, rel=1e-5)
+        assert summary.row is not None
+        assert values[summary.row, summary.column].mean() == pytest.approx(summary.largest, rel=1e-6)
+    command = [program, "map", str(ground_truth), *map_to_text(predictions), "-o", str(tmp_path / "map.csv")]
+    ended = subprocess.run([*command, "--near", "4", "--distant", "2"], check=True, capture_output=True, text=True)
+    assert str(report) + "\n" == ended.stdout
+    expected = pandas.read_csv(tmp_path / "map.csv")
+    frame = report.to_pandas()
+    assert list(frame.columns) == list(expected.columns)
+    for column in expected:
+        assert (frame[column].to_numpy() == expected[column].astype(frame[column].dtype).to_numpy()).all(), column
+
+
+@pytest.mark.parametrize("over", ["lights", "views"])
+def test_a_map_over_directions_is_that_of_the_command_line(
+    program: str, materials: Materials, tmp_path: Path, over: Any
+) -> None:
+    ground_truth, predictions = materials
+    report = svbrdf.map(ground_truth, predictions, over=over, side=12, fixed=(0.2, 0.1, 1))
+    assert report.directions is not None
+    assert report.directions.shape == (12, 12, 3)
+    inside = ~np.isnan(report.directions[..., 0])
+    assert np.allclose(np.linalg.norm(report.directions[inside], axis=1), 1)
+    for values, summary in zip(report.maps, report.results, strict=True):
+        assert np.nanmean(values) == pytest.approx(summary.mean, rel=1e-12)
+        assert np.nanmax(values) == summary.largest
+        assert (np.isnan(values) == ~inside).all()
+    command = [program, "map", str(ground_truth), *map_to_text(predictions), "-o", str(tmp_path / "map.csv")]
+    options = ["--over", over, "--side", "12", "--fixed", "0.2,0.1,1"]
+    ended = subprocess.run([*command, *options], check=True, capture_output=True, text=True)
+    assert str(report) + "\n" == ended.stdout
+    expected = pandas.read_csv(tmp_path / "map.csv", float_precision="round_trip")
+    pandas.testing.assert_frame_equal(report.to_pandas(), expected, check_exact=True, check_dtype=False)
+
+
+def test_the_worst_scene_is_a_scene_with_that_loss(materials: Materials) -> None:
+    ground_truth, predictions = materials
+    report = svbrdf.worst(ground_truth, predictions)
+    for prediction, result, scene in zip(predictions, report.results, report.scenes, strict=True):
+        assert svbrdf.loss(ground_truth, prediction, scenes=[scene]).loss == pytest.approx(result.worst, rel=1e-6)
+        assert result.worst > result.mean
+
+
+def test_equal_materials_have_an_infinite_psnr_which_is_none_in_the_dictionary(materials: Materials) -> None:
+    ground_truth, _ = materials
+    report = svbrdf.metrics(ground_truth, ground_truth, near=1)
+    assert report.results[0].metrics["psnr_rendering_clipped_linear"] is None
+    frame = report.to_pandas().set_index("metric")
+    assert math.isinf(frame.loc["psnr_rendering_clipped_linear"].iloc[0])
+
+
+def test_a_photograph_has_differences_as_arrays_and_a_scene(materials: Materials, tmp_path: Path) -> None:
+    photo = photograph(materials)
+    scene = svbrdf.Scene("near", (0, 0, 2), (0, 0, 2))
+    report = svbrdf.photo(photo, [materials[0], *materials[1]], scene=scene, difference="absolute")
+    assert report.results[0].material == "gt"
+    assert report.scenes == (scene,)
+    for result, values in zip(report.results, report.differences, strict=True):
+        assert values.shape == (13, 11, 3)
+        assert np.nanmean(values) == pytest.approx(result.absolute.mean, rel=1e-5)
+    path = tmp_path / "scenes.json"
+    listed = [{"kind": "near", "view": [0, 0, z], "light": [0, 0, z]} for z in (2, 3)]
+    path.write_text(json.dumps({"scenes": listed}))
+    by_file = svbrdf.photo(photo, materials[0], scene=path, scene_number=0)
+    assert by_file.results[0] == report.results[0]
+    with pytest.raises(ValueError, match="lists 2 scenes, of which a photograph has one; give its number from 0 to 1"):
+        svbrdf.photo(photo, materials[0], scene=path)
+    with pytest.raises(ValueError, match="expected either scene, or flash with fov"):
+        svbrdf.photo(photo, materials[0])
+    with pytest.raises(ValueError, match="flash and fov: expected both or neither"):
+        svbrdf.photo(photo, materials[0], flash=True)
+    with pytest.raises(svbrdf.Error, match="unknown difference `angle`; use one of: log, absolute, relative"):
+        svbrdf.photo(photo, materials[0], scene=scene, difference="angle")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="corners: expected 4, found 2"):
+        svbrdf.photo(photo, materials[0], scene=scene, corners=[(0, 0), (1, 1)])

@@ -1,0 +1,27 @@
+//! The output formats of reports.
+
+use svbrdf::error::Error;
+use svbrdf::report::Report;
+
+/// The output format of a report.
+#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+pub enum ReportFormat {
+    #[default]
+    Text,
+    Json,
+    Csv,
+}
+
+impl ReportFormat {
+    /// The report in this format, complete with its last line break.
+    ///
+    /// # Errors
+    /// As [`Report::json`] and [`Report::csv`].
+    pub fn write(self, report: &impl Report) -> Result<String, Error> {
+        match self {
+            Self::Text => Ok(report.text()),
+            Self::Json => report.json(),
+            Self::Csv => report.csv(),
+        }
+    }
+}

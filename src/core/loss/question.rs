@@ -1,0 +1,64 @@
+//! The question that a loss answers: one request, and the few scenes whose loss is reported beside it.
+
+use super::request::{Request, Sampling};
+
+/// A request and, beside it, few scenes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Its losses are the answer.
+    pub request: Request,
+    /// The scenes of the loss that is reported beside the answer; `None` where the request chooses its scenes.
+    pub few_scenes: Option<Sampling>,
+}
+
+impl Question {
+    /// The loss over all scenes to +-1% at 95% confidence and, beside it, the loss over the 6 near-field and 3 distant random
+    /// scenes of the papers. `seed` names the scenes of both.
+    pub fn of_seed(seed: u64) -> Self {
+        let request = Request::Accuracy { target: super::ALL_SCENES_TARGET, seed };
+        Self::from(request).beside_few_scenes(seed)
+    }
+
+    /// The same request with the 6 + 3 scenes of the papers beside it, unless it asks for just these.
+    #[must_use]
+    pub fn beside_few_scenes(self, seed: u64) -> Self {
+        let few = Sampling { seed, ..Sampling::default() };
+        let few_scenes = (self.request != Request::Scenes(few)).then_some(few);
+        Self { few_scenes, ..self }
+    }
+}
+
+/// [`Question::of_seed`] 0: what the command line, the window and Python answer where nothing else is asked.
+impl Default for Question {
+    fn default() -> Self {
+        Self::of_seed(0)
+    }
+}
+
+impl From<Request> for Question {
+    fn from(request: Request) -> Self {
+        Self { request, few_scenes: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::loss::LossSettings;
+
+    #[test]
+    fn the_default_is_1_percent_with_the_scenes_of_the_papers_beside_it_in_the_window_too() {
+        let Question { request, few_scenes } = Question::of_seed(7);
+        assert_eq!(request, Request::Accuracy { target: 0.01, seed: 7 });
+        assert_eq!(few_scenes, Some(Sampling { near: 6, distant: 3, seed: 7, ..Sampling::default() }));
+        assert_eq!(LossSettings::default().question(), Question::default());
+    }
+
+    #[test]
+    fn the_scenes_of_the_papers_are_not_beside_themselves() {
+        let few = Question::from(Request::default());
+        assert_eq!(few.few_scenes, None);
+        assert_eq!(few.clone().beside_few_scenes(0), few);
+        assert!(few.beside_few_scenes(1).few_scenes.is_some_and(|few| few.seed == 1));
+    }
+}
