@@ -210,6 +210,7 @@ fn fixture() -> TempDir {
         }
     }
     write_material(&of("set/ours/rows.png"), 8, 99);
+    RgbImage::from_pixel(8, 8, Rgb([60; 3])).save(of("set/ours/metal/roughness.png")).unwrap();
     let pairs = "gt.png,a.png\ngt.png,b.png\nb.png,a.png\nrows.png,a.png\nnan,a.png\nmetal,a.png\n";
     fs::write(of("pairs.csv"), format!("ground_truth,prediction\n{pairs}")).unwrap();
     succeed(folder.path(), "rank --dataset set/gt set/ours --target-error 30% --journal journal.jsonl");

@@ -119,7 +119,7 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
         ("photo.png gt.png --scene one.json --corners 0,0 0,8 8,8 8,0", 1, "clockwise"),
         ("photo.png gt.png --scene one.json --corners 0,0 8,0 8,8", 64, "--corners"),
         ("photo.png gt.png --scene one.json --transfer gamma", 64, "linear, srgb"),
-        ("photo.png gt.png --scene one.json --difference angle", 64, "log, absolute, relative"),
+        ("photo.png gt.png --scene one.json -o x.png --difference angle", 64, "log, absolute, relative"),
         ("photo.png gt.png --scene one.json --clip 0.0001", 1, "every texel of the photograph is clipped"),
         ("photo.png gt.png --scene one.json -o out.txt", 64, "extension"),
         ("photo.png gt.png big.png --scene one.json -o out.png", 1, "sizes differ"),

@@ -20,7 +20,13 @@ pub struct PhotoSceneArgs {
     scene: Option<PathBuf>,
 
     /// The number of the scene in a file of several, from 0
-    #[arg(long, value_name = "K", requires = "scene", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "K",
+        requires = "scene",
+        conflicts_with = "flash",
+        allow_negative_numbers = true
+    )]
     scene_number: Option<usize>,
 
     /// The light is a flash at the camera, which is straight above the middle of the material
