@@ -7,6 +7,7 @@ use eframe::egui;
 use super::parts::Parts;
 use crate::error::Error;
 use crate::image::Image;
+use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::saving;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::model::message::Message;
@@ -69,7 +70,7 @@ pub(super) fn copy_picture(parts: &mut Parts, ctx: &egui::Context) {
 }
 
 fn picture(parts: &mut Parts, ctx: &egui::Context, pixels: [u32; 2]) -> Result<egui::ColorImage, Error> {
-    let displayed = parts.jobs.displayed(&parts.model);
+    let displayed = Displayed::of(&parts.model, &parts.jobs);
     parts.ui.picture(ctx, displayed, parts.gpu.as_mut(), pixels)
 }
 
