@@ -61,13 +61,13 @@ fn the_bar_is_one_line_in_every_window_and_what_it_has_no_room_for_is_in_the_men
     // Undo is in the menu of a narrow window, and works there.
     window.set_size(vec2(900.0, 600.0));
     press(&mut window, egui::Key::E);
-    assert_eq!(window.state().model.view.exposure_ev, 0.5);
+    assert_eq!(window.state().parts.model.view.exposure_ev, 0.5);
     assert!(window.query_by_label("Undo").is_none());
     window.get_by_label("Menu").click();
     window.run_steps(6);
     window.get_by_label("Undo").click();
     window.run_steps(3);
-    assert_eq!(window.state().model.view.exposure_ev, 0.0);
+    assert_eq!(window.state().parts.model.view.exposure_ev, 0.0);
 }
 
 #[test]

@@ -148,5 +148,8 @@ fn the_whole_photograph_is_shown_in_every_layout_until_the_corners_are_done() {
     // From a map, it goes to renderings, which are compared with the photograph.
     press(&mut window, egui::Key::M);
     edit(&mut window);
-    assert_eq!(window.state().model.view.display.quantity, svbrdf::picture::quantity::Quantity::Rendering);
+    assert_eq!(
+        window.state().parts.model.view.display.quantity,
+        svbrdf::picture::quantity::Quantity::Rendering
+    );
 }

@@ -19,10 +19,10 @@ fn a_panic_in_a_panel_closes_the_window_and_draws_no_frame_again() {
     window.step();
     assert!(!is_planted.load(Ordering::SeqCst), "the fault was met");
     assert!(window.state().has_crashed());
-    let exposure = window.state().model.view.exposure_ev;
+    let exposure = window.state().parts.model.view.exposure_ev;
     let commands = &window.output().viewport_output[&egui::ViewportId::ROOT].commands;
     assert!(commands.contains(&egui::ViewportCommand::Close), "{commands:?}");
     window.key_press(egui::Key::E);
     window.step();
-    assert_eq!(window.state().model.view.exposure_ev, exposure, "no frame is drawn after it");
+    assert_eq!(window.state().parts.model.view.exposure_ev, exposure, "no frame is drawn after it");
 }

@@ -14,36 +14,40 @@ fn every_letter_does_what_the_help_says() {
         press(window, key);
         assert!(holds(window.state()), "{key:?}: {what}");
     };
-    expect(&mut window, egui::Key::C, "wipe", &|a| a.model.view.display.layout == Layout::Wipe);
-    expect(&mut window, egui::Key::C, "single", &|a| a.model.view.display.layout == Layout::Single);
-    expect(&mut window, egui::Key::C, "side by side", &|a| a.model.view.display.layout == Layout::SideBySide);
-    expect(&mut window, egui::Key::D, "difference", &|a| a.model.view.display.difference);
-    expect(&mut window, egui::Key::D, "value", &|a| !a.model.view.display.difference);
-    expect(&mut window, egui::Key::M, "normal", &|a| a.model.view.display.quantity == Quantity::Normal);
+    expect(&mut window, egui::Key::C, "wipe", &|a| a.parts.model.view.display.layout == Layout::Wipe);
+    expect(&mut window, egui::Key::C, "single", &|a| a.parts.model.view.display.layout == Layout::Single);
+    expect(&mut window, egui::Key::C, "side by side", &|a| {
+        a.parts.model.view.display.layout == Layout::SideBySide
+    });
+    expect(&mut window, egui::Key::D, "difference", &|a| a.parts.model.view.display.difference);
+    expect(&mut window, egui::Key::D, "value", &|a| !a.parts.model.view.display.difference);
+    expect(&mut window, egui::Key::M, "normal", &|a| a.parts.model.view.display.quantity == Quantity::Normal);
     expect(&mut window, egui::Key::P, "perspective", &|a| {
-        a.model.view.display.projection == Projection::Perspective
+        a.parts.model.view.display.projection == Projection::Perspective
     });
-    expect(&mut window, egui::Key::E, "brighter", &|a| a.model.view.exposure_ev == 0.5);
-    expect(&mut window, egui::Key::Num2, "second prediction", &|a| a.model.view.display.prediction == 1);
-    expect(&mut window, egui::Key::L, "clipping", &|a| a.model.view.display.show_clipping);
-    expect(&mut window, egui::Key::H, "highlight", &|a| a.model.settings.highlight_follows);
+    expect(&mut window, egui::Key::E, "brighter", &|a| a.parts.model.view.exposure_ev == 0.5);
+    expect(&mut window, egui::Key::Num2, "second prediction", &|a| {
+        a.parts.model.view.display.prediction == 1
+    });
+    expect(&mut window, egui::Key::L, "clipping", &|a| a.parts.model.view.display.show_clipping);
+    expect(&mut window, egui::Key::H, "highlight", &|a| a.parts.model.settings.highlight_follows);
     expect(&mut window, egui::Key::R, "reset", &|a| {
-        a.model.view.exposure_ev == 0.0 && !a.model.view.display.show_clipping
+        a.parts.model.view.exposure_ev == 0.0 && !a.parts.model.view.display.show_clipping
     });
-    expect(&mut window, egui::Key::B, "no panel", &|a| !a.model.settings.side_panel);
-    expect(&mut window, egui::Key::N, "automatic exposure", &|a| a.model.view.exposure_ev != 0.0);
-    expect(&mut window, egui::Key::T, "repeated", &|a| a.model.view.display.tiled);
-    expect(&mut window, egui::Key::J, "histograms", &|a| a.model.settings.histograms);
-    expect(&mut window, egui::Key::V, "false colours", &|a| a.model.view.display.false_colour);
-    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| a.model.view.display.zoom != 1.0);
+    expect(&mut window, egui::Key::B, "no panel", &|a| !a.parts.model.settings.side_panel);
+    expect(&mut window, egui::Key::N, "automatic exposure", &|a| a.parts.model.view.exposure_ev != 0.0);
+    expect(&mut window, egui::Key::T, "repeated", &|a| a.parts.model.view.display.tiled);
+    expect(&mut window, egui::Key::J, "histograms", &|a| a.parts.model.settings.histograms);
+    expect(&mut window, egui::Key::V, "false colours", &|a| a.parts.model.view.display.false_colour);
+    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| a.parts.model.view.display.zoom != 1.0);
     expect(&mut window, egui::Key::F, "fitted", &|a| {
-        a.model.view.display.zoom == 1.0 && a.model.view.display.pan == [0.0; 2]
+        a.parts.model.view.display.zoom == 1.0 && a.parts.model.view.display.pan == [0.0; 2]
     });
     // There are two predictions.
     for key in [egui::Key::Num3, egui::Key::Num5, egui::Key::Num8, egui::Key::Num9] {
-        expect(&mut window, key, "no such prediction", &|a| a.model.view.display.prediction == 1);
+        expect(&mut window, key, "no such prediction", &|a| a.parts.model.view.display.prediction == 1);
     }
-    expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.model.view.display.prediction == 0);
+    expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.parts.model.view.display.prediction == 0);
 }
 
 #[test]
@@ -85,10 +89,10 @@ fn undo_and_redo_go_through_the_changes() {
     for (modifiers, key) in redo {
         window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
         window.run_steps(3);
-        assert_eq!(window.state().model.view.exposure_ev, 0.0);
+        assert_eq!(window.state().parts.model.view.exposure_ev, 0.0);
         window.key_press_modifiers(modifiers, key);
         window.run_steps(3);
-        assert_eq!(window.state().model.view.exposure_ev, 0.5, "{key:?}");
+        assert_eq!(window.state().parts.model.view.exposure_ev, 0.5, "{key:?}");
     }
 }
 
@@ -98,11 +102,11 @@ fn letters_typed_into_a_field_are_no_commands() {
     let mut window = built_in();
     window.get_by_label("Open").click();
     window.run_steps(4);
-    let before = window.state().model.view.clone();
+    let before = window.state().parts.model.view.clone();
     let field = "Files, folders or name prefixes, one a line:";
     window.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field).type_text("mcexp");
     press(&mut window, egui::Key::M);
-    assert_eq!(window.state().model.view, before);
+    assert_eq!(window.state().parts.model.view, before);
 }
 
 #[test]

@@ -114,7 +114,7 @@ fn statistics(window: &Window<'_>) -> Vec<svbrdf::picture::statistics::Statistic
 fn renderings_are_compared_with_the_photograph_as_the_core_does() {
     let (mut window, folder) = opened();
     let path = folder.path().join("photo.npy");
-    assert_eq!(window.state().model.view.scene, flash(FOV).unwrap());
+    assert_eq!(window.state().parts.model.view.scene, flash(FOV).unwrap());
     let core = expected(&path, false);
     assert!(agrees(&window, &core));
     assert!((core[0].factor - 0.25).abs() < 1e-6);
@@ -258,7 +258,7 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     window.get_by_role_and_label(egui::Role::Button, "Open photograph").click();
     window.run_steps(3);
     wait_for_it(&mut window);
-    assert_eq!(window.state().model.view.scene, flash(45.0).unwrap());
+    assert_eq!(window.state().parts.model.view.scene, flash(45.0).unwrap());
     apply(&mut window, PhotographCommand::SetTransfer(Some(Transfer::Srgb)));
     wait(&mut window, "the other curve", |app| app.against_photograph().is_some());
 
@@ -282,7 +282,7 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     window.get_by_label_contains("it lists 1 scenes, counted from 0, and number 1 was asked for");
     apply(&mut window, of(0));
     wait_for_it(&mut window);
-    assert_eq!(window.state().model.view.scene.light, [1.0, 0.0, 2.0]);
+    assert_eq!(window.state().parts.model.view.scene.light, [1.0, 0.0, 2.0]);
     // Corners that make no sense are refused; the earlier ones stay.
     let before = window.state().against_photograph().unwrap().to_vec();
     apply(&mut window, WindowCommand::DismissMessages);

@@ -44,7 +44,8 @@ fn saved_renderings_are_what_is_selected() {
     let materials: Vec<_> = window.state().materials().collect();
     let difference = ShownDifference { kind: Difference::Angle, range: Some(20.0) };
     let shown = Shown { quantity: Quantity::Normal, difference: Some(difference) };
-    let (scene, convention) = (window.state().model.view.scene, window.state().model.view.convention());
+    let (scene, convention) =
+        (window.state().parts.model.view.scene, window.state().parts.model.view.convention());
     let pictures = shown.pictures(&materials, &scene, &convention, &Progress::default()).unwrap();
     let image = &pictures.images[0];
     for (i, rgb) in image.pixels.iter().enumerate() {
@@ -131,22 +132,22 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     apply(&mut first, DisplayCommand::SetQuantity(Quantity::Normal));
     apply(&mut first, DisplayCommand::SetExposure(1.5));
     apply(&mut first, SceneCommand::SetConvention("guided-2020"));
-    let mut scene = first.state().model.view.scene;
+    let mut scene = first.state().parts.model.view.scene;
     scene.light = [0.1, -0.7, 1.3];
     apply(&mut first, SceneCommand::Set(scene));
-    let mut settings = first.state().model.settings.loss.clone();
+    let mut settings = first.state().parts.model.settings.loss.clone();
     settings.near = 17;
     apply(&mut first, LossCommand::SetSettings(settings));
     let path = folder.path().join("a.svbrdf-session.json");
     save(&mut first, SaveKind::Session, &path, [0; 2]);
     let (state, materials) =
-        (first.state().model.view.clone(), first.state().materials().cloned().collect::<Vec<_>>());
+        (first.state().parts.model.view.clone(), first.state().materials().cloned().collect::<Vec<_>>());
     assert!(state.display.projection == Projection::Perspective && state.exposure_ev == 1.5);
 
     let same = |window: &Window<'_>| {
-        assert_eq!(window.state().model.view, state);
+        assert_eq!(window.state().parts.model.view, state);
         assert_eq!(window.state().materials().cloned().collect::<Vec<_>>(), materials);
-        assert_eq!(window.state().model.settings.loss.near, 17);
+        assert_eq!(window.state().parts.model.settings.loss.near, 17);
     };
     let session = Some(Session::read(&path).unwrap());
     same(&window(ViewerOptions { session, ..ViewerOptions::default() }));

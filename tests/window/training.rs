@@ -60,7 +60,7 @@ fn a_folder_of_steps_is_one_prediction_whose_steps_have_their_losses() {
     let (folder, mut window) = window_of_run();
     wait(&mut window, "the steps", |app| app.training_runs() == [(1, vec![100, 200, 300], 300)]);
     wait(&mut window, "the losses", |app| app.step_losses(1).iter().all(Option::is_some));
-    let request = window.state().model.settings.loss.request();
+    let request = window.state().parts.model.settings.loss.request();
     let open = |path: &Path| -> Material<f32> {
         read(path, &ReadOptions::AUTO, &Progress::default()).unwrap().material
     };

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
-use super::App;
+use super::parts::Parts;
+use super::{saving, training};
 use crate::error::Error;
 use crate::files::scene_file;
 use crate::files::session::{Session, SessionPhotograph};
 use crate::files::stamp::Stamp;
-use crate::model::scene::Scene;
 use crate::photograph::flash;
 use crate::viewer::jobs::browse;
 use crate::viewer::jobs::why::ComparedPair;
@@ -21,146 +21,145 @@ use crate::viewer::model::message::Message;
 use crate::viewer::ui::dialogs::open::OpenDialog;
 use crate::viewer::ui::dialogs::photograph::PhotographDialog;
 use crate::viewer::ui::dialogs::save::SaveDialog;
+use svbrdf_core::model::scene::Scene;
 
-impl App {
-    /// Carries out what a command has done outside of the model: the only place that does.
-    pub(super) fn carry_out(&mut self, ctx: &egui::Context, effect: Effect) {
-        match effect {
-            Effect::Read(request) => self.read(request),
-            Effect::ReadForDialog(request) => {
-                let opening = self.jobs.read(&self.model, request);
-                if let Some(dialog) = &mut self.ui.dialogs.open {
-                    dialog.opening = dialog.submitted.then_some(opening);
-                }
-            }
-            Effect::CancelReading(number) => self.jobs.openings.cancel(number),
-            Effect::ReadScenes(paths) => self.jobs.read_scenes(paths),
-            Effect::ReadSession(paths) => self.read_session(&paths),
-            Effect::OpenPhotograph { photograph, light } => self.open_photograph(photograph, &light),
-            Effect::SaveAssumptions(index) => self.save_assumptions(index),
-            Effect::RescanTraining => self.jobs.training.scan.again(),
-            Effect::ShowStep { index, number } => self.show_step(index, number),
-            Effect::MoveStep(by) => self.move_step(by),
-            Effect::Loss(effect) => self.carry_out_on_losses(effect),
-            Effect::Dialog(effect) => self.carry_out_on_dialogs(effect),
-            Effect::Save { kind, path, size } => self.save_file(ctx, kind, path, size),
-            Effect::CopyPicture => self.copy_picture(ctx),
-            Effect::CopyText { text, what } => self.copy_text(ctx, text, what),
-            Effect::CopyLosses => {
-                if let Some(text) = self.jobs.loss.losses().map(|losses| losses.report.text()) {
-                    self.copy_text(ctx, text, "the losses as text");
-                }
-            }
-            Effect::CopyPins => self.copy_text(ctx, self.pins_csv(), "the pinned texels as CSV"),
-            Effect::SetScale(scale) => ctx.set_zoom_factor(scale),
-        }
-    }
-
-    fn read(&mut self, request: ReadRequest) {
-        self.jobs.read(&self.model, request);
-    }
-
-    fn carry_out_on_losses(&mut self, effect: LossEffect) {
-        let (model, jobs) = (&self.model, &mut self.jobs);
-        let (waker, materials, view) = (&jobs.waker, &model.materials, &model.view);
-        match effect {
-            LossEffect::Compute => jobs.loss.start(waker, materials, &model.loss_query()),
-            LossEffect::Cancel => jobs.loss.cancel(),
-            LossEffect::StartStudy => {
-                jobs.study.start(waker, materials, view.display.prediction, &view.convention());
-            }
-            LossEffect::EnsureStudy => {
-                jobs.study.ensure(waker, materials, view.display.prediction, &view.convention());
-            }
-            LossEffect::CancelStudy => jobs.study.cancel(),
-            LossEffect::FindWorst => {
-                if let Some(pair) = ComparedPair::of(&materials.all, view) {
-                    jobs.why.search.start(waker, &pair, model.settings.loss.seed);
-                }
-            }
-            LossEffect::CancelSearch => jobs.why.search.cancel(),
-        }
-    }
-
-    fn carry_out_on_dialogs(&mut self, effect: DialogEffect) {
-        let dialogs = &mut self.ui.dialogs;
-        match effect {
-            DialogEffect::ShowOpen(on) => dialogs.open = on.then(|| OpenDialog::from(self.model.read)),
-            DialogEffect::ShowSave(kind) => {
-                dialogs.save = kind.map(|kind| SaveDialog::new(kind, self.model.geometry.picture));
-            }
-            DialogEffect::ShowPhotograph(on) => dialogs.photograph = on.then(PhotographDialog::default),
-            DialogEffect::FillPhotograph(path) => {
-                dialogs.photograph.iter_mut().for_each(|dialog| dialog.fill(&path));
-            }
-            DialogEffect::Browse { folder } => {
-                self.jobs.browsing = Some(browse::start(&self.jobs.waker, folder));
+/// Carries out what a command has done outside of the model: the only place that does.
+pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {
+    match effect {
+        Effect::Read(request) => read(parts, request),
+        Effect::ReadForDialog(request) => {
+            let opening = parts.jobs.read(&parts.model, request);
+            if let Some(dialog) = &mut parts.ui.dialogs.open {
+                dialog.opening = dialog.submitted.then_some(opening);
             }
         }
+        Effect::CancelReading(number) => parts.jobs.openings.cancel(number),
+        Effect::ReadScenes(paths) => parts.jobs.read_scenes(paths),
+        Effect::ReadSession(paths) => read_session(parts, &paths),
+        Effect::OpenPhotograph { photograph, light } => open_photograph(parts, photograph, &light),
+        Effect::SaveAssumptions(index) => save_assumptions(parts, index),
+        Effect::RescanTraining => parts.jobs.training.scan.again(),
+        Effect::ShowStep { index, number } => training::show_step(parts, index, number),
+        Effect::MoveStep(by) => training::move_step(parts, by),
+        Effect::Loss(effect) => carry_out_on_losses(parts, effect),
+        Effect::Dialog(effect) => carry_out_on_dialogs(parts, effect),
+        Effect::Save { kind, path, size } => saving::save_file(parts, ctx, kind, path, size),
+        Effect::CopyPicture => saving::copy_picture(parts, ctx),
+        Effect::CopyText { text, what } => copy_text(parts, ctx, text, what),
+        Effect::CopyLosses => {
+            if let Some(text) = parts.jobs.loss.losses().map(|losses| losses.report.text()) {
+                copy_text(parts, ctx, text, "the losses as text");
+            }
+        }
+        Effect::CopyPins => copy_text(parts, ctx, pins_csv(parts), "the pinned texels as CSV"),
+        Effect::SetScale(scale) => ctx.set_zoom_factor(scale),
     }
+}
 
-    /// Opens a session file, which stands alone.
-    fn read_session(&mut self, paths: &[PathBuf]) {
-        let session = match paths {
-            [path] => Session::read(path),
-            _ => {
-                let problem = "expected a session file alone: it names its materials itself".to_owned();
-                Err(Error::BadSession { path: paths[0].clone(), problem })
+fn read(parts: &mut Parts, request: ReadRequest) {
+    parts.jobs.read(&parts.model, request);
+}
+
+fn carry_out_on_losses(parts: &mut Parts, effect: LossEffect) {
+    let (model, jobs) = (&parts.model, &mut parts.jobs);
+    let (waker, materials, view) = (&jobs.waker, &model.materials, &model.view);
+    match effect {
+        LossEffect::Compute => jobs.loss.start(waker, materials, &model.loss_query()),
+        LossEffect::Cancel => jobs.loss.cancel(),
+        LossEffect::StartStudy => {
+            jobs.study.start(waker, materials, view.display.prediction, &view.convention());
+        }
+        LossEffect::EnsureStudy => {
+            jobs.study.ensure(waker, materials, view.display.prediction, &view.convention());
+        }
+        LossEffect::CancelStudy => jobs.study.cancel(),
+        LossEffect::FindWorst => {
+            if let Some(pair) = ComparedPair::of(&materials.all, view) {
+                jobs.why.search.start(waker, &pair, model.settings.loss.seed);
             }
-        };
-        match (session, &mut self.ui.dialogs.open) {
-            (Ok(session), _) => {
-                self.ui.dialogs.open = None;
-                let request = self.model.open_session(&session);
-                self.jobs.read(&self.model, request);
-            }
-            (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
-            (Err(error), None) => self.model.report([Message::Failed(error)]),
+        }
+        LossEffect::CancelSearch => jobs.why.search.cancel(),
+    }
+}
+
+fn carry_out_on_dialogs(parts: &mut Parts, effect: DialogEffect) {
+    let dialogs = &mut parts.ui.dialogs;
+    match effect {
+        DialogEffect::ShowOpen(on) => dialogs.open = on.then(|| OpenDialog::from(parts.model.read)),
+        DialogEffect::ShowSave(kind) => {
+            dialogs.save = kind.map(|kind| SaveDialog::new(kind, parts.model.geometry.picture));
+        }
+        DialogEffect::ShowPhotograph(on) => dialogs.photograph = on.then(PhotographDialog::default),
+        DialogEffect::FillPhotograph(path) => {
+            dialogs.photograph.iter_mut().for_each(|dialog| dialog.fill(&path));
+        }
+        DialogEffect::Browse { folder } => {
+            parts.jobs.browsing = Some(browse::start(&parts.jobs.waker, folder));
         }
     }
+}
 
-    /// Compares renderings with a photograph, under its light and view.
-    fn open_photograph(&mut self, photograph: SessionPhotograph, light: &PhotographLight) {
-        let scene = match light {
-            PhotographLight::AsNow => Ok(self.model.view.scene),
-            PhotographLight::Flash { fov_degrees } => flash(*fov_degrees),
-            PhotographLight::File { path, number } => scene_of(path, *number),
-        };
-        match (scene, &mut self.ui.dialogs.photograph) {
-            (Ok(scene), _) => {
-                self.ui.dialogs.photograph = None;
-                let stamp = Stamp::of(&photograph.path);
-                self.model.show_photograph(photograph, stamp, Some(scene));
-            }
-            (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
-            (Err(error), None) => self.model.report([Message::Failed(error)]),
+/// Opens a session file, which stands alone.
+fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
+    let session = match paths {
+        [path] => Session::read(path),
+        _ => {
+            let problem = "expected a session file alone: it names its materials itself".to_owned();
+            Err(Error::BadSession { path: paths[0].clone(), problem })
         }
-    }
-
-    fn save_assumptions(&mut self, index: usize) {
-        match self.model.materials.save_assumptions(index) {
-            Ok(Some(request)) => self.read(request),
-            Ok(None) => {}
-            Err(error) => self.model.report([Message::Failed(error)]),
+    };
+    match (session, &mut parts.ui.dialogs.open) {
+        (Ok(session), _) => {
+            parts.ui.dialogs.open = None;
+            let request = parts.model.open_session(&session);
+            parts.jobs.read(&parts.model, request);
         }
+        (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
+        (Err(error), None) => parts.model.report([Message::Failed(error)]),
     }
+}
 
-    /// Puts a text on the clipboard, and reports it.
-    fn copy_text(&mut self, ctx: &egui::Context, text: String, what: &'static str) {
-        ctx.copy_text(text);
-        self.model.report([Message::Copied(what)]);
+/// Compares renderings with a photograph, under its light and view.
+fn open_photograph(parts: &mut Parts, photograph: SessionPhotograph, light: &PhotographLight) {
+    let scene = match light {
+        PhotographLight::AsNow => Ok(parts.model.view.scene),
+        PhotographLight::Flash { fov_degrees } => flash(*fov_degrees),
+        PhotographLight::File { path, number } => scene_of(path, *number),
+    };
+    match (scene, &mut parts.ui.dialogs.photograph) {
+        (Ok(scene), _) => {
+            parts.ui.dialogs.photograph = None;
+            let stamp = Stamp::of(&photograph.path);
+            parts.model.show_photograph(photograph, stamp, Some(scene));
+        }
+        (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
+        (Err(error), None) => parts.model.report([Message::Failed(error)]),
     }
+}
 
-    /// The numbers of every pin in every material, as CSV.
-    fn pins_csv(&self) -> String {
-        let (materials, view) = (self.displayed().materials(), &self.model.view);
-        let convention = view.convention();
-        inspection::csv(self.model.inspection.pins.iter().map(|pin| {
-            let all = materials.iter().map(|one| one.material());
-            let rows = inspection::rows(all, *pin, &view.scene, &convention);
-            (*pin, materials.iter().map(|one| one.name()).zip(rows).collect())
-        }))
+fn save_assumptions(parts: &mut Parts, index: usize) {
+    match parts.model.materials.save_assumptions(index) {
+        Ok(Some(request)) => read(parts, request),
+        Ok(None) => {}
+        Err(error) => parts.model.report([Message::Failed(error)]),
     }
+}
+
+/// Puts a text on the clipboard, and reports it.
+fn copy_text(parts: &mut Parts, ctx: &egui::Context, text: String, what: &'static str) {
+    ctx.copy_text(text);
+    parts.model.report([Message::Copied(what)]);
+}
+
+/// The numbers of every pin in every material, as CSV.
+fn pins_csv(parts: &Parts) -> String {
+    let (materials, view) = (parts.displayed().materials(), &parts.model.view);
+    let convention = view.convention();
+    inspection::csv(parts.model.inspection.pins.iter().map(|pin| {
+        let all = materials.iter().map(|one| one.material());
+        let rows = inspection::rows(all, *pin, &view.scene, &convention);
+        (*pin, materials.iter().map(|one| one.name()).zip(rows).collect())
+    }))
 }
 
 /// Scene `number` of a file.

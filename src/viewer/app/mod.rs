@@ -5,6 +5,7 @@ pub mod effects;
 pub mod events;
 #[cfg(feature = "testing")]
 pub mod observe;
+pub mod parts;
 pub mod saving;
 pub mod stop;
 pub mod storage;
@@ -15,6 +16,7 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 
 pub use crash::{CrashGuard, outcome};
+use parts::Parts;
 pub use stop::Stop;
 use storage::Stored;
 
@@ -23,6 +25,7 @@ use super::jobs::displayed::Displayed;
 use super::jobs::follow::DisplayedParts;
 use super::jobs::work::waker::Waker;
 use super::model::Model;
+use super::model::apply::undo;
 use super::model::command::Command;
 use super::model::message::Message;
 use super::model::settings::options::ViewerOptions;
@@ -33,13 +36,8 @@ use super::ui::widgets::theme;
 /// The viewer.
 #[derive(Debug)]
 pub struct App {
-    pub model: Model,
-    pub jobs: Jobs,
-    ui: WindowUi,
-    /// `None` where there is no adapter.
-    gpu: Option<GpuView>,
+    pub parts: Parts,
     stored: Stored,
-    stop: Stop,
     crash: CrashGuard,
 }
 
@@ -62,11 +60,10 @@ impl App {
         let ctx = cc.egui_ctx.clone();
         let waker = Waker::new(move |after: Duration| ctx.request_repaint_after(after));
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
-        let (stop, crash) = (Stop::default(), CrashGuard::default());
-        let mut app = Self { model, jobs, ui: WindowUi::default(), gpu, stored, stop, crash };
-        let start = app.model.start(options);
-        app.carry_out(&cc.egui_ctx, start);
-        app
+        let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu, stop: Stop::default() };
+        let start = parts.model.start(options);
+        effects::carry_out(&mut parts, &cc.egui_ctx, start);
+        Self { parts, stored, crash: CrashGuard::default() }
     }
 
     /// Reports panics of the frames to this guard.
@@ -77,18 +74,13 @@ impl App {
     /// Closes the window at a signal, and cancels what is being written.
     pub fn stop_at_signals(&mut self, ctx: &egui::Context, stop: &Stop) {
         stop.listen(ctx);
-        self.stop = stop.clone();
-    }
-
-    /// What the panes display.
-    pub fn displayed(&self) -> Displayed<'_> {
-        self.jobs.displayed(&self.model)
+        self.parts.stop = stop.clone();
     }
 
     /// Carries out one command, and its effects.
     pub fn apply(&mut self, ctx: &egui::Context, command: Command) {
-        for effect in self.model.apply(command) {
-            self.carry_out(ctx, effect);
+        for effect in self.parts.model.apply(command) {
+            effects::carry_out(&mut self.parts, ctx, effect);
         }
         ctx.request_repaint();
     }
@@ -98,7 +90,7 @@ impl App {
             return;
         }
         commands.into_iter().for_each(|command| self.apply(ctx, command));
-        self.model.keep_visible();
+        self.parts.model.keep_visible();
     }
 
     /// One frame: input, commands, model, picture. What a gesture changes is in the frame that read it; what is clicked in a panel is
@@ -106,48 +98,48 @@ impl App {
     fn frame(&mut self, ui: &mut egui::Ui) {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
-        theme::choose(&ctx, self.model.settings.dark);
+        theme::choose(&ctx, self.parts.model.settings.dark);
         // Ctrl with plus, minus or 0 changes it, too.
-        self.model.settings.ui_scale = ctx.zoom_factor();
-        self.model.time = ctx.input(|i| i.time);
-        self.model.geometry = self.ui.geometry(&ctx);
-        self.take_results(&ctx);
-        let commands = self.ui.input(&ctx, self.jobs.displayed(&self.model));
+        self.parts.model.settings.ui_scale = ctx.zoom_factor();
+        self.parts.model.time = ctx.input(|i| i.time);
+        self.parts.model.geometry = self.parts.ui.geometry(&ctx);
+        events::take_results(&mut self.parts, &ctx);
+        let commands = self.parts.ui.input(&ctx, Displayed::of(&self.parts.model, &self.parts.jobs));
         self.apply_all(&ctx, commands);
-        if self.model.animate(f64::from(ctx.input(|i| i.stable_dt))) {
+        if self.parts.model.animate(f64::from(ctx.input(|i| i.stable_dt))) {
             ctx.request_repaint();
         }
         self.follow(&ctx);
-        let displayed = self.jobs.displayed(&self.model);
-        let commands = self.ui.draw(ui, displayed, self.gpu.as_mut());
+        let displayed = Displayed::of(&self.parts.model, &self.parts.jobs);
+        let commands = self.parts.ui.draw(ui, displayed, self.parts.gpu.as_mut());
         self.apply_all(&ctx, commands);
-        let is_photograph_settled = self.jobs.photograph.is_settled(&self.model.photograph);
-        self.model.remember_moment(self.jobs.openings.is_empty(), is_photograph_settled);
-        self.ui.frame_ms = start.elapsed().as_secs_f32() * 1e3;
+        let is_photograph_settled = self.parts.jobs.photograph.is_settled(&self.parts.model.photograph);
+        undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
+        self.parts.ui.frame_ms = start.elapsed().as_secs_f32() * 1e3;
     }
 
     /// Lets the jobs follow the model, and takes in what they have found.
     fn follow(&mut self, ctx: &egui::Context) {
+        if let Some(ground_truth) = self.parts.model.materials.ground_truth() {
+            self.parts.model.inspection.keep_within(ground_truth.material().size());
+        }
         let parts = DisplayedParts {
-            extra_pane: self.ui.has_extra_pane(),
+            extra_pane: self.parts.ui.has_extra_pane(),
             longest_texture: ctx.input(|i| i.max_texture_side),
         };
-        let findings = self.jobs.follow(&self.model, parts);
-        self.model.report(findings.errors.into_iter().map(Message::Failed));
+        let findings = self.parts.jobs.follow(&self.parts.model, parts);
+        self.parts.model.report(findings.errors.into_iter().map(Message::Failed));
         if let Some(error) = findings.photograph_error {
-            self.model.photograph.set(None, None);
-            self.model.report([Message::Failed(error)]);
+            self.parts.model.photograph.set(None, None);
+            self.parts.model.report([Message::Failed(error)]);
         }
         match findings.worst {
             Some(Ok(worst)) => {
-                self.model.view.scene = worst.scene;
+                self.parts.model.view.scene = worst.scene;
                 ctx.request_repaint();
             }
-            Some(Err(error)) => self.model.report([Message::Failed(error)]),
+            Some(Err(error)) => self.parts.model.report([Message::Failed(error)]),
             None => {}
-        }
-        if let Some(ground_truth) = self.model.materials.ground_truth() {
-            self.model.inspection.keep_within(ground_truth.material().size());
         }
     }
 }
@@ -156,7 +148,7 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let crash = self.crash.clone();
         if crash.frame(|| self.frame(ui)) {
-            self.stored.store_changes(&self.model, ui.ctx(), frame.storage_mut());
+            self.stored.store_changes(&self.parts.model, ui.ctx(), frame.storage_mut());
         } else {
             // The state is stored as the window closes.
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
@@ -169,13 +161,13 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         let crash = self.crash.clone();
-        crash.attempt(|| self.model.remember_session(self.jobs.openings.is_empty()));
-        self.stored.store(&self.model, storage);
+        crash.attempt(|| self.parts.model.remember_session(self.parts.jobs.openings.is_empty()));
+        self.stored.store(&self.parts.model, storage);
     }
 
     fn on_exit(&mut self) {
         // A file that is being written is completed, or cancelled by the signal that closed the window.
-        if let Some(saving) = self.jobs.saving.take() {
+        if let Some(saving) = self.parts.jobs.saving.take() {
             let _ = saving.wait();
         }
     }

@@ -6,12 +6,12 @@ use super::Jobs;
 use super::panes::error_map::{ErrorMapSummary, ErrorMaps};
 use super::photograph::{DisplayedPhotograph, Photographs};
 use crate::loss::{Request, Sampling};
-use crate::model::sampler::Sampler;
-use crate::picture::quantity::Quantity;
-use crate::picture::statistics::Distributions;
 use crate::viewer::model::Model;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::Distributions;
 
 /// What the panes display of the model, with the results of the jobs.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +23,11 @@ pub struct Displayed<'a> {
 }
 
 impl<'a> Displayed<'a> {
+    /// What the panes of the window display.
+    pub fn of(model: &'a Model, jobs: &'a Jobs) -> Self {
+        Self { model, jobs, hides_corners: false }
+    }
+
     /// The materials in the panes, the ground truth first: with a mixture in the place of the chosen prediction where one is
     /// displayed.
     pub fn materials(self) -> &'a [LoadedMaterial] {

@@ -1,6 +1,7 @@
 //! Jobs that follow the model: they compute what is displayed now, and only that.
 
 use super::Jobs;
+use super::displayed::Displayed;
 use super::why::WhyQuery;
 use super::work::context::JobContext;
 use crate::error::Error;
@@ -90,7 +91,7 @@ impl Jobs {
 
     fn follow_panes(&mut self, model: &Model, parts: DisplayedParts, findings: &mut Findings) {
         let (settings, view) = (&model.settings, &model.view);
-        let has_photograph = self.displayed(model).photograph().is_some();
+        let has_photograph = Displayed::of(model, self).photograph().is_some();
         let differences = view.display.difference || parts.extra_pane;
         let averages = differences && view.is_error_map();
         let Self { waker, gpu, panes, photograph, .. } = self;

@@ -18,7 +18,6 @@ pub mod work;
 use std::path::PathBuf;
 
 use browse::Browsed;
-use displayed::Displayed;
 use loss::LossJob;
 use loss::scene::SceneLossJob;
 use loss::study::StudyJob;
@@ -67,11 +66,6 @@ pub struct Jobs {
 impl Jobs {
     pub fn new(waker: Waker, gpu: Option<Gpu>) -> Self {
         Self { waker, gpu, ..Self::default() }
-    }
-
-    /// What the panes display of `model`.
-    pub fn displayed<'a>(&'a self, model: &'a Model) -> Displayed<'a> {
-        Displayed { model, jobs: self, hides_corners: false }
     }
 
     /// Starts to read materials; the number of the opening.

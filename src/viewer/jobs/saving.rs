@@ -12,13 +12,13 @@ use crate::error::Error;
 use crate::files::atomic::{self, Destination};
 use crate::image::Image;
 use crate::material::Material;
-use crate::picture::export::{PngDestination, Provenance};
-use crate::picture::quantity::Quantity;
-use crate::picture::shown::{Shown, ShownDifference, ShownPictures};
-use crate::picture::strip::{Column, Strip};
-use crate::report::{Compared, Report as _, ScenesReport};
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::ReadMaterial;
+use crate::report::{Compared, Report as _, ScenesReport};
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::shown::{Shown, ShownDifference, ShownPictures};
+use svbrdf_files::export::strip::{Column, Strip};
+use svbrdf_files::export::{PngDestination, Provenance};
 
 /// What a picture of the panes shows.
 pub fn shown(displayed: Displayed<'_>) -> Shown {

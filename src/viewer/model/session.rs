@@ -1,5 +1,9 @@
 //! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
 
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+
 use super::Model;
 use super::command::effect::Effect;
 use super::material::read::Rules;
@@ -78,6 +82,27 @@ impl Model {
         // They show the step that was saved, whatever has come since.
         self.training.pinned.extend(sources.iter().filter_map(|source| source.run.clone()));
         self.materials.restore(&sources)
+    }
+
+    /// Compares renderings with a photograph, whose file has this stamp; `None` for the scene keeps light and view.
+    pub fn show_photograph(
+        &mut self,
+        photograph: SessionPhotograph,
+        stamp: Option<Stamp>,
+        scene: Option<Scene>,
+    ) {
+        self.photograph.set(Some(photograph), stamp);
+        self.view.scene = scene.unwrap_or(self.view.scene);
+        self.compare_with_photograph();
+    }
+
+    /// Shows what is compared with a photograph: renderings in one scene.
+    pub(super) fn compare_with_photograph(&mut self) {
+        self.view.display.quantity = Quantity::Rendering;
+        if self.view.is_error_map() {
+            // It averages over scenes of which there is no photograph.
+            self.view.display.differences.choose(Quantity::Rendering, Difference::Log);
+        }
     }
 
     /// Remembers the session for the next start, unless there are only built-in materials, or some are still being read.

@@ -2,12 +2,12 @@
 
 use eframe::egui;
 
-use super::bare;
 use super::legend::histograms::ValueStrip;
 use super::legend::strip::LegendStrip;
 use super::pane::scenery::Scenery;
 use super::pane::viewport::{PaneDrawing, Viewport};
 use super::shading::gpu_view::GpuView;
+use super::widgets::bare;
 use super::widgets::texture::PanelTextures;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::Command;

@@ -27,6 +27,7 @@ use panels::inspection::Drawer;
 use panels::status::StatusBar;
 use panels::top::TopBar;
 use shading::gpu_view::GpuView;
+use widgets::bare;
 use widgets::texture::PanelTextures;
 
 use crate::viewer::jobs::displayed::Displayed;
@@ -51,11 +52,6 @@ pub struct WindowUi {
     drawer_share: f32,
     /// Processor time of the last frame, in milliseconds.
     pub frame_ms: f32,
-}
-
-/// A panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.
-pub fn bare(panel: egui::Panel, ui: &egui::Ui) -> egui::Panel {
-    panel.frame(egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT))
 }
 
 impl WindowUi {
@@ -121,6 +117,9 @@ impl WindowUi {
         };
         commands.extend(content.ui(ui, gpu));
         commands.extend(panels::messages::ui(ui.ctx(), area, &model.messages));
+        if model.help {
+            commands.extend(input::help::ui(ui.ctx()));
+        }
         commands.extend(self.dialogs.ui(ui.ctx(), displayed, self.picture_size));
         commands
     }

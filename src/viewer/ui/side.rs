@@ -2,13 +2,13 @@
 
 use eframe::egui::{self, RichText};
 
-use super::bare;
 use super::loss::panel::LossPanel;
 use super::loss::training::TrainingPanel;
 use super::materials::panel::MaterialsPanel;
 use super::panels::light_and_view::ScenePanel;
 use super::photograph::card::PhotographCard;
 use super::why::WhyPanel;
+use super::widgets::bare;
 use super::widgets::texture::PanelTextures;
 use crate::files::read::Certainty;
 use crate::viewer::jobs::displayed::Displayed;

@@ -135,9 +135,9 @@ fn every_way_back_shows_the_prediction_itself() {
         window.run_steps(30);
         isolate(&mut window, "normal");
         wait_for_pane(&mut window, name);
-        assert_eq!(window.state().model.view.display.isolated, Some(Map::Normal));
+        assert_eq!(window.state().parts.model.view.display.isolated, Some(Map::Normal));
         back(&mut window);
-        assert_eq!(window.state().model.view.display.isolated, None);
+        assert_eq!(window.state().parts.model.view.display.isolated, None);
         window.get_by_label("Pane 1  blurred normals");
         assert!(window.query_by_label("Show all maps").is_none());
     }
@@ -154,7 +154,7 @@ fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
     isolate(&mut window, "diffuse");
     wait_for_pane(&mut window, "blurred normals, only its diffuse wrong");
     wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
-    let scene = window.state().model.view.scene;
+    let scene = window.state().parts.model.view.scene;
     let materials = materials();
     let mixture = materials[0].with_maps_of(&materials[1], |map| map == Map::Diffuse).unwrap();
     let comparison = Comparison::new(&materials[0], &[&mixture], PRINTED).unwrap();

@@ -141,10 +141,10 @@ mod tests {
     use super::*;
     use crate::loss::{Comparison, Outcome, Sampling};
     use crate::material::Material;
-    use crate::model::brdf::Texel;
-    use crate::model::convention::Convention;
     use crate::progress::Progress;
     use crate::viewer::jobs::work::waker::Waker;
+    use svbrdf_core::model::brdf::Texel;
+    use svbrdf_core::model::convention::Convention;
 
     /// What is wanted with this seed.
     fn key(seed: u64) -> LossKey {

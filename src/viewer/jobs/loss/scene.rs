@@ -3,13 +3,13 @@
 use crate::error::Error;
 use crate::loss::{Comparison, Request};
 use crate::material::Material;
-use crate::model::scene::Scene;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::model::scene::Scene;
 
 /// What the losses depend on.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,11 +3,6 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::picture::difference::Difference;
-use crate::picture::quantity::Quantity;
-use crate::picture::statistics::Distributions;
 use crate::progress::Progress;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
@@ -16,6 +11,11 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::Distributions;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]

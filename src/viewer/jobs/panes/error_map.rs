@@ -7,8 +7,6 @@ use crate::gpu::{Gpu, Shaded};
 use crate::image::{Image, mean_of_channels};
 use crate::loss::{Comparison, Request};
 use crate::material::Material;
-use crate::model::convention::Convention;
-use crate::picture::statistics::Distributions;
 use crate::progress::Progress;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
@@ -18,6 +16,8 @@ use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
 use crate::why::error_maps;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::picture::statistics::Distributions;
 
 /// What error maps depend on.
 #[derive(Clone, Debug, PartialEq)]

@@ -46,20 +46,21 @@ impl MixtureJob {
                 Ok((mixture, uploaded))
             })
         });
-        match self.job.get() {
-            None => self.displayed = None,
-            Some((key, _)) if self.displayed.as_ref().is_some_and(|(of, _)| of == key) => {}
-            Some((key, (read, uploaded))) => {
-                let Some(prediction) = work.materials.iter().find(|one| one.id() == key.ids[1]) else {
-                    return error;
-                };
-                let side = if key.only_right { "right" } else { "wrong" };
-                let name = format!("{}, only its {} {side}", prediction.name(), key.map.name());
-                let mixture = LoadedMaterial::named(read.clone(), prediction.problem.clone(), name);
-                uploads.add(mixture.id(), uploaded.clone());
-                self.displayed = Some((*key, mixture));
-            }
+        let Some((key, (read, uploaded))) = self.job.get() else {
+            self.displayed = None;
+            return error;
+        };
+        if self.displayed.as_ref().is_none_or(|(of, _)| of != key) {
+            let Some(prediction) = work.materials.iter().find(|one| one.id() == key.ids[1]) else {
+                return error;
+            };
+            let side = if key.only_right { "right" } else { "wrong" };
+            let name = format!("{}, only its {} {side}", prediction.name(), key.map.name());
+            let mixture = LoadedMaterial::named(read.clone(), prediction.problem.clone(), name);
+            self.displayed = Some((*key, mixture));
         }
+        // Also of a mixture that was not in the panes for a while.
+        uploads.add(read.id, uploaded.clone());
         error
     }
 

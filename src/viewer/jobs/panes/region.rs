@@ -4,12 +4,6 @@ use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::material::Material;
-use crate::model::brdf::Model;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::picture::difference::Difference;
-use crate::picture::quantity::Quantity;
-use crate::picture::statistics::Statistics;
 use crate::render::render_texel;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
@@ -18,6 +12,12 @@ use crate::viewer::model::inspection::Region;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::model::brdf::Model;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::Statistics;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,9 +115,9 @@ fn numbers<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::convention::PRINTED;
     use crate::samples;
     use crate::viewer::model::view::state::ViewState;
+    use svbrdf_core::model::convention::PRINTED;
 
     #[test]
     fn the_loss_of_the_whole_is_that_of_the_scene_and_that_of_a_part_the_mean_of_its_texels() {

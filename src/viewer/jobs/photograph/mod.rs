@@ -14,7 +14,6 @@ use crate::error::Error;
 use crate::files::read::{Photograph, read_photograph};
 use crate::files::session::SessionPhotograph;
 use crate::photograph::{Corners, Rectified};
-use crate::picture::statistics::Distributions;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
@@ -23,6 +22,7 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::photograph::PhotographState;
 use crate::viewer::model::material::source::file_name;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::picture::statistics::Distributions;
 
 /// The jobs on the photograph that renderings are compared with.
 #[derive(Debug, Default)]

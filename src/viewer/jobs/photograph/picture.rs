@@ -2,8 +2,8 @@
 
 use crate::files::read::Photograph;
 use crate::image::Image;
-use crate::picture::tone::to_display;
 use crate::viewer::jobs::work::picture::Picture;
+use svbrdf_core::picture::tone::to_display;
 
 /// Longest side of the texture; larger photographs are reduced.
 const LONGEST: usize = 4096;

@@ -5,8 +5,6 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::model::scene::Scene;
-use crate::picture::colour_map::difference_to_display;
 use crate::progress::Progress;
 use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
 use crate::viewer::jobs::work::job::Job;
@@ -14,6 +12,8 @@ use crate::viewer::jobs::work::latest::Latest;
 use crate::viewer::jobs::work::picture::Picture;
 use crate::viewer::jobs::work::waker::Waker;
 use crate::why::{Hemisphere, Moved, hemisphere};
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::colour_map::difference_to_display;
 
 /// Columns and rows of the finest map.
 pub const SIDE: usize = 64;

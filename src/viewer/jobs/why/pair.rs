@@ -5,11 +5,11 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::loss::Comparison;
 use crate::material::Material;
-use crate::model::convention::Convention;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::model::convention::Convention;
 
 /// Identity of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,13 +2,13 @@
 
 use crate::error::Error;
 use crate::material::{Material, Planes};
-use crate::model::scene::Scene;
-use crate::picture::colour_map::difference_to_display;
-use crate::picture::difference::Difference;
 use crate::progress::Progress;
 use crate::render;
 use crate::viewer::jobs::why::pair::ComparedPair;
 use std::sync::Arc;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::colour_map::difference_to_display;
+use svbrdf_core::picture::difference::Difference;
 
 use crate::viewer::jobs::work::picture::Picture;
 use crate::why::RankedScene;

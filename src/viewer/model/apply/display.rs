@@ -1,13 +1,14 @@
 //! Commands about what the panes show, and how.
 
+use super::undo;
 use crate::material::Material;
-use crate::model::brdf::Model as BrdfModel;
-use crate::picture::quantity::Quantity;
 use crate::render::render_texel;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::DisplayCommand;
 use crate::viewer::model::command::effect::Effect;
 use crate::viewer::model::view::state::{Layout, ViewState};
+use svbrdf_core::model::brdf::Model as BrdfModel;
+use svbrdf_core::picture::quantity::Quantity;
 
 /// Least and greatest magnification.
 const ZOOM: std::ops::RangeInclusive<f32> = 0.1..=400.0;
@@ -63,8 +64,8 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
         DisplayCommand::Fit => (state.display.zoom, state.display.pan) = (1.0, [0.0; 2]),
         DisplayCommand::OneToOne => one_to_one(model),
         DisplayCommand::Reset => *state = state.reset(),
-        DisplayCommand::Undo => return model.undo(),
-        DisplayCommand::Redo => return model.redo(),
+        DisplayCommand::Undo => return undo::undo(model),
+        DisplayCommand::Redo => return undo::redo(model),
     }
     Vec::new()
 }

@@ -6,7 +6,7 @@ mod materials;
 mod photograph;
 mod scene;
 mod training;
-mod undo;
+pub mod undo;
 
 use super::Model;
 use super::command::effect::{DialogEffect, Effect, LossEffect};

@@ -1,10 +1,6 @@
 //! Commands about the photograph that renderings are compared with.
 
 use crate::files::session::SessionPhotograph;
-use crate::files::stamp::Stamp;
-use crate::model::scene::Scene;
-use crate::picture::difference::Difference;
-use crate::picture::quantity::Quantity;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::PhotographCommand;
 use crate::viewer::model::command::effect::{DialogEffect, Effect};
@@ -24,41 +20,18 @@ pub(super) fn apply(model: &mut Model, command: PhotographCommand) -> Vec<Effect
             }
         }
         PhotographCommand::SetTransfer(transfer) => {
-            model.change_photograph(|source| source.read.transfer = transfer);
+            change(model, |source| source.read.transfer = transfer);
         }
-        PhotographCommand::SetFalloff(on) => model.change_photograph(|source| source.falloff = on),
+        PhotographCommand::SetFalloff(on) => change(model, |source| source.falloff = on),
         PhotographCommand::SetCorners(corners) => {
-            model.change_photograph(|source| source.corners = corners.map(|corners| corners.0));
+            change(model, |source| source.corners = corners.map(|corners| corners.0));
         }
     }
     Vec::new()
 }
 
-impl Model {
-    /// Compares renderings with a photograph, whose file has this stamp; `None` for the scene keeps light and view.
-    pub fn show_photograph(
-        &mut self,
-        photograph: SessionPhotograph,
-        stamp: Option<Stamp>,
-        scene: Option<Scene>,
-    ) {
-        self.photograph.set(Some(photograph), stamp);
-        self.view.scene = scene.unwrap_or(self.view.scene);
-        self.compare_with_photograph();
-    }
-
-    fn change_photograph(&mut self, change: impl FnOnce(&mut SessionPhotograph)) {
-        if let Some(source) = self.photograph.source_mut() {
-            change(source);
-        }
-    }
-
-    /// Shows what is compared with a photograph: renderings in one scene.
-    fn compare_with_photograph(&mut self) {
-        self.view.display.quantity = Quantity::Rendering;
-        if self.view.is_error_map() {
-            // It averages over scenes of which there is no photograph.
-            self.view.display.differences.choose(Quantity::Rendering, Difference::Log);
-        }
+fn change(model: &mut Model, change: impl FnOnce(&mut SessionPhotograph)) {
+    if let Some(source) = model.photograph.source_mut() {
+        change(source);
     }
 }

@@ -5,60 +5,58 @@ use crate::viewer::model::Model;
 use crate::viewer::model::command::effect::Effect;
 use crate::viewer::model::history::Moment;
 
-impl Model {
-    /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
-    pub fn remember_moment(&mut self, are_materials_settled: bool, is_photograph_settled: bool) {
-        if are_materials_settled {
-            let materials = self.materials.sources();
-            if materials != self.history.materials {
-                self.history.materials = materials;
-                self.remember_session(true);
-            }
-        }
-        if !self.history.materials.is_empty() && is_photograph_settled {
-            let (time, now) = (self.time, self.moment());
-            self.history.undo.feed(time, &now);
+/// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
+pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_settled: bool) {
+    if are_materials_settled {
+        let materials = model.materials.sources();
+        if materials != model.history.materials {
+            model.history.materials = materials;
+            model.remember_session(true);
         }
     }
+    if !model.history.materials.is_empty() && is_photograph_settled {
+        let (time, now) = (model.time, moment(model));
+        model.history.undo.feed(time, &now);
+    }
+}
 
-    pub(super) fn undo(&mut self) -> Vec<Effect> {
-        let now = self.moment();
-        let earlier = self.history.undo.undo(&now).cloned();
-        self.return_to(earlier)
-    }
+pub(super) fn undo(model: &mut Model) -> Vec<Effect> {
+    let now = moment(model);
+    let earlier = model.history.undo.undo(&now).cloned();
+    return_to(model, earlier)
+}
 
-    pub(super) fn redo(&mut self) -> Vec<Effect> {
-        let now = self.moment();
-        let later = self.history.undo.redo(&now).cloned();
-        self.return_to(later)
-    }
+pub(super) fn redo(model: &mut Model) -> Vec<Effect> {
+    let now = moment(model);
+    let later = model.history.undo.redo(&now).cloned();
+    return_to(model, later)
+}
 
-    fn moment(&self) -> Moment {
-        Moment {
-            view: self.view.clone(),
-            materials: self.history.materials.clone(),
-            scenes: self.settings.loss.file_scenes().cloned(),
-            photograph: self.photograph.source().cloned(),
-        }
+fn moment(model: &Model) -> Moment {
+    Moment {
+        view: model.view.clone(),
+        materials: model.history.materials.clone(),
+        scenes: model.settings.loss.file_scenes().cloned(),
+        photograph: model.photograph.source().cloned(),
     }
+}
 
-    fn return_to(&mut self, moment: Option<Moment>) -> Vec<Effect> {
-        let Some(Moment { view, materials, scenes, photograph }) = moment else { return Vec::new() };
-        self.view = view;
-        if scenes.as_ref() != self.settings.loss.file_scenes() {
-            self.settings.loss = self.settings.loss.with_file(scenes);
-        }
-        if photograph.as_ref() != self.photograph.source() {
-            let stamp = photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
-            self.photograph.set(photograph, stamp);
-        }
-        if materials == self.history.materials {
-            return Vec::new();
-        }
-        let request = self.materials.restore(&materials);
-        self.history.materials = materials;
-        vec![Effect::Read(request)]
+fn return_to(model: &mut Model, moment: Option<Moment>) -> Vec<Effect> {
+    let Some(Moment { view, materials, scenes, photograph }) = moment else { return Vec::new() };
+    model.view = view;
+    if scenes.as_ref() != model.settings.loss.file_scenes() {
+        model.settings.loss = model.settings.loss.with_file(scenes);
     }
+    if photograph.as_ref() != model.photograph.source() {
+        let stamp = photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
+        model.photograph.set(photograph, stamp);
+    }
+    if materials == model.history.materials {
+        return Vec::new();
+    }
+    let request = model.materials.restore(&materials);
+    model.history.materials = materials;
+    vec![Effect::Read(request)]
 }
 
 #[cfg(test)]
@@ -86,7 +84,7 @@ mod tests {
     fn rest(model: &mut Model, seconds: f64) {
         for _ in 0..2 {
             model.time += seconds / 2.0;
-            model.remember_moment(true, true);
+            remember(model, true, true);
         }
     }
 

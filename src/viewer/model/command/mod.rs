@@ -20,10 +20,10 @@ use super::view::state::Layout;
 use crate::files::read::ReadOptions;
 use crate::loss::{LossSettings, Sampling};
 use crate::material::Map;
-use crate::model::scene::{Kind, Scene};
-use crate::picture::difference::Difference;
-use crate::picture::quantity::Quantity;
 use crate::why::Moved;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
 
 /// One act. Nothing else changes the model.
 #[derive(Clone, Debug, PartialEq)]

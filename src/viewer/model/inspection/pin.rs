@@ -2,10 +2,10 @@
 
 use crate::material::Material;
 use crate::math::real::Vec3;
-use crate::model::brdf::{Model, Texel};
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::model::terms::Terms;
+use svbrdf_core::model::brdf::{Model, Texel};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::model::terms::Terms;
 
 /// The columns of [`Row::cells`]: a name, and what it means.
 pub const HEADS: [(&str, &str); 14] = [
@@ -127,10 +127,10 @@ pub fn csv<'a>(all: impl IntoIterator<Item = ([usize; 2], Vec<(&'a str, Row)>)>)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::convention::PRINTED;
-    use crate::model::scene::Kind;
     use crate::progress::Progress;
     use crate::{render, samples};
+    use svbrdf_core::model::convention::PRINTED;
+    use svbrdf_core::model::scene::Kind;
 
     #[test]
     fn the_numbers_of_a_pin_are_those_of_the_core_in_f64() {

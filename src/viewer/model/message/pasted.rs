@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use percent_encoding::percent_decode_str;
 
 use super::PasteProblem;
-use crate::model::scene::{Scene, SceneFile};
+use svbrdf_core::model::scene::{Scene, SceneFile};
 
 /// What a text on the clipboard means.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Question of the loss: a request and the convention it is answered in.
 
 use crate::loss::Request;
-use crate::model::convention::Convention;
+use svbrdf_core::model::convention::Convention;
 
 /// A request and the convention.
 #[derive(Clone, Debug, PartialEq)]

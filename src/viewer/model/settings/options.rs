@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::files::read::ReadOptions;
 use crate::files::session::{Session, SessionPhotograph};
 use crate::loss::FileScenes;
-use crate::model::scene::Scene;
+use svbrdf_core::model::scene::Scene;
 
 /// The materials that the window opens, and how it reads them.
 #[derive(Clone, Debug, Default)]

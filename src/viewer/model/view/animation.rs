@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::scene::{Kind, Scene};
 use crate::viewer::model::view::endpoint::{self, Endpoint};
+use svbrdf_core::model::scene::{Kind, Scene};
 
 /// Radians per second at speed 1: a circle takes 6 seconds.
 const SPEED: f64 = std::f64::consts::TAU / 6.0;

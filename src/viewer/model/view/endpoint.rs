@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::model::scene::{Kind, Scene};
+use svbrdf_core::model::scene::{Kind, Scene};
 
 /// Least height of a light or a view in the window: from within the plane nothing is seen.
 pub const LOWEST: f64 = 0.01;

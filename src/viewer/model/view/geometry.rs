@@ -1,7 +1,7 @@
 //! Geometry of the window: what its last frame measured and commands depend on.
 
 use crate::material::Grid;
-use crate::picture::camera::Camera;
+use svbrdf_core::picture::camera::Camera;
 
 /// Sizes and places of the last frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

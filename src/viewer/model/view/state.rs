@@ -3,10 +3,10 @@
 use crate::files::session_window::Display;
 pub use crate::files::session_window::{Layout, Projection};
 use crate::material::Grid;
-use crate::model::convention::{self, Convention};
-use crate::model::scene::{Kind, Scene};
-use crate::picture::camera::Camera;
-use crate::picture::difference::Difference;
+use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_core::picture::difference::Difference;
 
 /// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,5 @@
 //! Dialogs, each with what is typed and chosen in it so far.
 
-pub mod help;
 pub mod open;
 pub mod path_field;
 pub mod photograph;
@@ -36,9 +35,6 @@ impl Dialogs {
     /// Draws the dialogs; `view_size` is the size of the view in the window, in pixels.
     pub fn ui(&mut self, ctx: &egui::Context, displayed: Displayed<'_>, view_size: [u32; 2]) -> Vec<Command> {
         let (model, mut commands) = (displayed.model, Vec::new());
-        if model.help {
-            commands.extend(help::ui(ctx));
-        }
         if model.study {
             commands.extend(StudyWindow::new(displayed).ui(ctx));
         }

@@ -1,5 +1,6 @@
 //! Input of the whole window: keys, and files that are dropped.
 
+pub mod help;
 pub mod keys;
 
 use std::path::PathBuf;

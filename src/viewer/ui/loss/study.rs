@@ -5,12 +5,12 @@ use egui_plot::{Corner, GridInput, GridMark, Legend, Line, MarkerShape, PlotPoin
 
 use crate::files::write::Depth;
 use crate::loss::Sampling;
-use crate::study::{Choice, Family, Point, Study};
 use crate::text::{percent, time};
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::loss::study::StudyJob;
 use crate::viewer::model::command::{Command, LossCommand};
 use crate::viewer::ui::widgets::plot::still_plot;
+use svbrdf_core::study::{Choice, Family, Point, Study};
 
 /// Radius of the clickable area of a point, in points of the screen.
 const REACH: f32 = 8.0;

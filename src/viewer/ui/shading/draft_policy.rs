@@ -55,9 +55,9 @@ impl DraftPolicy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::convention::PRINTED;
-    use crate::picture::quantity::Quantity;
     use crate::viewer::model::view::state::ViewState;
+    use svbrdf_core::model::convention::PRINTED;
+    use svbrdf_core::picture::quantity::Quantity;
 
     fn view(x: f64) -> PaneView {
         let mut scene = ViewState::default().scene;

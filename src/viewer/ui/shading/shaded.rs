@@ -182,11 +182,11 @@ fn with_stride<'a>(
 mod tests {
     use super::*;
     use crate::material::Material;
-    use crate::model::convention::PRINTED;
-    use crate::picture::quantity::Quantity;
     use crate::samples;
     use crate::viewer::jobs::reading::upload::BAND;
     use crate::viewer::model::inspection::Region;
+    use svbrdf_core::model::convention::PRINTED;
+    use svbrdf_core::picture::quantity::Quantity;
 
     /// More than two bands.
     const SIZE: [usize; 2] = [1024, 1030];

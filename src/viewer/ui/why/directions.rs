@@ -5,8 +5,6 @@ use eframe::egui::{
 };
 use glam::DVec3;
 
-use crate::model::scene::{Kind, Scene};
-use crate::picture::colour_map::difference_to_display;
 use crate::viewer::jobs::why::{ComparedPair, DirectionMap};
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand};
 use crate::viewer::ui::pane::handles;
@@ -14,6 +12,8 @@ use crate::viewer::ui::why::WhyPanel;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::why::Moved;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::colour_map::difference_to_display;
 
 /// Largest side of the map, and width of what stands beside it, in points.
 const MOST: f32 = 230.0;

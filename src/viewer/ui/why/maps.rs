@@ -2,22 +2,31 @@
 
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
+use crate::loss::LossSettings;
 use crate::material::Map;
-use crate::model::scene::Kind;
-use crate::viewer::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair};
+use crate::viewer::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair, WhyJobs};
 use crate::viewer::model::command::{Command, DisplayCommand};
-use crate::viewer::ui::why::WhyPanel;
+use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::numbers::{accuracy, seconds, significant};
 use crate::viewer::ui::widgets::theme;
 use crate::why::MapShare;
+use svbrdf_core::model::scene::Kind;
 
 /// Height of a row, and widths of its name and of its numbers, in points.
 const ROW: f32 = 20.0;
 const NAME: f32 = 74.0;
 const NUMBERS: f32 = 114.0;
 
-impl WhyPanel<'_> {
-    pub fn maps(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
+/// The section, with what it depends on.
+#[derive(Debug)]
+pub struct MapsSection<'a> {
+    pub state: &'a ViewState,
+    pub jobs: &'a WhyJobs,
+    pub settings: &'a LossSettings,
+}
+
+impl MapsSection<'_> {
+    pub fn ui(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
         let attributed = self.jobs.attribution.get(pair, self.settings.seed);
         let axis = attributed.map_or([0.0, 1.0], axis);
         for map in Map::ALL {

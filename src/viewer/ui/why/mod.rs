@@ -6,8 +6,9 @@ pub mod scenes;
 
 use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
+use maps::MapsSection;
+
 use crate::loss::LossSettings;
-use crate::picture::quantity::Quantity;
 use crate::viewer::jobs::why::{ComparedPair, WhyJobs};
 use crate::viewer::model::command::{Command, DisplayCommand, WhyCommand};
 use crate::viewer::model::settings::why::{WhySection, WhySections, WhyState};
@@ -15,6 +16,7 @@ use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
+use svbrdf_core::picture::quantity::Quantity;
 
 /// Characters of a name in a row.
 const NAME: usize = 30;
@@ -73,7 +75,10 @@ impl WhyPanel<'_> {
             let open = self.sections.is_open(section);
             let header = egui::CollapsingHeader::new(RichText::new(title).strong()).open(Some(open));
             let header = header.show_unindented(ui, |ui| match section {
-                WhySection::Maps => self.maps(ui, pair, &mut commands),
+                WhySection::Maps => {
+                    let Self { state, jobs, settings, .. } = *self;
+                    MapsSection { state, jobs, settings }.ui(ui, pair, &mut commands);
+                }
                 WhySection::Scenes => self.scenes(ui, pair, textures, &mut commands),
                 WhySection::Directions => self.directions(ui, pair, textures, &mut commands),
             });

@@ -34,3 +34,8 @@ pub fn number<T: egui::emath::Numeric>(
     }
     response
 }
+
+/// A panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.
+pub fn bare(panel: egui::Panel, ui: &egui::Ui) -> egui::Panel {
+    panel.frame(egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT))
+}

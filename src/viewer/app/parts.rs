@@ -1,0 +1,26 @@
+//! Parts of the application: the model, the jobs, the user interface and the adapter.
+
+use super::stop::Stop;
+use crate::viewer::jobs::Jobs;
+use crate::viewer::jobs::displayed::Displayed;
+use crate::viewer::model::Model;
+use crate::viewer::ui::WindowUi;
+use crate::viewer::ui::shading::gpu_view::GpuView;
+
+/// What effects and results change.
+#[derive(Debug)]
+pub struct Parts {
+    pub model: Model,
+    pub jobs: Jobs,
+    pub ui: WindowUi,
+    /// `None` where there is no adapter.
+    pub gpu: Option<GpuView>,
+    pub stop: Stop,
+}
+
+impl Parts {
+    /// What the panes display.
+    pub fn displayed(&self) -> Displayed<'_> {
+        Displayed::of(&self.model, &self.jobs)
+    }
+}
