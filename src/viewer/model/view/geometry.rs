@@ -41,7 +41,13 @@ mod tests {
         let grid = Grid { width: 64, height: 64 };
         for pane in [[128.0, 128.0], [256.0, 128.0], [128.0, 512.0]] {
             let geometry = WindowGeometry { pane, ..WindowGeometry::default() };
-            assert!((geometry.one_to_one_zoom(grid) - 0.5).abs() < 1e-6, "{pane:?}");
+            let zoom = geometry.one_to_one_zoom(grid);
+            let camera = Camera::flat(grid, geometry.aspect()).zoomed(zoom, [0.0; 2]);
+            let pixel = |column: usize| {
+                let ndc = camera.ndc_from_point(grid.position(column, 7)).unwrap();
+                0.5 * ndc[0] * pane[0]
+            };
+            assert!((pixel(11) - pixel(10) - 1.0).abs() < 1e-4, "{pane:?}: {}", pixel(11) - pixel(10));
         }
         assert_eq!(WindowGeometry::default().aspect(), 1.0, "before the first frame");
     }

@@ -184,7 +184,7 @@ mod tests {
     use crate::material::Material;
     use crate::samples;
     use crate::viewer::jobs::reading::upload::BAND;
-    use crate::viewer::model::inspection::Region;
+    use crate::viewer::model::view::state::ViewState;
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_core::picture::quantity::Quantity;
 
