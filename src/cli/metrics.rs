@@ -1,9 +1,9 @@
 //! `svbrdf metrics`: metrics beside the loss.
 
-use svbrdf::error::Error;
-use svbrdf::material::Material;
-use svbrdf::metrics::{Metric, of_maps, of_renderings};
-use svbrdf::report::{Compared, MetricsReport};
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::metrics::{Metric, of_maps, of_renderings};
+use svbrdf_core::report::{Compared, MetricsReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given, modes};

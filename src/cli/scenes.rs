@@ -1,7 +1,7 @@
 //! `svbrdf scenes`: the scenes with the largest losses.
 
-use svbrdf::loss::Comparison;
-use svbrdf::report::{Compared, ScenesReport};
+use svbrdf_core::loss::Comparison;
+use svbrdf_core::report::{Compared, ScenesReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given};

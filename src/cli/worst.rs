@@ -1,8 +1,8 @@
 //! `svbrdf worst`: the scene with the largest loss.
 
-use svbrdf::material::Material;
-use svbrdf::report::{Compared, Report as _, WorstReport};
-use svbrdf::why::worst;
+use svbrdf_core::material::Material;
+use svbrdf_core::report::{Compared, Report as _, WorstReport};
+use svbrdf_core::why::worst;
 
 use super::args::{ComparisonArgs, Given};
 use super::job::ComparisonJob;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use svbrdf::picture::difference::Difference;
+use svbrdf_core::picture::difference::Difference;
 
 use crate::cli::args::ComparisonArgs;
 use crate::cli::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};

@@ -1,7 +1,7 @@
 //! Latest result for a key: slow work that follows what is displayed.
 
 use super::job::Job;
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// The result for a key, and the job for a newer one. A job for an earlier key is completed, so that there are results while
 /// something moves.
@@ -99,7 +99,7 @@ mod tests {
         let mut latest = Latest::default();
         assert_eq!(settle(&mut latest, 1), [1]);
         assert_eq!(latest.get(), Some((&1, &10)));
-        assert_eq!(settle(&mut latest, 1), [], "it is there");
+        assert_eq!(settle(&mut latest, 1), [0_u32; 0], "it is there");
         assert_eq!(settle(&mut latest, 2), [2]);
         assert_eq!(latest.get(), Some((&2, &20)));
         latest.follow(None, |_| unreachable!());

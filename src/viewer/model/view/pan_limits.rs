@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use crate::material::Grid;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::material::Grid;
 
 /// Least part of the material, or of the pane where the material is larger, that panning leaves visible along each axis:
 /// a fifth of the area along both.
@@ -49,8 +49,8 @@ fn extents(state: &ViewState, grid: Grid, aspect: f32) -> Option<[[f32; 2]; 2]> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::session_window::Display;
     use crate::viewer::model::view::state::Projection;
+    use svbrdf_files::session_window::Display;
 
     const GRID: Grid = Grid { width: 64, height: 48 };
 

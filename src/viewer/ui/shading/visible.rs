@@ -1,9 +1,9 @@
 //! Visible part of a material: what is shaded while something moves on a slow adapter.
 
-use crate::material::Grid;
 use crate::viewer::model::inspection::Region;
 use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::shading::shaded::ShadedPart;
+use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
 
 /// Most texels along an axis that one stands for.
@@ -42,8 +42,8 @@ fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::session_window::Display;
     use crate::viewer::model::view::state::Projection;
+    use svbrdf_files::session_window::Display;
 
     const GRID: Grid = Grid { width: 256, height: 128 };
 
