@@ -10,8 +10,8 @@ use svbrdf_files::scene_file;
 
 use super::args::{ComparisonArgs, Given, values};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
-use super::report::ReportFormat;
 
 /// Prints how much of the rendering loss comes from each map
 ///

@@ -13,8 +13,8 @@ use svbrdf_files::scene_file;
 use super::args::values::{duration, percent};
 use super::args::{ComparisonArgs, Given, modes};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
-use super::report::ReportFormat;
 
 /// Prints the rendering loss of predictions against a ground truth
 ///

@@ -8,9 +8,9 @@ use svbrdf_core::report::{Compared, MetricsReport};
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given, modes};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
 use super::protocol::{self, ProtocolArgs};
-use super::report::ReportFormat;
 
 /// Prints metrics of maps and renderings, each with its convention in its name
 ///

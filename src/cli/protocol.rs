@@ -13,8 +13,8 @@ use svbrdf_files::read::{self, Energy, ReadOptions};
 use svbrdf_files::source::{MaterialSource, Place};
 
 use super::job::{ComparisonJob, MaterialJob};
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
-use super::report::ReportFormat;
 
 #[derive(Debug, clap::Args)]
 pub struct ProtocolArgs {

@@ -6,8 +6,8 @@ use svbrdf_core::report::{Compared, ScenesReport};
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
-use super::report::ReportFormat;
 
 /// Prints the scenes with the largest losses, worst first
 ///

@@ -6,8 +6,8 @@ use svbrdf_core::why::worst;
 
 use super::args::{ComparisonArgs, Given};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
-use super::report::ReportFormat;
 
 /// Searches for the scene with the largest loss of each prediction
 ///

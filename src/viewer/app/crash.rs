@@ -90,7 +90,9 @@ mod tests {
     /// The end of a window whose frames are these, and whose library then panics where `library_panics`.
     fn end(frames: &[fn()], library_panics: bool) -> Result<(), Error> {
         let guard = CrashGuard::default();
-        frames.iter().for_each(|frame| drop(guard.frame(frame)));
+        frames.iter().for_each(|frame| {
+            let _ = guard.frame(frame);
+        });
         let library = || if library_panics { panic!("planted in the library") } else { Ok(Ok(())) };
         outcome(&guard, panics::caught(library))
     }

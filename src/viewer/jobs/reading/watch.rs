@@ -231,7 +231,9 @@ mod tests {
         let (path, files) = watched(&folder);
         let repaints = Arc::new(AtomicUsize::new(0));
         let counted = repaints.clone();
-        let waker = Waker::new(move |_| drop(counted.fetch_add(1, Ordering::SeqCst)));
+        let waker = Waker::new(move |_| {
+            counted.fetch_add(1, Ordering::SeqCst);
+        });
         let watcher = Watcher::start(&waker, Duration::from_millis(1));
         watcher.watch(files);
         std::thread::sleep(Duration::from_millis(50));

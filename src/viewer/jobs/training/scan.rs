@@ -156,7 +156,6 @@ impl Settling {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::material::read::MaterialId;
     use svbrdf_files::steps::{Counter, RunId};
 
     const NOW: SystemTime = SystemTime::UNIX_EPOCH;
@@ -204,7 +203,7 @@ mod tests {
     fn new_steps_are_found_while_a_folder_is_watched() {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str| std::fs::write(folder.path().join(name), "x").unwrap();
-        let steps = |runs: &[TrainingRun]| -> Vec<MaterialId> {
+        let steps = |runs: &[TrainingRun]| -> Vec<u64> {
             runs.iter().flat_map(|run| &run.steps).map(|step| step.number).collect()
         };
         write("a_step1.png");

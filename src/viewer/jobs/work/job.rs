@@ -177,7 +177,9 @@ mod tests {
     #[test]
     fn updates_come_before_the_result_and_wake_the_window() {
         let (sender, wakes) = mpsc::channel();
-        let waker = Waker::new(move |after| drop(sender.send(after)));
+        let waker = Waker::new(move |after| {
+            let _ = sender.send(after);
+        });
         let job = Job::stream(&waker, Progress::default(), |worker| {
             worker.report(1)?;
             worker.report(2)?;

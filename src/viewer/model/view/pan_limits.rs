@@ -59,8 +59,10 @@ mod tests {
         for projection in [Projection::Flat, Projection::Perspective] {
             for zoom in [0.1, 0.5, 1.0, 7.0, 400.0] {
                 for far in [[1e4, 0.0], [0.0, -1e4], [1e4, 1e4], [-1e4, 30.0]] {
-                    let mut state = ViewState::default();
-                    state.display = Display { projection, zoom, pan: far, ..Display::default() };
+                    let mut state = ViewState {
+                        display: Display { projection, zoom, pan: far, ..Display::default() },
+                        ..ViewState::default()
+                    };
                     assert!(visible_share(&state, GRID, 1.3) < NEARLY_LOST, "a planted fault");
                     state.display.pan = limited(&state, GRID, 1.3);
                     let share = visible_share(&state, GRID, 1.3);
@@ -73,8 +75,10 @@ mod tests {
     #[test]
     fn a_pan_that_leaves_enough_visible_stays() {
         for pan in [[0.0, 0.0], [0.9, -0.4], [-0.5, 0.9]] {
-            let mut state = ViewState::default();
-            state.display = Display { zoom: 3.0, pan, ..Display::default() };
+            let state = ViewState {
+                display: Display { zoom: 3.0, pan, ..Display::default() },
+                ..ViewState::default()
+            };
             assert_eq!(limited(&state, GRID, 1.0), pan);
         }
     }

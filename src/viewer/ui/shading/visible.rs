@@ -59,8 +59,10 @@ mod tests {
     fn all_that_is_visible_is_shaded_and_little_else() {
         for projection in [Projection::Flat, Projection::Perspective] {
             for (zoom, pan) in [(1.0, [0.0, 0.0]), (4.0, [0.3, -0.2]), (16.0, [-2.0, 1.5])] {
-                let mut state = ViewState::default();
-                state.display = Display { projection, zoom, pan, ..Display::default() };
+                let mut state = ViewState {
+                    display: Display { projection, zoom, pan, ..Display::default() },
+                    ..ViewState::default()
+                };
                 state.scene.view = [0.7, -0.4, 2.0];
                 let part = shaded_part(&state, GRID, 1.5, 2.0);
                 let texels = visible_texels(&state);
