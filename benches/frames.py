@@ -2,12 +2,13 @@
 """Measures the frames of the real window: the times between frames that arrived on the screen.
 
     cargo build --release
-    benches/frames.py target/release/svbrdf [GT PRED...]
+    benches/frames.py target/release/svbrdf [GT PRED...] [--only-latency]
 
 Needs Xvfb and xdotool, and a machine that does nothing else. The window has 1360 x 860 points. The pointer hovers over a pane, then
 drags the light; then both again with magnified materials, and with differences. The screen is read from the memory of Xvfb every
 millisecond; a frame is a change of it. Prints the median and the 95th percentile of the times between frames, and the processor time
-per frame. With materials also the time from the start to the first picture and to the last one, beside that of `svbrdf info`, which
+per frame. Then single motions: from the event of the mouse to the first changed pixel of another pane, which is what a hand feels
+(`--only-latency`: nothing else). With materials also the time from the start to the first picture and to the last one, beside that of `svbrdf info`, which
 reads them and does no more. A large material, here of 2048 x 2048 texels, of a small one:
 
     convert assets/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
@@ -29,6 +30,8 @@ SECONDS = 6.0
 RATE = 120
 # A frame is copied to the screen in pieces: changes closer than this belong to one frame.
 ONE_FRAME = 0.004
+# Single motions, and the seconds between them: everything is sharp again by then.
+MOTIONS, BETWEEN_MOTIONS = 40, 0.4
 # What is compared: rows of the other panes. The server itself draws the pointer, which is not a frame.
 ROWS = range(8, HEIGHT, 9)
 COLUMNS = (530, 1030)
@@ -102,6 +105,27 @@ def measure(screen, process, environment, name, button, centre, radius):
     print(f"{name:<28} {len(times):4} frames, p50 {at(0.5):6.1f} ms, p95 {at(0.95):6.1f} ms, {cost:6.1f} ms of processor a frame")
 
 
+def latency(screen, environment, name, centre, radius):
+    """Times from the event of a motion to the first changed pixel of another pane, while the light is held."""
+    subprocess.run(["xdotool", "mousemove", str(centre[0]), str(centre[1]), "mousedown", "1"], env=environment, check=True)
+    time.sleep(1.0)
+    times = []
+    for i in range(MOTIONS):
+        turn = 2 * math.pi * i / 7.3
+        x, y = round(centre[0] + radius * math.cos(turn)), round(centre[1] + radius * math.sin(turn))
+        before = screen.rows()
+        # The event is in the queue of the window when the program has ended; starting it takes a few milliseconds.
+        subprocess.run(["xdotool", "mousemove", str(x), str(y)], env=environment, check=True)
+        start = time.perf_counter()
+        while screen.rows() == before and time.perf_counter() - start < 1.0:
+            time.sleep(0.0005)
+        times.append(1e3 * (time.perf_counter() - start))
+        time.sleep(BETWEEN_MOTIONS)
+    subprocess.run(["xdotool", "mouseup", "1"], env=environment, check=True)
+    times.sort()
+    print(f"{name:<28} {len(times):4} motions, p50 {times[len(times) // 2]:6.1f} ms, p95 {times[int(0.95 * len(times))]:6.1f} ms to the changed pixel")
+
+
 def until_still(screen, start):
     """Waits until nothing has changed for a while: the materials are there, and the loss is computed. The times of the first picture and
     of the last change."""
@@ -122,7 +146,9 @@ def reading(program, material):
 
 
 def main():
-    program, materials = pathlib.Path(sys.argv[1]).resolve(), [str(pathlib.Path(p).resolve()) for p in sys.argv[2:]]
+    only_latency = "--only-latency" in sys.argv
+    arguments = [argument for argument in sys.argv[1:] if argument != "--only-latency"]
+    program, materials = pathlib.Path(arguments[0]).resolve(), [str(pathlib.Path(p).resolve()) for p in arguments[1:]]
     with tempfile.TemporaryDirectory() as folder:
         screen = Screen(folder)
         environment = {**os.environ, "DISPLAY": screen.display, "HOME": folder, "XDG_RUNTIME_DIR": folder, "WGPU_BACKEND": "vulkan"}
@@ -138,6 +164,9 @@ def main():
             subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "svbrdf", "windowfocus"], env=environment, check=True, stdout=subprocess.DEVNULL)
             print(f"load {os.getloadavg()[0]:.1f} before the measurement")
             pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
+            latency(screen, environment, "motions of the light", pane, 90)
+            if only_latency:
+                return
             measure(screen, process, environment, "hover", False, pane, 90)
             measure(screen, process, environment, "drag the light", True, pane, 90)
             subprocess.run(["xdotool", "mousemove", *map(str, pane), *["click", "4"] * 8], env=environment, check=True)

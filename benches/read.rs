@@ -7,6 +7,8 @@
 //! nothing, over the 40 bytes a texel of the planes that stay. `READ_BENCH` names another build of this benchmark, which
 //! is measured instead.
 
+#![allow(clippy::disallowed_methods, reason = "a benchmark reads its own files")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

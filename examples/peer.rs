@@ -3,6 +3,8 @@
 //! `peer FOLDER SIZE THREADS`: FOLDER holds gt_SIZE.f32 and pred_SIZE.f32 (10 planes: normal xyz, diffuse rgb,
 //! roughness, specular rgb, little-endian) and scenes.json. The loss itself goes to stderr.
 
+#![allow(clippy::disallowed_methods, reason = "a program of the tests reads its own files")]
+
 use std::path::Path;
 use std::time::Instant;
 

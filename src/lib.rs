@@ -46,7 +46,7 @@
 //! | [`source`] | where a material comes from and how it is read: files, built-in materials, entries of sessions |
 //! | [`progress`], [`error`] | progress and cancellation of long operations; one error variant per cause |
 #![cfg_attr(feature = "gpu", doc = "| [`gpu`] | rendering and loss on a graphics adapter |")]
-#![cfg_attr(feature = "viewer", doc = "| [`viewer`] | the window |")]
+#![cfg_attr(feature = "viewer", doc = "| [`open_viewer`] | the window |")]
 //!
 //! Modules use lower layers only; a test checks it. The core does not depend on graphics, `gpu` depends on the core, `viewer` on
 //! both, and the command line is part of the binary. Without default features the crate is the core with the command line.
@@ -79,5 +79,10 @@ pub mod study {
     pub use svbrdf_files::export::{study_csv, study_plot as plot};
 }
 
-#[cfg(feature = "viewer")]
+#[cfg(all(feature = "viewer", not(feature = "testing")))]
+mod viewer;
+#[cfg(feature = "testing")]
 pub mod viewer;
+
+#[cfg(feature = "viewer")]
+pub use viewer::{ViewerOptions, run as open_viewer};

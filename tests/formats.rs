@@ -1,5 +1,6 @@
 //! One test for each row of the table in `docs/formats.md`: what opens, and that it is the same material.
 
+mod arrays;
 mod conventions;
 pub mod decoders;
 mod killed;

@@ -1,6 +1,7 @@
 //! Every integration test, in one binary: it links once.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "a test reads its own files")]
 
 mod support;
 

@@ -3,6 +3,8 @@
 //! First a table with the time per texel-scene ("pp": both materials rendered and compared) and the share of the
 //! compute bound, which is measured in the same run; then divan's statistics. Every measured loss is asserted.
 
+#![allow(clippy::disallowed_methods, reason = "a benchmark reads files of the system")]
+
 mod bound;
 mod job;
 mod rows;

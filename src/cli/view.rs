@@ -74,7 +74,7 @@ fn open_window(args: ViewArgs) -> Result<(), CommandError> {
     let mut materials = args.materials;
     let scenes = take_scenes(&mut materials)?;
     let session = session::given(&materials)?;
-    Ok(svbrdf::viewer::run(svbrdf::viewer::ViewerOptions {
+    Ok(svbrdf::open_viewer(svbrdf::ViewerOptions {
         session,
         photograph,
         scenes,

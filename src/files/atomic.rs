@@ -1,4 +1,4 @@
-//! Files that appear when they are complete, or not at all.
+//! Writing of files that appear when they are complete, or not at all.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 use crate::progress::Progress;
 
+/// The program and its version, as the files that it writes name it.
+pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
 /// A chain of links that is longer has no end.
 const MOST_LINKS: usize = 40;
 
@@ -18,8 +20,8 @@ pub struct Destination<F> {
 }
 
 impl<F> Destination<F> {
-    /// Checks what can be checked of `path` before there is anything to write. `format` belongs to an extension in
-    /// small letters, `what` says whose extension it is, and `known` which there are.
+    /// Checks `path` before there is anything to write. `format` belongs to an extension in
+    /// small letters, `what` names the extension in messages, and `known` lists all.
     pub fn among(
         path: &Path,
         format: impl FnOnce(&str) -> Option<F>,
@@ -81,7 +83,7 @@ pub fn check(progress: &Progress) -> io::Result<()> {
     if progress.is_cancelled() { Err(io::Error::other("cancelled")) } else { Ok(()) }
 }
 
-/// Whether a file can be at `path`: found out before there is anything to write.
+/// Checks that a file can be at `path`, before there is anything to write.
 ///
 /// # Errors
 /// [`Error::Unwritable`] where its folder is missing or it is itself a folder.
@@ -144,7 +146,7 @@ pub fn replace(
     })
 }
 
-/// What `path` is a link to, if it is one: a file, or nothing yet.
+/// The target of `path` where it is a link: a file, or nothing yet.
 fn target_of(path: &Path) -> io::Result<PathBuf> {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -178,6 +180,7 @@ fn unwritable(path: &Path, source: io::Error, remedy: &'static str) -> Error {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "a test reads its own files")]
 mod tests {
     use super::*;
 

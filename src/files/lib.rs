@@ -20,11 +20,14 @@
 pub mod atomic;
 pub mod dataset;
 pub mod export;
+pub mod open;
+mod panics;
 pub mod photograph;
 pub mod read;
 pub mod samples;
 pub mod scene_file;
 pub mod session;
+pub mod session_window;
 pub mod source;
 pub mod stamp;
 mod step_names;

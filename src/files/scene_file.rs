@@ -7,6 +7,7 @@ use serde::Deserialize;
 use crate::error::Error;
 use crate::loss::FileScenes;
 use crate::model::scene::{Kind, Scene, SceneFile};
+use crate::open::NamedFile;
 use crate::read::Sidecar;
 use crate::session::Session;
 
@@ -19,7 +20,7 @@ use crate::session::Session;
 /// # Errors
 /// Where the file cannot be read, is not of that form, has no scene, or has one that [`Scene::check`] refuses.
 pub fn read(path: &Path) -> Result<Vec<Scene>, Error> {
-    let text = std::fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
+    let text = NamedFile::by_user(path).text()?;
     parse(&text).map_err(|problem| Error::BadScene { path: path.to_owned(), problem })
 }
 

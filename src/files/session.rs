@@ -1,15 +1,15 @@
 //! The session file: a comparison that another person can open, with everything that it takes.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::read::{PhotographOptions, ReadOptions};
+use super::session_window::SessionWindow;
 use crate::error::Error;
 use crate::model::scene::Scene;
+use crate::open::NamedFile;
 
 /// What the names of session files end with.
 const ENDING: &str = ".svbrdf-session.json";
@@ -34,8 +34,8 @@ pub struct Session {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub photograph: Option<SessionPhotograph>,
     /// Display and loss settings of the window.
-    #[serde(default, skip_serializing_if = "Map::is_empty")]
-    pub window: Map<String, Value>,
+    #[serde(default, skip_serializing_if = "SessionWindow::is_empty")]
+    pub window: SessionWindow,
 }
 
 /// A material of a session.
@@ -77,16 +77,6 @@ pub struct SessionPhotograph {
 }
 
 impl Session {
-    /// The key of the window's display among [`Session::window`].
-    pub const VIEW: &str = "view";
-    /// The key of its loss settings, a [`crate::loss::LossSettings`].
-    pub const LOSS: &str = "loss";
-
-    /// What the window saved under this key; `None` where there is nothing, or an older or newer program saved it otherwise.
-    pub fn window_part<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
-        serde_json::from_value(self.window.get(key)?.clone()).ok()
-    }
-
     /// Whether `path` is named like a session file.
     pub fn is_named(path: &Path) -> bool {
         path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ENDING))
@@ -94,7 +84,7 @@ impl Session {
 
     /// A session without anything of a window.
     pub fn new(materials: Vec<SessionMaterial>, scene: Scene, convention: String, exposure: f32) -> Self {
-        let (photograph, window) = (None, Map::new());
+        let (photograph, window) = (None, SessionWindow::default());
         Self { version: VERSION, materials, scene, convention, exposure, photograph, window }
     }
 
@@ -103,7 +93,7 @@ impl Session {
     /// # Errors
     /// [`Error::Unreadable`], [`Error::BadSession`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let bytes = fs::read(path).map_err(|source| Error::unreadable(path, source))?;
+        let bytes = NamedFile::by_user(path).bytes()?;
         let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
         let mut session: Self = serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
         if session.version > VERSION {
@@ -187,6 +177,8 @@ fn relative(path: &Path, folder: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::files::read::{Albedo, Transfer};
     use crate::model::scene::Kind;
@@ -246,6 +238,7 @@ mod tests {
             (good.replace("\"path\"", "\"way\""), "expected a path"),
             (good.replace("\"materials\"", "\"things\""), "materials"),
             ("[".to_owned(), "EOF"),
+            (good.replacen('{', r#"{"window": {"loss": {"ask": "Acuracy"}},"#, 1), "window.loss.ask"),
         ];
         for (text, reason) in cases {
             assert_ne!(text, good);

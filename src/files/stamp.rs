@@ -1,4 +1,4 @@
-//! When files were written, and how large they are: what tells whether they have changed.
+//! Stamps of files: times and sizes that tell whether files have changed.
 
 use std::fs::{self, Metadata};
 use std::path::Path;
@@ -48,7 +48,7 @@ impl Stamp {
         self.modified.is_some_and(|modified| match now.duration_since(modified) {
             Ok(age) => age < time,
             // The clock of a file server may be a little ahead.
-            Err(ahead) => ahead.duration() < time,
+            Err(lead) => lead.duration() < time,
         })
     }
 }
@@ -83,8 +83,8 @@ mod tests {
             modified: Some(SystemTime::UNIX_EPOCH + Duration::from_secs_f64(seconds)),
             ..Stamp::default()
         };
-        let young = |stamp: Stamp| stamp.is_younger_than(Duration::from_secs(2), now);
-        assert!(young(of(999.0)) && young(of(1001.0)));
-        assert!(!young(of(990.0)) && !young(of(1100.0)) && !young(Stamp::default()));
+        let recent = |stamp: Stamp| stamp.is_younger_than(Duration::from_secs(2), now);
+        assert!(recent(of(999.0)) && recent(of(1001.0)));
+        assert!(!recent(of(990.0)) && !recent(of(1100.0)) && !recent(Stamp::default()));
     }
 }

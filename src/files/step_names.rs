@@ -1,4 +1,4 @@
-//! Names that say at which step of a training a prediction was written.
+//! Names of predictions that tell at which step of a training they were written.
 
 use std::fmt;
 use std::path::Path;

@@ -1,7 +1,7 @@
-//! The steps of training runs: predictions whose names say at which step of the training they were written.
+//! Steps of training runs: predictions whose names tell at which step of the training they were written.
 //!
 //! `wood_step000100.png`, `wood_step000200/` and the files `wood_iter300_normal.png`, `wood_iter300_diffuse.png` and so on are
-//! steps of the run `wood`. Where the name says nothing else, as in `epoch_12.exr`, the run has the name of the folder.
+//! steps of the run `wood`. Where the name has nothing else, as in `epoch_12.exr`, the run has the name of the folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -172,11 +172,11 @@ pub fn rgb_exr(path: &Path, image: &image::Rgb32FImage) {
     exr(path, vec![(None, ["R", "G", "B"].iter().enumerate().map(|(c, n)| channel(n, plane(c))).collect())]);
 }
 
-/// An npy array of (rows, columns, channels).
-pub fn npy(shape: [u64; 3], values: &[f32]) -> Vec<u8> {
+/// An npy array of this shape.
+pub fn npy(shape: impl AsRef<[u64]>, values: &[f32]) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut writer =
-        npyz::WriteOptions::new().default_dtype().shape(&shape).writer(&mut bytes).begin_nd().unwrap();
+    let options = npyz::WriteOptions::new().default_dtype().shape(shape.as_ref());
+    let mut writer = options.writer(&mut bytes).begin_nd().unwrap();
     writer.extend(values.iter().copied()).unwrap();
     writer.finish().unwrap();
     bytes

@@ -6,27 +6,27 @@ use super::*;
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_turntable_turns_the_view_until_space_pauses_it() {
     let mut window = built_in();
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     let place = window.get_by_label("Turntable").rect();
     window.get_by_label("Turntable").click();
     window.run_steps(4);
     assert_eq!(window.get_by_label("Turntable").rect(), place, "a second click stops it");
-    let first = window.state().state.scene;
+    let first = window.state().model.view.scene;
     window.run_steps(4);
-    let second = window.state().state.scene;
+    let second = window.state().model.view.scene;
     assert!(first.view != before.view && second.view != first.view, "{first:?}, {second:?}");
     assert_eq!(second.view[2], before.view[2], "the height stays");
     assert_eq!(second.light, before.light, "the light stays");
     press(&mut window, egui::Key::Space);
-    let paused = window.state().state.scene;
+    let paused = window.state().model.view.scene;
     window.run_steps(6);
-    assert_eq!(window.state().state.scene, paused);
+    assert_eq!(window.state().model.view.scene, paused);
     window.get_by_label("Resume").click();
     window.run_steps(4);
-    assert!(window.state().state.scene.view != paused.view);
+    assert!(window.state().model.view.scene.view != paused.view);
     window.get_by_label("Turntable").click();
     window.run_steps(4);
-    let stopped = window.state().state.scene;
+    let stopped = window.state().model.view.scene;
     window.run_steps(4);
-    assert_eq!(window.state().state.scene, stopped);
+    assert_eq!(window.state().model.view.scene, stopped);
 }

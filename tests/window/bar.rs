@@ -1,6 +1,6 @@
 //! The bar at the top, in windows of all sizes.
 
-use svbrdf::viewer::command::{DisplayCommand, WindowCommand};
+use svbrdf::viewer::model::command::{DisplayCommand, WindowCommand};
 
 use super::*;
 
@@ -61,13 +61,13 @@ fn the_bar_is_one_line_in_every_window_and_what_it_has_no_room_for_is_in_the_men
     // Undo is in the menu of a narrow window, and works there.
     window.set_size(vec2(900.0, 600.0));
     press(&mut window, egui::Key::E);
-    assert_eq!(window.state().state.exposure_ev, 0.5);
+    assert_eq!(window.state().model.view.exposure_ev, 0.5);
     assert!(window.query_by_label("Undo").is_none());
     window.get_by_label("Menu").click();
     window.run_steps(6);
     window.get_by_label("Undo").click();
     window.run_steps(3);
-    assert_eq!(window.state().state.exposure_ev, 0.0);
+    assert_eq!(window.state().model.view.exposure_ev, 0.0);
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn panes_stay_in_their_places_when_a_texel_is_pinned() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");
     let size = window.state().picture_size();
-    let (ctx, what) = (window.ctx.clone(), svbrdf::viewer::save_kind::SaveKind::View);
+    let (ctx, what) = (window.ctx.clone(), svbrdf::viewer::model::settings::save_kind::SaveKind::View);
     let command = WindowCommand::Save { what, path: path.clone(), size };
     window.state_mut().apply(&ctx, command.into());
     wait(&mut window, "the file", |app| !app.messages().is_empty());
@@ -139,7 +139,7 @@ fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     // The same pixels as a saved view has.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");
-    let (ctx, what) = (window.ctx.clone(), svbrdf::viewer::save_kind::SaveKind::View);
+    let (ctx, what) = (window.ctx.clone(), svbrdf::viewer::model::settings::save_kind::SaveKind::View);
     window.state_mut().apply(&ctx, WindowCommand::DismissMessages.into());
     window.state_mut().apply(&ctx, WindowCommand::Save { what, path: path.clone(), size }.into());
     wait(&mut window, "the file", |app| !app.messages().is_empty());

@@ -1,8 +1,8 @@
 //! The corners of the material in a photograph, dragged by their handles.
 
 use svbrdf::photograph::Corners;
-use svbrdf::viewer::command::{DisplayCommand, PhotographCommand};
-use svbrdf::viewer::state::Layout;
+use svbrdf::viewer::model::command::{DisplayCommand, PhotographCommand};
+use svbrdf::viewer::model::view::state::Layout;
 
 use super::photograph::{CORNERS, SIZE, agrees, apply, expected_within, opened};
 use super::*;
@@ -148,5 +148,5 @@ fn the_whole_photograph_is_shown_in_every_layout_until_the_corners_are_done() {
     // From a map, it goes to renderings, which are compared with the photograph.
     press(&mut window, egui::Key::M);
     edit(&mut window);
-    assert_eq!(window.state().state.quantity, svbrdf::picture::quantity::Quantity::Rendering);
+    assert_eq!(window.state().model.view.display.quantity, svbrdf::picture::quantity::Quantity::Rendering);
 }

@@ -7,7 +7,7 @@ use svbrdf::picture::difference::Difference;
 use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::statistics::Statistics;
 use svbrdf::progress::Progress;
-use svbrdf::viewer::state::Layout;
+use svbrdf::viewer::model::view::state::Layout;
 use svbrdf::{render, samples};
 
 use super::*;
@@ -62,7 +62,7 @@ fn the_statistics_of_a_rendering_are_those_of_the_core_in_f64_and_their_mean_is_
     let mut window = built_in();
     press(&mut window, egui::Key::D);
     let got = statistics(&mut window);
-    let scene = window.state().state.scene;
+    let scene = window.state().model.view.scene;
     for (index, got) in got.iter().enumerate() {
         let expected = log_differences(&scene, index + 1);
         assert!(are_those_of(got, expected.clone(), 1e-4), "{index}: {got:?}");
@@ -133,7 +133,7 @@ fn the_ground_truth_is_never_compared_with_itself() {
     };
     press(&mut window, egui::Key::D);
     for layout in [Layout::SideBySide, Layout::Wipe, Layout::Single] {
-        assert_eq!(window.state().state.layout, layout);
+        assert_eq!(window.state().model.view.display.layout, layout);
         for key in [egui::Key::X, egui::Key::G] {
             window.key_down(key);
             window.run_steps(4);
@@ -185,7 +185,7 @@ fn the_range_is_dragged_and_automatic_again() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_range_of_a_signed_difference_is_dragged_at_either_end() {
     let mut window = built_in();
-    window.state_mut().state.differences.choose(Quantity::Rendering, Difference::SignedLog);
+    window.state_mut().model.view.display.differences.choose(Quantity::Rendering, Difference::SignedLog);
     press(&mut window, egui::Key::D);
     statistics(&mut window);
     let auto = window.state().difference_range();
@@ -220,5 +220,5 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
             assert_eq!(column(&window, start), expected, "under the pointer is slot {slot}");
         }
     }
-    assert_eq!(window.state().state.prediction, 0, "the first prediction is the chosen one");
+    assert_eq!(window.state().model.view.display.prediction, 0, "the first prediction is the chosen one");
 }

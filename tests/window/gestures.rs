@@ -11,7 +11,7 @@ fn dragging_the_light_changes_the_rendering_where_it_goes() {
     let before = pixels(&mut window, rect);
     drag(&mut window, egui::PointerButton::Primary, rect, from, to);
     let after = pixels(&mut window, rect);
-    let [x, y, z] = window.state().state.scene.light;
+    let [x, y, z] = window.state().model.view.scene.light;
     assert!(x < -0.2 && y < -0.2 && z == 1.2, "the light is at {x}, {y}, {z}");
     assert!(brightness(&after, to) > 1.2 * brightness(&before, to), "it is brighter where the light went");
     assert!(brightness(&after, from) < brightness(&before, from), "it is darker where the light was");
@@ -22,15 +22,19 @@ fn dragging_the_light_changes_the_rendering_where_it_goes() {
 fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
-    let before = window.state().state.clone();
+    let before = window.state().model.view.clone();
     drag(&mut window, egui::PointerButton::Secondary, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
-    let moved = window.state().state.clone();
+    let moved = window.state().model.view.clone();
     assert!(moved.scene.view[0] > 0.1 && moved.scene.view[1] > 0.1, "{:?}", moved.scene);
     assert_eq!(moved.scene.light, before.scene.light);
     drag(&mut window, egui::PointerButton::Middle, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
-    let panned = window.state().state.clone();
+    let panned = window.state().model.view.clone();
     assert_eq!(panned.scene, moved.scene);
-    assert!((panned.pan[0] - 0.2).abs() < 0.02 && (panned.pan[1] - 0.2).abs() < 0.02, "{:?}", panned.pan);
+    assert!(
+        (panned.display.pan[0] - 0.2).abs() < 0.02 && (panned.display.pan[1] - 0.2).abs() < 0.02,
+        "{:?}",
+        panned.display.pan
+    );
 }
 
 #[test]
@@ -50,12 +54,12 @@ fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
         window.run_steps(4);
     };
     turn(&mut window, egui::Modifiers::NONE);
-    assert!(window.state().state.zoom > 1.1);
-    assert_eq!(window.state().state.scene.light[2], 1.2);
+    assert!(window.state().model.view.display.zoom > 1.1);
+    assert_eq!(window.state().model.view.scene.light[2], 1.2);
     turn(&mut window, egui::Modifiers::SHIFT);
-    assert!(window.state().state.scene.light[2] > 1.3, "{:?}", window.state().state.scene);
+    assert!(window.state().model.view.scene.light[2] > 1.3, "{:?}", window.state().model.view.scene);
     turn(&mut window, egui::Modifiers::ALT);
-    assert!(window.state().state.scene.view[2] > 2.7, "{:?}", window.state().state.scene);
+    assert!(window.state().model.view.scene.view[2] > 2.7, "{:?}", window.state().model.view.scene);
 }
 
 #[test]
@@ -66,7 +70,7 @@ fn movements_before_the_press_are_no_part_of_a_drag() {
     let rect = pane(&window, GROUND_TRUTH);
     window.event(egui::Event::PointerMoved(rect.right_bottom()));
     window.run_steps(2);
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     // All within one frame, as where frames are slow.
     let at = rect.center();
     let button = |pressed| egui::Event::PointerButton {
@@ -81,7 +85,29 @@ fn movements_before_the_press_are_no_part_of_a_drag() {
     window.run_steps(2);
     window.event(button(false));
     window.run_steps(2);
-    let view = window.state().state.scene.view;
+    let view = window.state().model.view.scene.view;
     let turned = (view[1] / before.view[2]).asin().abs();
     assert!((0.05..0.12).contains(&turned), "10 points turn the view by 0.08, not by {turned}");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn what_a_drag_changes_is_in_the_frame_that_read_it() {
+    let mut window = built_in();
+    let [rect, other] = [GROUND_TRUTH, "1  blurred normals"].map(|title| pane(&window, title));
+    let at = |share: f32| rect.min + rect.size() * share;
+    window.event(egui::Event::PointerMoved(at(0.7)));
+    window.run_steps(2);
+    window.event(egui::Event::PointerButton {
+        pos: at(0.7),
+        button: egui::PointerButton::Primary,
+        pressed: true,
+        modifiers: egui::Modifiers::NONE,
+    });
+    window.event(egui::Event::PointerMoved(at(0.6)));
+    window.run_steps(8);
+    let before = pixels(&mut window, other);
+    window.event(egui::Event::PointerMoved(at(0.3)));
+    window.step();
+    assert!(pixels(&mut window, other) != before, "another pane has the new light after one frame");
 }

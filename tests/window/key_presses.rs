@@ -1,8 +1,8 @@
 //! What the keys do.
 
 use svbrdf::picture::quantity::Quantity;
-use svbrdf::viewer::keys;
-use svbrdf::viewer::state::{Layout, Projection};
+use svbrdf::viewer::model::view::state::{Layout, Projection};
+use svbrdf::viewer::ui::input::keys;
 
 use super::*;
 
@@ -14,30 +14,36 @@ fn every_letter_does_what_the_help_says() {
         press(window, key);
         assert!(holds(window.state()), "{key:?}: {what}");
     };
-    expect(&mut window, egui::Key::C, "wipe", &|a| a.state.layout == Layout::Wipe);
-    expect(&mut window, egui::Key::C, "single", &|a| a.state.layout == Layout::Single);
-    expect(&mut window, egui::Key::C, "side by side", &|a| a.state.layout == Layout::SideBySide);
-    expect(&mut window, egui::Key::D, "difference", &|a| a.state.difference);
-    expect(&mut window, egui::Key::D, "value", &|a| !a.state.difference);
-    expect(&mut window, egui::Key::M, "normal", &|a| a.state.quantity == Quantity::Normal);
-    expect(&mut window, egui::Key::P, "perspective", &|a| a.state.projection == Projection::Perspective);
-    expect(&mut window, egui::Key::E, "brighter", &|a| a.state.exposure_ev == 0.5);
-    expect(&mut window, egui::Key::Num2, "second prediction", &|a| a.state.prediction == 1);
-    expect(&mut window, egui::Key::L, "clipping", &|a| a.state.show_clipping);
-    expect(&mut window, egui::Key::H, "highlight", &|a| a.settings.highlight_follows);
-    expect(&mut window, egui::Key::R, "reset", &|a| a.state.exposure_ev == 0.0 && !a.state.show_clipping);
-    expect(&mut window, egui::Key::B, "no panel", &|a| !a.settings.side_panel);
-    expect(&mut window, egui::Key::N, "automatic exposure", &|a| a.state.exposure_ev != 0.0);
-    expect(&mut window, egui::Key::T, "repeated", &|a| a.state.tiled);
-    expect(&mut window, egui::Key::J, "histograms", &|a| a.settings.histograms);
-    expect(&mut window, egui::Key::V, "false colours", &|a| a.state.false_colour);
-    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| a.state.zoom != 1.0);
-    expect(&mut window, egui::Key::F, "fitted", &|a| a.state.zoom == 1.0 && a.state.pan == [0.0; 2]);
+    expect(&mut window, egui::Key::C, "wipe", &|a| a.model.view.display.layout == Layout::Wipe);
+    expect(&mut window, egui::Key::C, "single", &|a| a.model.view.display.layout == Layout::Single);
+    expect(&mut window, egui::Key::C, "side by side", &|a| a.model.view.display.layout == Layout::SideBySide);
+    expect(&mut window, egui::Key::D, "difference", &|a| a.model.view.display.difference);
+    expect(&mut window, egui::Key::D, "value", &|a| !a.model.view.display.difference);
+    expect(&mut window, egui::Key::M, "normal", &|a| a.model.view.display.quantity == Quantity::Normal);
+    expect(&mut window, egui::Key::P, "perspective", &|a| {
+        a.model.view.display.projection == Projection::Perspective
+    });
+    expect(&mut window, egui::Key::E, "brighter", &|a| a.model.view.exposure_ev == 0.5);
+    expect(&mut window, egui::Key::Num2, "second prediction", &|a| a.model.view.display.prediction == 1);
+    expect(&mut window, egui::Key::L, "clipping", &|a| a.model.view.display.show_clipping);
+    expect(&mut window, egui::Key::H, "highlight", &|a| a.model.settings.highlight_follows);
+    expect(&mut window, egui::Key::R, "reset", &|a| {
+        a.model.view.exposure_ev == 0.0 && !a.model.view.display.show_clipping
+    });
+    expect(&mut window, egui::Key::B, "no panel", &|a| !a.model.settings.side_panel);
+    expect(&mut window, egui::Key::N, "automatic exposure", &|a| a.model.view.exposure_ev != 0.0);
+    expect(&mut window, egui::Key::T, "repeated", &|a| a.model.view.display.tiled);
+    expect(&mut window, egui::Key::J, "histograms", &|a| a.model.settings.histograms);
+    expect(&mut window, egui::Key::V, "false colours", &|a| a.model.view.display.false_colour);
+    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| a.model.view.display.zoom != 1.0);
+    expect(&mut window, egui::Key::F, "fitted", &|a| {
+        a.model.view.display.zoom == 1.0 && a.model.view.display.pan == [0.0; 2]
+    });
     // There are two predictions.
     for key in [egui::Key::Num3, egui::Key::Num5, egui::Key::Num8, egui::Key::Num9] {
-        expect(&mut window, key, "no such prediction", &|a| a.state.prediction == 1);
+        expect(&mut window, key, "no such prediction", &|a| a.model.view.display.prediction == 1);
     }
-    expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.state.prediction == 0);
+    expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.model.view.display.prediction == 0);
 }
 
 #[test]
@@ -79,10 +85,10 @@ fn undo_and_redo_go_through_the_changes() {
     for (modifiers, key) in redo {
         window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
         window.run_steps(3);
-        assert_eq!(window.state().state.exposure_ev, 0.0);
+        assert_eq!(window.state().model.view.exposure_ev, 0.0);
         window.key_press_modifiers(modifiers, key);
         window.run_steps(3);
-        assert_eq!(window.state().state.exposure_ev, 0.5, "{key:?}");
+        assert_eq!(window.state().model.view.exposure_ev, 0.5, "{key:?}");
     }
 }
 
@@ -92,18 +98,18 @@ fn letters_typed_into_a_field_are_no_commands() {
     let mut window = built_in();
     window.get_by_label("Open").click();
     window.run_steps(4);
-    let before = window.state().state.clone();
+    let before = window.state().model.view.clone();
     let field = "Files, folders or name prefixes, one a line:";
     window.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field).type_text("mcexp");
     press(&mut window, egui::Key::M);
-    assert_eq!(window.state().state, before);
+    assert_eq!(window.state().model.view, before);
 }
 
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn escape_closes_an_open_drop_down_and_nothing_else() {
     let mut window = built_in();
-    let (ctx, command) = (window.ctx.clone(), svbrdf::viewer::command::LossCommand::ShowStudy(true));
+    let (ctx, command) = (window.ctx.clone(), svbrdf::viewer::model::command::LossCommand::ShowStudy(true));
     window.state_mut().apply(&ctx, command.into());
     window.run_steps(3);
     window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Show").click();

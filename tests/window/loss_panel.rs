@@ -37,7 +37,7 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     window.run_steps(3);
     press(&mut window, egui::Key::Escape);
     enter(&mut window, "Seed", "7");
-    assert_eq!(window.state().settings.loss.seed, 7);
+    assert_eq!(window.state().model.settings.loss.seed, 7);
     assert_eq!(window.state().losses(), None, "the loss of another seed is no loss of this one");
     window.get_by_label("Compute loss").click();
     window.run_steps(2);
@@ -75,7 +75,7 @@ fn auto_computes_again_when_the_convention_changes() {
     window.run_steps(4);
     window.get_by_label("guided-2020").click();
     window.run_steps(4);
-    assert_eq!(window.state().state.convention, "guided-2020");
+    assert_eq!(window.state().model.view.convention, "guided-2020");
     wait(&mut window, "the second loss", |app| app.losses().is_some());
     assert!(window.state().losses().unwrap()[0].estimate.mean > before);
 }

@@ -1,12 +1,14 @@
 //! The window without a window: egui_kittest drives it by accessible labels, on a real adapter.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "a test reads its own files")]
 
 mod animation;
+mod assumptions;
 mod bar;
 mod corners;
+mod crash;
 mod differences;
-mod doctor;
 mod files;
 mod files_tab;
 mod gestures;

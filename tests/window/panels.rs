@@ -7,7 +7,7 @@ use super::*;
 fn a_double_click_on_a_number_puts_back_its_default() {
     let mut window = built_in();
     press(&mut window, egui::Key::E);
-    assert_eq!(window.state().state.exposure_ev, 0.5);
+    assert_eq!(window.state().model.view.exposure_ev, 0.5);
     let at = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Exposure").rect().center();
     for pressed in [true, false, true, false] {
         let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
@@ -15,7 +15,7 @@ fn a_double_click_on_a_number_puts_back_its_default() {
         window.event(egui::Event::PointerButton { pos: at, button, pressed, modifiers });
     }
     window.run_steps(6);
-    assert_eq!(window.state().state.exposure_ev, 0.0);
+    assert_eq!(window.state().model.view.exposure_ev, 0.0);
 }
 
 #[test]
@@ -26,14 +26,14 @@ fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
     window.run_steps(4);
     tab(&mut window, "Files");
     press(&mut window, egui::Key::Num2);
-    assert_eq!(window.state().state.prediction, 1);
+    assert_eq!(window.state().model.view.display.prediction, 1);
     window.get_all_by_label("Close").next().unwrap().click();
     window.run_steps(4);
     assert_eq!(window.state().names(), ["worn tiles", "wrong roughness"]);
-    assert_eq!(window.state().state.prediction, 0);
+    assert_eq!(window.state().model.view.display.prediction, 0);
     window.get_all_by_label("Close").next().unwrap().click();
     window.run_steps(4);
-    assert_eq!((window.state().names().len(), window.state().state.prediction), (1, 0));
+    assert_eq!((window.state().names().len(), window.state().model.view.display.prediction), (1, 0));
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
     window.set_size(vec2(900.0, 600.0));
     let path =
         |i| format!("/runs/of/a/very/long/name/that/does/not/fit/into/one/line/of/the/window/epoch_{i:04}");
-    window.state_mut().settings.recent = (0..12).map(|i| path(i).into()).collect();
+    window.state_mut().model.settings.recent = (0..12).map(|i| path(i).into()).collect();
     window.get_by_label("Open").click();
     window.run_steps(6);
     let button = window.get_by_label("Open these").rect();
@@ -85,7 +85,7 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Enter);
     wait(&mut window, "the end of reading", |app| !app.is_reading());
     window.get_by_label_contains(&format!("cannot read {}", path(1)));
-    assert_eq!(window.state().settings.recent.len(), 12, "what could not be opened is not remembered");
+    assert_eq!(window.state().model.settings.recent.len(), 12, "what could not be opened is not remembered");
 }
 
 #[test]

@@ -12,8 +12,10 @@ use svbrdf::picture::difference::Difference;
 use svbrdf::progress::Progress;
 use svbrdf::render::render_f32;
 use svbrdf::samples;
-use svbrdf::viewer::command::{Command, DisplayCommand, PhotographCommand, PhotographLight, WindowCommand};
-use svbrdf::viewer::save_kind::SaveKind;
+use svbrdf::viewer::model::command::{
+    Command, DisplayCommand, PhotographCommand, PhotographLight, WindowCommand,
+};
+use svbrdf::viewer::model::settings::save_kind::SaveKind;
 
 use super::*;
 
@@ -112,7 +114,7 @@ fn statistics(window: &Window<'_>) -> Vec<svbrdf::picture::statistics::Statistic
 fn renderings_are_compared_with_the_photograph_as_the_core_does() {
     let (mut window, folder) = opened();
     let path = folder.path().join("photo.npy");
-    assert_eq!(window.state().state.scene, flash(FOV).unwrap());
+    assert_eq!(window.state().model.view.scene, flash(FOV).unwrap());
     let core = expected(&path, false);
     assert!(agrees(&window, &core));
     assert!((core[0].factor - 0.25).abs() < 1e-6);
@@ -256,7 +258,7 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     window.get_by_role_and_label(egui::Role::Button, "Open photograph").click();
     window.run_steps(3);
     wait_for_it(&mut window);
-    assert_eq!(window.state().state.scene, flash(45.0).unwrap());
+    assert_eq!(window.state().model.view.scene, flash(45.0).unwrap());
     apply(&mut window, PhotographCommand::SetTransfer(Some(Transfer::Srgb)));
     wait(&mut window, "the other curve", |app| app.against_photograph().is_some());
 
@@ -280,7 +282,7 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     window.get_by_label_contains("it lists 1 scenes, counted from 0, and number 1 was asked for");
     apply(&mut window, of(0));
     wait_for_it(&mut window);
-    assert_eq!(window.state().state.scene.light, [1.0, 0.0, 2.0]);
+    assert_eq!(window.state().model.view.scene.light, [1.0, 0.0, 2.0]);
     // Corners that make no sense are refused; the earlier ones stay.
     let before = window.state().against_photograph().unwrap().to_vec();
     apply(&mut window, WindowCommand::DismissMessages);
@@ -289,4 +291,27 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     wait(&mut window, "the message", |app| !app.messages().is_empty());
     assert!(window.state().messages()[0].contains("clockwise"), "{:?}", window.state().messages());
     assert!(agrees(&window, &before));
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_photograph_that_was_replaced_is_read_again_when_it_is_opened_again() {
+    let (mut window, folder) = opened();
+    let path = folder.path().join("photo.npy");
+    let factor = |window: &Window<'_>| window.state().against_photograph().unwrap()[0].factor;
+    let before = factor(&window);
+    // The same picture at half the radiance, and at another time.
+    let stored = std::fs::read(&path).unwrap();
+    let values: Vec<f32> = stored[stored.len() - 12 * SIZE[0] * SIZE[1]..]
+        .chunks_exact(4)
+        .map(|bytes| 0.5 * f32::from_le_bytes(bytes.try_into().unwrap()))
+        .collect();
+    std::fs::write(&path, pictures::npy([SIZE[1] as u64, SIZE[0] as u64, 3], &values)).unwrap();
+    let time = std::time::SystemTime::now() + std::time::Duration::from_secs(5);
+    std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
+    let open = PhotographCommand::Open { photograph: source(&path), light: PhotographLight::AsNow };
+    apply(&mut window, open);
+    wait(&mut window, "the new photograph", |app| {
+        app.against_photograph().is_some_and(|all| (all[0].factor / before - 2.0).abs() < 0.01)
+    });
 }

@@ -6,7 +6,7 @@ use svbrdf::picture::difference::Difference;
 use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::statistics::{Histogram, Statistics};
 use svbrdf::progress::Progress;
-use svbrdf::viewer::state::ViewState;
+use svbrdf::viewer::model::view::state::ViewState;
 use svbrdf::{render, samples};
 
 use super::*;
@@ -101,9 +101,9 @@ fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
     for quantity in Quantity::ALL {
         let values = values(quantity);
         for &kind in Difference::all(quantity) {
-            let state = &mut window.state_mut().state;
-            state.quantity = quantity;
-            state.differences.choose(quantity, kind);
+            let state = &mut window.state_mut().model.view;
+            state.display.quantity = quantity;
+            state.display.differences.choose(quantity, kind);
             window.run_steps(2);
             wait(&mut window, "the statistics", |app| app.difference_distributions().is_some());
             let measured = window.state().difference_distributions().unwrap();
@@ -140,7 +140,7 @@ fn every_channel_of_every_value_has_its_statistics_and_histogram() {
     press(&mut window, egui::Key::J);
     for quantity in Quantity::ALL {
         let values = values(quantity);
-        window.state_mut().state.quantity = quantity;
+        window.state_mut().model.view.display.quantity = quantity;
         window.run_steps(2);
         wait(&mut window, "the histograms", |app| app.value_distributions().is_some());
         let measured = window.state().value_distributions().unwrap();

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use svbrdf::files::read::ReadOptions;
 use svbrdf::samples::generate;
-use svbrdf::viewer::command::{Command, DisplayCommand, MaterialsCommand};
+use svbrdf::viewer::model::command::{Command, DisplayCommand, MaterialsCommand};
 
 use super::*;
 
@@ -132,4 +132,29 @@ fn messages_take_no_room_from_the_panes() {
     window.get_by_label("Dismiss all").click();
     window.run_steps(3);
     assert!(window.state().messages().is_empty());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_prediction_replaced_by_one_of_another_size_makes_its_loss_stale() {
+    let (_folder, paths, mut window) = window_of_files();
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    let stale = |window: &Window<'_>| {
+        let rows = window.query_all_by_label_contains("1 (stale)  p").count();
+        let titles = window.query_all_by_label_contains("p  (stale)").count();
+        [rows, titles].map(|count| count > 0)
+    };
+    assert_eq!(stale(&window), [false, false]);
+    apply(&mut window, MaterialsCommand::SetWatch(true));
+    window.run_steps(3);
+    strip(&paths[1], 2);
+    wait(&mut window, "the refusal", |app| app.messages().iter().any(|text| text.starts_with("Not opened")));
+    window.run_steps(3);
+    assert_eq!(stale(&window), [true, true], "the loss and the pane are of a file that is no more");
+    window.get_by_label("Stale: materials or settings have changed.");
+    strip(&paths[1], 1);
+    wait(&mut window, "the file of the right size", |app| app.problems()[1].is_none());
+    wait(&mut window, "its loss", |app| app.losses().is_some());
+    window.run_steps(3);
+    assert_eq!(stale(&window), [false, false]);
 }

@@ -8,11 +8,11 @@ use svbrdf::picture::difference::Difference;
 use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::shown::{Shown, ShownDifference};
 use svbrdf::progress::Progress;
-use svbrdf::viewer::command::{
+use svbrdf::viewer::model::command::{
     Command, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
 };
-use svbrdf::viewer::save_kind::SaveKind;
-use svbrdf::viewer::state::{Layout, Projection};
+use svbrdf::viewer::model::settings::save_kind::SaveKind;
+use svbrdf::viewer::model::view::state::{Layout, Projection};
 
 use super::*;
 
@@ -44,7 +44,7 @@ fn saved_renderings_are_what_is_selected() {
     let materials: Vec<_> = window.state().materials().collect();
     let difference = ShownDifference { kind: Difference::Angle, range: Some(20.0) };
     let shown = Shown { quantity: Quantity::Normal, difference: Some(difference) };
-    let (scene, convention) = (window.state().state.scene, window.state().state.convention());
+    let (scene, convention) = (window.state().model.view.scene, window.state().model.view.convention());
     let pictures = shown.pictures(&materials, &scene, &convention, &Progress::default()).unwrap();
     let image = &pictures.images[0];
     for (i, rgb) in image.pixels.iter().enumerate() {
@@ -124,29 +124,29 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let options = ViewerOptions { ground_truth: Some(gt), predictions: vec![p], ..ViewerOptions::default() };
     let mut first = window(options);
     let read = ReadOptions { normal_y: Some(svbrdf::files::read::NormalY::Down), ..ReadOptions::AUTO };
-    apply(&mut first, MaterialsCommand::ReadAs { slot: 1, read });
+    apply(&mut first, MaterialsCommand::ReadAs { index: 1, read });
     wait(&mut first, "the other assumption", |app| !app.is_reading());
     apply(&mut first, DisplayCommand::SetLayout(Layout::Wipe));
     apply(&mut first, DisplayCommand::ToggleProjection);
     apply(&mut first, DisplayCommand::SetQuantity(Quantity::Normal));
     apply(&mut first, DisplayCommand::SetExposure(1.5));
     apply(&mut first, SceneCommand::SetConvention("guided-2020"));
-    let mut scene = first.state().state.scene;
+    let mut scene = first.state().model.view.scene;
     scene.light = [0.1, -0.7, 1.3];
     apply(&mut first, SceneCommand::Set(scene));
-    let mut settings = first.state().settings.loss.clone();
+    let mut settings = first.state().model.settings.loss.clone();
     settings.near = 17;
     apply(&mut first, LossCommand::SetSettings(settings));
     let path = folder.path().join("a.svbrdf-session.json");
     save(&mut first, SaveKind::Session, &path, [0; 2]);
     let (state, materials) =
-        (first.state().state.clone(), first.state().materials().cloned().collect::<Vec<_>>());
-    assert!(state.projection == Projection::Perspective && state.exposure_ev == 1.5);
+        (first.state().model.view.clone(), first.state().materials().cloned().collect::<Vec<_>>());
+    assert!(state.display.projection == Projection::Perspective && state.exposure_ev == 1.5);
 
     let same = |window: &Window<'_>| {
-        assert_eq!(window.state().state, state);
+        assert_eq!(window.state().model.view, state);
         assert_eq!(window.state().materials().cloned().collect::<Vec<_>>(), materials);
-        assert_eq!(window.state().settings.loss.near, 17);
+        assert_eq!(window.state().model.settings.loss.near, 17);
     };
     let session = Some(Session::read(&path).unwrap());
     same(&window(ViewerOptions { session, ..ViewerOptions::default() }));

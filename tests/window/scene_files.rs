@@ -9,8 +9,8 @@ use svbrdf::model::scene::Scene;
 use svbrdf::model::scene_file;
 use svbrdf::progress::Progress;
 use svbrdf::samples;
-use svbrdf::viewer::command::{DisplayCommand, LossCommand, MaterialsCommand, WindowCommand};
-use svbrdf::viewer::save_kind::SaveKind;
+use svbrdf::viewer::model::command::{DisplayCommand, LossCommand, MaterialsCommand, WindowCommand};
+use svbrdf::viewer::model::settings::save_kind::SaveKind;
 
 use super::reading::apply;
 use super::*;
@@ -79,7 +79,7 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     window.get_by_label("Remove scenes").click();
     window.run_steps(30);
     assert!(window.query_by_label("3 scenes of render.json").is_none());
-    assert!(window.state().settings.loss.file.is_none());
+    assert!(window.state().model.settings.loss.file.is_none());
     apply(&mut window, DisplayCommand::Undo);
     wait(&mut window, "the loss over the file", is_of_file);
     apply(&mut window, LossCommand::RemoveFileScenes);
@@ -92,7 +92,7 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     wait(&mut window, "the error", |app| {
         app.messages().iter().any(|text| text.contains("not a usable scene file"))
     });
-    assert!(window.state().settings.loss.file.is_none());
+    assert!(window.state().model.settings.loss.file.is_none());
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     assert_eq!(json["results"].as_array().unwrap().len(), 1, "of the chosen prediction");
 
     open(&mut window, &path);
-    wait(&mut window, "the scenes of the file", |app| app.settings.loss.file_scenes().is_some());
+    wait(&mut window, "the scenes of the file", |app| app.model.settings.loss.file_scenes().is_some());
     let session = folder.path().join("a.svbrdf-session.json");
     apply(&mut window, WindowCommand::Save { what: SaveKind::Session, path: session.clone(), size: [0; 2] });
     wait(&mut window, "the session", |_| session.exists());

@@ -10,7 +10,7 @@ use svbrdf::picture::tone::to_display;
 use svbrdf::progress::Progress;
 use svbrdf::render::render_f32;
 use svbrdf::samples::{self, generate};
-use svbrdf::viewer::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
+use svbrdf::viewer::model::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
 
 use super::photograph::apply;
 use super::*;
@@ -56,7 +56,7 @@ fn write(window: &mut Window<'_>, name: &str) {
 fn the_pictures_of_the_readme() {
     let mut window = opened();
     window.get_by_label_contains("normal: ").click();
-    wait(&mut window, "the mixture", |app| app.seen()[1].0.contains("only its normal"));
+    wait(&mut window, "the mixture", |app| app.displayed_materials()[1].0.contains("only its normal"));
     write(&mut window, "why.png");
 
     let mut window = opened();
@@ -105,7 +105,7 @@ fn training() {
     window.set_size(SIZE);
     wait(&mut window, "both runs", |app| app.names().len() == 3 && app.training_runs().len() == 2);
     apply(&mut window, MaterialsCommand::SetWatch(true));
-    apply(&mut window, TrainingCommand::Show { slot: 1, number: 2000 });
+    apply(&mut window, TrainingCommand::Show { index: 1, number: 2000 });
     wait(&mut window, "the step", |app| app.names()[1].contains("step 2000"));
     window.get_by_label("Light and view").click();
     window.run_steps(12);

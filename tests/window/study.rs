@@ -40,7 +40,7 @@ fn a_click_on_a_point_of_the_study_sets_the_loss_to_it() {
     assert_eq!(options, "--sampler sobol --near 64 --distant 32 --texels 128");
     window.get_by_label(&options).click();
     window.run_steps(3);
-    let loss = &window.state().settings.loss;
+    let loss = &window.state().model.settings.loss;
     assert_eq!((loss.near, loss.distant, loss.sampler), (64, 32, Sampler::Sobol));
     assert_eq!(loss.texels, Texels::Sampled(128));
     wait(&mut window, "the loss of that setting", |app| {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use svbrdf::files::read::{Albedo, ReadOptions};
-use svbrdf::viewer::state::Projection;
+use svbrdf::viewer::model::view::state::Projection;
 
 use super::*;
 
@@ -84,10 +84,10 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
     let folder = tempfile::tempdir().unwrap();
     for scale in [1.0, 1.25, 1.5, 2.0] {
         let mut window = scaled_window(numbered(folder.path()), scale);
-        window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+        window.state_mut().model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
         for projection in [Projection::Flat, Projection::Perspective] {
-            window.state_mut().state.projection = projection;
-            window.state_mut().state.scene.view = [0.7, -0.9, 2.0];
+            window.state_mut().model.view.display.projection = projection;
+            window.state_mut().model.view.scene.view = [0.7, -0.9, 2.0];
             window.run_steps(2);
             // Not so far that the numbers of texels are drawn on them.
             for (notches, corner) in [(0.0, [0.5, 0.5]), (5.0, [0.1, 0.15]), (5.0, [0.93, 0.9])] {
@@ -107,9 +107,9 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
 fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    window.state_mut().model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
     press(&mut window, egui::Key::T);
-    assert!(window.state().state.tiled);
+    assert!(window.state().model.view.display.tiled);
     assert!(check_readout(&mut window, 1.0, "tiled") > 20);
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
     hover(&mut window, rect.center() + vec2(1.0, 1.0));
@@ -123,7 +123,7 @@ fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
 fn roughness_in_false_colours_has_the_colour_of_its_value() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Roughness;
+    window.state_mut().model.view.display.quantity = svbrdf::picture::quantity::Quantity::Roughness;
     press(&mut window, egui::Key::V);
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
     let picture = pixels(&mut window, rect);
@@ -149,12 +149,12 @@ fn the_colours_of_texels_are_told_apart() {
 fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().state.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    window.state_mut().model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
     let fitted = (rect.width() / SIZE[0] as f32).min(rect.height() / SIZE[1] as f32);
     hover(&mut window, Pos2::ZERO);
     for (side, has_numbers) in [(30.0, false), (44.0, false), (52.0, true), (90.0, true)] {
-        window.state_mut().state.zoom = side / fitted;
+        window.state_mut().model.view.display.zoom = side / fitted;
         window.run_steps(3);
         // The middle of the pane is a corner of four texels: most of the one to the right of and below it.
         let texel =
@@ -204,7 +204,7 @@ fn a_texel_is_pinned_by_key_and_by_click_and_its_numbers_are_in_the_drawer() {
     let rough = window.state().materials().nth(2).unwrap();
     let rough = rough.texel(first[1] * rough.width() + first[0]).roughness;
     assert!(window.query_all_by_label(&format!("{rough:6.3}")).next().is_some());
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     // The drawer has moved the panes.
     window.run_steps(8);
     let rect = pane(&window, GROUND_TRUTH);
@@ -214,7 +214,7 @@ fn a_texel_is_pinned_by_key_and_by_click_and_its_numbers_are_in_the_drawer() {
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.6, 0.6), vec2(0.6, 0.6));
     window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
     window.get_by_label(&format!("2: {column},{row}"));
-    assert_eq!(window.state().state.scene, before, "the click moves no light");
+    assert_eq!(window.state().model.view.scene, before, "the click moves no light");
     window.get_by_label("Remove all pins").click();
     window.run_steps(4);
     assert!(window.query_by_label("Pinned texels").is_none());
@@ -236,16 +236,16 @@ fn a_click_within_one_frame_pins_and_moves_the_light_as_a_longer_one() {
         }
         window.run_steps(3);
     };
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     window.event(egui::Event::ModifiersChanged(egui::Modifiers::ALT));
     window.run_steps(1);
     click(&mut window, egui::Modifiers::ALT);
     window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
     window.run_steps(8);
     window.get_by_label(&format!("1: {column},{row}"));
-    assert_eq!(window.state().state.scene, before, "it moves no light");
+    assert_eq!(window.state().model.view.scene, before, "it moves no light");
     click(&mut window, egui::Modifiers::NONE);
-    assert_ne!(window.state().state.scene.light, before.light);
+    assert_ne!(window.state().model.view.scene.light, before.light);
 }
 
 #[test]
@@ -276,10 +276,10 @@ fn the_table_of_a_pin_fits_into_the_window() {
 fn a_rectangle_is_drawn_by_q_anywhere_and_by_shift_on_maps_and_escape_removes_it() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
-    let before = window.state().state.clone();
+    let before = window.state().model.view.clone();
     press(&mut window, egui::Key::Q);
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.3, 0.3), vec2(0.6, 0.5));
-    assert_eq!(window.state().state, before, "light and view stay");
+    assert_eq!(window.state().model.view, before, "light and view stay");
     assert!(window.query_all_by_label_contains("texels, rendering").next().is_some());
     press(&mut window, egui::Key::Escape);
     assert!(window.query_all_by_label_contains("texels, rendering").next().is_none());
@@ -289,5 +289,5 @@ fn a_rectangle_is_drawn_by_q_anywhere_and_by_shift_on_maps_and_escape_removes_it
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.3, 0.3), vec2(0.6, 0.5));
     window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
     assert!(window.query_all_by_label_contains("texels, normal").next().is_some());
-    assert_eq!(window.state().state.pan, [0.0; 2], "it does not pan");
+    assert_eq!(window.state().model.view.display.pan, [0.0; 2], "it does not pan");
 }

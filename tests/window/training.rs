@@ -8,7 +8,7 @@ use svbrdf::material::Material;
 use svbrdf::model::convention::PRINTED;
 use svbrdf::progress::Progress;
 use svbrdf::samples::generate;
-use svbrdf::viewer::command::{MaterialsCommand, TrainingCommand};
+use svbrdf::viewer::model::command::{MaterialsCommand, TrainingCommand};
 
 use super::reading::apply;
 use super::*;
@@ -60,7 +60,7 @@ fn a_folder_of_steps_is_one_prediction_whose_steps_have_their_losses() {
     let (folder, mut window) = window_of_run();
     wait(&mut window, "the steps", |app| app.training_runs() == [(1, vec![100, 200, 300], 300)]);
     wait(&mut window, "the losses", |app| app.step_losses(1).iter().all(Option::is_some));
-    let request = window.state().settings.loss.request();
+    let request = window.state().model.settings.loss.request();
     let open = |path: &Path| -> Material<f32> {
         read(path, &ReadOptions::AUTO, &Progress::default()).unwrap().material
     };
@@ -79,7 +79,7 @@ fn a_folder_of_steps_is_one_prediction_whose_steps_have_their_losses() {
     wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 300"]);
     window.get_by_label("newest, of 3");
     let place = window.get_by_label("Keep").rect();
-    apply(&mut window, TrainingCommand::Show { slot: 1, number: 100 });
+    apply(&mut window, TrainingCommand::Show { index: 1, number: 100 });
     wait(&mut window, "the first step", |app| app.names() == ["gt", "pred, step 100"]);
     // What a person is about to click on stays in its place while losses come.
     for _ in 0..20 {
@@ -117,7 +117,7 @@ fn new_steps_appear_when_they_are_complete_and_are_shown_unless_the_person_went_
     wait(&mut window, "the next step", |app| steps(app) == [100, 200, 300, 400, 500]);
     window.run_steps(20);
     assert_eq!(window.state().names(), ["gt", "pred, step 300"], "the person went back");
-    apply(&mut window, TrainingCommand::Show { slot: 1, number: 500 });
+    apply(&mut window, TrainingCommand::Show { index: 1, number: 500 });
     wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 500"]);
     std::fs::write(folder.path().join("run/other_step000100.png"), strip(50)).unwrap();
     let expected = ["gt", "pred, step 500", "other, step 100"];

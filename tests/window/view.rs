@@ -1,6 +1,6 @@
 //! Light and view: what the mouse grabs, what stays in sight, what small windows show.
 
-use svbrdf::viewer::state::Layout;
+use svbrdf::viewer::model::view::state::Layout;
 
 use super::*;
 
@@ -13,18 +13,18 @@ fn length(p: [f64; 3]) -> f64 {
 fn the_wipe_line_wins_over_the_handle_of_the_view() {
     let mut window = built_in();
     press(&mut window, egui::Key::C);
-    assert_eq!(window.state().state.layout, Layout::Wipe);
+    assert_eq!(window.state().model.view.display.layout, Layout::Wipe);
     let title = "Pane 1  blurred normals";
     let rect = window.get_by_label(title).rect();
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     // The eye is in the middle, and so is the line.
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.3, 0.5));
-    assert_eq!(window.state().state.scene, before, "neither light nor view has moved");
-    let wipe = window.state().state.wipe;
+    assert_eq!(window.state().model.view.scene, before, "neither light nor view has moved");
+    let wipe = window.state().model.view.display.wipe;
     assert!((wipe - 0.3).abs() < 0.01, "the line is at {wipe}");
     // Without the line there, the same drag moves the view.
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.6, 0.5));
-    assert!(window.state().state.scene.view[0] > 0.1, "{:?}", window.state().state.scene);
+    assert!(window.state().model.view.scene.view[0] > 0.1, "{:?}", window.state().model.view.scene);
 }
 
 #[test]
@@ -34,9 +34,9 @@ fn a_hidden_handle_of_the_view_is_not_grabbed() {
     let rect = pane(&window, GROUND_TRUTH);
     window.get_by_label("View handle").click();
     window.run_steps(4);
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.4, 0.4));
-    let after = window.state().state.scene;
+    let after = window.state().model.view.scene;
     assert_eq!(after.view, before.view);
     assert_ne!(after.light, before.light);
 }
@@ -47,11 +47,15 @@ fn a_left_drag_pans_a_map_and_leaves_the_light() {
     let mut window = built_in();
     press(&mut window, egui::Key::M);
     let rect = pane(&window, GROUND_TRUTH);
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
-    let state = &window.state().state;
+    let state = &window.state().model.view;
     assert_eq!(state.scene, before);
-    assert!((state.pan[0] - 0.2).abs() < 0.02 && (state.pan[1] - 0.2).abs() < 0.02, "{:?}", state.pan);
+    assert!(
+        (state.display.pan[0] - 0.2).abs() < 0.02 && (state.display.pan[1] - 0.2).abs() < 0.02,
+        "{:?}",
+        state.display.pan
+    );
 }
 
 #[test]
@@ -64,7 +68,7 @@ fn a_right_drag_moves_the_view_the_same_way_in_both_projections() {
         }
         let rect = pane(&window, GROUND_TRUTH);
         drag(&mut window, egui::PointerButton::Secondary, rect, vec2(0.4, 0.5), vec2(0.6, 0.4));
-        let view = window.state().state.scene.view;
+        let view = window.state().model.view.scene.view;
         assert!(view[0] > 0.1 && view[1] > 0.05, "perspective {perspective}: {view:?}");
     }
 }
@@ -78,7 +82,7 @@ fn the_surface_follows_the_hand_in_perspective() {
     let rect = pane(&window, GROUND_TRUTH);
     let grid = window.state().materials().next().unwrap().grid();
     let places = |window: &Window<'_>| -> f32 {
-        let camera = Camera::of_scene(&window.state().state.scene, grid, 1.0);
+        let camera = Camera::of_scene(&window.state().model.view.scene, grid, 1.0);
         let at = |x: f32, y: f32| camera.ndc_from_point([x, y, 0.0].into()).unwrap()[0];
         [(-0.8, 0.0), (0.8, 0.0), (0.4, 0.4), (-0.4, -0.4)].iter().map(|(x, y)| at(*x, *y)).sum()
     };
@@ -91,14 +95,14 @@ fn the_surface_follows_the_hand_in_perspective() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_distant_light_at_the_rim_becomes_a_near_one_at_the_distance_it_had() {
     let mut window = built_in();
-    let distance = length(window.state().state.scene.light);
+    let distance = length(window.state().model.view.scene.light);
     window.get_by_label("Distant").click();
     window.run_steps(3);
     let rect = pane(&window, GROUND_TRUTH);
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.7, 0.3), vec2(0.999, 0.5));
     window.get_by_label("Near-field").click();
     window.run_steps(3);
-    let light = window.state().state.scene.light;
+    let light = window.state().model.view.scene.light;
     assert!((length(light) - distance).abs() < 1e-3, "{light:?} was {distance} away");
     assert!(light[2] > 0.09 * distance, "{light:?} lies in the plane");
 }
@@ -137,7 +141,7 @@ fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
     window.set_size(vec2(1200.0, 800.0));
     window.run_steps(20);
     window.get_by_label("Copy scene");
-    assert!(window.state().settings.side_panel, "the choice of wide windows is their own");
+    assert!(window.state().model.settings.side_panel, "the choice of wide windows is their own");
 }
 
 /// The pane that changes is drawn into the window, and from the next frame on its kept pixels are copied.
@@ -157,7 +161,7 @@ fn a_pane_that_changes_has_the_pixels_that_are_kept_of_it() {
         };
         let mut seen = vec![pixels(&mut window)];
         for exposure in [2.0, 3.5] {
-            window.state_mut().state.exposure_ev = exposure;
+            window.state_mut().model.view.exposure_ev = exposure;
             for _ in 0..4 {
                 window.step();
                 seen.push(pixels(&mut window));

@@ -47,7 +47,7 @@ fn wait_for_scene_losses(window: &mut Window<'_>) -> Vec<f64> {
 fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
     let mut window = opened();
     let before = wait_for_scene_losses(&mut window);
-    assert_eq!(before, [1, 2].map(|prediction| loss_in(window.state().state.scene, prediction)));
+    assert_eq!(before, [1, 2].map(|prediction| loss_in(window.state().model.view.scene, prediction)));
     let rect = pane(&window, GROUND_TRUTH);
     let at = |share: f32| rect.min + rect.size() * vec2(0.2 + 0.6 * share, 0.4);
     let button = |pos, pressed| egui::Event::PointerButton {
@@ -76,7 +76,7 @@ fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
     window.event(button(at(0.5), false));
     window.run_steps(2);
     let after = wait_for_scene_losses(&mut window);
-    assert_eq!(after[0], loss_in(window.state().state.scene, 1));
+    assert_eq!(after[0], loss_in(window.state().model.view.scene, 1));
 }
 
 #[test]

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
 use svbrdf::error::Error;
 use svbrdf::files::session::Session;
+use svbrdf::files::session_window::Display;
 use svbrdf::loss::{LossSettings, Request};
 use svbrdf::model::convention::Convention;
 use svbrdf::model::scene::Scene;
-use svbrdf::picture::differences::Differences;
 use svbrdf::picture::quantity::Quantity;
 use svbrdf::picture::shown::{Shown, ShownDifference};
 
@@ -21,17 +20,8 @@ pub struct SessionSettings {
     pub scene: Scene,
     pub convention: Convention,
     pub exposure_ev: f32,
-    view: SavedView,
+    display: Display,
     loss: Option<LossSettings>,
-}
-
-/// The part of the window's display that decides what a picture shows.
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-struct SavedView {
-    quantity: Quantity,
-    difference: bool,
-    differences: Differences,
 }
 
 /// The session file that stands for the ground truth and its predictions, read; `None` where the ground truth is none.
@@ -59,20 +49,20 @@ impl SessionSettings {
             scene: session.scene,
             convention: session.convention.parse().map_err(bad)?,
             exposure_ev: session.exposure,
-            view: session.window_part(Session::VIEW).unwrap_or_default(),
-            loss: session.window_part(Session::LOSS),
+            display: session.window.display.clone().unwrap_or_default(),
+            loss: session.window.loss.clone(),
         })
     }
 
     /// The quantity and difference that the panes of the window display.
     pub fn shown(&self) -> Shown {
-        let quantity = self.view.quantity;
-        Shown { quantity, difference: self.view.difference.then(|| self.difference(quantity)) }
+        let quantity = self.display.quantity;
+        Shown { quantity, difference: self.display.difference.then(|| self.difference(quantity)) }
     }
 
     /// The chosen difference of a quantity, and its range.
     pub fn difference(&self, quantity: Quantity) -> ShownDifference {
-        let differences = &self.view.differences;
+        let differences = &self.display.differences;
         ShownDifference { kind: differences.kind(quantity), range: differences.range(quantity) }
     }
 

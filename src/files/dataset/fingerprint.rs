@@ -1,13 +1,15 @@
 //! Fingerprints of the files that a result was computed from: they tell whether the result still holds.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File, Metadata};
-use std::io::{self, Read as _};
+use std::fs::{self, Metadata};
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::Error;
+use crate::files::open::NamedFile;
 use crate::files::read::{EXTENSIONS, Sidecar};
 
 /// The files of a material: those that were read, its sidecar file, and all pictures of a folder or prefix, which would be read.
@@ -110,12 +112,12 @@ fn nanoseconds(metadata: &Metadata) -> Option<u64> {
 }
 
 /// FNV-1a of the content of a file (Fowler, Noll and Vo), 64 bits.
-fn hash(path: &Path) -> io::Result<String> {
+fn hash(path: &Path) -> Result<String, Error> {
     const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0100_0000_01b3;
-    let (mut file, mut buffer, mut hash) = (File::open(path)?, vec![0; 1 << 16], BASIS);
+    let (mut file, mut buffer, mut hash) = (NamedFile::by_user(path).reader()?, vec![0; 1 << 16], BASIS);
     loop {
-        match file.read(&mut buffer)? {
+        match file.read(&mut buffer).map_err(|source| Error::unreadable(path, source))? {
             0 => return Ok(format!("{hash:016x}")),
             count => {
                 buffer[..count].iter().for_each(|byte| hash = (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
@@ -152,7 +154,7 @@ mod tests {
         let path = folder.path().join("a.png");
         fs::write(&path, "12345").unwrap();
         set_time(&path, 1000);
-        let files = MaterialFiles::new(&path, &[path.clone()], SystemTime::now());
+        let files = MaterialFiles::new(&path, std::slice::from_ref(&path), SystemTime::now());
         assert_eq!(files.changed(&path), None);
         let text = serde_json::to_string(&files).unwrap();
         assert_eq!(serde_json::from_str::<MaterialFiles>(&text).unwrap(), files);

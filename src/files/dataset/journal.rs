@@ -19,6 +19,7 @@ use super::fingerprint::MaterialFiles;
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
 use crate::error::Error;
 use crate::files::atomic::write_text;
+use crate::files::open::NamedFile;
 use crate::progress::Progress;
 
 /// The version of the format that is written and read.
@@ -233,7 +234,7 @@ pub(super) fn remaining(cases: &[Case], lines: &[Line]) -> Vec<Case> {
 }
 
 fn read(path: &Path) -> Result<(Head, Vec<Line>), Error> {
-    let text = fs::read_to_string(path).map_err(|source| Error::unreadable(path, source))?;
+    let text = NamedFile::by_user(path).text()?;
     let complete = text.rfind('\n').map_or("", |end| &text[..end]);
     let mut lines = complete.lines();
     let is_not =

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use super::record::{Candidate, Case};
 use crate::error::Error;
+use crate::files::open::NamedFile;
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];
@@ -119,7 +120,8 @@ fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 /// [`Error::Unreadable`], and [`Error::NotAMaterial`] where a column is missing or there are no rows.
 pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
     let bad = |problem: csv::Error| Error::unreadable(path, std::io::Error::other(problem));
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(bad)?;
+    let file = NamedFile::by_user(path).reader()?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
     let heading = reader.headers().map_err(bad)?.clone();
     let column = |name: &str| heading.iter().position(|heading| heading == name);
     let (Some(truth), Some(prediction)) = (column("ground_truth"), column("prediction")) else {

@@ -1,4 +1,4 @@
-//! Linear radiance as 32-bit floats.
+//! EXR files of linear radiance, in 32-bit floats.
 
 use std::io::{self, Seek, Write};
 
@@ -12,8 +12,8 @@ use crate::image::Image;
 
 /// Writes one layer of channels R, G and B.
 ///
-/// Where it comes from stands in the attribute `comments`, a line for each entry: attributes of one's own have no
-/// fixed order in the library, and the same picture shall be the same file.
+/// Its provenance stands in the attribute `comments`, a line for each entry: custom attributes have no fixed order in
+/// the library, and the same picture must be the same file.
 pub(super) fn write(file: impl Write + Seek, image: Image<f32>, entries: &Entries) -> io::Result<()> {
     let size = (image.width, image.height);
     let pixels: Vec<_> = image.pixels.into_iter().map(|[r, g, b]| (r, g, b)).collect();

@@ -1,4 +1,4 @@
-//! Renderings as files: floats into EXR, what a screen shows into PNG, either with where it comes from.
+//! Renderings as files: floats into EXR, display values into PNG, both with their provenance.
 
 mod exr;
 mod npy;
@@ -11,8 +11,7 @@ mod text;
 
 use std::path::Path;
 
-pub use crate::files::atomic::{Destination, check_place, write_text};
-pub(crate) use crate::files::atomic::{Watched, check, folder_of, replace};
+pub use crate::atomic::{Destination, check_place, write_text};
 pub use npy::write_npy;
 pub use provenance::{Entries, Provenance};
 
@@ -23,7 +22,7 @@ use crate::progress::Progress;
 
 /// Texels between two panes of a picture.
 pub const GAP: usize = 4;
-/// What the gap of a PNG shows.
+/// The colour of the gap of a PNG.
 const MID_GRAY: [u8; 3] = [128; 3];
 
 /// The kinds of files that pictures are written into.
@@ -36,7 +35,7 @@ pub enum PictureFormat {
 }
 
 impl Destination<PictureFormat> {
-    /// Checks what can be checked of `path` before there is anything to write.
+    /// Checks `path` before there is anything to write.
     ///
     /// # Errors
     /// [`Error::UnknownName`] for an extension other than exr and png, [`Error::Unwritable`] where its folder is
@@ -64,7 +63,7 @@ impl Destination<PictureFormat> {
         self.write_described(panes, provenance, None, progress)
     }
 
-    /// As [`Self::write`], with this text of what is shown in place of the one of `provenance`.
+    /// As [`Self::write`], with this text about the content in place of the one of `provenance`.
     ///
     /// # Errors
     /// [`Error::Unwritable`], [`Error::Cancelled`].
@@ -128,7 +127,7 @@ impl Destination<PictureFormat> {
 pub struct PngDestination(Destination<()>);
 
 impl PngDestination {
-    /// Checks what can be checked of `path` before there is anything to write.
+    /// Checks `path` before there is anything to write.
     ///
     /// # Errors
     /// [`Error::UnknownName`] for an extension other than png, [`Error::Unwritable`] where its folder is missing or it is

@@ -1,12 +1,12 @@
-//! Pictures as one NumPy array.
+//! NumPy files: pictures as one array.
 
 use std::io;
 use std::path::Path;
 
 use npyz::WriterBuilder;
 
+use crate::atomic::{check_place, replace};
 use crate::error::Error;
-use crate::files::atomic::{check_place, replace};
 use crate::image::Image;
 use crate::progress::Progress;
 

@@ -1,4 +1,4 @@
-//! 8-bit sRGB pictures with text chunks.
+//! PNG files: 8-bit sRGB pictures with text chunks.
 
 use std::io::{self, Write};
 

@@ -1,13 +1,14 @@
-//! Where a picture comes from: what it takes to make it again.
+//! Provenance of a picture: everything that makes it again.
 
+use crate::atomic;
 use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
 use crate::picture::shown::Shown;
 
-/// What a file says about its picture: (keyword, text).
+/// The metadata of a picture: (keyword, text).
 pub type Entries = [(&'static str, String)];
 
-/// What a picture shows, and how.
+/// The content of a picture, and how it was rendered.
 #[derive(Clone, Debug)]
 pub struct Provenance {
     pub shown: Shown,
@@ -17,15 +18,15 @@ pub struct Provenance {
     pub exposure_ev: f32,
     /// The names of the materials, from left to right; of differences the ground truth first.
     pub sources: Vec<String>,
-    /// What rendered it: the CPU or the name of an adapter.
+    /// Its renderer: the CPU or the name of an adapter.
     pub renderer: String,
 }
 
 impl Provenance {
     /// The program and its version.
-    pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
+    pub const SOFTWARE: &str = atomic::SOFTWARE;
 
-    /// Replaces the text of what a picture shows.
+    /// Replaces the text about the content of a picture.
     pub fn describe(entries: &mut [(&'static str, String)], shows: String) {
         if let Some(entry) = entries.iter_mut().find(|(key, _)| *key == Self::SHOWS) {
             entry.1 = shows;

@@ -11,8 +11,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 
+use crate::atomic::Destination;
 use crate::error::Error;
-use crate::files::atomic::Destination;
 use crate::progress::Progress;
 use crate::study::{Family, Point, Study};
 use crate::text::{percent, time};

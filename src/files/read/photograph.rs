@@ -8,13 +8,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::decode;
-use super::interpret::transfer;
-use super::note::{Note, Subject};
-use super::options::Albedo;
-use super::raster::Raster;
-use super::samples::Samples;
 use crate::error::Error;
 use crate::image::Image;
+use crate::open::NamedFile;
+use crate::read::options::{Albedo, transfer};
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::{Note, Subject};
 
 /// How the samples of a photograph encode radiance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,7 +36,7 @@ pub struct PhotographOptions {
     pub clip: Option<f64>,
 }
 
-/// A photograph, as it is seen: turned as its EXIF orientation says.
+/// A photograph, turned upright by its EXIF orientation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Photograph {
     /// Linear radiance in a unit of its own; 0 where a stored sample is not finite.
@@ -45,9 +44,9 @@ pub struct Photograph {
     /// Of each pixel, whether a channel of it is clipped or not finite.
     pub clipped: Vec<bool>,
     pub transfer: Transfer,
-    /// What the transfer curve was taken from.
+    /// The source of the transfer curve.
     pub transfer_from: &'static str,
-    /// What else was noticed.
+    /// Other things that were noticed.
     pub notes: Vec<Note>,
 }
 
@@ -105,7 +104,7 @@ impl Photograph {
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`].
 pub fn read_photograph(path: &Path, options: &PhotographOptions) -> Result<Photograph, Error> {
-    let (raster, mut notes) = decode::decode_photograph(path)?;
+    let (raster, mut notes) = decode::photograph(&NamedFile::by_user(path))?;
     let declared_linear = Note::LinearGamma(Subject::Photograph);
     let (transfer, transfer_from) = match options.transfer {
         Some(transfer) => (transfer, "as specified"),

@@ -1,4 +1,4 @@
-//! Values of [0, 1] to the integers of a picture.
+//! Curves: from values of [0, 1] to the integers of a picture.
 
 /// Steps of value that have a first guess of their integer.
 const STEPS: usize = 1 << 12;
@@ -67,8 +67,8 @@ fn rounded(value: f64) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::read::Albedo;
-    use crate::files::read::interpret::transfer::{encoded, linear};
+    use crate::read::Albedo;
+    use crate::read::options::transfer::{encoded, linear};
 
     #[test]
     fn a_code_that_is_looked_up_is_that_of_the_formula() {

@@ -1,4 +1,4 @@
-//! The project's own form: one part with the layers diffuse, specular, normal and roughness.
+//! Materials as EXR, the project's own form: one part with the layers diffuse, specular, normal and roughness.
 
 use std::io::{self, Seek, Write};
 
@@ -6,16 +6,15 @@ use exr::image::{AnyChannel, AnyChannels, FlatSamples};
 use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage, f16};
 use rayon::prelude::*;
 
-use crate::export::Provenance;
+use crate::atomic::SOFTWARE;
 use crate::material::{Material, Planes, half_normals};
 use crate::model::convention::PRINTED;
 use crate::model::scene::{Kind, Scene};
 use crate::progress::Progress;
+use crate::read::decode::exr::NATIVE;
 use crate::render::render_f32;
 
-/// How the comments of an EXR begin that this module wrote.
-pub(crate) const NATIVE: &str = "svbrdf:version=1\n";
-/// What the values of such an EXR mean.
+/// The meaning of the values of such an EXR.
 const MEANING: &str = "svbrdf:workflow=specular, linear Rec. 709\nsvbrdf:normal=signed, +y\n\
     svbrdf:roughness=r, alpha = r^2\n";
 /// The scene of previews: that in which the window starts.
@@ -50,7 +49,7 @@ pub(crate) fn write(
     let all = named.chain([("roughness.Y".to_owned(), samples(roughness))]);
     let channels = all.map(|(name, plane)| AnyChannel::new(text(&name), plane)).collect();
     let attributes = LayerAttributes {
-        software_name: Text::new_or_none(Provenance::SOFTWARE),
+        software_name: Text::new_or_none(SOFTWARE),
         comments: Text::new_or_none(format!("{NATIVE}{MEANING}")),
         ..LayerAttributes::default()
     };

@@ -1,4 +1,4 @@
-//! From diffuse and specular to a base colour and metallic, as far as these can say it.
+//! Base colour and metallic from diffuse and specular, as far as these can express them.
 
 /// Reflectance of dielectrics at normal incidence.
 const DIELECTRIC: f64 = 0.04;

@@ -8,11 +8,10 @@ mod png;
 use std::path::Path;
 
 pub use crate::material::Depth;
-pub(crate) use exr::NATIVE;
 
 use super::read::Preset;
+use crate::atomic;
 use crate::error::{Error, OutputProblem};
-use crate::export;
 use crate::material::Material;
 use crate::progress::Progress;
 
@@ -20,10 +19,10 @@ use crate::progress::Progress;
 const NOT_WRITTEN: [&str; 12] =
     ["jpg", "jpeg", "tif", "tiff", "hdr", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json"];
 
-/// What the user says about the files to write.
+/// Options for the files to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
-    /// Half in EXR and 8 bits in PNG where nothing is said.
+    /// `None`: half in EXR, 8 bits in PNG.
     pub depth: Option<Depth>,
     /// Whose names, order and encoding the files get.
     pub like: Option<Preset>,
@@ -31,7 +30,7 @@ pub struct WriteOptions {
     pub preview: bool,
 }
 
-/// What is written.
+/// The kind of file that is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// One layered EXR: signed normals, y up, everything linear.
@@ -42,12 +41,12 @@ pub enum FileKind {
     Folder { sixteen: bool },
     /// Four PNG files in the names and encoding of MaterialGAN.
     MaterialGan { sixteen: bool },
-    /// Base colour, normals, and occlusion | roughness | metallic in one picture: loses what metal cannot say.
+    /// Base colour, normals, and occlusion | roughness | metallic in one picture: loses specular that no metal has.
     Gltf { sixteen: bool },
 }
 
 impl FileKind {
-    /// By the extension of `path` and what `options` say.
+    /// The kind that the extension of `path` and the `options` specify.
     ///
     /// # Errors
     /// [`Error::UnsupportedOutput`] for a kind of file that is not written, and for a depth, a preset or a preview that it has not.
@@ -114,10 +113,10 @@ pub fn write_watched(
     };
     match kind {
         FileKind::Exr { half, preview } => {
-            export::replace(path, progress, |file| exr::write(file, material, half, preview))
+            atomic::replace(path, progress, |file| exr::write(file, material, half, preview))
         }
         FileKind::Packed { sixteen, like } => {
-            export::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
+            atomic::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
         }
         FileKind::Folder { sixteen } => folder(&png::PLAIN, sixteen),
         FileKind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen),

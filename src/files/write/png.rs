@@ -1,4 +1,4 @@
-//! PNG files: a packed strip, or a folder of one picture a map.
+//! Materials as PNG files: a packed strip, or a folder of one picture a map.
 
 use std::fs;
 use std::io::{self, Write};
@@ -9,13 +9,13 @@ use rayon::prelude::*;
 
 use super::curve::Curve;
 use super::metallic::base_and_metallic;
-use crate::export::{self, Provenance};
-use crate::files::read::interpret::transfer::{encoded, encoded_roughness, linear, roughness};
-use crate::files::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
+use crate::atomic::{self, SOFTWARE};
 use crate::material::{Material, Planes};
 use crate::progress::Progress;
+use crate::read::options::transfer::{encoded, encoded_roughness, linear, roughness};
+use crate::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
 
-/// What a picture shows.
+/// The map in a picture.
 #[derive(Clone, Copy, Debug)]
 enum WrittenMap {
     Normal,
@@ -188,14 +188,14 @@ pub(crate) fn folder(
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(export::folder_of(path))?;
+    let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(atomic::folder_of(path))?;
     files.par_iter().try_for_each(|Picture { name, map, encoding }| {
         let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
         let bytes = pixels(material, &[*map], *encoding, sixteen, progress)?;
-        let file = io::BufWriter::new(export::Watched::new(&mut file, progress));
+        let file = io::BufWriter::new(atomic::Watched::new(&mut file, progress));
         write(file, material.size(), sixteen, &encoding.text(), &bytes)
     })?;
-    export::check(progress)?;
+    atomic::check(progress)?;
     // Only an empty folder gives way to a rename.
     fs::rename(temporary.path(), path)?;
     #[cfg(unix)]
@@ -218,7 +218,7 @@ fn pixels(
     let mut bytes = vec![0; row_bytes * height];
     let curves = encoding.curves(sixteen);
     bytes.par_chunks_mut(row_bytes).enumerate().try_for_each(|(row, bytes)| {
-        export::check(progress)?;
+        atomic::check(progress)?;
         for (map, tile) in tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
             for (index, out) in (row * width..).zip(tile.chunks_exact_mut(pixel)) {
                 put(encoding.of(material, *map, index, &curves), out);
@@ -245,7 +245,7 @@ fn write(file: impl Write, size: [usize; 2], sixteen: bool, meaning: &str, bytes
     let mut encoder = Encoder::new(file, width?, height?);
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(if sixteen { BitDepth::Sixteen } else { BitDepth::Eight });
-    encoder.add_text_chunk("Software".to_owned(), Provenance::SOFTWARE.to_owned())?;
+    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
     encoder.add_text_chunk("svbrdf".to_owned(), meaning.to_owned())?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(bytes)?;

@@ -54,7 +54,7 @@ fn a_time_gives_a_loss_with_its_interval() {
     window.get_by_label("Time").click();
     window.run_steps(3);
     enter(&mut window, "Time", "20");
-    assert_eq!(window.state().settings.loss.time_ms, 20);
+    assert_eq!(window.state().model.settings.loss.time_ms, 20);
     wait(&mut window, "the loss", |app| app.losses().is_some());
     assert!(window.state().losses().unwrap()[0].estimate.interval95.is_some());
 }
@@ -131,11 +131,11 @@ fn going_back_to_what_is_shown_stops_what_was_asked_for_in_between() {
     let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     let first = shown(&window);
-    let was = window.state().settings.loss.clone();
-    let loss = &mut window.state_mut().settings.loss;
+    let was = window.state().model.settings.loss.clone();
+    let loss = &mut window.state_mut().model.settings.loss;
     (loss.near, loss.distant, loss.seed) = (100_000, 50_000, 1);
     window.step();
-    window.state_mut().settings.loss = was;
+    window.state_mut().model.settings.loss = was;
     for _ in 0..20 {
         window.step();
         std::thread::sleep(std::time::Duration::from_millis(20));
@@ -150,7 +150,7 @@ fn the_old_numbers_stay_until_the_new_ones_are_there() {
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     assert_eq!(shown(&window).len(), 2);
     for seed in 1..20 {
-        window.state_mut().settings.loss.seed = seed;
+        window.state_mut().model.settings.loss.seed = seed;
         window.step();
         assert_eq!(shown(&window).len(), 2, "at seed {seed}");
     }

@@ -31,7 +31,7 @@ fn the_loss_is_to_1_percent_with_the_few_scenes_of_the_papers_beside_it() {
 fn the_why_tab_has_the_loss_of_this_scene_as_the_core_gives_it() {
     let mut window = built_in();
     tab(&mut window, "Why");
-    let scene = window.state().state.scene;
+    let scene = window.state().model.view.scene;
     let samples = samples::load::<f32>().unwrap();
     let predictions: Vec<&Material<f32>> = samples.predictions.iter().map(|r| &r.material).collect();
     let comparison = Comparison::new(&samples.ground_truth.material, &predictions, PRINTED).unwrap();
@@ -70,7 +70,7 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
     for expected in [13, 12] {
         window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::ArrowUp);
         window.run_steps(3);
-        assert_eq!(window.state().state.prediction, expected);
+        assert_eq!(window.state().model.view.display.prediction, expected);
     }
     assert!(window.query_by_label_contains("4  \u{2026}003").is_some(), "names end with what differs");
     window.get_by_role(egui::accesskit::Role::TextInput).click();
@@ -80,5 +80,5 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
     assert!(window.query_by_label_contains("4  \u{2026}003").is_none());
     window.get_by_label_contains("8  \u{2026}007").click();
     window.run_steps(3);
-    assert_eq!(window.state().state.prediction, 7);
+    assert_eq!(window.state().model.view.display.prediction, 7);
 }

@@ -38,7 +38,7 @@ fn the_map_is_that_of_the_core_over_lights_and_over_views() {
     window.get_by_label("Over views").click();
     window.run_steps(3);
     let over_views = wait_for_map(&mut window);
-    let fixed = unit(window.state().state.scene.light);
+    let fixed = unit(window.state().model.view.scene.light);
     assert!(is_same(&over_views, &expected(1, Moved::View, fixed)));
     assert!(!is_same(&over_views, &over_lights), "a planted fault");
     press(&mut window, egui::Key::Num2);
@@ -50,7 +50,7 @@ fn the_map_is_that_of_the_core_over_lights_and_over_views() {
 fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of_the_map() {
     let mut window = opened();
     let map = wait_for_map(&mut window);
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     let rect = window.get_by_label("Loss over light directions").rect();
     // To the right of the middle and above it.
     for (x, y) in [(0.5, 0.3), (-0.6, -0.2)] {
@@ -65,7 +65,7 @@ fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of
             window.event(event);
             window.run_steps(2);
         }
-        let scene = window.state().state.scene;
+        let scene = window.state().model.view.scene;
         let [light_x, light_y, light_z] = unit(scene.light);
         assert_eq!((scene.kind, scene.view), (Kind::Distant, before.view));
         let off = (light_x - f64::from(x)).abs().max((light_y - f64::from(y)).abs());

@@ -5,8 +5,8 @@ use svbrdf::loss::{Request, Sampling, Texels};
 use svbrdf::model::sampler::Sampler;
 use svbrdf::picture::colour_map::difference_to_display;
 use svbrdf::picture::statistics::Statistics;
-use svbrdf::viewer::command::{Command, DisplayCommand, WindowCommand};
-use svbrdf::viewer::save_kind::SaveKind;
+use svbrdf::viewer::model::command::{Command, DisplayCommand, WindowCommand};
+use svbrdf::viewer::model::settings::save_kind::SaveKind;
 use svbrdf::why;
 
 use super::*;
@@ -69,9 +69,9 @@ fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
     window.get_by_label_contains("of 192 scenes");
     // It does not depend on the light.
     let rect = pane(&window, GROUND_TRUTH);
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.7, 0.3), vec2(0.2, 0.8));
-    assert_ne!(window.state().state.scene, before);
+    assert_ne!(window.state().model.view.scene, before);
     assert_eq!(statistics(&window), found);
     // Another difference is of the scene again.
     apply(&mut window, DisplayCommand::SetDifference(svbrdf::picture::difference::Difference::Log));

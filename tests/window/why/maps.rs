@@ -71,7 +71,7 @@ fn isolate(window: &mut Window<'_>, map: &str) {
 
 /// Waits until the pane of this prediction has this title.
 fn wait_for_pane(window: &mut Window<'_>, name: &str) -> egui::Rect {
-    wait(window, name, |app| app.seen().iter().any(|(seen, _)| *seen == name));
+    wait(window, name, |app| app.displayed_materials().iter().any(|(seen, _)| *seen == name));
     pane(window, &format!("1  {name}"))
 }
 
@@ -105,9 +105,9 @@ fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
     assert!(seen != whole && seen != ground_truth);
     let expected = materials[1].with_maps_of(&materials[0], |map| map == Map::Normal).unwrap();
     let app = window.state();
-    assert_eq!(*app.seen()[1].1, expected);
+    assert_eq!(*app.displayed_materials()[1].1, expected);
     assert_ne!(expected, materials[1].with_maps_of(&materials[0], |map| map != Map::Normal).unwrap());
-    assert_eq!(*app.seen()[0].1, materials[0]);
+    assert_eq!(*app.displayed_materials()[0].1, materials[0]);
     assert_eq!(app.names()[1], "blurred normals", "the material itself is unchanged");
 }
 
@@ -135,9 +135,9 @@ fn every_way_back_shows_the_prediction_itself() {
         window.run_steps(30);
         isolate(&mut window, "normal");
         wait_for_pane(&mut window, name);
-        assert_eq!(window.state().state.isolated, Some(Map::Normal));
+        assert_eq!(window.state().model.view.display.isolated, Some(Map::Normal));
         back(&mut window);
-        assert_eq!(window.state().state.isolated, None);
+        assert_eq!(window.state().model.view.display.isolated, None);
         window.get_by_label("Pane 1  blurred normals");
         assert!(window.query_by_label("Show all maps").is_none());
     }
@@ -154,7 +154,7 @@ fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
     isolate(&mut window, "diffuse");
     wait_for_pane(&mut window, "blurred normals, only its diffuse wrong");
     wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
-    let scene = window.state().state.scene;
+    let scene = window.state().model.view.scene;
     let materials = materials();
     let mixture = materials[0].with_maps_of(&materials[1], |map| map == Map::Diffuse).unwrap();
     let comparison = Comparison::new(&materials[0], &[&mixture], PRINTED).unwrap();

@@ -27,16 +27,16 @@ fn the_listed_scenes_are_those_of_the_core_and_a_click_loads_one() {
     let listed = wait_for_scenes(&mut window);
     assert_eq!(listed, expected(1, SAMPLING));
     assert!(listed.is_sorted_by(|a, b| a.losses[0] >= b.losses[0]) && listed.len() == 192);
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     window.get_by_label(&format!("Scene 2: {:.4}", listed[1].losses[0])).click();
     window.run_steps(3);
-    assert_eq!(window.state().state.scene, listed[1].scene);
+    assert_eq!(window.state().model.view.scene, listed[1].scene);
     let here = wait_for_scene_losses(&mut window)[0];
     assert!((here / listed[1].losses[0] - 1.0).abs() < 1e-6, "{here}, listed {}", listed[1].losses[0]);
     window.run_steps(30);
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
     window.run_steps(3);
-    assert_eq!(window.state().state.scene, before);
+    assert_eq!(window.state().model.view.scene, before);
     press(&mut window, egui::Key::Num2);
     assert_eq!(wait_for_scenes(&mut window), expected(2, SAMPLING));
     assert_ne!(expected(2, SAMPLING), listed, "a planted fault");
@@ -90,7 +90,7 @@ fn the_search_finds_the_scene_of_the_core_and_shows_it() {
     let materials = materials();
     let expected = worst(&materials[0], &materials[1], &PRINTED, 0, &Progress::default()).unwrap();
     assert_eq!(window.state().worst(), Some(&expected));
-    assert_eq!(window.state().state.scene, expected.scene);
+    assert_eq!(window.state().model.view.scene, expected.scene);
     window.get_by_label_contains("12688 scenes tried");
     let times = expected.loss / expected.mean.mean;
     window.get_by_label(&format!("{:.4}, {times:.1} x the mean", expected.loss));
@@ -105,7 +105,7 @@ fn the_search_finds_the_scene_of_the_core_and_shows_it() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_cancelled_search_leaves_the_scene() {
     let mut window = opened();
-    let before = window.state().state.scene;
+    let before = window.state().model.view.scene;
     for cancel in [
         |window: &mut Window<'_>| press(window, egui::Key::Escape),
         |window: &mut Window<'_>| {
@@ -119,7 +119,7 @@ fn a_cancelled_search_leaves_the_scene() {
         cancel(&mut window);
         assert!(!window.state().is_searching());
         window.run_steps(10);
-        assert_eq!((window.state().worst(), window.state().state.scene), (None, before));
+        assert_eq!((window.state().worst(), window.state().model.view.scene), (None, before));
         assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
     }
 }

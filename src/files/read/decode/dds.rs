@@ -4,12 +4,10 @@ use std::io::{BufRead, ErrorKind, Seek};
 
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
-use super::panics::caught;
 use super::place::Place;
 use crate::error::Error;
-use crate::files::read::buffer::Buffer;
-use crate::files::read::raster::Raster;
-use crate::files::read::samples::Samples;
+use crate::panics::caught;
+use crate::read::raster::{Buffer, Raster, Samples};
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
     let contradiction = |_| place.invalid("DDS", "a contradiction in it");

@@ -9,13 +9,14 @@ use exr::meta::attribute::{IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
 use super::dwa;
-use super::panics::caught;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
 use crate::error::Error;
-use crate::files::read::note::Note;
-use crate::files::read::raster::Raster;
-use crate::files::read::samples::Samples;
+use crate::panics::caught;
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::Note;
 
+/// The beginning of the comments of an EXR that this program wrote as a material.
+pub(crate) const NATIVE: &str = "svbrdf:version=1\n";
 /// Blocks of DWA may take so many bytes more than their samples: they are padded to 8 x 8.
 const SMALL: u64 = 1 << 20;
 
@@ -75,7 +76,7 @@ fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {
         let size = [part.size.0, part.size.1];
         let data = IntegerBounds::new(part.attributes.layer_position, part.size);
         let comments = part.attributes.comments.map(|text| text.to_string()).unwrap_or_default();
-        decoded.native |= comments.starts_with(crate::files::write::NATIVE);
+        decoded.native |= comments.starts_with(NATIVE);
         let own = part.attributes.layer_name.map(|name| name.to_string()).unwrap_or_default();
         let mut named: BTreeMap<String, NamedSamples> = BTreeMap::new();
         let mut depth = "half";

@@ -1,4 +1,4 @@
-//! What files say before their pixels, and the libraries that decode them keep to themselves.
+//! Headers of JPEG and PNG: fields before the pixels that the decoding libraries do not return.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -21,10 +21,10 @@ pub(crate) fn jpeg_components(mut reader: impl Read + Seek) -> io::Result<Option
     }
 }
 
-/// What a PNG says before its pixels.
+/// The fields of a PNG before its pixels.
 #[derive(Debug, Default)]
 pub(crate) struct PngHead {
-    /// Whether it says in a gAMA chunk, without an sRGB one, that its values are linear.
+    /// Whether a gAMA chunk, without an sRGB one, declares its values linear.
     pub linear: bool,
     /// The text that this program writes into packed pictures: their order and encoding.
     pub meaning: Option<String>,
@@ -50,8 +50,9 @@ pub(crate) fn png(mut reader: impl Read + Seek) -> io::Result<PngHead> {
                 let mut text = vec![0; length as usize];
                 reader.read_exact(&mut text)?;
                 left -= i64::from(length);
-                let said = text.strip_prefix(KEYWORD).map(|said| String::from_utf8_lossy(said).into_owned());
-                meaning = said.or(meaning);
+                let written =
+                    text.strip_prefix(KEYWORD).map(|text| String::from_utf8_lossy(text).into_owned());
+                meaning = written.or(meaning);
             }
             b"gAMA" => {
                 let mut gamma = [0; 4];

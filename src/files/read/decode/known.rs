@@ -1,4 +1,4 @@
-//! Formats of pictures that are known by name and not read.
+//! Formats of pictures that are recognized and not read.
 
 /// How files begin, from which byte on, and what they are called.
 const BEGINNINGS: [(usize, &[u8], &str); 18] = [
@@ -22,7 +22,7 @@ const BEGINNINGS: [(usize, &[u8], &str); 18] = [
     (0, b"#usda", "USD"),
 ];
 
-/// What a file is called that begins with `head` and is not read.
+/// The name of the format of a file that begins with `head` and is not read.
 pub(crate) fn name(head: &[u8]) -> Option<&'static str> {
     let is = |(at, magic, _): &&(usize, &[u8], &str)| head.get(*at..).is_some_and(|h| h.starts_with(magic));
     BEGINNINGS.iter().find(is).map(|(.., name)| *name)

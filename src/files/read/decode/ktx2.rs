@@ -4,11 +4,10 @@ use std::io::{BufRead, Read};
 
 use basisu::{DecodeFlags, TargetFormat, Transcoder};
 
-use super::panics::caught;
 use super::place::{MAX_BYTES, Place};
 use crate::error::Error;
-use crate::files::read::raster::Raster;
-use crate::files::read::samples::Samples;
+use crate::panics::caught;
+use crate::read::raster::{Raster, Samples};
 
 /// How a KTX2 begins.
 pub(crate) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";

@@ -1,47 +1,52 @@
-//! From a file to the samples that it stores. What they mean is the matter of `encoding`.
+//! Decoding: from a file to the samples that it stores.
 //!
-//! How a file begins decides what it is, not its name; TGA alone, which begins with nothing of its own, goes by the name.
+//! The first bytes of a file decide its format, not its name; TGA alone, which begins with nothing of its own, goes by the
+//! name.
 
 mod dds;
 mod dwa;
-mod exr;
+pub(crate) mod exr;
 mod head;
 mod known;
 mod ktx2;
+mod layout;
 mod numpy;
-pub(super) mod panics;
 mod picture;
+pub(super) mod pictures;
 mod place;
 mod tiff;
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, Seek};
+use std::io::{BufRead, Seek};
 use std::path::Path;
 
-use super::note::{Note, Subject};
-use super::raster::Raster;
 use crate::error::Error;
+use crate::open::NamedFile;
+use crate::read::raster::Raster;
+use crate::read::record::{Note, Subject};
 pub(super) use place::{Decoded, Layer};
 use place::{Place, alone};
 
-/// Decodes the file `path`, which is expected to be `what`.
+/// Decodes `file`, which is expected to be `what`.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
-pub(super) fn decode_file(path: &Path, what: Subject) -> Result<Decoded, Error> {
-    let file = File::open(path).map_err(|source| Error::unreadable(path, source))?;
-    decode(BufReader::new(file), path, what)
+pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
+    from_reader(file.reader()?, file.path(), what)
 }
 
-/// As [`decode_file`], from what `reader` gives; `path` is the name for messages.
-pub(super) fn decode(mut reader: impl BufRead + Seek, path: &Path, what: Subject) -> Result<Decoded, Error> {
+/// As [`whole`], from what `reader` gives; `path` is the name for messages.
+pub(super) fn from_reader(
+    mut reader: impl BufRead + Seek,
+    path: &Path,
+    what: Subject,
+) -> Result<Decoded, Error> {
     let place = Place { path, what };
     let head = reader.fill_buf().map_err(|source| Error::unreadable(path, source))?;
     let begins = |magic: &[u8]| head.starts_with(magic);
     if begins(&[0x76, 0x2f, 0x31, 0x01]) {
         exr::decode(reader, place)
     } else if begins(b"\x93NUMPY") {
-        numpy::decode_array(reader, String::new(), place).map(alone)
+        numpy::decode_array(reader, place)
     } else if begins(b"PK\x03\x04") || begins(b"PK\x05\x06") {
         numpy::decode_archive(reader, place)
     } else if begins(b"II*\0") || begins(b"MM\0*") || begins(b"II+\0") || begins(b"MM\0+") {
@@ -58,25 +63,23 @@ pub(super) fn decode(mut reader: impl BufRead + Seek, path: &Path, what: Subject
 /// The only picture of a file.
 ///
 /// # Errors
-/// As [`decode_file`]; [`Error::BadImage`] where there are several.
-pub(super) fn decode_one(path: &Path, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
-    let Decoded { mut layers, notes, .. } = decode_file(path, what)?;
+/// As [`whole`]; [`Error::BadImage`] where there are several.
+pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
+    let Decoded { mut layers, notes, .. } = whole(file, what)?;
     match layers.pop() {
         Some(only) if layers.is_empty() => Ok((only.raster, notes)),
-        _ => {
-            Err(Place { path, what }
-                .bad("expected one picture, found several layers", "open the file itself"))
-        }
+        _ => Err(Place { path: file.path(), what }
+            .bad("expected one picture, found several layers", "open the file itself")),
     }
 }
 
 /// The picture of a photograph, of one or three channels: the only one of a file, or its layer without a name.
 ///
 /// # Errors
-/// As [`decode_file`]; [`Error::BadImage`] where no layer or several could be meant.
-pub(super) fn decode_photograph(path: &Path) -> Result<(Raster, Vec<Note>), Error> {
-    let place = Place { path, what: Subject::Photograph };
-    let Decoded { mut layers, notes, .. } = decode_file(path, place.what)?;
+/// As [`whole`]; [`Error::BadImage`] where no layer or several could be meant.
+pub(super) fn photograph(file: &NamedFile) -> Result<(Raster, Vec<Note>), Error> {
+    let place = Place { path: file.path(), what: Subject::Photograph };
+    let Decoded { mut layers, notes, .. } = whole(file, place.what)?;
     let unnamed = layers.iter().position(|layer| layer.name.is_empty());
     let chosen = if layers.len() == 1 { Some(0) } else { unnamed };
     let Some(chosen) = chosen else {

@@ -1,15 +1,14 @@
-//! npy arrays and npz archives of them: (h, w) or (h, w, channels), or (channels, h, w) of at most 4 channels.
+//! npy arrays and npz archives of them, through the `npyz` library.
 
-use std::io::{BufRead, Read, Seek};
+use std::io::{BufRead, ErrorKind, Read, Seek};
 
 use exr::prelude::f16;
 use npyz::{NpyFile, Order};
 
-use super::place::{Decoded, Layer, MAX_BYTES, Place};
+use super::layout::{self, Axes};
+use super::place::{Decoded, Layer, MAX_BYTES, Place, alone};
 use crate::error::Error;
-use crate::files::read::buffer::Buffer;
-use crate::files::read::raster::Raster;
-use crate::files::read::samples::Samples;
+use crate::read::raster::{Buffer, Raster, Samples};
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
@@ -32,7 +31,7 @@ pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> R
         let problem = format!("expected at most {MOST_ARRAYS} arrays in the npz, found {}", names.len());
         return Err(place.bad(problem, "save the maps as named arrays"));
     }
-    // An archive bomb says so in its directory, or meets the limit of a single array or of all of them.
+    // An archive bomb declares its size in its directory, or meets the limit of a single array or of all of them.
     let mut unpacked = 0_u64;
     for file in &names {
         unpacked = unpacked.saturating_add(archive.by_name(file).map_err(invalid)?.size());
@@ -42,32 +41,63 @@ pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> R
             format!("expected at most {} GiB in the npz, found {} GiB", MAX_BYTES >> 30, unpacked >> 30);
         return Err(place.bad(problem, "save fewer or smaller arrays"));
     }
+    let mut shapes = Vec::new();
+    for file in &names {
+        let header = NpyFile::new(archive.by_name(file).map_err(invalid)?);
+        shapes.push(header.map_err(|e| broken(&e, stem(file), place))?.shape().to_vec());
+    }
+    let chosen = layout::chosen(&shapes);
     let mut decoded = Decoded::default();
     let mut bytes = 0;
-    for file in names {
-        let name = file.trim_end_matches(".npy").to_owned();
-        let array = archive.by_name(&file).map_err(invalid)?;
-        let layer = decode_array(array, name, place)?;
+    for (file, (shape, axes)) in names.iter().zip(shapes.iter().zip(chosen)) {
+        let name = stem(file);
+        let array = archive.by_name(file).map_err(invalid)?;
+        let layer = decode(array, name, axes, place)?;
         // In memory: 2 to 4 bytes a sample.
         bytes += 4 * (layer.raster.width * layer.raster.height * layer.raster.channels.len()) as u64;
         place.check_size(layer.raster.width as u64, layer.raster.height as u64, bytes)?;
+        decoded.notes.extend(layout::note(name, shape, axes));
         decoded.layers.push(layer);
     }
     Ok(decoded)
 }
 
-/// One array.
-pub(crate) fn decode_array(reader: impl Read, name: String, place: Place<'_>) -> Result<Layer, Error> {
-    let whose = if name.is_empty() { String::new() } else { format!("array {name}: ") };
-    let invalid = |e: std::io::Error| match e.kind() {
-        std::io::ErrorKind::UnexpectedEof => place.truncated(),
-        _ => place.invalid("npy", format!("{whose}{e}")),
-    };
+/// The name of an array by the file in its archive.
+fn stem(file: &str) -> &str {
+    file.trim_end_matches(".npy")
+}
+
+/// A file of one array.
+pub(crate) fn decode_array(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
+    let header = NpyFile::new(&mut reader).map_err(|e| broken(&e, "", place))?;
+    let shape = header.shape().to_vec();
+    drop(header);
+    reader.rewind().map_err(|source| Error::unreadable(place.path, source))?;
+    let axes = layout::chosen(std::slice::from_ref(&shape)).next().flatten();
+    let layer = decode(reader, "", axes, place)?;
+    Ok(Decoded { notes: layout::note("", &shape, axes).into_iter().collect(), ..alone(layer) })
+}
+
+/// The words for the array `name` at the beginning of a message.
+fn whose(name: &str) -> String {
+    if name.is_empty() { String::new() } else { format!("array {name}: ") }
+}
+
+fn broken(error: &std::io::Error, name: &str, place: Place<'_>) -> Error {
+    match error.kind() {
+        ErrorKind::UnexpectedEof => place.truncated(),
+        _ => place.invalid("npy", format!("{}{error}", whose(name))),
+    }
+}
+
+/// The array `name`, its axes read as `axes`; `None` where its shape is that of no picture.
+fn decode(reader: impl Read, name: &str, axes: Option<Axes>, place: Place<'_>) -> Result<Layer, Error> {
+    let whose = whose(name);
+    let invalid = |e: std::io::Error| broken(&e, name, place);
     let file = NpyFile::new(reader).map_err(invalid)?;
-    let shape = file.shape().to_vec();
-    let [height, width, count, planar] = sides(&shape).ok_or_else(|| {
+    let Axes { height, width, count, planar, .. } = axes.ok_or_else(|| {
         place.bad(
-            format!("{whose}expected the shape (h, w) or (h, w, 1 to 4), found {shape:?}"),
+            format!("{whose}expected the shape (h, w) or (h, w, 1 to 4), found {:?}", file.shape()),
             "save each map as an array of rows, columns and channels",
         )
     })?;
@@ -85,20 +115,9 @@ pub(crate) fn decode_array(reader: impl Read, name: String, place: Place<'_>) ->
         )
     })?;
     let (width, height, count) = (width as usize, height as usize, count as usize);
-    let channels = if planar == 1 { Samples::planar } else { Samples::interleaved };
+    let channels = if planar { Samples::planar } else { Samples::interleaved };
     let channels = channels(values, count);
-    Ok(Layer { name, raster: Raster::with_alpha(width, height, depth, channels) })
-}
-
-/// Height, width, channels, and 1 where the channels come first.
-fn sides(shape: &[u64]) -> Option<[u64; 4]> {
-    match *shape {
-        [1, h, w] | [h, w] => Some([h, w, 1, 0]),
-        [h, w, c @ 1..=4] => Some([h, w, c, 0]),
-        [c @ 2..=4, h, w] => Some([h, w, c, 1]),
-        [1, c @ 1..=4, h, w] => Some([h, w, c, 1]),
-        _ => None,
-    }
+    Ok(Layer { name: name.to_owned(), raster: Raster::with_alpha(width, height, depth, channels) })
 }
 
 fn values<R: Read>(
@@ -131,7 +150,7 @@ fn values<R: Read>(
         },
     };
     if samples.len() != count {
-        return Err(invalid(std::io::ErrorKind::UnexpectedEof.into()));
+        return Err(invalid(ErrorKind::UnexpectedEof.into()));
     }
     Ok((samples, depth))
 }

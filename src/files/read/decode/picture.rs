@@ -14,12 +14,11 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
 use super::head::{self, PngHead};
 use super::known;
-use super::panics::caught;
 use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::error::Error;
-use crate::files::read::note::Note;
-use crate::files::read::raster::Raster;
-use crate::files::read::samples::Samples;
+use crate::panics::caught;
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::Note;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
@@ -110,11 +109,11 @@ fn ignored(decoder: &mut impl ImageDecoder, orientation: Orientation, place: Pla
 
 /// Whether an ICC profile calls itself sRGB, in ASCII or UTF-16.
 fn is_srgb(profile: &[u8]) -> bool {
-    let says = |name: &[u8]| profile.windows(name.len()).any(|bytes| bytes == name);
-    says(b"sRGB") || says(b"s\0R\0G\0B")
+    let contains = |name: &[u8]| profile.windows(name.len()).any(|bytes| bytes == name);
+    contains(b"sRGB") || contains(b"s\0R\0G\0B")
 }
 
-/// What the decoder may allocate. The size of the image is checked apart, for a message with numbers.
+/// The most that the decoder may allocate. The size of the image is checked apart, for a message with numbers.
 fn limits() -> Limits {
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_BYTES);

@@ -1,11 +1,11 @@
-//! What the decoders share: what they return, how they refuse, how large a picture may be.
+//! Parts that all decoders share: their results, their refusals, and the limits of pictures.
 
 use std::path::Path;
 
 use crate::error::Error;
-use crate::files::read::note::{Note, Subject};
-use crate::files::read::raster::Raster;
-use crate::files::read::role::Role;
+use crate::read::options::Role;
+use crate::read::raster::Raster;
+use crate::read::record::{Note, Subject};
 
 /// Largest side of a map: the largest that material libraries publish.
 pub(crate) const MAX_SIDE: usize = 16_384;
@@ -25,19 +25,19 @@ pub(crate) struct Layer {
     pub raster: Raster,
 }
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Decoded {
     pub layers: Vec<Layer>,
-    /// Whether this program wrote the file: then it means what this program means.
+    /// Whether this program wrote the file, in its own encoding.
     pub native: bool,
-    /// What this program wrote into a packed picture: its order and encoding.
+    /// The order and encoding that this program wrote into a packed picture.
     pub meaning: Option<String>,
-    /// What else was noticed.
+    /// Other things that were noticed.
     pub notes: Vec<Note>,
 }
 
-/// Who is decoding what: for messages.
+/// The file that is being decoded, and its subject: for messages.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'a> {
     pub path: &'a Path,
@@ -68,7 +68,7 @@ impl Place<'_> {
         }
     }
 
-    /// Whether the picture is seen as a person sees it, and not texel by texel.
+    /// Whether the picture is one of a camera, whose orientation counts, and not one of texels.
     pub(super) fn is_photograph(self) -> bool {
         self.what == Subject::Photograph
     }

@@ -8,9 +8,7 @@ use tiff::tags::Tag;
 
 use super::place::{MAX_BYTES, Place};
 use crate::error::Error;
-use crate::files::read::buffer::Buffer;
-use crate::files::read::raster::Raster;
-use crate::files::read::samples::Samples;
+use crate::read::raster::{Buffer, Raster, Samples};
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
     let invalid = |error: tiff::TiffError| match error {

@@ -1,12 +1,11 @@
-//! One choice about stored values, recorded as an assumption.
+//! Choices about stored values, recorded as assumptions.
 
 use std::fmt::Display;
 
-use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::reason::Reason;
-use crate::files::read::stored::Inferred;
+use crate::read::record::{Assumption, Certainty, Reason, What};
+use crate::read::stored::Inferred;
 
-/// What was specified, else what was inferred, else what is `detected`; recorded.
+/// The `specified` value, else the `inferred`, else the `detected` one; recorded.
 pub(crate) fn decide<T: Copy + Display>(
     assumptions: &mut Vec<Assumption>,
     what: What,

@@ -3,16 +3,14 @@
 use rayon::prelude::*;
 
 use super::decide::decide;
-use super::detect::{self, NORMAL_AT_LEAST};
 use crate::error::Error;
-use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::options::{NormalEncoding, NormalY, ReadOptions};
-use crate::files::read::raster::Raster;
-use crate::files::read::reason::Reason;
-use crate::files::read::samples::Samples;
-use crate::files::read::stored::{StoredMap, StoredMaterial};
 use crate::material::resize::{self, Filter};
 use crate::math::real::Real;
+use crate::read::measure::{self, NORMAL_AT_LEAST};
+use crate::read::options::{NormalEncoding, NormalY, ReadOptions};
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::{Assumption, Certainty, Reason, What};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// Shorter vectors have no direction.
 const SHORTEST: f64 = 1e-3;
@@ -95,10 +93,10 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
     {
         return (NormalEncoding::Ag, Reason::RedConstant);
     }
-    let score = detect::normal_score(raster);
+    let score = measure::normal_score(raster);
     if raster.is_float() {
         // Filters overshoot: lengths tell signed from unsigned, a negative value does not.
-        let signed = detect::signed_normal_score(raster);
+        let signed = measure::signed_normal_score(raster);
         if signed > score {
             return (NormalEncoding::Signed, Reason::UnitLength { signed: true, share: signed });
         }
@@ -158,7 +156,7 @@ fn normal_y(
     found: &mut StoredMaterial,
     options: &ReadOptions,
 ) -> NormalY {
-    let curl = detect::curl(raster.width, raster.height, |index| vector(raster, encoding, index));
+    let curl = measure::curl(raster.width, raster.height, |index| vector(raster, encoding, index));
     let hint = found.inferred.normal_y.take();
     let named = hint.as_ref().is_some_and(|(.., certainty)| *certainty == Certainty::Sure);
     let of_preset = options.preset.and_then(|preset| preset.options().normal_y).filter(|_| !named);
@@ -195,7 +193,7 @@ fn decoded<T: Real>(raster: &Raster, encoding: NormalEncoding, y: NormalY) -> ([
     }
 }
 
-/// What `of` makes of the stored components of each texel, or (0, 0, 1); and how many have no direction.
+/// The vector that `of` computes from the stored components of each texel, or (0, 0, 1); and how many have no direction.
 fn filled<T: Real>(
     raster: &Raster,
     encoding: NormalEncoding,

@@ -1,12 +1,10 @@
 //! Samples outside the range of a map: NaN, infinity, and values outside [0, 1].
 
 use crate::error::Error;
-use crate::files::read::assumption::{Assumption, Certainty, What};
-use crate::files::read::options::{NonFinite, ReadOptions};
-use crate::files::read::outside::Outside;
-use crate::files::read::reason::Reason;
-use crate::files::read::role::Role;
-use crate::files::read::stored::{StoredMap, StoredMaterial};
+use crate::read::options::{NonFinite, ReadOptions, Role};
+use crate::read::raster::OutOfRange;
+use crate::read::record::{Assumption, Certainty, Reason, What};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.
 ///
@@ -74,25 +72,25 @@ pub(crate) fn unit(value: f64, instead: f64) -> f64 {
 /// Values that lay outside [0, 1], how many for each map, and how far.
 #[derive(Debug, Default)]
 pub(crate) struct Clamped {
-    maps: Vec<(Role, Outside)>,
+    maps: Vec<(Role, OutOfRange)>,
 }
 
 impl Clamped {
-    /// Adds what lies outside [0, 1] in the map `map`.
-    pub(crate) fn add(&mut self, outside: Outside, map: Role) {
+    /// Adds the numbers of the map `map` that lie outside [0, 1].
+    pub(crate) fn add(&mut self, numbers: OutOfRange, map: Role) {
         match self.maps.iter_mut().find(|(role, _)| *role == map) {
-            Some((_, sum)) => *sum = sum.merged(outside),
-            None if outside.count > 0 => self.maps.push((map, outside)),
+            Some((_, sum)) => *sum = sum.merged(numbers),
+            None if numbers.count > 0 => self.maps.push((map, numbers)),
             None => (),
         }
     }
 
-    /// Records what has been clamped.
-    pub(crate) fn record(self, found: &mut StoredMaterial) {
-        for (map, Outside { count, low, high }) in self.maps {
+    /// Records the values that have been clamped.
+    pub(crate) fn record(self, assumptions: &mut Vec<Assumption>) {
+        for (map, OutOfRange { count, low, high }) in self.maps {
             let why = Reason::OutsideUnit { map, count, low, high };
             let clamped = Assumption::new(What::Values, "clamped to [0, 1]", why, Certainty::Unsure);
-            found.assumptions.push(clamped);
+            assumptions.push(clamped);
         }
     }
 }

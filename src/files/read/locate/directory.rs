@@ -1,13 +1,10 @@
-//! What is in a folder, and how it is called.
+//! Folder listings, and the names that they give.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::names::words;
 use crate::error::Error;
-
-/// Most file names that a message lists.
-const MOST_LISTED: usize = 12;
+use crate::read::names::words;
 
 /// The names of the visible folders in `folder`, sorted.
 pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, Error> {
@@ -44,26 +41,6 @@ pub(crate) fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<Strin
     Ok(names)
 }
 
-/// Files that other programs leave beside pictures.
-fn is_junk(name: &str) -> bool {
-    let name = name.to_lowercase();
-    [".import", ".meta", ".uid"].iter().any(|end| name.ends_with(end))
-        || name == "thumbs.db"
-        || name == "desktop.ini"
-}
-
-/// The file names for a message, no matter how many they are, without the files that other programs leave.
-pub(crate) fn listing(names: &[String]) -> String {
-    let names: Vec<&str> = names.iter().map(String::as_str).filter(|name| !is_junk(name)).collect();
-    match names.len() {
-        0 => "no files".to_owned(),
-        count if count > MOST_LISTED => {
-            format!("{} and {} more", names[..MOST_LISTED].join(", "), count - MOST_LISTED)
-        }
-        _ => names.join(", "),
-    }
-}
-
 /// The prefix without separators at its end, or else the name of the folder.
 pub(crate) fn material_name(path: &Path, prefix: &str) -> String {
     let prefix = prefix.trim_end_matches(|c: char| !c.is_alphanumeric());
@@ -73,4 +50,9 @@ pub(crate) fn material_name(path: &Path, prefix: &str) -> String {
     // A folder such as `..` has a name only once it is resolved.
     let resolved: PathBuf = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     resolved.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// The folder of a file that may be named without one.
+pub(super) fn folder_of(path: &Path) -> PathBuf {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
 }

@@ -1,49 +1,19 @@
-//! Which files of a folder are the maps of one material, by their names.
+//! Groups of files by the words that their names share: the maps of one material.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::directory::listing;
-use super::names::{Label, Role, words};
 use crate::error::Error;
-use crate::files::read::note::{Note, Unused};
+use crate::read::located::set::{LabelledFile, NUMBERED, SetFiles};
+use crate::read::names::{Label, is_named_as, listing, words};
+use crate::read::options::Role;
+use crate::read::options::extensions::{self, PICTURES};
+use crate::read::record::{Note, Unused};
 
-/// Extensions of the pictures that count, the better one of two last.
-const EXTENSIONS: [&str; 13] =
-    ["dds", "ktx2", "webp", "jpg", "jpeg", "bmp", "tga", "hdr", "png", "tif", "tiff", "npy", "exr"];
 /// Extensions of pictures that cannot be read. Where nothing else is that map, opening one fails and names it: a map
 /// that is there is never replaced by a default.
 const UNREAD: [&str; 10] = ["psd", "avif", "jxl", "heic", "gif", "jp2", "ktx", "basis", "astc", "xcf"];
-/// The word of files that are maps by their numbers alone.
-pub(crate) const NUMBERED: &str = "0 to 3";
-
-/// A file whose name names a map.
-#[derive(Clone, Debug)]
-pub(crate) struct Named {
-    pub file: String,
-    pub label: Label,
-}
-
-impl Named {
-    /// The higher, the better a source for its map.
-    pub(crate) fn rank(&self) -> (u8, Option<usize>) {
-        let extension = extension(&self.file);
-        (self.label.rank(), EXTENSIONS.iter().position(|e| *e == extension))
-    }
-}
-
-/// One file for each map.
-#[derive(Debug, Default)]
-pub(crate) struct Set {
-    pub files: Vec<Named>,
-    /// Other pictures of the normal map, which count where the chosen one is constant.
-    pub normals: Vec<Named>,
-    /// Pictures whose names name no map.
-    pub unlabelled: Vec<String>,
-    pub notes: Vec<Note>,
-}
-
-type Groups = BTreeMap<Vec<String>, Vec<Named>>;
+type Groups = BTreeMap<Vec<String>, Vec<LabelledFile>>;
 
 /// The files of the one material among `names`: of the stem `wanted`, or of the only stem that is complete with what
 /// is `bound` already.
@@ -55,14 +25,14 @@ pub(crate) fn choose(
     names: &[String],
     wanted: Option<&[String]>,
     bound: &[Role],
-) -> Result<Set, Error> {
-    let mut set = Set::default();
+) -> Result<SetFiles, Error> {
+    let mut set = SetFiles::default();
     let mut groups = Groups::new();
     for name in names {
         let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
         match Label::of(&stem) {
             Some(label) if is_picture(name) || (is_unread(name) && label.role != Role::Ignored) => {
-                groups.entry(label.stem.clone()).or_default().push(Named { file: name.clone(), label })
+                groups.entry(label.stem.clone()).or_default().push(LabelledFile { file: name.clone(), label })
             }
             None if is_picture(name) => set.unlabelled.push(name.clone()),
             _ => (),
@@ -72,7 +42,7 @@ pub(crate) fn choose(
     // A short word counts beside other maps, or beside a picture that has the name of the set.
     let has_colour = |stem: &[String]| set.unlabelled.iter().any(|name| is_named_as(name, stem));
     groups.retain(|stem, files| files.len() > 1 || !files[0].label.is_short() || has_colour(stem));
-    let is_whole = |files: &[Named]| is_complete(files, bound);
+    let is_whole = |files: &[LabelledFile]| is_complete(files, bound);
     let mut complete: Vec<_> =
         groups.iter().filter(|(_, files)| is_whole(files)).map(|(s, _)| s.clone()).collect();
     if complete.is_empty() {
@@ -96,31 +66,21 @@ pub(crate) fn choose(
         }
     };
     let (files, normals) = best(path, files, bound, &mut set.notes)?;
-    (set.files, set.normals) = (files, normals);
+    (set.files, set.other_normals) = (files, normals);
     Ok(set)
-}
-
-/// Whether the name of a file is that of a set and nothing more, as `brick.png` beside `brick_n.png`.
-pub(crate) fn is_named_as(name: &str, stem: &[String]) -> bool {
-    let own = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-    !stem.is_empty() && words(&own) == stem
 }
 
 /// Whether a file of this name counts as a picture.
 pub(crate) fn is_picture(name: &str) -> bool {
-    EXTENSIONS.contains(&extension(name).as_str())
+    PICTURES.contains(&extensions::of_name(name).as_str())
 }
 
 /// Whether a file of this name is a picture that cannot be read.
 fn is_unread(name: &str) -> bool {
-    UNREAD.contains(&extension(name).as_str())
+    UNREAD.contains(&extensions::of_name(name).as_str())
 }
 
-fn extension(name: &str) -> String {
-    Path::new(name).extension().unwrap_or_default().to_string_lossy().to_lowercase()
-}
-
-fn is_complete(files: &[Named], bound: &[Role]) -> bool {
+fn is_complete(files: &[LabelledFile], bound: &[Role]) -> bool {
     let has = |is: fn(Role) -> bool| files.iter().map(|f| f.label.role).chain(bound.iter().copied()).any(is);
     has(|role| matches!(role, Role::Base | Role::Diffuse))
         && has(|role| matches!(role, Role::Roughness | Role::SpecularGlossiness) || role.packing().is_some())
@@ -176,7 +136,7 @@ fn numbered(names: &[String]) -> Groups {
         let numbers: Vec<usize> = files.iter().map(|(number, _)| *number).collect();
         let named = |(role, (_, file)): (Role, (usize, String))| {
             let label = Label { role, word: NUMBERED.to_owned(), stem: stem.clone(), normal_y: None };
-            Named { file, label }
+            LabelledFile { file, label }
         };
         (numbers == [0, 1, 2, 3]).then(|| (stem.clone(), ROLES.into_iter().zip(files).map(named).collect()))
     };
@@ -186,12 +146,12 @@ fn numbered(names: &[String]) -> Groups {
 /// One file a map: the better of two, with a note; an error where neither is. And the other pictures of normals.
 fn best(
     path: &Path,
-    mut files: Vec<Named>,
+    mut files: Vec<LabelledFile>,
     bound: &[Role],
     notes: &mut Vec<Note>,
-) -> Result<(Vec<Named>, Vec<Named>), Error> {
-    files.sort_by_key(Named::rank);
-    let (mut chosen, mut normals): (Vec<Named>, Vec<Named>) = (Vec::new(), Vec::new());
+) -> Result<(Vec<LabelledFile>, Vec<LabelledFile>), Error> {
+    files.sort_by_key(LabelledFile::rank);
+    let (mut chosen, mut normals): (Vec<LabelledFile>, Vec<LabelledFile>) = (Vec::new(), Vec::new());
     for file in files.into_iter().rev() {
         if file.label.role == Role::Ignored || bound.contains(&file.label.role) {
             notes.push(Note::Unused { what: file.file, why: Unused::NotAMap });

@@ -1,30 +1,26 @@
-//! Pictures of other materials of the same collection: of the same file names in folders beside, or of other stems in
-//! the same folder.
+//! Neighbours: pictures of other materials of the same collection, of the same file names in folders beside, or of other
+//! stems in the same folder.
 
 use std::path::{Path, PathBuf};
 
-use rayon::prelude::*;
-
 use super::directory::{folders, list};
-use super::names::Label;
-use crate::files::read::decode;
-use crate::files::read::note::Subject;
-use crate::files::read::raster::Raster;
+use crate::open::NamedFile;
+use crate::read::names::Label;
 
 /// Most neighbours that are looked at.
 const MOST: usize = 4;
-/// Longest file of one in bytes: what neighbours say is not worth waiting long.
+/// Longest file of one in bytes: their evidence is not worth waiting long.
 const LONGEST: u64 = 16 << 20;
 
-/// The pictures of the neighbours of the material that has the pictures `first` and `second`, decoded.
-pub(crate) fn of(first: &Path, second: &Path) -> Vec<[Raster; 2]> {
-    let short = |file: &PathBuf| file.metadata().is_ok_and(|meta| meta.len() <= LONGEST);
+/// Pairs of pictures of neighbours that correspond to `first` and `second` of a material.
+pub(in crate::read) fn pairs(first: &Path, second: &Path) -> Vec<[NamedFile; 2]> {
+    let is_short = |file: &PathBuf| file.metadata().is_ok_and(|meta| meta.len() <= LONGEST);
     let mut pairs = beside(first, second).unwrap_or_default();
     pairs.extend(within(first, second).unwrap_or_default());
-    pairs.retain(|pair| pair.iter().all(short));
+    pairs.retain(|pair| pair.iter().all(is_short));
     pairs.truncate(MOST);
-    let decoded = |file: &PathBuf| Some(decode::decode_one(file, Subject::Picture).ok()?.0);
-    pairs.par_iter().filter_map(|[a, b]| Some([decoded(a)?, decoded(b)?])).collect()
+    let named = |file: PathBuf| NamedFile::by_file(file, first.parent().unwrap_or(first));
+    pairs.into_iter().map(|pair| pair.map(named)).collect()
 }
 
 /// In the folders beside the folder of `first`, under the same names.

@@ -1,0 +1,126 @@
+//! The pictures of a located material, decoded at once.
+
+use std::io::Cursor;
+
+use rayon::prelude::*;
+
+use super::{Decoded, Layer, from_reader, one, whole};
+use crate::error::Error;
+use crate::progress::Progress;
+use crate::read::located::binding::LocatedBinding;
+use crate::read::located::gltf::LocatedGltf;
+use crate::read::located::mtl::LocatedMtl;
+use crate::read::located::mtlx::LocatedMtlx;
+use crate::read::located::picture::{LocatedPicture, PictureSource};
+use crate::read::located::set::LocatedSet;
+use crate::read::located::{Candidate, WholePicture};
+use crate::read::raster::Raster;
+use crate::read::record::{Note, Subject};
+use crate::read::stored::StoredMap;
+
+/// A picture of a material, and what its decoder noticed.
+#[derive(Clone, Debug)]
+pub(crate) struct DecodedPicture {
+    pub map: StoredMap,
+    pub notes: Vec<Note>,
+}
+
+/// A candidate with its pictures, in the order in which they were located.
+#[derive(Debug)]
+pub(crate) enum DecodedCandidate {
+    Picture(WholePicture, Decoded),
+    Set(LocatedSet, Vec<DecodedPicture>),
+    Gltf(LocatedGltf, Vec<DecodedPicture>),
+    Mtl(LocatedMtl, Vec<DecodedPicture>),
+    Mtlx(LocatedMtlx, Vec<DecodedPicture>),
+}
+
+/// Decodes the pictures of a candidate; each is one step of `progress`.
+///
+/// Pictures that are needed only where the pixels of others are not those of their map stay undecoded.
+///
+/// # Errors
+/// [`Error::Unreadable`], [`Error::BadImage`], [`Error::Cancelled`].
+pub(in crate::read) fn candidate(
+    candidate: Candidate,
+    progress: &Progress,
+) -> Result<DecodedCandidate, Error> {
+    Ok(match candidate {
+        Candidate::Picture(picture) => {
+            progress.begin(1);
+            let decoded = whole(&picture.file, Subject::Material)?;
+            progress.step()?;
+            DecodedCandidate::Picture(picture, decoded)
+        }
+        Candidate::Set(set) => {
+            let pictures: Vec<_> = set.pictures().collect();
+            let decoded = all(&pictures, progress)?;
+            DecodedCandidate::Set(set, decoded)
+        }
+        Candidate::Gltf(mut gltf) => {
+            // Dropped once they are decoded: they hold the bytes of embedded pictures.
+            let decoded = all(&std::mem::take(&mut gltf.pictures), progress)?;
+            DecodedCandidate::Gltf(gltf, decoded)
+        }
+        Candidate::Mtl(mtl) => {
+            let pictures: Vec<_> = mtl.textures.iter().map(|texture| texture.picture.clone()).collect();
+            let decoded = all(&pictures, progress)?;
+            DecodedCandidate::Mtl(mtl, decoded)
+        }
+        Candidate::Mtlx(mtlx) => {
+            let decoded = all(&mtlx.pictures, progress)?;
+            DecodedCandidate::Mtlx(mtlx, decoded)
+        }
+    })
+}
+
+fn all(pictures: &[LocatedPicture], progress: &Progress) -> Result<Vec<DecodedPicture>, Error> {
+    progress.begin(pictures.len() as u64);
+    let decode = |picture: &LocatedPicture| {
+        let decoded = decoded(picture);
+        progress.step().and(decoded)
+    };
+    // All are decoded before the first error is taken: so the same one is reported every time.
+    let all: Vec<_> = pictures.par_iter().map(decode).collect();
+    all.into_iter().collect()
+}
+
+fn decoded(LocatedPicture { source, subject }: &LocatedPicture) -> Result<DecodedPicture, Error> {
+    match source {
+        PictureSource::File(file) => {
+            let (raster, notes) = one(file, *subject)?;
+            let map = StoredMap { raster, file: file.path().to_owned(), part: String::new() };
+            Ok(DecodedPicture { map, notes })
+        }
+        PictureSource::Embedded { within, bytes } => {
+            let Decoded { layers, notes, .. } = from_reader(Cursor::new(bytes), within, *subject)?;
+            let raster = layers.into_iter().next().map(|layer| layer.raster);
+            let raster = raster.ok_or_else(|| Error::BadImage {
+                path: within.clone(),
+                problem: format!("{subject}: expected a picture, found none"),
+                remedy: "export it again".to_owned(),
+            })?;
+            let map = StoredMap { raster, file: within.clone(), part: subject.to_string() };
+            Ok(DecodedPicture { map, notes })
+        }
+    }
+}
+
+/// The picture of a binding, or all layers of its file where it names a part.
+#[derive(Debug)]
+pub(crate) enum DecodedBinding {
+    Whole(Raster),
+    Parts(Vec<Layer>, String),
+}
+
+/// Decodes the file of a binding.
+///
+/// # Errors
+/// [`Error::Unreadable`], [`Error::BadImage`].
+pub(in crate::read) fn binding(binding: &LocatedBinding) -> Result<DecodedBinding, Error> {
+    let subject = Subject::Map(binding.role);
+    match &binding.part {
+        None => Ok(DecodedBinding::Whole(one(&binding.file, subject)?.0)),
+        Some(part) => Ok(DecodedBinding::Parts(whole(&binding.file, subject)?.layers, part.clone())),
+    }
+}

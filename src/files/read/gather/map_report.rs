@@ -1,0 +1,142 @@
+//! Reports on maps as stored, for inspection.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use crate::read::measure;
+use crate::read::options::Role;
+use crate::read::raster::{Raster, Samples};
+use crate::read::stored::{StoredMap, StoredMaterial};
+
+/// One map as stored.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MapReport {
+    pub map: Role,
+    pub file: PathBuf,
+    /// Layer, channel or tile within the file; may be empty.
+    pub part: String,
+    /// (width, height) in texels.
+    pub size: [usize; 2],
+    /// How a sample is stored: "8-bit", "half".
+    pub depth: &'static str,
+    pub channels: usize,
+    /// Least and largest finite sample; codes as fractions of the largest code.
+    pub range: [f64; 2],
+    /// Share of the samples, in [0, 1], that are 1 or more.
+    pub clipped: f64,
+    /// Whether every texel is the same.
+    pub constant: bool,
+    /// Share of the texels, in [0, 1], that are the same as their right neighbour.
+    pub flat: f64,
+    /// Share of the texels that are not unit vectors; only of normal maps.
+    pub non_unit: Option<f64>,
+    /// The curl correlation, near 1 where green points up and near -1 where it points down; only of normal maps that
+    /// have slopes.
+    pub curl: Option<f64>,
+    /// Median of the least channel; only of specular maps.
+    pub specular_median: Option<f64>,
+}
+
+impl fmt::Display for MapReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [width, height] = self.size;
+        let [low, high] = self.range;
+        write!(f, "{:<12} {}", self.map.name(), self.file.display())?;
+        if !self.part.is_empty() {
+            write!(f, ", {}", self.part)?;
+        }
+        let channels = if self.channels == 1 { "channel" } else { "channels" };
+        write!(
+            f,
+            ": {width} x {height}, {}, {} {channels}, {low:.4} to {high:.4}",
+            self.depth, self.channels
+        )?;
+        if self.constant {
+            write!(f, ", constant")?;
+        } else if self.flat > 0.0 {
+            write!(f, ", {:.1} % flat", 100.0 * self.flat)?;
+        }
+        if self.clipped > 0.0 {
+            write!(f, ", {:.1} % at 1", 100.0 * self.clipped)?;
+        }
+        if let Some(share) = self.non_unit {
+            write!(f, ", {:.1} % not unit vectors", 100.0 * share)?;
+        }
+        if let Some(curl) = self.curl {
+            write!(f, ", curl correlation {curl:+.2}")?;
+        }
+        if let Some(median) = self.specular_median {
+            write!(f, ", median {median:.3}")?;
+        }
+        Ok(())
+    }
+}
+
+pub(in crate::read) fn reports(found: &StoredMaterial) -> Vec<MapReport> {
+    found.sources().into_iter().map(|(map, source)| report(map, source)).collect()
+}
+
+fn report(map: Role, source: &StoredMap) -> MapReport {
+    let raster = &source.raster;
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let (mut clipped, mut count) = (0, 0);
+    for channel in &raster.channels {
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for value in raster.sampled().map(|i| channel.at(i)).filter(|v| v.is_finite()) {
+            least = least.min(value);
+            most = most.max(value);
+            clipped += usize::from(value >= 1.0);
+            count += 1;
+        }
+        (low, high) = (low.min(least), high.max(most));
+    }
+    let [non_unit, curl] = if map == Role::Normal { of_normals(raster) } else { [None; 2] };
+    MapReport {
+        map,
+        file: source.file.clone(),
+        part: source.part.clone(),
+        size: raster.size(),
+        depth: raster.depth,
+        channels: raster.channels.len(),
+        range: [low, high].map(|x| if x.is_finite() { x } else { 0.0 }),
+        clipped: f64::from(clipped as u32) / f64::from(count.max(1) as u32),
+        constant: raster.channels.iter().all(Samples::is_constant),
+        flat: flat(raster),
+        non_unit,
+        curl,
+        specular_median: (map == Role::Specular).then(|| measure::specular_median(raster)),
+    }
+}
+
+/// Share of the texels that are not unit vectors, and the curl correlation.
+fn of_normals(raster: &Raster) -> [Option<f64>; 2] {
+    let [unsigned, signed] = [measure::normal_score(raster), measure::signed_normal_score(raster)];
+    let vector = |index| raster.rgb(index).map(|c| if signed > unsigned { c } else { 2.0 * c - 1.0 });
+    let curl = measure::curl(raster.width, raster.height, vector);
+    [Some(1.0 - unsigned.max(signed)), curl]
+}
+
+/// Share of the texels that are the same as their right neighbour.
+fn flat(raster: &Raster) -> f64 {
+    let inside = raster.sampled().filter(|i| i % raster.width + 1 < raster.width);
+    let same = |i: usize| raster.channels.iter().all(|channel| channel.at(i) == channel.at(i + 1));
+    let (count, flat) = inside.fold((0u32, 0u32), |(count, flat), i| (count + 1, flat + u32::from(same(i))));
+    f64::from(flat) / f64::from(count.max(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flat_texels_equal_their_right_neighbour_in_every_channel() {
+        let raster = |values: &[f32]| {
+            let channels = vec![Samples::floats(values.to_vec())];
+            Raster { width: 4, height: 2, channels, ..Raster::constant("test", &[0.0]) }
+        };
+        assert_eq!(flat(&raster(&[1.0; 8])), 1.0);
+        assert_eq!(flat(&raster(&[1.0, 1.0, 2.0, 3.0, 3.0, 2.0, 2.0, 2.0])), 0.5);
+    }
+}

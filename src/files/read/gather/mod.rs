@@ -1,0 +1,59 @@
+//! Gathering: the evidence of pixels about the values of a material, its own and that of its neighbours, before any of
+//! them is interpreted.
+
+mod colours;
+mod log_odds;
+pub(super) mod map_report;
+mod neighbours;
+
+use crate::read::options::{ReadOptions, Roughness};
+use crate::read::record::Evidence;
+use crate::read::stored::{StoredMap, StoredMaterial};
+pub(super) use log_odds::{PRIOR, SURE};
+
+/// The evidence about how colours are stored.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum ColourEvidence {
+    /// Nothing was measured: options or files specify the encoding.
+    Specified,
+    /// Of a colour without specular; `None` where it looks like any other.
+    Alone(Option<Evidence>),
+    Pair {
+        diffuse: Vec<Evidence>,
+        specular: Vec<Evidence>,
+    },
+}
+
+/// The evidence about the colours of a material that is to be read with `options`.
+pub(super) fn colours(found: &StoredMaterial, options: &ReadOptions) -> ColourEvidence {
+    let inferred = &found.inferred;
+    let is_known = inferred.albedo.is_some() && inferred.specular.is_some();
+    match &found.specular {
+        _ if options.albedo.is_some() || is_known => ColourEvidence::Specified,
+        Some(specular) => {
+            let roughness = options.roughness.or(inferred.roughness.as_ref().map(|known| known.0));
+            pair(&found.colour, specular, roughness)
+        }
+        None if inferred.albedo.is_some() => ColourEvidence::Specified,
+        None => ColourEvidence::Alone(colours::alone(&found.colour.raster)),
+    }
+}
+
+/// The evidence about diffuse and specular, with that of neighbours where their own leaves the encoding open.
+///
+/// The two differ only where evidence about diffuse alone does. `roughness` is what the names declare it: glossiness is
+/// how artists name it.
+fn pair(diffuse: &StoredMap, specular: &StoredMap, roughness: Option<Roughness>) -> ColourEvidence {
+    let prior = if roughness == Some(Roughness::Gloss) { Evidence::Prior } else { Evidence::Research };
+    let mut common = vec![prior];
+    if colours::is_jpeg(&diffuse.file) && colours::is_jpeg(&specular.file) {
+        common.push(Evidence::Jpeg);
+    }
+    common.extend(colours::measured(&diffuse.raster, &specular.raster));
+    let total: f64 = common.iter().map(|one| one.log_odds()).sum();
+    if total.abs() < SURE {
+        common.extend(neighbours::evidence(&diffuse.file, &specular.file));
+    }
+    let bright = colours::too_bright(&diffuse.raster, &specular.raster);
+    ColourEvidence::Pair { diffuse: common.iter().copied().chain(bright).collect(), specular: common }
+}

@@ -1,0 +1,121 @@
+//! Planes of colours, roughness and other gray maps: from stored samples to linear values.
+
+use rayon::prelude::*;
+
+use super::decide::decide;
+use super::values::{Clamped, unit};
+use crate::material::resize::{self, Filter};
+use crate::math::real::Real;
+use crate::read::options::transfer::{self, linear};
+use crate::read::options::{Albedo, ReadOptions, Role, Roughness};
+use crate::read::raster::{OutOfRange, Samples, channel_spread};
+use crate::read::record::{Certainty, Gray, Note, StorageConvention, What};
+use crate::read::stored::{StoredMap, StoredMaterial};
+
+/// Channels of a gray map that differ by less were gray before they were rounded.
+const ROUNDING: f64 = 2.0 / 255.0;
+
+/// The linear planes of a colour, stored in this encoding.
+pub(super) fn colour_planes<T: Real>(
+    map: StoredMap,
+    encoding: Albedo,
+    role: Role,
+    size: [usize; 2],
+    clamped: &mut Clamped,
+) -> [Vec<T>; 3] {
+    let StoredMap { raster, .. } = map;
+    let (from, last) = (raster.size(), raster.channels.len() - 1);
+    let channels = [0, 1, 2].map(|c| &raster.channels[last.min(c)]);
+    channels.into_iter().for_each(|plane| clamped.add(plane.out_of_range(), role));
+    let planes = Samples::decoded_three(channels, |v| linear(unit(v, 0.0), encoding));
+    planes.map(|plane| resize::plane(plane, from, size, Filter::Value))
+}
+
+/// The red channel of a gray map; noted where the others differ by more than rounding explains.
+pub(super) fn gray_plane<T: Real>(
+    source: StoredMap,
+    map: Role,
+    size: [usize; 2],
+    clamped: &mut Clamped,
+    notes: &mut Vec<Note>,
+) -> Vec<T> {
+    let raster = &source.raster;
+    let spread = channel_spread(&raster.channels);
+    if spread > ROUNDING {
+        notes.push(Note::ChannelsDiffer { map, spread, used: Gray::Red });
+    }
+    clamped.add(raster.channels[0].out_of_range(), map);
+    let plane = raster.channels[0].decoded(|v| unit(v, 0.0));
+    resize::plane(plane, raster.size(), size, Filter::Value)
+}
+
+/// The meaning of roughness: as specified, else as the files tell, else the roughness itself.
+pub(super) fn roughness_encoding(found: &mut StoredMaterial, options: &ReadOptions) -> Roughness {
+    let hint = found.inferred.roughness.take();
+    decide(&mut found.assumptions, What::Roughness, options.roughness, hint, || {
+        (Roughness::R, StorageConvention::RoughnessName.into(), Certainty::Likely)
+    })
+}
+
+/// The first channel, or the mean of channels that differ; the geometric mean of two widths.
+pub(super) fn roughness_plane<T: Real>(
+    source: StoredMap,
+    code: Roughness,
+    size: [usize; 2],
+    clamped: &mut Clamped,
+    notes: &mut Vec<Note>,
+) -> Vec<T> {
+    let StoredMap { raster, .. } = source;
+    let channels = &raster.channels;
+    let value = |v: f64| transfer::roughness(unit(v, 1.0), code);
+    let largest = channel_spread(channels);
+    let (plane, out_of_range) = if code == Roughness::Anisotropic && channels.len() > 1 {
+        notes.push(Note::Anisotropic { spread: channel_spread(&channels[..2]) });
+        let top = channels[0].top();
+        combined(&channels[..2], |widths| (widths[0] / top * (widths[1] / top)).sqrt(), value)
+    } else if largest == 0.0 {
+        (channels[0].decoded(value), channels[0].out_of_range())
+    } else {
+        notes.push(Note::ChannelsDiffer { map: Role::Roughness, spread: largest, used: Gray::Mean });
+        // Of integers exactly: their sum is one.
+        let scale = channels.len() as f64 * channels[0].top();
+        combined(channels, |stored| stored.iter().sum::<f64>() / scale, value)
+    };
+    clamped.add(out_of_range, Role::Roughness);
+    resize::plane(plane, raster.size(), size, Filter::Roughness)
+}
+
+/// `value` of the number that `of` computes from the stored samples of each texel, and the numbers outside [0, 1].
+fn combined<T: Real>(
+    channels: &[Samples],
+    of: impl Fn(&[f64]) -> f64 + Sync,
+    value: impl Fn(f64) -> f64 + Sync,
+) -> (Vec<T>, OutOfRange) {
+    const CHUNK: usize = 1 << 14;
+    /// Texels that stay in the nearest cache.
+    const FEW: usize = 1 << 9;
+    let mut plane = vec![T::zero(); channels[0].len()];
+    let convert = |(number, out): (usize, &mut [T])| {
+        let mut out_of_range = OutOfRange::default();
+        let mut stored = vec![[0.0_f32; FEW]; channels.len()];
+        let mut texel = vec![0.0; channels.len()];
+        for (part, out) in out.chunks_mut(FEW).enumerate() {
+            let start = number * CHUNK + part * FEW;
+            for (channel, stored) in channels.iter().zip(&mut stored) {
+                channel.read_stored(start, &mut stored[..out.len()]);
+            }
+            for (index, out) in out.iter_mut().enumerate() {
+                texel.iter_mut().zip(&stored).for_each(|(texel, stored)| *texel = f64::from(stored[index]));
+                let number = of(&texel);
+                if number.is_finite() {
+                    out_of_range = out_of_range.and(number);
+                }
+                *out = T::of(value(number));
+            }
+        }
+        out_of_range
+    };
+    let out_of_range = plane.par_chunks_mut(CHUNK).enumerate().map(convert);
+    let out_of_range = out_of_range.reduce(OutOfRange::default, OutOfRange::merged);
+    (plane, out_of_range)
+}

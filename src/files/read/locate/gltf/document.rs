@@ -1,0 +1,45 @@
+//! The document of a glTF as far as materials need it: meshes, animations and all else may be damaged or unknown.
+
+use std::path::Path;
+
+use gltf::json::{Root, Value};
+use gltf::{Document, Glb};
+
+use crate::error::Error;
+use crate::panics::caught;
+
+/// Parts of a glTF that materials need.
+const PARTS: [&str; 7] = ["asset", "buffers", "bufferViews", "images", "materials", "samplers", "textures"];
+
+/// The document of the file `path`, whose bytes these are, and its binary part.
+///
+/// # Errors
+/// [`Error::BadImage`].
+pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Error> {
+    let invalid = |found: &str| bad(path, format!("expected valid glTF, found: {found}"));
+    let contradiction = |_| invalid("a contradiction in its lengths");
+    let (json, blob) = if bytes.starts_with(b"glTF") {
+        // The library panics at some lengths that a damaged glb claims.
+        let glb = caught(|| Glb::from_slice(bytes)).map_err(contradiction)?;
+        let Glb { json, bin, .. } = glb.map_err(|e| invalid(&e.to_string()))?;
+        (json.into_owned(), bin.map(|bin| bin.into_owned()))
+    } else {
+        (bytes.to_vec(), None)
+    };
+    let mut value: Value = serde_json::from_slice(&json).map_err(|e| invalid(&e.to_string()))?;
+    let parts = value.as_object_mut().ok_or_else(|| invalid("no object"))?;
+    // Extensions that a file requires mostly concern its meshes; extensions of a texture show in the texture.
+    parts.retain(|name, _| PARTS.contains(&name.as_str()));
+    let root: Root = serde_json::from_value(value).map_err(|e| invalid(&e.to_string()))?;
+    // The library panics at images that lead nowhere.
+    let leads = |i: &gltf::json::Image| i.uri.is_some() || (i.buffer_view.is_some() && i.mime_type.is_some());
+    if !root.images.iter().all(leads) {
+        return Err(bad(path, "expected images with a uri, or a bufferView and a mimeType".to_owned()));
+    }
+    let document = caught(|| Document::from_json(root)).map_err(contradiction)?;
+    Ok((document.map_err(|e| invalid(&e.to_string()))?, blob))
+}
+
+pub(super) fn bad(path: &Path, problem: String) -> Error {
+    Error::BadImage { path: path.to_owned(), problem, remedy: "export it again".to_owned() }
+}

@@ -1,0 +1,119 @@
+//! Materials of glTF 2.0, through the `gltf` library: which pictures, beside the file or within it, with which factors.
+
+mod document;
+mod features;
+mod textures;
+
+use std::path::Path;
+
+use gltf::{Material, Texture};
+
+use crate::error::Error;
+use crate::open::NamedFile;
+use crate::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
+use crate::read::located::picture::LocatedPicture;
+use crate::read::options::{ReadOptions, Role};
+use crate::read::record::Subject;
+use textures::GltfFile;
+
+/// Locates material number `exemplar` of the file `path`; without one the first that has a texture, else the first.
+///
+/// # Errors
+/// [`Error::Unreadable`], [`Error::BadImage`], [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
+pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, Error> {
+    let (document, blob) = document::parse(path, &NamedFile::by_user(path).bytes()?)?;
+    let file = GltfFile { path: path.to_owned(), document, blob };
+    let materials: Vec<_> = file.document.materials().collect();
+    let declared = &file.document.as_json().materials;
+    let index = match options.exemplar {
+        Some(_) => options.exemplar_of(materials.len(), path)?,
+        None => declared.iter().position(|one| !features::textures(one).is_empty()).unwrap_or(0),
+    };
+    let (material, declared) =
+        materials.get(index).zip(declared.get(index)).ok_or_else(|| Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: "a material in the glTF".to_owned(),
+            found: "none".to_owned(),
+            remedy: "export the model with its materials".to_owned(),
+        })?;
+    if let Some(problem) = features::transforms_differ(declared) {
+        return Err(Error::BadImage {
+            path: path.to_owned(),
+            problem,
+            remedy: "bake the maps into one arrangement".to_owned(),
+        });
+    }
+    let (pictures, textures) = pictures(&file, material)?;
+    let names = materials.iter().enumerate().map(|(i, material)| name(material, i)).collect();
+    Ok(LocatedGltf {
+        path: path.to_owned(),
+        name: name(material, index),
+        surface: surface(material),
+        pictures,
+        textures,
+        normal_scale: material.normal_texture().map_or(1.0, |texture| texture.scale()),
+        not_modelled: features::ignored(declared).collect(),
+        materials: (names, index),
+    })
+}
+
+fn name(material: &Material<'_>, index: usize) -> String {
+    material.name().map_or_else(|| format!("material {index}"), str::to_owned)
+}
+
+/// The pictures of a material, and which input each is for.
+fn pictures(file: &GltfFile, material: &Material<'_>) -> Result<(Vec<LocatedPicture>, GltfTextures), Error> {
+    let mut pictures = Vec::new();
+    let mut add = |texture: Option<Texture<'_>>, role| -> Result<Option<usize>, Error> {
+        let Some(texture) = texture else { return Ok(None) };
+        let subject = Subject::Map(role);
+        pictures.push(LocatedPicture { source: file.picture(&texture, subject)?, subject });
+        Ok(Some(pictures.len() - 1))
+    };
+    let normal = add(material.normal_texture().map(|t| t.texture()), Role::Normal)?;
+    let textures = if let Some(gloss) = material.pbr_specular_glossiness() {
+        let both = gloss.specular_glossiness_texture().map(|t| t.texture());
+        GltfTextures {
+            normal,
+            colour: add(gloss.diffuse_texture().map(|t| t.texture()), Role::Diffuse)?,
+            packed: add(both, Role::Specular)?,
+            ..GltfTextures::default()
+        }
+    } else {
+        let pbr = material.pbr_metallic_roughness();
+        let both = pbr.metallic_roughness_texture().map(|t| t.texture());
+        let extension = material.specular();
+        let strength = extension.as_ref().and_then(|s| s.specular_texture()).map(|t| t.texture());
+        let colour = extension.as_ref().and_then(|s| s.specular_color_texture()).map(|t| t.texture());
+        GltfTextures {
+            normal,
+            colour: add(pbr.base_color_texture().map(|t| t.texture()), Role::Base)?,
+            packed: add(both, Role::Roughness)?,
+            specular: add(strength, Role::SpecularLevel)?,
+            specular_colour: add(colour, Role::Specular)?,
+        }
+    };
+    Ok((pictures, textures))
+}
+
+/// The factors of a material.
+fn surface(material: &Material<'_>) -> GltfSurface {
+    let rgb = |[r, g, b, _]: [f32; 4]| [r, g, b];
+    match material.pbr_specular_glossiness() {
+        Some(gloss) => GltfSurface::SpecularGlossiness {
+            diffuse: rgb(gloss.diffuse_factor()),
+            specular: gloss.specular_factor(),
+            glossiness: gloss.glossiness_factor(),
+        },
+        None => {
+            let pbr = material.pbr_metallic_roughness();
+            GltfSurface::MetallicRoughness {
+                base: rgb(pbr.base_color_factor()),
+                roughness: pbr.roughness_factor(),
+                metallic: pbr.metallic_factor(),
+                ior: material.ior(),
+                specular: material.specular().map(|s| (s.specular_factor(), s.specular_color_factor())),
+            }
+        }
+    }
+}

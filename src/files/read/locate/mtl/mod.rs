@@ -1,0 +1,90 @@
+//! Materials of a Wavefront `.mtl`: their statements, and the files that these name.
+
+mod statement;
+
+use std::path::Path;
+
+use crate::error::Error;
+use crate::open::NamedFile;
+use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS, names_picture};
+use crate::read::located::picture::{LocatedPicture, PictureSource};
+use crate::read::names::Label;
+use crate::read::options::{ReadOptions, Role};
+use crate::read::record::Subject;
+use statement::{Texture, entries};
+
+/// Locates material number `exemplar` of the file `path`.
+///
+/// # Errors
+/// [`Error::Unreadable`], [`Error::NotAMaterial`] without a material, [`Error::NoTextures`] of one without pictures,
+/// [`Error::NoSuchExemplar`].
+pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtl, Error> {
+    let bytes = NamedFile::by_user(path).bytes()?;
+    let text = String::from_utf8_lossy(&bytes);
+    let mut all = entries(&text);
+    let index = options.exemplar_of(all.len(), path)?;
+    let names: Vec<_> = all.iter().map(|entry| entry.name.clone()).collect();
+    if all.is_empty() {
+        return Err(Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: "a material (newmtl NAME)".to_owned(),
+            found: "none".to_owned(),
+            remedy: "export the model with its materials".to_owned(),
+        });
+    }
+    let entry = all.swap_remove(index);
+    if !entry.lines.iter().any(|(key, _)| names_picture(key)) {
+        return Err(Error::NoTextures {
+            path: path.to_owned(),
+            name: entry.name,
+            exemplar: index,
+            count: names.len(),
+        });
+    }
+    let is_packed = is_packed(&entry);
+    Ok(LocatedMtl {
+        path: path.to_owned(),
+        textures: textures(path, &entry, is_packed),
+        is_packed,
+        is_by_blender: text.starts_with("# Blender"),
+        entry,
+        materials: (names, index),
+    })
+}
+
+/// Whether `map_Ks` is occlusion, roughness and metallic, by its name or by the `bsdf` of nvdiffrec.
+fn is_packed(entry: &MtlEntry) -> bool {
+    let has = |key: &str| entry.lines.iter().any(|(k, _)| k == key);
+    let specular = entry.lines.iter().find(|(key, _)| key == "map_ks");
+    let named = |rest: &str| {
+        let file = Texture::of(rest).file;
+        let stem = Path::new(&file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Label::of(&stem).is_some_and(|label| label.role == Role::OcclusionRoughnessMetallic)
+    };
+    let lone = has("map_kd") && !has("map_pr") && !has("map_pm");
+    lone && specular.is_some_and(|(_, rest)| has("bsdf") || named(rest))
+}
+
+/// The pictures that are read of a material, and the maps that they are read as.
+fn textures(path: &Path, entry: &MtlEntry, is_packed: bool) -> Vec<MtlTexture> {
+    let line = |key: &str| entry.lines.iter().find(|(k, _)| k == key).map(|(_, rest)| rest);
+    let normal = NORMALS.into_iter().chain(BUMPS).find(|key| line(key).is_some());
+    let specular = line("map_pm").is_none().then_some("map_ks");
+    let keys = [
+        (Some("map_kd"), Role::Diffuse),
+        (Some("map_pr"), Role::Roughness),
+        (Some("map_pm"), Role::Metallic),
+        (specular, if is_packed { Role::OcclusionRoughnessMetallic } else { Role::Specular }),
+        (normal, Role::Normal),
+    ];
+    let texture = |(key, role): (Option<&'static str>, Role)| {
+        let key = key?;
+        let texture = Texture::of(line(key)?);
+        let file = texture.path(path);
+        let source = PictureSource::File(NamedFile::by_file(&file, path));
+        let picture = LocatedPicture { source, subject: Subject::Map(role) };
+        let Texture { file: named, channel, unused: unused_options } = texture;
+        Some(MtlTexture { key, named, file, picture, channel, unused_options })
+    };
+    keys.into_iter().filter_map(texture).collect()
+}

@@ -1,0 +1,58 @@
+//! Located materials: the files and pictures that hold the maps of a material, found by names and documents alone.
+//!
+//! Locating hands these to decoding and recognition; no pixel has been read yet.
+
+pub(super) mod binding;
+pub(super) mod gltf;
+pub(super) mod mtl;
+pub(super) mod mtlx;
+pub(super) mod picture;
+pub(super) mod set;
+pub(super) mod surface_model;
+
+use crate::error::Error;
+use crate::open::NamedFile;
+use binding::LocatedBinding;
+use gltf::LocatedGltf;
+use mtl::LocatedMtl;
+use mtlx::LocatedMtlx;
+use set::LocatedSet;
+
+/// All that may be at a path.
+#[derive(Debug)]
+pub(crate) struct Located {
+    /// Maps that are specified one by one.
+    pub bound: Vec<LocatedBinding>,
+    /// The most likely first: where pixels refuse one, the next is tried.
+    pub candidates: Vec<Candidate>,
+    /// The folders that were entered because each was the only one in another without pictures, the outermost first.
+    pub folders: Vec<String>,
+    /// The name of the material where it is not that of the candidate.
+    pub name: Option<String>,
+}
+
+impl Located {
+    /// These candidates, found where the user named the material.
+    pub(crate) fn new(candidates: impl IntoIterator<Item = Candidate>) -> Self {
+        let candidates = candidates.into_iter().collect();
+        Self { bound: Vec::new(), candidates, folders: Vec::new(), name: None }
+    }
+}
+
+/// One way in which the maps of a material may be stored.
+#[derive(Debug)]
+pub(crate) enum Candidate {
+    Picture(WholePicture),
+    Set(LocatedSet),
+    Gltf(LocatedGltf),
+    Mtl(LocatedMtl),
+    Mtlx(LocatedMtlx),
+}
+
+/// A picture that may hold a whole material, in tiles or layers.
+#[derive(Debug)]
+pub(crate) struct WholePicture {
+    pub file: NamedFile,
+    /// The error where its pixels are those of no packed picture; `None`: the error of its recognition.
+    pub refusal: Option<Error>,
+}

@@ -1,0 +1,74 @@
+//! A set of pictures: one file for each map.
+
+use std::path::PathBuf;
+
+use super::picture::{LocatedPicture, PictureSource};
+use crate::open::NamedFile;
+use crate::read::names::Label;
+use crate::read::options::extensions;
+use crate::read::record::{Note, Subject};
+
+/// The word of files that are maps by their numbers alone.
+pub(crate) const NUMBERED: &str = "0 to 3";
+
+/// A file whose name names a map.
+#[derive(Clone, Debug)]
+pub(crate) struct LabelledFile {
+    pub file: String,
+    pub label: Label,
+}
+
+impl LabelledFile {
+    /// The higher, the better a source for its map.
+    pub(crate) fn rank(&self) -> (u8, Option<usize>) {
+        let extension = extensions::of_name(&self.file);
+        (self.label.rank(), extensions::PICTURES.iter().position(|e| *e == extension))
+    }
+}
+
+/// One file for each map.
+#[derive(Debug, Default)]
+pub(crate) struct SetFiles {
+    pub files: Vec<LabelledFile>,
+    /// Other pictures of the normal map, which count where the chosen one is constant.
+    pub other_normals: Vec<LabelledFile>,
+    /// Pictures whose names name no map.
+    pub unlabelled: Vec<String>,
+    pub notes: Vec<Note>,
+}
+
+/// The set of a material, in one folder.
+#[derive(Debug)]
+pub(crate) struct LocatedSet {
+    /// The path that the user gave, for messages.
+    pub path: PathBuf,
+    pub folder: PathBuf,
+    /// The name of the material.
+    pub name: String,
+    pub files: SetFiles,
+    /// The files of the folder, for messages.
+    pub listing: String,
+    /// Whether a folder of renderings is beside the files, as in the data sets of SurfaceNet.
+    pub has_renderings: bool,
+}
+
+impl LocatedSet {
+    /// A file of the folder, which the folder names.
+    pub(crate) fn file(&self, name: &str) -> NamedFile {
+        NamedFile::by_file(self.folder.join(name), &self.folder)
+    }
+
+    /// The pictures of the chosen files.
+    pub(crate) fn pictures(&self) -> impl Iterator<Item = LocatedPicture> + '_ {
+        let picture = |LabelledFile { file, label }: &LabelledFile| LocatedPicture {
+            source: PictureSource::File(self.file(file)),
+            subject: Subject::Map(label.role),
+        };
+        self.files.files.iter().map(picture)
+    }
+
+    /// The path of a file of the folder.
+    pub(crate) fn path_of(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+}

@@ -1,0 +1,123 @@
+//! Surface models of MaterialX that are read: their inputs, with the values that their specifications give them.
+
+use crate::read::options::Role;
+
+/// An input and its default, linear.
+pub(crate) type Input = (&'static str, f32);
+
+/// A surface of MaterialX.
+#[derive(Debug)]
+pub(crate) struct SurfaceModel {
+    pub tag: &'static str,
+    pub base: Input,
+    /// A factor on the base colour.
+    pub weight: Option<Input>,
+    pub metallic: Input,
+    pub roughness: Input,
+    pub normal: &'static str,
+    /// Factors on the reflectance of the dielectric.
+    pub specular: &'static [Input],
+    pub ior: Input,
+    /// Inputs that change the look and are not modelled, with the value that turns each off.
+    pub not_modelled: &'static [Input],
+}
+
+pub(crate) static MODELS: [SurfaceModel; 4] = [
+    SurfaceModel {
+        tag: "standard_surface",
+        base: ("base_color", 0.8),
+        weight: Some(("base", 1.0)),
+        metallic: ("metalness", 0.0),
+        roughness: ("specular_roughness", 0.2),
+        normal: "normal",
+        specular: &[("specular", 1.0), ("specular_color", 1.0)],
+        ior: ("specular_IOR", 1.5),
+        not_modelled: &[
+            ("coat", 0.0),
+            ("transmission", 0.0),
+            ("subsurface", 0.0),
+            ("sheen", 0.0),
+            ("specular_anisotropy", 0.0),
+            ("thin_film_thickness", 0.0),
+            ("diffuse_roughness", 0.0),
+            ("emission", 0.0),
+            ("opacity", 1.0),
+        ],
+    },
+    SurfaceModel {
+        tag: "gltf_pbr",
+        base: ("base_color", 1.0),
+        weight: None,
+        metallic: ("metallic", 1.0),
+        roughness: ("roughness", 1.0),
+        normal: "normal",
+        specular: &[("specular", 1.0), ("specular_color", 1.0)],
+        ior: ("ior", 1.5),
+        not_modelled: &[
+            ("clearcoat", 0.0),
+            ("transmission", 0.0),
+            ("sheen_color", 0.0),
+            ("iridescence", 0.0),
+            ("anisotropy_strength", 0.0),
+            ("thickness", 0.0),
+            ("emissive", 0.0),
+        ],
+    },
+    SurfaceModel {
+        tag: "open_pbr_surface",
+        base: ("base_color", 0.8),
+        weight: Some(("base_weight", 1.0)),
+        metallic: ("base_metalness", 0.0),
+        roughness: ("specular_roughness", 0.3),
+        normal: "geometry_normal",
+        specular: &[("specular_weight", 1.0), ("specular_color", 1.0)],
+        ior: ("specular_ior", 1.5),
+        not_modelled: &[
+            ("coat_weight", 0.0),
+            ("transmission_weight", 0.0),
+            ("subsurface_weight", 0.0),
+            ("fuzz_weight", 0.0),
+            ("specular_roughness_anisotropy", 0.0),
+            ("thin_film_weight", 0.0),
+            ("base_diffuse_roughness", 0.0),
+            ("emission_luminance", 0.0),
+            ("geometry_opacity", 1.0),
+        ],
+    },
+    SurfaceModel {
+        tag: "UsdPreviewSurface",
+        base: ("diffuseColor", 0.18),
+        weight: None,
+        metallic: ("metallic", 0.0),
+        roughness: ("roughness", 0.5),
+        normal: "normal",
+        specular: &[],
+        ior: ("ior", 1.5),
+        not_modelled: &[("clearcoat", 0.0), ("emissiveColor", 0.0), ("opacity", 1.0)],
+    },
+];
+
+/// The specular of `UsdPreviewSurface` in its specular workflow.
+pub(crate) const USD_SPECULAR: Input = ("specularColor", 0.0);
+/// The input of `UsdPreviewSurface` that chooses its specular workflow.
+pub(crate) const USE_SPECULAR: &str = "useSpecularWorkflow";
+
+impl SurfaceModel {
+    /// The names of all models, for messages.
+    pub(crate) fn names() -> String {
+        MODELS.each_ref().map(|model| model.tag).join(", ")
+    }
+
+    /// The inputs that may be bound to pictures, and the maps that these are read as.
+    pub(crate) fn inputs(&self) -> Vec<(&'static str, Role)> {
+        let always = [
+            (self.normal, Role::Normal),
+            (self.roughness.0, Role::Roughness),
+            (self.metallic.0, Role::Metallic),
+            (self.base.0, Role::Base),
+        ];
+        let weight = self.weight.map(|(name, _)| (name, Role::Base));
+        let specular = self.specular.iter().chain([&USD_SPECULAR]).map(|(name, _)| (*name, Role::Specular));
+        always.into_iter().chain(weight).chain(specular).collect()
+    }
+}

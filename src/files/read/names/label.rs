@@ -1,0 +1,182 @@
+//! The label of a file or layer: which map it holds, by the words of its name.
+
+use super::words::words;
+use crate::read::options::{NormalY, Role, Roughness};
+
+/// The map that a name stands for, and what else the name tells.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Label {
+    pub role: Role,
+    /// The telling word, in lower case, as in `normalgl`.
+    pub word: String,
+    /// The words that are left: the name of the material.
+    pub stem: Vec<String>,
+    pub normal_y: Option<NormalY>,
+}
+
+impl Label {
+    /// The last telling word of a name wins: `metal_spec_rough` is a roughness map.
+    pub(crate) fn of(name: &str) -> Option<Self> {
+        let mut words: Vec<String> =
+            words(name).into_iter().filter(|word| !is_size_or_format(word)).collect();
+        if let Some(label) = both_of_blender(&words) {
+            return Some(label);
+        }
+        // Unreal's T_NAME_B: beside T, and only there, a B is a base colour.
+        if words.len() > 2 && words[0] == "t" && words.last().is_some_and(|last| last == "b") {
+            words.pop();
+            words.push("bc".to_owned());
+        }
+        (1..=words.len()).rev().find_map(|end| {
+            (1..=end.min(4)).rev().find_map(|count| {
+                let start = end - count;
+                let word = words[start..end].concat();
+                // A letter alone names a map only at the end.
+                let short = word.len() <= 2 && word != "ao" && end < words.len();
+                let (role, normal_y) = if short { None } else { meaning(&word) }?;
+                let stem = words[..start].iter().chain(&words[end..]).cloned().collect();
+                Some(Self { role, word, stem, normal_y })
+            })
+        })
+    }
+
+    /// Whether the word is so short that it needs company.
+    pub(crate) fn is_short(&self) -> bool {
+        self.word.len() <= 2
+    }
+
+    /// The meaning of roughness that the word stands for.
+    pub(crate) fn roughness(&self) -> Option<Roughness> {
+        match self.word.as_str() {
+            "glossiness" | "gloss" | "glossy" | "smoothness" | "metallicsmoothness" | "maskmap"
+            | "specularglossiness" | "specgloss" | "specularsmoothness" => Some(Roughness::Gloss),
+            "axay" => Some(Roughness::Anisotropic),
+            _ => None,
+        }
+    }
+
+    /// Which of several files for one map is the better one: the higher. Y up before y down, gamma before linear.
+    pub(crate) fn rank(&self) -> u8 {
+        match self.normal_y {
+            Some(NormalY::Up) => 2,
+            Some(NormalY::Down) => 0,
+            None if self.word.contains("gammad") => 2,
+            None => 1,
+        }
+    }
+}
+
+/// The picture that Blender's export to glTF packs of two and names after both: `X_Metallic-X_Roughness`.
+fn both_of_blender(words: &[String]) -> Option<Label> {
+    let half = words.len() / 2;
+    let (first, second) = words.split_at(half);
+    let (a, b) = (first.split_last()?, second.split_last()?);
+    let roles = [a.0, b.0].map(|word| Role::of_word(word));
+    let both = [[Role::Metallic, Role::Roughness], [Role::Roughness, Role::Metallic]];
+    let is_both = a.1 == b.1 && !a.1.is_empty() && both.iter().any(|pair| roles == pair.map(Some));
+    is_both.then(|| Label {
+        role: Role::OcclusionRoughnessMetallic,
+        word: "metallicroughness".to_owned(),
+        stem: a.1.to_vec(),
+        normal_y: None,
+    })
+}
+
+fn meaning(word: &str) -> Option<(Role, Option<NormalY>)> {
+    for (ending, y) in [
+        ("opengl", NormalY::Up),
+        ("ogl", NormalY::Up),
+        ("gl", NormalY::Up),
+        ("directx", NormalY::Down),
+        ("dx", NormalY::Down),
+    ] {
+        let normal = word.strip_suffix(ending).and_then(Role::of_word);
+        if normal == Some(Role::Normal) {
+            return Some((Role::Normal, Some(y)));
+        }
+    }
+    for family in ["outputsgammad", "outputs", "targets"] {
+        let role = match word.strip_prefix(family) {
+            Some("0") => Role::Normal,
+            Some("1") => Role::Diffuse,
+            Some("2") => Role::Roughness,
+            Some("3") => Role::Specular,
+            _ => continue,
+        };
+        return Some((role, None));
+    }
+    // What networks write: 0000001_Nout.png.
+    let plain = match word {
+        "nout" => "n",
+        "dout" => "d",
+        "rout" => "r",
+        "sout" => "s",
+        other => other,
+    };
+    Role::of_word(plain).map(|role| (role, None))
+}
+
+/// Words such as 2k, 1024, jpg, 16bit, LOD0, texture and the tile 1001.
+fn is_size_or_format(word: &str) -> bool {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let number = word.parse::<u32>().is_ok_and(|n| n == 1001 || (n >= 64 && n.is_power_of_two()));
+    let ends = ["k", "bit", "px"].iter().any(|unit| word.strip_suffix(unit).is_some_and(digits));
+    let format = ["jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr", "texture"].contains(&word);
+    number || ends || format || word.strip_prefix("lod").is_some_and(digits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_telling_word_names_the_map() {
+        let role = |name| Label::of(name).map(|label| label.role);
+        for (name, expected) in [
+            ("metal_spec_rough", Role::Roughness),
+            ("gt_Normals", Role::Normal),
+            ("Metal049A_1K-JPG_Color", Role::Base),
+            ("FlightHelmet_LeatherPartsMat_OcclusionRoughMetal", Role::OcclusionRoughnessMetallic),
+            ("wooden_table_02_arm_1k", Role::OcclusionRoughnessMetallic),
+            ("x-outputs_gammad-3-", Role::Specular),
+            ("T_Wall_BC", Role::Base),
+            ("0000001_Rout", Role::Roughness),
+            ("Metal_AmbientOcclusion", Role::Ignored),
+            ("pd_texture", Role::Diffuse),
+            ("ax_ay_texture", Role::Roughness),
+            ("Rock_MaskMap", Role::MetallicSmoothness),
+            ("Rock_SpecularLevel", Role::SpecularLevel),
+            ("material_0_specularGlossiness", Role::SpecularGlossiness),
+            ("X_Metallic-X_Roughness", Role::OcclusionRoughnessMetallic),
+            ("old_Roughness-old_Metallic", Role::OcclusionRoughnessMetallic),
+            ("metal_plate_rough", Role::Roughness),
+            ("T_Rock_B", Role::Base),
+            ("Rock_BaseMap", Role::Base),
+        ] {
+            assert_eq!(role(name), Some(expected), "{name}");
+        }
+        assert_eq!(role("plan_b"), None);
+        assert_eq!(role("abnormal"), None);
+        assert_eq!(role("Metal049A"), None);
+    }
+
+    #[test]
+    fn names_tell_where_green_points() {
+        let y = |name| Label::of(name).and_then(|label| label.normal_y);
+        assert_eq!(y("a_NormalGL"), Some(NormalY::Up));
+        assert_eq!(y("a_nor_dx_4k"), Some(NormalY::Down));
+        assert_eq!(y("a_Normal_DirectX"), Some(NormalY::Down));
+        assert_eq!(y("rock_normal-ogl"), Some(NormalY::Up));
+        assert_eq!(y("NormalOGL"), Some(NormalY::Up));
+        assert_eq!(y("a_normal"), None);
+    }
+
+    #[test]
+    fn no_word_names_two_maps() {
+        for role in Role::ALL {
+            for word in role.words() {
+                assert_eq!(Role::of_word(word), Some(role), "{word}");
+            }
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Names of files and layers, and the map that each stands for.
+
+mod label;
+mod listing;
+mod words;
+
+pub(crate) use label::Label;
+pub(crate) use listing::listing;
+pub(crate) use words::{is_named_as, words};

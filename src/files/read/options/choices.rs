@@ -1,0 +1,179 @@
+//! The choices that specify how stored values are read.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Error;
+
+/// An enum whose values have names for users and files; `| "old"` is a former name that is still read.
+macro_rules! choices {
+    ($(#[$meta:meta])* $type:ident, $what:literal: $($(#[$of_variant:meta])* $variant:ident = $name:literal $(| $old:literal)*,)+) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        pub enum $type {
+            $($(#[$of_variant])* #[serde(rename = $name $(, alias = $old)*)] $variant,)+
+        }
+
+        impl $type {
+            /// Every choice.
+            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
+
+            /// The name for users.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name,)+
+                }
+            }
+        }
+
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.pad(self.name())
+            }
+        }
+
+        impl std::str::FromStr for $type {
+            type Err = crate::error::Error;
+
+            fn from_str(name: &str) -> Result<Self, Self::Err> {
+                match name {
+                    $($name $(| $old)* => Ok(Self::$variant),)+
+                    _ => Err(crate::error::Error::UnknownName {
+                        what: $what,
+                        found: name.to_owned(),
+                        known: Self::ALL.map(Self::name).join(", "),
+                    }),
+                }
+            }
+        }
+    };
+}
+pub(crate) use choices;
+
+choices! {
+    /// Colour space of diffuse, specular and base colour as stored.
+    Albedo, "albedo":
+    /// The stored value is the reflectance.
+    Linear = "linear",
+    /// Encoded by the transfer function of IEC 61966-2-1.
+    Srgb = "srgb",
+    /// Encoded by the power 1 / 2.2.
+    Gamma22 = "gamma2.2",
+    /// (ln(x + 0.01) - ln 0.01) / (ln 1.01 - ln 0.01): the `logOutputAlbedos` of Deschaintre et al. 2018.
+    Log = "log0.01",
+}
+
+choices! {
+    /// The direction of the y axis of a normal map on the picture.
+    NormalY, "direction of normal y":
+    /// Green grows towards the top ("OpenGL").
+    Up = "up",
+    /// Green grows towards the bottom ("DirectX"); y is negated on reading.
+    Down = "down",
+}
+
+choices! {
+    /// How the components of normals are stored.
+    NormalEncoding, "normal encoding":
+    /// (n + 1) / 2.
+    Unsigned = "unsigned",
+    /// n itself.
+    Signed = "signed",
+    /// (n + 1) / 2 of x and y; z follows.
+    Xy = "xy",
+    /// The same with x in alpha and y in green ("DXT5nm").
+    Ag = "ag",
+}
+
+choices! {
+    /// The meaning of the stored value c of a roughness map; r is the roughness, alpha = r^2 the width of GGX.
+    Roughness, "meaning of roughness":
+    /// r = c.
+    R = "r",
+    /// Glossiness or smoothness: r = 1 - c.
+    Gloss = "gloss",
+    /// The width of GGX itself: r = sqrt(c).
+    Alpha = "alpha",
+    /// The widths of an anisotropic GGX in red and green: r = sqrt(sqrt(c_red c_green)).
+    Anisotropic = "axay",
+    /// Stored like a colour: r = c^2.2.
+    Gamma22 = "gamma2.2",
+}
+
+choices! {
+    /// Which maps specify the reflectance.
+    Workflow, "workflow":
+    /// Diffuse and specular.
+    Specular = "specular",
+    /// A base colour b and metallic m: d = b (1 - m), s = f (1 - m) + b m with f of dielectrics.
+    Metallic = "metallic",
+}
+
+choices! {
+    /// Whether the renderer that diffuse was made for scales it by (1 - specular), as this one does.
+    Energy, "diffuse scaling":
+    /// Diffuse is scaled by (1 - specular) (Deschaintre, MaterialGAN): the stored value is used.
+    Scaled = "scaled" | "deschaintre",
+    /// Diffuse is not scaled by (1 - specular): d / (1 - s) is used, so that the material looks the same here.
+    Unscaled = "unscaled" | "plain",
+}
+
+choices! {
+    /// The treatment of NaN and infinity.
+    #[derive(Default)]
+    NonFinite, "treatment of NaN and infinity":
+    /// An error that names the first one and counts them.
+    #[default]
+    Refuse = "refuse",
+    /// Colours become 0, roughness 1, normals (0, 0, 1); the count is reported.
+    Replace = "replace",
+}
+
+/// Reflectance at normal incidence, in [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "f64", into = "f64")]
+pub struct Reflectance(f64);
+
+impl Reflectance {
+    /// That of most dielectrics.
+    pub const DIELECTRIC: Self = Self(0.04);
+
+    pub fn value(self) -> f64 {
+        self.0
+    }
+}
+
+impl From<Reflectance> for f64 {
+    fn from(reflectance: Reflectance) -> Self {
+        reflectance.0
+    }
+}
+
+impl TryFrom<f64> for Reflectance {
+    type Error = Error;
+
+    fn try_from(value: f64) -> Result<Self, Error> {
+        value.to_string().parse()
+    }
+}
+
+impl FromStr for Reflectance {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let value = text.parse().ok().filter(|value| (0.0..=1.0).contains(value));
+        value.map(Self).ok_or_else(|| Error::UnknownName {
+            what: "reflectance",
+            found: text.to_owned(),
+            known: "a number from 0 to 1, such as 0.04".to_owned(),
+        })
+    }
+}
+
+impl fmt::Display for Reflectance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}

@@ -1,0 +1,84 @@
+//! Layers of options: those of the caller over those of a sidecar file, presets below each.
+
+use super::preset::Preset;
+use super::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow};
+
+impl Preset {
+    /// The options that it stands for. The direction of y is left open where names tell it.
+    pub(crate) fn options(self) -> ReadOptions {
+        let linear = (Albedo::Linear, Albedo::Linear);
+        let gamma = (Albedo::Gamma22, Albedo::Gamma22);
+        let srgb = (Albedo::Srgb, Albedo::Srgb);
+        let (scaled, unscaled) = (Some(Energy::Scaled), Some(Energy::Unscaled));
+        let up = Some(NormalY::Up);
+        let metallic = Some(Workflow::Metallic);
+        let specular = Some(Workflow::Specular);
+        let ((albedo, of_specular), roughness, normal_y, workflow, energy) = match self {
+            Self::Deschaintre | Self::Deschaintre18 | Self::SurfaceNet => {
+                (linear, Roughness::R, up, specular, scaled)
+            }
+            Self::Gao => ((Albedo::Gamma22, Albedo::Linear), Roughness::R, up, specular, unscaled),
+            Self::MaterialGan => (gamma, Roughness::Gamma22, up, specular, scaled),
+            Self::LookAhead => (gamma, Roughness::R, up, specular, scaled),
+            Self::MatFusion => (gamma, Roughness::R, up, None, unscaled),
+            Self::DiffMat => (gamma, Roughness::R, Some(NormalY::Down), metallic, None),
+            Self::OpenSvbrdf => (linear, Roughness::Anisotropic, up, specular, unscaled),
+            Self::Gltf => (srgb, Roughness::R, up, metallic, None),
+            Self::PolyHaven | Self::AmbientCg => (srgb, Roughness::R, None, metallic, None),
+            Self::SubstanceSg => (srgb, Roughness::Gloss, None, specular, None),
+        };
+        ReadOptions {
+            albedo: Some(albedo),
+            specular: Some(of_specular),
+            roughness: Some(roughness),
+            normal_y,
+            workflow,
+            energy,
+            ..ReadOptions::AUTO
+        }
+    }
+}
+
+impl ReadOptions {
+    /// These options, and those of `saved` where neither they nor their preset specify anything.
+    #[must_use]
+    pub fn over(self, saved: Self) -> Self {
+        let preset = self.preset.map(Preset::options).unwrap_or_default();
+        macro_rules! either {
+            ($($field:ident),+) => {
+                Self { $($field: self.$field.or(if preset.$field.is_some() { None } else { saved.$field })),+ }
+            };
+        }
+        either!(
+            preset,
+            albedo,
+            specular,
+            normal_y,
+            normal_encoding,
+            roughness,
+            workflow,
+            dielectric,
+            energy,
+            order,
+            grid,
+            exemplar,
+            flip_v,
+            non_finite
+        )
+    }
+
+    /// These options, and those of their preset where they specify nothing; except y of normals, which names tell better.
+    pub(crate) fn with_preset(self) -> Self {
+        let Some(preset) = self.preset else { return self };
+        let usual = preset.options();
+        Self {
+            albedo: self.albedo.or(usual.albedo),
+            specular: self.specular.or(self.albedo).or(usual.specular),
+            normal_encoding: self.normal_encoding.or(usual.normal_encoding),
+            roughness: self.roughness.or(usual.roughness),
+            workflow: self.workflow.or(usual.workflow),
+            energy: self.energy.or(usual.energy),
+            ..self
+        }
+    }
+}

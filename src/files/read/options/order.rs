@@ -1,0 +1,122 @@
+//! The order of the tiles of a packed image.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use super::role::Role;
+use crate::error::Error;
+
+/// Most tiles of a material.
+const MOST: usize = 6;
+
+/// The order of the tiles of a packed image, row by row, a letter each: N normal, D diffuse, R roughness, S specular,
+/// B base colour, M metallic, I a photo.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Order {
+    /// Lower-case letters; zeros behind them.
+    letters: [u8; MOST],
+}
+
+impl Order {
+    /// Deschaintre and most who follow.
+    pub const NDRS: Self = Self::of(b"ndrs");
+    /// MaterialGAN.
+    pub const DNRS: Self = Self::of(b"dnrs");
+    /// MaterialGAN without specular.
+    pub const DNR: Self = Self::of(b"dnr");
+    /// MatFusion.
+    pub const DSRN: Self = Self::of(b"dsrn");
+    /// The 2 x 2 picture of svbrdf-diff-renderer.
+    pub const NDSR: Self = Self::of(b"ndsr");
+    /// The strip of svbrdf-evaluation (Gauthier 2025), which has no normals.
+    pub const IBRM: Self = Self::of(b"ibrm");
+
+    /// A picture that is all diffuse.
+    pub const D: Self = Self::of(b"d");
+
+    /// The orders that are known to be in use; any other can be specified as well.
+    pub const ALL: [Self; 7] =
+        [Self::NDRS, Self::DNRS, Self::DNR, Self::DSRN, Self::NDSR, Self::IBRM, Self::D];
+
+    const fn of(word: &[u8]) -> Self {
+        let mut letters = [0; MOST];
+        let mut i = 0;
+        while i < word.len() {
+            letters[i] = word[i];
+            i += 1;
+        }
+        Self { letters }
+    }
+
+    pub(crate) fn len(self) -> usize {
+        self.roles().count()
+    }
+
+    /// The map of each tile.
+    pub(crate) fn roles(self) -> impl Iterator<Item = Role> {
+        self.letters.into_iter().map_while(role)
+    }
+}
+
+fn role(letter: u8) -> Option<Role> {
+    Some(match letter {
+        b'n' => Role::Normal,
+        b'd' => Role::Diffuse,
+        b'r' => Role::Roughness,
+        b's' => Role::Specular,
+        b'b' => Role::Base,
+        b'm' => Role::Metallic,
+        b'i' => Role::Ignored,
+        _ => return None,
+    })
+}
+
+impl FromStr for Order {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let word = text.to_ascii_lowercase();
+        let once = |&letter: &u8| {
+            let times = word.bytes().filter(|b| *b == letter).count();
+            role(letter).is_some() && (letter == b'i' || times == 1)
+        };
+        let has = |letter| word.as_bytes().contains(&letter);
+        let usable = word.len() <= MOST && word.as_bytes().iter().all(once) && (has(b'r') || word == "d");
+        if usable && (has(b'd') || has(b'b')) {
+            return Ok(Self::of(word.as_bytes()));
+        }
+        Err(Error::UnknownName {
+            what: "order of tiles",
+            found: text.to_owned(),
+            known: format!(
+                "{}, or other letters, each map once: n normal, d diffuse, r roughness, s specular, b base colour, \
+                 m metallic, i photo",
+                Self::ALL.map(|order| order.to_string()).join(", ")
+            ),
+        })
+    }
+}
+
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word: String = self.letters.iter().take_while(|&&b| b != 0).map(|&b| char::from(b)).collect();
+        f.pad(&word)
+    }
+}
+
+impl From<Order> for String {
+    fn from(order: Order) -> Self {
+        order.to_string()
+    }
+}
+
+impl TryFrom<String> for Order {
+    type Error = Error;
+
+    fn try_from(text: String) -> Result<Self, Error> {
+        text.parse()
+    }
+}

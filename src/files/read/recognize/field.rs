@@ -1,0 +1,164 @@
+//! Fields: inputs of a principled surface, multiplied texel by texel into diffuse and specular where its dielectric is not
+//! the default one.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::error::Error;
+use crate::material::resize::{self, Filter};
+use crate::read::options::Albedo;
+use crate::read::options::transfer::linear;
+use crate::read::raster::{Raster, Samples};
+use crate::read::stored::StoredMap;
+
+/// An input of a surface, linear: one value, or one for each texel. Of one channel or three.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    size: [usize; 2],
+    planes: Vec<Vec<f32>>,
+    /// The file that it comes from.
+    whose: String,
+}
+
+impl Field {
+    pub(super) fn constant(values: &[f32]) -> Self {
+        Self { size: [1, 1], planes: values.iter().map(|&v| vec![v]).collect(), whose: String::new() }
+    }
+
+    /// The channels of a map, as colours stored as `space`.
+    pub(super) fn of(source: &StoredMap, space: Albedo) -> Self {
+        let value = |v: f64| linear(if v.is_finite() { v.clamp(0.0, 1.0) } else { 0.0 }, space);
+        let planes = source.raster.channels.iter().map(|plane| plane.decoded(value)).collect();
+        Self { size: source.raster.size(), planes, whose: source.file.display().to_string() }
+    }
+
+    /// Times `other`, texel by texel.
+    ///
+    /// # Errors
+    /// [`Error::MapSizesDiffer`] where the two have different shapes.
+    pub(super) fn times(self, other: Self) -> Result<Self, Error> {
+        let mut both = [self, other];
+        let size = common_size(&mut both)?;
+        let [a, b] = &both;
+        let count = a.planes.len().max(b.planes.len());
+        let plane = |c: usize| {
+            let (x, y) = (a.plane(c), b.plane(c));
+            (0..size[0] * size[1])
+                .into_par_iter()
+                .map(|i| x[i.min(x.len() - 1)] * y[i.min(y.len() - 1)])
+                .collect()
+        };
+        let planes = (0..count).map(plane).collect();
+        let whose = if a.whose.is_empty() { b.whose.clone() } else { a.whose.clone() };
+        Ok(Self { size, planes, whose })
+    }
+
+    /// With every number at most 1.
+    #[must_use]
+    pub(super) fn at_most_one(mut self) -> Self {
+        self.planes.iter_mut().flatten().for_each(|value| *value = value.min(1.0));
+        self
+    }
+
+    /// Whether it is `value` everywhere.
+    pub(super) fn is(&self, value: f32) -> bool {
+        self.size == [1, 1] && self.planes.iter().all(|plane| (plane[0] - value).abs() < 1e-6)
+    }
+
+    fn plane(&self, channel: usize) -> &[f32] {
+        &self.planes[channel.min(self.planes.len() - 1)]
+    }
+
+    /// As a map, which `part` of the file `path` defines.
+    pub(super) fn into_map(self, path: &Path, part: &str) -> StoredMap {
+        let [width, height] = self.size;
+        let channels = self.planes.into_iter().map(Samples::floats).collect();
+        let raster = Raster { width, height, depth: "float", channels, alpha: None };
+        StoredMap { raster, file: path.to_owned(), part: part.to_owned() }
+    }
+}
+
+/// Brings all that are larger than a texel to the size of the largest, which it returns.
+fn common_size(fields: &mut [Field]) -> Result<[usize; 2], Error> {
+    let Some(largest) = fields.iter().max_by_key(|field| field.size[0] * field.size[1]) else {
+        return Ok([1, 1]);
+    };
+    let (size, whose) = (largest.size, largest.whose.clone());
+    for field in fields.iter_mut().filter(|field| field.size != [1, 1] && field.size != size) {
+        if field.size[0] * size[1] != size[0] * field.size[1] {
+            return Err(Error::MapSizesDiffer {
+                first: whose,
+                first_size: size,
+                second: field.whose.clone(),
+                second_size: field.size,
+            });
+        }
+        let resized = |plane| resize::plane(plane, field.size, size, Filter::Value);
+        field.planes = std::mem::take(&mut field.planes).into_iter().map(resized).collect();
+        field.size = size;
+    }
+    Ok(size)
+}
+
+/// Reflectance at normal incidence of a dielectric of the refractive index `ior`; 1 for an index of 0, as glTF has it.
+pub(super) fn reflectance(ior: f32) -> f32 {
+    ((ior - 1.0) / (ior + 1.0)).powi(2)
+}
+
+/// Diffuse b (1 - m) and specular f (1 - m) + b m of the base colour b, the metallic m and the reflectance f of the
+/// dielectric, each at most 1.
+///
+/// # Errors
+/// [`Error::MapSizesDiffer`].
+pub(super) fn separated(base: Field, metallic: Field, dielectric: Field) -> Result<[Field; 2], Error> {
+    let mut all = [base, metallic, dielectric];
+    let size = common_size(&mut all)?;
+    let [base, metallic, dielectric] = &all;
+    let of = |value: &(dyn Fn(f32, f32, f32) -> f32 + Sync)| {
+        let plane = |c: usize| {
+            let (b, m, f) = (base.plane(c), metallic.plane(0), dielectric.plane(c));
+            let at = |plane: &[f32], i: usize| plane[i.min(plane.len() - 1)];
+            let texels = (0..size[0] * size[1]).into_par_iter();
+            texels.map(|i| value(at(b, i), at(m, i), at(f, i).min(1.0)).clamp(0.0, 1.0)).collect()
+        };
+        Field { size, planes: (0..3).map(plane).collect(), whose: base.whose.clone() }
+    };
+    Ok([of(&|b, m, _| b * (1.0 - m)), of(&|b, m, f| f * (1.0 - m) + b * m)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_usual_glass_reflects_four_percent() {
+        assert!((reflectance(1.5) - 0.04).abs() < 1e-7);
+        assert_eq!(reflectance(0.0), 1.0);
+    }
+
+    #[test]
+    fn metals_reflect_their_base_colour_and_dielectrics_their_reflectance() {
+        let parts = |metallic: f32| {
+            let base = Field::constant(&[0.5, 0.4, 0.3]);
+            separated(base, Field::constant(&[metallic]), Field::constant(&[0.02, 0.04, 0.08])).unwrap()
+        };
+        let values = |field: &Field| [0, 1, 2].map(|c| field.planes[c][0]);
+        let [[diffuse, specular], [none, metal]] = [parts(0.0), parts(1.0)];
+        assert_eq!(values(&diffuse), [0.5, 0.4, 0.3]);
+        assert_eq!(values(&specular), [0.02, 0.04, 0.08]);
+        assert_eq!((values(&none), values(&metal)), ([0.0; 3], [0.5, 0.4, 0.3]));
+    }
+
+    #[test]
+    fn a_small_map_is_brought_to_the_size_of_a_large_one_and_another_shape_is_refused() {
+        let field = |size: [usize; 2]| Field {
+            size,
+            planes: vec![vec![0.5; size[0] * size[1]]],
+            whose: "map".to_owned(),
+        };
+        let product = field([2, 2]).times(field([4, 4])).unwrap();
+        assert_eq!((product.size, product.planes[0][15]), ([4, 4], 0.25));
+        assert!(matches!(field([2, 4]).times(field([4, 4])), Err(Error::MapSizesDiffer { .. })));
+    }
+}

@@ -1,0 +1,55 @@
+//! Recognition: which decoded picture is which map, by names, documents and pixels.
+
+mod binding;
+mod field;
+mod gltf;
+mod hints;
+mod layers;
+mod mtl;
+mod mtlx;
+mod packed;
+mod picture;
+mod roles;
+mod scaled_normals;
+mod set;
+
+pub(super) use binding::recognized as binding;
+pub(super) use picture::material as picture;
+
+use crate::error::Error;
+use crate::read::decode::pictures::DecodedCandidate;
+use crate::read::options::{ReadOptions, Role};
+use crate::read::record::{Note, SpecifiedBy};
+use crate::read::stored::{StoredMap, StoredMaterial};
+
+/// The material of a candidate with the maps `bound`.
+///
+/// # Errors
+/// [`Error::NotAMaterial`] where maps are missing, claimed twice or not those that their names stand for,
+/// [`Error::NotPacked`], [`Error::BadImage`] where a document is broken, [`Error::MapSizesDiffer`],
+/// [`Error::NoSuchExemplar`].
+pub(super) fn candidate(
+    candidate: DecodedCandidate,
+    bound: &[(Role, StoredMap)],
+    options: &ReadOptions,
+) -> Result<StoredMaterial, Error> {
+    let mut found = match candidate {
+        DecodedCandidate::Set(set, pictures) => return set::material(&set, pictures, bound, options),
+        DecodedCandidate::Picture(located, decoded) => picture::material(located, decoded, options)?,
+        DecodedCandidate::Gltf(located, pictures) => gltf::material(located, pictures, options)?,
+        DecodedCandidate::Mtl(located, pictures) => mtl::material(&located, pictures, options)?,
+        DecodedCandidate::Mtlx(located, pictures) => mtlx::material(&located, pictures, options)?,
+    };
+    for (role, map) in bound {
+        found.notes.push(Note::MapSpecified { map: *role, file: map.file.clone(), by: SpecifiedBy::Caller });
+        found.replace(*role, map.clone());
+    }
+    Ok(found)
+}
+
+/// `found` within these folders, the outermost first, with this name in place of its own.
+pub(super) fn within(mut found: StoredMaterial, folders: &[String], name: Option<String>) -> StoredMaterial {
+    let notes = folders.iter().map(|folder| Note::InFolder { folder: folder.clone() });
+    found.notes.splice(0..0, notes);
+    StoredMaterial { name: name.unwrap_or(found.name), ..found }
+}

@@ -1,0 +1,184 @@
+//! Maps by role, and the choice among them that a workflow makes.
+
+use std::path::Path;
+
+use crate::error::Error;
+use crate::read::options::{Preset, ReadOptions, Role, Workflow};
+use crate::read::raster::Raster;
+use crate::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};
+use crate::read::stored::{Inferences, StoredMap, StoredMaterial};
+
+/// The maps of a material that have been recognized, by role.
+#[derive(Debug, Default)]
+pub(super) struct MapsByRole {
+    all: Vec<(Role, StoredMap)>,
+    extent: [usize; 2],
+}
+
+impl MapsByRole {
+    pub(super) fn add(&mut self, role: Role, source: StoredMap) {
+        self.all.push((role, source));
+    }
+
+    /// Records a picture of `size` whose map may be a constant: the material is not smaller.
+    pub(super) fn record_size(&mut self, size: [usize; 2]) {
+        if size[0] * size[1] > self.extent[0] * self.extent[1] {
+            self.extent = size;
+        }
+    }
+
+    pub(super) fn has(&self, role: Role) -> bool {
+        self.all.iter().any(|(r, _)| *r == role)
+    }
+
+    /// Replaces the picture of a role; diffuse and base colour replace each other.
+    pub(super) fn replace(&mut self, role: Role, source: StoredMap) {
+        let colours = [Role::Base, Role::Diffuse];
+        self.all.retain(|(r, _)| *r != role && !(colours.contains(r) && colours.contains(&role)));
+        self.all.push((role, source));
+    }
+
+    fn take(&mut self, role: Role) -> Option<StoredMap> {
+        let place = self.all.iter().position(|(r, _)| *r == role)?;
+        Some(self.all.swap_remove(place).1)
+    }
+
+    /// Roughness (0) or metallic (1) out of a picture that holds both.
+    fn packed(&self, which: usize) -> Option<StoredMap> {
+        self.all.iter().find_map(|(role, source)| {
+            let channel = role.packing()?[which];
+            let raster = match channel {
+                // Alpha that is 1 everywhere is not stored.
+                3 => source
+                    .raster
+                    .alpha
+                    .clone()
+                    .map_or_else(|| Raster::constant("alpha", &[1.0]), |alpha| source.raster.of(alpha)),
+                _ => source.raster.of(source.raster.channels.get(channel)?.clone()),
+            };
+            let name = ["red", "green", "blue", "alpha"][channel];
+            let before = if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) };
+            Some(StoredMap { raster, file: source.file.clone(), part: before + name })
+        })
+    }
+
+    fn roughness(&mut self) -> Option<StoredMap> {
+        self.take(Role::Roughness).or_else(|| self.packed(0))
+    }
+
+    fn metallic(&mut self) -> Option<StoredMap> {
+        self.take(Role::Metallic).or_else(|| self.packed(1))
+    }
+
+    /// Assumptions about pictures whose channels their names do not define for sure.
+    fn doubts_of_packing(&self) -> Vec<Assumption> {
+        let mut assumptions = Vec::new();
+        let doubtful = [Role::RoughnessMetallicOcclusion, Role::MetallicRoughnessOcclusion];
+        if let Some((role, source)) = self.all.iter().find(|(role, _)| doubtful.contains(role)) {
+            let chosen = if *role == doubtful[0] {
+                "red roughness, green metallic, blue occlusion"
+            } else {
+                "red metallic, green roughness, blue occlusion"
+            };
+            let why = Reason::PackingName { file: source.file.clone() };
+            assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
+        }
+        if let Some((_, source)) =
+            self.all.iter().find(|(r, s)| *r == Role::MetallicSmoothness && s.raster.alpha.is_none())
+            && !self.has(Role::Roughness)
+        {
+            let why = Reason::OpaqueSmoothness { file: source.file.clone() };
+            assumptions.push(Assumption::new(What::Layout, "smoothness 1", why, Certainty::Unsure));
+        }
+        assumptions
+    }
+
+    /// Chooses the workflow, and the maps that it uses; `path` is the one that the user gave, `listed` the files for messages.
+    ///
+    /// # Errors
+    /// [`Error::NotAMaterial`] without a colour or without roughness.
+    pub(super) fn material(
+        mut self,
+        path: &Path,
+        name: String,
+        listed: &str,
+        options: &ReadOptions,
+    ) -> Result<StoredMaterial, Error> {
+        let missing = |role: Role| Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: format!(
+                "one picture for the {} map (named after one of {})",
+                role.name(),
+                role.examples()
+            ),
+            found: listed.to_owned(),
+            remedy: "add or rename the file, or open a packed one by itself".to_owned(),
+        };
+        let mut assumptions = self.doubts_of_packing();
+        let mut files: Vec<_> = self.all.iter().map(|(_, source)| source.file.clone()).collect();
+        files.sort();
+        files.dedup();
+        let normal = self.take(Role::Normal);
+        let is_packed = !self.has(Role::Metallic);
+        let roughness = self.roughness();
+        let metallic = self.metallic();
+        let (specular, level) = (self.take(Role::Specular), self.take(Role::SpecularLevel));
+        let (base, diffuse) = (self.take(Role::Base), self.take(Role::Diffuse));
+        let use_metallic = match options.workflow {
+            Some(workflow) => workflow == Workflow::Metallic && metallic.is_some(),
+            // A packed picture holds metallic on purpose; a lone metallic map may have come along with specular.
+            None => metallic.is_some() && (base.is_some() || specular.is_none() || is_packed),
+        };
+        let is_ambiguous = metallic.is_some() && specular.is_some() && base.is_none();
+        let (first, second) = if use_metallic { (base, diffuse) } else { (diffuse, base) };
+        let (colour, mut unused) = if first.is_some() { (first, vec![second]) } else { (second, Vec::new()) };
+        let no_specular = use_metallic || options.workflow == Some(Workflow::Metallic);
+        let (specular, other) = if no_specular { (None, specular) } else { (specular, None) };
+        let (level, coloured) = if specular.is_some() { (None, level) } else { (level, None) };
+        let (metallic, plain) = if use_metallic { (metallic, None) } else { (None, metallic) };
+        unused.extend([other, coloured, plain]);
+        if normal.is_none() && colour.is_none() && roughness.is_none() {
+            return Err(missing(Role::Normal));
+        }
+        let colour = colour.ok_or_else(|| missing(Role::Diffuse))?;
+        let roughness = roughness.ok_or_else(|| missing(Role::Roughness))?;
+        let chosen = if use_metallic { Workflow::Metallic } else { Workflow::Specular };
+        assumptions.push(workflow(chosen, specular.is_some(), is_ambiguous, options));
+        Ok(StoredMaterial {
+            name,
+            extent: self.extent,
+            normal,
+            colour,
+            specular,
+            level,
+            roughness,
+            metallic,
+            inferred: Inferences::default(),
+            assumptions,
+            notes: unused.into_iter().flatten().map(|source| source.unused(chosen)).collect(),
+            files,
+        })
+    }
+}
+
+/// The assumption about the workflow that was `chosen`.
+fn workflow(chosen: Workflow, has_specular: bool, is_ambiguous: bool, options: &ReadOptions) -> Assumption {
+    let why = match (chosen, has_specular) {
+        (Workflow::Metallic, _) => {
+            Reason::MetallicMap { matfusion: options.preset == Some(Preset::MatFusion) }
+        }
+        (Workflow::Specular, true) => Reason::SpecularMap,
+        (Workflow::Specular, false) => Reason::NeitherMap,
+    };
+    match options.workflow {
+        Some(given) if given == chosen => Assumption::given(What::Workflow, given),
+        Some(given) => {
+            let why = Reason::NoMetallicMap(SpecifiedBy::Caller);
+            Assumption::new(What::Workflow, given, why, Certainty::Given)
+        }
+        None if is_ambiguous => {
+            Assumption::new(What::Workflow, chosen, Reason::BothWorkflows, Certainty::Unsure)
+        }
+        None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
+    }
+}

@@ -1,0 +1,55 @@
+//! A map as stored: a picture, or a channel of one, before its values are interpreted.
+
+use std::path::{Path, PathBuf};
+
+use crate::read::options::transfer::{encoded, linear};
+use crate::read::options::{Albedo, Workflow};
+use crate::read::raster::{Raster, Samples};
+use crate::read::record::{Note, Unused};
+
+/// A map as stored.
+#[derive(Clone, Debug)]
+pub(crate) struct StoredMap {
+    pub raster: Raster,
+    pub file: PathBuf,
+    /// Layer, channel or tile within the file, for people; may be empty.
+    pub part: String,
+}
+
+impl StoredMap {
+    /// The note that a workflow does not use this map.
+    pub(crate) fn unused(&self, workflow: Workflow) -> Note {
+        let part = if self.part.is_empty() { String::new() } else { format!(", {}", self.part) };
+        Note::Unused { what: format!("{}{part}", self.file.display()), why: Unused::Workflow(workflow) }
+    }
+
+    /// A map of one value that stands in the file `path`.
+    pub(crate) fn constant(path: &Path, values: &[f32]) -> Self {
+        let raster = Raster::constant("value", values);
+        Self { raster, file: path.to_owned(), part: "value".to_owned() }
+    }
+
+    /// Colours stored as `space` times linear factors, stored likewise.
+    pub(crate) fn times(self, factor: [f32; 3], space: Albedo) -> Self {
+        if factor == [1.0; 3] {
+            return self;
+        }
+        let last = self.raster.channels.len() - 1;
+        let times = |c: usize| {
+            let plane = &self.raster.channels[last.min(c)];
+            Samples::floats(plane.decoded(|v| encoded(linear(v, space) * f64::from(factor[c]), space)))
+        };
+        let channels = [0, 1, 2].map(times).into();
+        Self { raster: Raster { channels, ..self.raster.without_samples() }, ..self }
+    }
+
+    /// Takes the samples out, so that they can be dropped; size and names stay.
+    pub(crate) fn take(&mut self) -> Self {
+        let left = self.raster.without_samples();
+        Self {
+            raster: std::mem::replace(&mut self.raster, left),
+            file: self.file.clone(),
+            part: self.part.clone(),
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! A material as stored: its maps by role, and what the files tell about their values.
+
+use std::path::PathBuf;
+
+use super::map::StoredMap;
+use crate::error::Error;
+use crate::read::options::{Albedo, Energy, NormalY, Role, Roughness};
+use crate::read::record::{Assumption, Certainty, Note, Reason, What};
+
+/// Inferences from the files about stored values. `None` where they tell nothing.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Inferences {
+    pub albedo: Inferred<Albedo>,
+    pub specular: Inferred<Albedo>,
+    pub roughness: Inferred<Roughness>,
+    pub normal_y: Inferred<NormalY>,
+    pub energy: Inferred<Energy>,
+}
+
+/// A choice with its reason and certainty, if there is any.
+pub(crate) type Inferred<T> = Option<(T, Reason, Certainty)>;
+
+/// The maps of a material as stored, and what is known about them.
+#[derive(Debug)]
+pub(crate) struct StoredMaterial {
+    pub name: String,
+    /// (width, height) of the largest picture, also of one whose map is a constant.
+    pub extent: [usize; 2],
+    pub normal: Option<StoredMap>,
+    /// Diffuse, or the base colour where there is `metallic`.
+    pub colour: StoredMap,
+    pub specular: Option<StoredMap>,
+    /// The reflectance of dielectrics, 1 for 0.08.
+    pub level: Option<StoredMap>,
+    pub roughness: StoredMap,
+    pub metallic: Option<StoredMap>,
+    pub inferred: Inferences,
+    pub assumptions: Vec<Assumption>,
+    /// What else was noticed.
+    pub notes: Vec<Note>,
+    /// Every file that was read, once.
+    pub files: Vec<PathBuf>,
+}
+
+impl StoredMaterial {
+    /// Adds a file that was read.
+    pub(crate) fn add_file(&mut self, file: PathBuf) {
+        self.files.push(file);
+        self.files.sort();
+        self.files.dedup();
+    }
+
+    /// Replaces the map of a role.
+    pub(crate) fn replace(&mut self, role: Role, source: StoredMap) {
+        self.add_file(source.file.clone());
+        match role {
+            Role::Normal => self.normal = Some(source),
+            Role::Specular => (self.specular, self.metallic) = (Some(source), None),
+            Role::Roughness => self.roughness = source,
+            Role::Metallic => (self.metallic, self.specular) = (Some(source), None),
+            _ => self.colour = source,
+        }
+    }
+
+    /// Every map with its role.
+    pub(crate) fn sources(&self) -> Vec<(Role, &StoredMap)> {
+        let colour = if self.metallic.is_some() { Role::Base } else { Role::Diffuse };
+        let optional = [
+            (Role::Normal, &self.normal),
+            (Role::Specular, &self.specular),
+            (Role::SpecularLevel, &self.level),
+            (Role::Metallic, &self.metallic),
+        ];
+        let always = [(colour, &self.colour), (Role::Roughness, &self.roughness)];
+        let there = optional.into_iter().filter_map(|(role, source)| source.as_ref().map(|s| (role, s)));
+        there.chain(always).collect()
+    }
+
+    /// The size of the largest map; records where others are smaller.
+    ///
+    /// # Errors
+    /// [`Error::MapSizesDiffer`] where maps have another shape.
+    pub(crate) fn common_size(&mut self) -> Result<[usize; 2], Error> {
+        let all: Vec<_> = self
+            .sources()
+            .into_iter()
+            .map(|(role, s)| (format!("{} map {}", role.name(), s.file.display()), role, s.raster.size()))
+            .collect();
+        let Some((largest_whose, _, largest)) = all.iter().max_by_key(|(.., size)| size[0] * size[1]) else {
+            return Ok([0; 2]);
+        };
+        let [width, height] = larger(*largest, self.extent);
+        let mut smaller = Vec::new();
+        for (whose, role, size) in &all {
+            // A single value has every shape.
+            if *size == [1, 1] {
+                continue;
+            }
+            if size[0] * height != size[1] * width {
+                return Err(Error::MapSizesDiffer {
+                    first: largest_whose.clone(),
+                    first_size: *largest,
+                    second: whose.clone(),
+                    second_size: *size,
+                });
+            }
+            if *size != [width, height] {
+                smaller.push((*role, *size));
+            }
+        }
+        if !smaller.is_empty() {
+            let chosen = format!("{width} x {height}");
+            let why = Reason::SmallerMaps(smaller);
+            self.assumptions.push(Assumption::new(What::Size, chosen, why, Certainty::Likely));
+        }
+        Ok([width, height])
+    }
+}
+
+/// The larger of the `size` of maps and the `extent` of a picture that is none of them, where both have one shape. A
+/// single value has every shape.
+fn larger(size: [usize; 2], extent: [usize; 2]) -> [usize; 2] {
+    let is_shaped_so = size == [1, 1] || size[0] * extent[1] == size[1] * extent[0];
+    if is_shaped_so && extent[0] > size[0] { extent } else { size }
+}

@@ -1,0 +1,190 @@
+//! Window part of a session: what the panes show and how, and the settings of the loss.
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::loss::LossSettings;
+use crate::material::Map as MaterialMap;
+use crate::picture::differences::Differences;
+use crate::picture::quantity::Quantity;
+
+/// What a window adds to a session; `None` where nothing was saved.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Map<String, Value>", into = "Map<String, Value>")]
+pub struct SessionWindow {
+    pub display: Option<Display>,
+    pub loss: Option<LossSettings>,
+}
+
+/// The key of [`SessionWindow::display`] in a file.
+const DISPLAY: &str = "view";
+/// The key of [`SessionWindow::loss`] in a file.
+const LOSS: &str = "loss";
+
+/// How the panes are arranged.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Layout {
+    /// The ground truth and every prediction, each in its own pane.
+    #[default]
+    SideBySide,
+    /// Ground truth left and chosen prediction right of a line, in one pane.
+    Wipe,
+    /// The chosen prediction alone.
+    Single,
+}
+
+impl Layout {
+    pub const ALL: [Self; 3] = [Self::SideBySide, Self::Wipe, Self::Single];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SideBySide => "side by side",
+            Self::Wipe => "wipe",
+            Self::Single => "single",
+        }
+    }
+}
+
+/// How the material is projected into a pane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Projection {
+    /// As a flat texture, texel by texel.
+    #[default]
+    Flat,
+    /// As a plane, viewed from the view position.
+    Perspective,
+}
+
+impl Projection {
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Flat => Self::Perspective,
+            Self::Perspective => Self::Flat,
+        }
+    }
+}
+
+/// What the panes show of the materials, and how. Every field has a default, so that the sessions of older versions open.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Display {
+    pub quantity: Quantity,
+    /// Whether panes of predictions show their difference from the ground truth, in place of the value.
+    pub difference: bool,
+    /// The chosen difference and the range of each quantity.
+    pub differences: Differences,
+    pub layout: Layout,
+    pub projection: Projection,
+    pub show_clipping: bool,
+    /// Whether the material is repeated 2 x 2 times, shifted by half of itself: shows its seams.
+    pub tiled: bool,
+    /// Whether roughness is shown in false colours.
+    pub false_colour: bool,
+    /// Position of the wipe line: 0 at the left edge of the pane, 1 at the right.
+    pub wipe: f32,
+    /// Magnification; at 1 the material fits its pane.
+    pub zoom: f32,
+    /// Where the centre of the picture is in its pane, x right and y up in [-1, 1].
+    pub pan: [f32; 2],
+    /// The chosen prediction: its index among the predictions.
+    pub prediction: usize,
+    /// The map that is shown as the only wrong one, or the only right one, of the chosen prediction.
+    pub isolated: Option<MaterialMap>,
+    /// Whether [`Display::isolated`] is the only right one, and not the only wrong one.
+    pub only_right: bool,
+}
+
+impl Default for Display {
+    fn default() -> Self {
+        Self {
+            quantity: Quantity::Rendering,
+            difference: false,
+            differences: Differences::default(),
+            layout: Layout::SideBySide,
+            projection: Projection::Flat,
+            show_clipping: false,
+            tiled: false,
+            false_colour: false,
+            wipe: 0.5,
+            zoom: 1.0,
+            pan: [0.0, 0.0],
+            prediction: 0,
+            isolated: None,
+            only_right: false,
+        }
+    }
+}
+
+impl SessionWindow {
+    /// Whether nothing was saved.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl From<SessionWindow> for Map<String, Value> {
+    fn from(window: SessionWindow) -> Self {
+        let display = window.display.map(|display| (DISPLAY, serde_json::to_value(display)));
+        let loss = window.loss.map(|loss| (LOSS, serde_json::to_value(loss)));
+        // Numbers, names and lists have a value.
+        let parts = [display, loss].into_iter().flatten();
+        parts.map(|(key, value)| (key.to_owned(), value.unwrap_or_default())).collect()
+    }
+}
+
+impl TryFrom<Map<String, Value>> for SessionWindow {
+    type Error = String;
+
+    /// The text names the field that cannot be read.
+    fn try_from(mut parts: Map<String, Value>) -> Result<Self, String> {
+        Ok(Self { display: part(&mut parts, DISPLAY)?, loss: part(&mut parts, LOSS)? })
+    }
+}
+
+/// The part under this key; `None` where there is none.
+fn part<T: DeserializeOwned>(parts: &mut Map<String, Value>, key: &str) -> Result<Option<T>, String> {
+    let Some(value) = parts.remove(key) else { return Ok(None) };
+    let of_field = |(field, value): (&String, &Value)| {
+        let alone = Map::from_iter([(field.clone(), value.clone())]);
+        let problem = serde_json::from_value::<T>(Value::Object(alone)).err()?;
+        Some(format!("window.{key}.{field}: {problem}"))
+    };
+    let problem = value.as_object().and_then(|fields| fields.iter().find_map(of_field));
+    serde_json::from_value(value)
+        .map(Some)
+        .map_err(|error| problem.unwrap_or(format!("window.{key}: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<SessionWindow, String> {
+        serde_json::from_str(text).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_mistyped_field_is_named() {
+        for (text, field) in [
+            (r#"{"loss": {"seed": 3, "ask": "Acuracy"}}"#, "window.loss.ask"),
+            (r#"{"view": {"zoom": "large"}, "loss": {}}"#, "window.view.zoom"),
+            (r#"{"view": 7}"#, "window.view"),
+        ] {
+            let problem = read(text).unwrap_err();
+            assert!(problem.contains(field), "{problem}");
+        }
+    }
+
+    #[test]
+    fn what_is_absent_has_its_default_and_what_is_written_is_read() {
+        assert_eq!(read("{}"), Ok(SessionWindow::default()));
+        let window =
+            read(r#"{"view": {"zoom": 2.0}, "loss": {"seed": 7}, "of a newer version": 1}"#).unwrap();
+        let loss = LossSettings { seed: 7, ..LossSettings::default() };
+        let expected = Display { zoom: 2.0, ..Display::default() };
+        assert_eq!((window.display.clone(), window.loss.clone()), (Some(expected), Some(loss)));
+        assert_eq!(read(&serde_json::to_string(&window).unwrap()), Ok(window));
+    }
+}

@@ -1,0 +1,182 @@
+//! Application: the frame of the window, which holds the model, the jobs and the user interface together.
+
+pub mod crash;
+pub mod effects;
+pub mod events;
+#[cfg(feature = "testing")]
+pub mod observe;
+pub mod saving;
+pub mod stop;
+pub mod storage;
+pub mod training;
+
+use std::time::{Duration, Instant};
+
+use eframe::egui;
+
+pub use crash::{CrashGuard, outcome};
+pub use stop::Stop;
+use storage::Stored;
+
+use super::jobs::Jobs;
+use super::jobs::displayed::Displayed;
+use super::jobs::follow::DisplayedParts;
+use super::jobs::work::waker::Waker;
+use super::model::Model;
+use super::model::command::Command;
+use super::model::message::Message;
+use super::model::settings::options::ViewerOptions;
+use super::ui::WindowUi;
+use super::ui::shading::gpu_view::GpuView;
+use super::ui::widgets::theme;
+
+/// The viewer.
+#[derive(Debug)]
+pub struct App {
+    pub model: Model,
+    pub jobs: Jobs,
+    ui: WindowUi,
+    /// `None` where there is no adapter.
+    gpu: Option<GpuView>,
+    stored: Stored,
+    stop: Stop,
+    crash: CrashGuard,
+}
+
+impl App {
+    /// Starts to read the materials that `options` names, and returns before they have been read.
+    pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
+        theme::install(&cc.egui_ctx);
+        let mut model = Model::default();
+        let stored = Stored::load(cc.storage, &mut model);
+        cc.egui_ctx.set_zoom_factor(model.settings.ui_scale);
+        let gpu = match cc.wgpu_render_state.as_ref().map(GpuView::new) {
+            Some(Ok(gpu)) => Some(gpu),
+            Some(Err(error)) => {
+                model.report([Message::Failed(error)]);
+                None
+            }
+            None => None,
+        };
+        gpu.iter().for_each(|gpu| theme::suit(&cc.egui_ctx, &gpu.gpu.report));
+        let ctx = cc.egui_ctx.clone();
+        let waker = Waker::new(move |after: Duration| ctx.request_repaint_after(after));
+        let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
+        let (stop, crash) = (Stop::default(), CrashGuard::default());
+        let mut app = Self { model, jobs, ui: WindowUi::default(), gpu, stored, stop, crash };
+        let start = app.model.start(options);
+        app.carry_out(&cc.egui_ctx, start);
+        app
+    }
+
+    /// Reports panics of the frames to this guard.
+    pub fn guard(&mut self, crash: &CrashGuard) {
+        self.crash = crash.clone();
+    }
+
+    /// Closes the window at a signal, and cancels what is being written.
+    pub fn stop_at_signals(&mut self, ctx: &egui::Context, stop: &Stop) {
+        stop.listen(ctx);
+        self.stop = stop.clone();
+    }
+
+    /// What the panes display.
+    pub fn displayed(&self) -> Displayed<'_> {
+        self.jobs.displayed(&self.model)
+    }
+
+    /// Carries out one command, and its effects.
+    pub fn apply(&mut self, ctx: &egui::Context, command: Command) {
+        for effect in self.model.apply(command) {
+            self.carry_out(ctx, effect);
+        }
+        ctx.request_repaint();
+    }
+
+    fn apply_all(&mut self, ctx: &egui::Context, commands: Vec<Command>) {
+        if commands.is_empty() {
+            return;
+        }
+        commands.into_iter().for_each(|command| self.apply(ctx, command));
+        self.model.keep_visible();
+    }
+
+    /// One frame: input, commands, model, picture. What a gesture changes is in the frame that read it; what is clicked in a panel is
+    /// in the next one.
+    fn frame(&mut self, ui: &mut egui::Ui) {
+        let start = Instant::now();
+        let ctx = ui.ctx().clone();
+        theme::choose(&ctx, self.model.settings.dark);
+        // Ctrl with plus, minus or 0 changes it, too.
+        self.model.settings.ui_scale = ctx.zoom_factor();
+        self.model.time = ctx.input(|i| i.time);
+        self.model.geometry = self.ui.geometry(&ctx);
+        self.take_results(&ctx);
+        let commands = self.ui.input(&ctx, self.jobs.displayed(&self.model));
+        self.apply_all(&ctx, commands);
+        if self.model.animate(f64::from(ctx.input(|i| i.stable_dt))) {
+            ctx.request_repaint();
+        }
+        self.follow(&ctx);
+        let displayed = self.jobs.displayed(&self.model);
+        let commands = self.ui.draw(ui, displayed, self.gpu.as_mut());
+        self.apply_all(&ctx, commands);
+        let is_photograph_settled = self.jobs.photograph.is_settled(&self.model.photograph);
+        self.model.remember_moment(self.jobs.openings.is_empty(), is_photograph_settled);
+        self.ui.frame_ms = start.elapsed().as_secs_f32() * 1e3;
+    }
+
+    /// Lets the jobs follow the model, and takes in what they have found.
+    fn follow(&mut self, ctx: &egui::Context) {
+        let parts = DisplayedParts {
+            extra_pane: self.ui.has_extra_pane(),
+            longest_texture: ctx.input(|i| i.max_texture_side),
+        };
+        let findings = self.jobs.follow(&self.model, parts);
+        self.model.report(findings.errors.into_iter().map(Message::Failed));
+        if let Some(error) = findings.photograph_error {
+            self.model.photograph.set(None, None);
+            self.model.report([Message::Failed(error)]);
+        }
+        match findings.worst {
+            Some(Ok(worst)) => {
+                self.model.view.scene = worst.scene;
+                ctx.request_repaint();
+            }
+            Some(Err(error)) => self.model.report([Message::Failed(error)]),
+            None => {}
+        }
+        if let Some(ground_truth) = self.model.materials.ground_truth() {
+            self.model.inspection.keep_within(ground_truth.material().size());
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        let crash = self.crash.clone();
+        if crash.frame(|| self.frame(ui)) {
+            self.stored.store_changes(&self.model, ui.ctx(), frame.storage_mut());
+        } else {
+            // The state is stored as the window closes.
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+        }
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        let crash = self.crash.clone();
+        crash.attempt(|| self.model.remember_session(self.jobs.openings.is_empty()));
+        self.stored.store(&self.model, storage);
+    }
+
+    fn on_exit(&mut self) {
+        // A file that is being written is completed, or cancelled by the signal that closed the window.
+        if let Some(saving) = self.jobs.saving.take() {
+            let _ = saving.wait();
+        }
+    }
+}

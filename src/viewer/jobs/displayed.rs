@@ -1,0 +1,116 @@
+//! Displayed difference: of the current scene, from a photograph, or averaged over the scenes of the loss.
+
+use std::sync::Arc;
+
+use super::Jobs;
+use super::panes::error_map::{ErrorMapSummary, ErrorMaps};
+use super::photograph::{DisplayedPhotograph, Photographs};
+use crate::loss::{Request, Sampling};
+use crate::model::sampler::Sampler;
+use crate::picture::quantity::Quantity;
+use crate::picture::statistics::Distributions;
+use crate::viewer::model::Model;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::view::state::ViewState;
+
+/// What the panes display of the model, with the results of the jobs.
+#[derive(Clone, Copy, Debug)]
+pub struct Displayed<'a> {
+    pub model: &'a Model,
+    pub jobs: &'a Jobs,
+    /// Whether panes show a photograph as it is compared even while its corners are edited: in pictures that are saved.
+    pub hides_corners: bool,
+}
+
+impl<'a> Displayed<'a> {
+    /// The materials in the panes, the ground truth first: with a mixture in the place of the chosen prediction where one is
+    /// displayed.
+    pub fn materials(self) -> &'a [LoadedMaterial] {
+        &self.jobs.panes.displayed
+    }
+
+    fn view(self) -> &'a ViewState {
+        &self.model.view
+    }
+
+    /// The error maps of what the panes display, once they are there.
+    pub fn current_error_maps(self) -> Option<&'a Arc<ErrorMaps>> {
+        self.jobs.panes.error_map.get(self.materials(), self.view(), self.model.settings.loss.listed_scenes())
+    }
+
+    /// The error maps, where the difference is the error map and they are there.
+    pub fn error_maps(self) -> Option<&'a Arc<ErrorMaps>> {
+        self.view().is_error_map().then(|| self.current_error_maps()).flatten()
+    }
+
+    pub fn error_map_summary(self) -> ErrorMapSummary {
+        let scenes = self.model.settings.loss.listed_scenes().count().unwrap_or(0);
+        ErrorMapSummary { scenes, progress: self.jobs.panes.error_map.progress() }
+    }
+
+    /// The photograph, where the panes compare renderings with one. Maps and the error map are compared with the ground truth.
+    pub fn photograph(self) -> Option<DisplayedPhotograph<'a>> {
+        let is_rendering = self.view().display.quantity == Quantity::Rendering && !self.view().is_error_map();
+        let photograph = self.jobs.photograph.displayed(&self.model.photograph, self.materials());
+        let mut photograph = photograph.filter(|_| is_rendering && !self.materials().is_empty())?;
+        photograph.corners = photograph.corners.filter(|_| !self.hides_corners);
+        Some(photograph)
+    }
+
+    /// The photograph beside every material, where the panes compare renderings with one and it is there.
+    pub fn photographs(self) -> Option<&'a Arc<Photographs>> {
+        self.photograph().and_then(|photograph| photograph.all)
+    }
+
+    /// The distributions of the difference in the panes, and whether they are up to date.
+    pub fn distributions(self) -> Option<(&'a Distributions, bool)> {
+        if self.photograph().is_some() {
+            return self.jobs.photograph.distributions(&self.model.photograph, self.materials(), self.view());
+        }
+        if self.view().is_error_map() {
+            return self.error_maps().map(|maps| (&maps.distributions, true));
+        }
+        let distributions = self.jobs.panes.difference.distributions(self.materials(), self.view())?;
+        Some((distributions, self.jobs.panes.difference.is_current(self.materials(), self.view())))
+    }
+
+    /// The difference that has the last colour: the range set, or the automatic one.
+    pub fn range(self) -> f64 {
+        let auto = || self.distributions().map(|(distributions, _)| distributions.auto_range);
+        let set = self.view().display.differences.range(self.view().display.quantity);
+        set.or_else(auto).unwrap_or_else(|| self.view().difference_kind().default_range())
+    }
+
+    /// What the metadata of a picture say where it shows error maps.
+    pub fn error_map_text(self) -> Option<String> {
+        let loss = &self.model.settings.loss;
+        let scenes = match (loss.listed_scenes(), loss.file_scenes()) {
+            (Request::Scenes(Sampling { near, distant, seed, sampler, .. }), _) => {
+                let sampler = if sampler == Sampler::Sobol { "scrambled Sobol" } else { "random" };
+                format!("{near} near-field and {distant} distant scenes, seed {seed}, {sampler}")
+            }
+            (_, file) => {
+                let (count, name) = file.map_or((0, ""), |file| (file.scenes.len(), file.name.as_str()));
+                format!("{count} scenes of {name}")
+            }
+        };
+        (self.view().display.difference && self.view().is_error_map()).then(|| {
+            format!("mean log difference of each texel over {scenes}; {} the last colour", self.range())
+        })
+    }
+
+    /// What the metadata of a picture say where it shows differences from a photograph.
+    pub fn photograph_text(self) -> Option<String> {
+        let kind = self.view().difference_kind();
+        let photograph = self.photograph().filter(|_| self.view().display.difference)?;
+        let factors = photograph.all?.comparisons.iter().map(|one| one.factor.to_string());
+        Some(format!(
+            "{} of renderings p from {} as g: {}, multiplied by {}; NaN or gray where it is clipped; {} the last colour",
+            kind.name(),
+            photograph.source.path.display(),
+            kind.unit(),
+            factors.collect::<Vec<_>>().join(" | "),
+            self.range()
+        ))
+    }
+}

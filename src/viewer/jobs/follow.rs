@@ -1,0 +1,110 @@
+//! Jobs that follow the model: they compute what is displayed now, and only that.
+
+use super::Jobs;
+use super::why::WhyQuery;
+use super::work::context::JobContext;
+use crate::error::Error;
+use crate::loss::Request;
+use crate::viewer::model::Model;
+use crate::viewer::model::settings::Tab;
+use crate::viewer::model::settings::loss_query::LossQuery;
+use crate::why::Worst;
+
+/// What the window displays, as far as jobs depend on it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DisplayedParts {
+    /// Whether an empty place beside the panes has the difference or the value of the chosen prediction.
+    pub extra_pane: bool,
+    /// Longest side of a texture.
+    pub longest_texture: usize,
+}
+
+/// What the jobs have found since the last frame.
+#[derive(Debug, Default)]
+pub struct Findings {
+    pub errors: Vec<Error>,
+    /// Why the open photograph cannot be read.
+    pub photograph_error: Option<Error>,
+    /// The end of the search for the worst scene.
+    pub worst: Option<Result<Worst, Error>>,
+}
+
+impl Jobs {
+    /// Takes over results, and computes what `model` needs now.
+    pub fn follow(&mut self, model: &Model, parts: DisplayedParts) -> Findings {
+        let mut findings = Findings::default();
+        self.follow_losses(model);
+        self.follow_mixture(model, &mut findings);
+        self.follow_why(model, &mut findings);
+        self.follow_panes(model, parts, &mut findings);
+        let Self { uploads, openings, panes, .. } = self;
+        let is_here = |id| model.materials.all.iter().chain(&panes.displayed).any(|one| one.id() == id);
+        uploads.keep_only(|id| is_here(id) || openings.hold(id));
+        findings
+    }
+
+    fn follow_losses(&mut self, model: &Model) {
+        // A loss of materials that are not all there yet would be computed in vain.
+        let auto = model.settings.auto_loss && !self.openings.expect_more();
+        let (waker, materials, query) = (&self.waker, &model.materials, model.loss_query());
+        self.loss.follow(waker, materials, &query, auto);
+        self.loss.poll(waker);
+        let Some(few) = model.settings.loss.question().few_scenes else {
+            self.few = Default::default();
+            return;
+        };
+        // After the loss itself.
+        let done = !self.loss.is_running() && self.loss.losses().is_some();
+        let query = LossQuery { request: Request::Scenes(few), ..query };
+        self.few.follow(waker, materials, &query, model.settings.auto_loss && done);
+        self.few.poll(waker);
+    }
+
+    fn follow_mixture(&mut self, model: &Model, findings: &mut Findings) {
+        let Self { waker, gpu, uploads, panes, .. } = self;
+        let (materials, view) = (&model.materials.all[..], &model.view);
+        let work = JobContext { waker, gpu: gpu.as_ref(), materials, view };
+        findings.errors.extend(panes.mixture.follow(&work, uploads));
+        panes.displayed = panes.mixture.displayed(materials, view);
+    }
+
+    /// The jobs of the tab *Why*, where it is open. The search for the worst scene goes on in other tabs, too.
+    fn follow_why(&mut self, model: &Model, findings: &mut Findings) {
+        let is_open = model.settings.tab == Tab::Why && model.side_panel();
+        let loss = &model.settings.loss;
+        let query = WhyQuery {
+            sections: model.settings.why,
+            scenes: loss.listed_scenes(),
+            seed: loss.seed,
+            moved: model.why.moved,
+        };
+        // Materials that arrive one by one would be looked at in vain.
+        let is_complete = !self.openings.expect_more();
+        let Self { waker, gpu, why, scene_loss, .. } = self;
+        let (materials, view) = (&model.materials.all[..], &model.view);
+        let work = JobContext { waker, gpu: gpu.as_ref(), materials, view };
+        findings.errors.extend(why.follow(&work, is_open && is_complete, query));
+        findings.errors.extend(scene_loss.follow(&work, is_open));
+        findings.worst = why.poll_search(&work);
+    }
+
+    fn follow_panes(&mut self, model: &Model, parts: DisplayedParts, findings: &mut Findings) {
+        let (settings, view) = (&model.settings, &model.view);
+        let has_photograph = self.displayed(model).photograph().is_some();
+        let differences = view.display.difference || parts.extra_pane;
+        let averages = differences && view.is_error_map();
+        let Self { waker, gpu, panes, photograph, .. } = self;
+        let work = JobContext { waker, gpu: gpu.as_ref(), materials: &panes.displayed, view };
+        let [unreadable, error] = photograph.follow(&work, &model.photograph, parts.longest_texture);
+        findings.photograph_error = unreadable;
+        let of_ground_truth = differences && !averages && !has_photograph;
+        let errors = [
+            panes.histograms.follow(&work, settings.histograms && !view.display.difference),
+            panes.region.follow(&work, model.inspection.region),
+            error,
+            panes.difference.follow(&work, of_ground_truth),
+            panes.error_map.follow(&work, averages, settings.loss.listed_scenes()),
+        ];
+        findings.errors.extend(errors.into_iter().flatten());
+    }
+}

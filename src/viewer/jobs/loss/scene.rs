@@ -1,0 +1,53 @@
+//! Loss of the current scene alone.
+
+use crate::error::Error;
+use crate::loss::{Comparison, Request};
+use crate::material::Material;
+use crate::model::scene::Scene;
+use crate::viewer::jobs::work::context::JobContext;
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::view::state::ViewState;
+
+/// What the losses depend on.
+#[derive(Clone, Debug, PartialEq)]
+struct SceneLossKey {
+    ids: Vec<MaterialId>,
+    scene: Scene,
+    convention: &'static str,
+}
+
+/// The loss of each prediction under the current light and view.
+#[derive(Debug, Default)]
+pub struct SceneLossJob(Latest<SceneLossKey, Vec<f64>>);
+
+impl SceneLossJob {
+    /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
+    pub fn follow(&mut self, work: &JobContext<'_>, shown: bool) -> Option<Error> {
+        let wanted = (shown && work.materials.len() > 1).then(|| key(work.materials, work.view));
+        let convention = work.view.convention();
+        self.0.follow(wanted, |key| {
+            let (materials, request) = (work.materials(), Request::Listed(vec![key.scene]));
+            Job::start(work.waker, move |progress| {
+                let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
+                let comparison = Comparison::new(materials[0], &materials[1..], convention)?;
+                let outcome = comparison.run(&request, progress)?;
+                Ok(outcome.losses.iter().map(|loss| loss.estimate.mean).collect())
+            })
+        })
+    }
+
+    /// The latest losses of these materials, and whether they are up to date.
+    pub fn get(&self, materials: &[LoadedMaterial], state: &ViewState) -> Option<(&[f64], bool)> {
+        let (of, losses) = self.0.get()?;
+        let now = key(materials, state);
+        (of.ids == now.ids).then_some((losses.as_slice(), *of == now))
+    }
+}
+
+fn key(materials: &[LoadedMaterial], state: &ViewState) -> SceneLossKey {
+    let ids = materials.iter().map(LoadedMaterial::id).collect();
+    SceneLossKey { ids, scene: state.scene, convention: state.convention().name }
+}

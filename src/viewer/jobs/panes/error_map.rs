@@ -1,0 +1,127 @@
+//! Error maps: the log difference of each texel, averaged over the scenes of the loss.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::gpu::{Gpu, Shaded};
+use crate::image::{Image, mean_of_channels};
+use crate::loss::{Comparison, Request};
+use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::picture::statistics::Distributions;
+use crate::progress::Progress;
+use crate::viewer::jobs::work::context::JobContext;
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::material::read::ReadMaterial;
+use crate::viewer::model::view::state::ViewState;
+use crate::why::error_maps;
+
+/// What error maps depend on.
+#[derive(Clone, Debug, PartialEq)]
+struct ErrorMapKey {
+    /// Of the materials, the ground truth first.
+    ids: Vec<MaterialId>,
+    scenes: Request,
+    convention: &'static str,
+}
+
+/// The error maps of all predictions.
+#[derive(Debug)]
+pub struct ErrorMaps {
+    /// Of each prediction.
+    pub images: Vec<Image<f32>>,
+    /// Where there is an adapter.
+    shaded: Vec<Arc<Shaded>>,
+    pub distributions: Distributions,
+}
+
+/// What the legend reports of error maps besides their statistics.
+#[derive(Clone, Copy, Debug)]
+pub struct ErrorMapSummary {
+    /// Number of scenes.
+    pub scenes: usize,
+    /// The share of the texels that is done, while they are rendered.
+    pub progress: Option<f32>,
+}
+
+/// The error maps of what the panes show.
+#[derive(Debug, Default)]
+pub struct ErrorMapJob(Latest<ErrorMapKey, Arc<ErrorMaps>>);
+
+impl ErrorMapJob {
+    /// Takes over a result, and computes what is wanted now; where none is `shown`, the latest is kept.
+    pub fn follow(&mut self, work: &JobContext<'_>, shown: bool, scenes: Request) -> Option<Error> {
+        if !shown || work.materials.len() < 2 {
+            self.0.pause();
+            return None;
+        }
+        let wanted = key(work.materials, work.view, scenes);
+        self.0.drop_other(&wanted);
+        let convention = work.view.convention();
+        self.0.follow(Some(wanted), |key| {
+            let (scenes, materials, gpu) = (key.scenes.clone(), work.materials(), work.gpu.cloned());
+            Job::start(work.waker, move |progress| {
+                maps(&materials, &scenes, &convention, gpu.as_ref(), progress).map(Arc::new)
+            })
+        })
+    }
+
+    /// The error maps of the current materials and scenes, once they are there.
+    pub fn get(
+        &self,
+        materials: &[LoadedMaterial],
+        state: &ViewState,
+        scenes: Request,
+    ) -> Option<&Arc<ErrorMaps>> {
+        let (of, maps) = self.0.get()?;
+        (*of == key(materials, state, scenes)).then_some(maps)
+    }
+
+    /// The share of the texels that is done, while they are rendered.
+    pub fn progress(&self) -> Option<f32> {
+        self.0.running().map(Job::fraction)
+    }
+}
+
+impl ErrorMaps {
+    /// The map of the material at this index on the adapter.
+    pub fn shaded(&self, index: usize) -> Option<&Arc<Shaded>> {
+        self.shaded.get(index.checked_sub(1)?)
+    }
+
+    /// The value of the map of the material at this index at the texel (column, row): the mean over RGB.
+    pub fn at(&self, index: usize, [column, row]: [usize; 2]) -> f64 {
+        let image = index.checked_sub(1).and_then(|index| self.images.get(index));
+        image.map_or(f64::NAN, |image| f64::from(mean_of_channels(&image.pixels[row * image.width + column])))
+    }
+}
+
+fn key(materials: &[LoadedMaterial], state: &ViewState, scenes: Request) -> ErrorMapKey {
+    let ids = materials.iter().map(LoadedMaterial::id).collect();
+    ErrorMapKey { ids, scenes, convention: state.convention().name }
+}
+
+fn maps(
+    materials: &[Arc<ReadMaterial>],
+    scenes: &Request,
+    convention: &Convention,
+    gpu: Option<&Gpu>,
+    progress: &Progress,
+) -> Result<ErrorMaps, Error> {
+    let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| &loaded.material).collect();
+    let comparison = Comparison::new(materials[0], &materials[1..], *convention)?;
+    let scenes = scenes.scenes(convention)?.unwrap_or_default();
+    let images = error_maps(&comparison, &scenes, progress)?;
+    let means = |image: &Image<f32>| image.pixels.iter().map(mean_of_channels).collect();
+    let values: Vec<Vec<f32>> = images.iter().map(means).collect();
+    let distributions = Distributions::of(&values, false);
+    let upload = |gpu: &Gpu| {
+        let one = |image| Shaded::of_image(gpu, image).map(Arc::new);
+        images.iter().map(one).collect::<Result<Vec<_>, Error>>()
+    };
+    let shaded = gpu.map(upload).transpose()?.unwrap_or_default();
+    Ok(ErrorMaps { images, shaded, distributions })
+}

@@ -1,0 +1,205 @@
+//! Jobs of a photograph in the place of the ground truth: read, brought onto the texels, and compared with every material.
+
+pub mod compared;
+pub mod keys;
+pub mod picture;
+
+use std::sync::Arc;
+
+pub use compared::Photographs;
+use compared::{ComparedKey, compare, key};
+use keys::{ReadKey, RectifiedKey};
+
+use crate::error::Error;
+use crate::files::read::{Photograph, read_photograph};
+use crate::files::session::SessionPhotograph;
+use crate::photograph::{Corners, Rectified};
+use crate::picture::statistics::Distributions;
+use crate::viewer::jobs::work::context::JobContext;
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::jobs::work::picture::Picture;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::photograph::PhotographState;
+use crate::viewer::model::material::source::file_name;
+use crate::viewer::model::view::state::ViewState;
+
+/// The jobs on the photograph that renderings are compared with.
+#[derive(Debug, Default)]
+pub struct PhotographJobs {
+    read: Latest<ReadKey, Arc<Photograph>>,
+    rectified: Latest<RectifiedKey, Arc<Rectified>>,
+    compared: Latest<ComparedKey, Arc<Photographs>>,
+    picture: Latest<ReadKey, Arc<Picture>>,
+}
+
+/// The photograph as the panes and the panel display it.
+#[derive(Clone, Copy, Debug)]
+pub struct DisplayedPhotograph<'a> {
+    pub source: &'a SessionPhotograph,
+    /// Once it has been read.
+    pub photograph: Option<&'a Photograph>,
+    /// The share of the texels that is left out, once it is on the texels.
+    pub clipped: Option<f64>,
+    /// Beside every material, once they are there.
+    pub all: Option<&'a Arc<Photographs>>,
+    /// While the corners are edited.
+    pub corners: Option<EditedCorners<'a>>,
+}
+
+/// The photograph as it was taken, and the corners of the material in it.
+#[derive(Clone, Copy, Debug)]
+pub struct EditedCorners<'a> {
+    /// Once it is there.
+    pub picture: Option<&'a Arc<Picture>>,
+    /// Width and height of the photograph, in pixels.
+    pub size: [usize; 2],
+    pub corners: Corners,
+}
+
+impl DisplayedPhotograph<'_> {
+    /// The name of its file.
+    pub fn name(&self) -> String {
+        file_name(&self.source.path)
+    }
+
+    /// The title of a pane that displays it at the exposure of the material at this index.
+    pub fn title(&self, index: usize) -> String {
+        if self.corners.is_some() {
+            return format!("PHOTOGRAPH  {}  as it was taken", self.name());
+        }
+        let ev = self.all.and_then(|all| all.get(index)).map(|one| format!("  {:+.2} EV", one.exposure_ev()));
+        format!("PHOTOGRAPH  {}{}", self.name(), ev.unwrap_or_default())
+    }
+}
+
+fn read_key(state: &PhotographState) -> Option<ReadKey> {
+    state.source().map(|source| (source.path.clone(), state.stamp(), source.read))
+}
+
+impl PhotographJobs {
+    /// The photograph, once it has been read.
+    pub fn photograph(&self, state: &PhotographState) -> Option<&Arc<Photograph>> {
+        let (of, photograph) = self.read.get()?;
+        (Some(of) == read_key(state).as_ref()).then_some(photograph)
+    }
+
+    /// Whether what is open has been read.
+    pub fn is_settled(&self, state: &PhotographState) -> bool {
+        state.source().is_none() || self.photograph(state).is_some()
+    }
+
+    /// Takes over results, and computes what is wanted now. Where the photograph cannot be read, the error is the first of the
+    /// pair; `longest` is the longest side of a picture for a texture.
+    pub fn follow(
+        &mut self,
+        work: &JobContext<'_>,
+        state: &PhotographState,
+        longest: usize,
+    ) -> [Option<Error>; 2] {
+        let error = self.read.follow(read_key(state), |(path, _, options)| {
+            let (path, options) = (path.clone(), *options);
+            Job::start(work.waker, move |_| read_photograph(&path, &options).map(Arc::new))
+        });
+        if error.is_some() {
+            *self = Self::default();
+            return [error, None];
+        }
+        let error = self.rectify(work, state);
+        let error = error.or_else(|| self.compare(work, state));
+        [None, error.or_else(|| self.draw(work, state, longest))]
+    }
+
+    /// The photograph as it was taken, while the corners are edited.
+    fn draw(&mut self, work: &JobContext<'_>, state: &PhotographState, longest: usize) -> Option<Error> {
+        let photograph = self.photograph(state).filter(|_| state.edits_corners()).cloned();
+        let wanted = photograph.is_some().then(|| read_key(state)).flatten();
+        self.picture.follow(wanted, |_| {
+            Job::start(work.waker, move |_| {
+                let photograph = photograph.ok_or_else(|| Error::Internal("no photograph".to_owned()))?;
+                Ok(Arc::new(picture::picture(&photograph, longest)))
+            })
+        })
+    }
+
+    fn rectify(&mut self, work: &JobContext<'_>, state: &PhotographState) -> Option<Error> {
+        let (Some(source), Some(ground_truth)) = (state.source(), work.materials.first()) else {
+            self.rectified = Latest::default();
+            return None;
+        };
+        let photograph = self.photograph(state)?.clone();
+        let corners = source.corners.map_or_else(|| Corners::whole(photograph.size()), Corners);
+        let size = ground_truth.material().size();
+        let wanted = RectifiedKey { read: read_key(state)?, corners, size };
+        self.rectified.follow(Some(wanted), |_| {
+            Job::start(work.waker, move |progress| {
+                Rectified::new(&photograph, &corners, size, progress).map(Arc::new)
+            })
+        })
+    }
+
+    fn compare(&mut self, work: &JobContext<'_>, state: &PhotographState) -> Option<Error> {
+        let (Some(source), Some((of, rectified))) = (state.source(), self.rectified.get()) else {
+            self.compared = Latest::default();
+            return None;
+        };
+        // It is still on the texels of materials that have been closed.
+        if work.materials.first().is_none_or(|one| one.material().size() != of.size) {
+            return None;
+        }
+        let wanted = key(of.clone(), source.falloff, work.materials, work.view);
+        let rectified = rectified.clone();
+        self.compared.follow(Some(wanted), |key| {
+            let (key, gpu, convention) = (key.clone(), work.gpu.cloned(), work.view.convention());
+            let materials = work.materials();
+            Job::start(work.waker, move |progress| {
+                compare(&key, &rectified, &materials, &convention, gpu.as_ref(), progress).map(Arc::new)
+            })
+        })
+    }
+
+    /// The photograph as it is displayed beside `materials`, perhaps at the exposures of an earlier scene.
+    pub fn displayed<'a>(
+        &'a self,
+        state: &'a PhotographState,
+        materials: &[LoadedMaterial],
+    ) -> Option<DisplayedPhotograph<'a>> {
+        let (source, now) = (state.source()?, read_key(state));
+        let photograph = self.photograph(state).map(AsRef::as_ref);
+        let of_now = |key: &ReadKey| Some(key) == now.as_ref();
+        let rectified = self.rectified.get().filter(|(of, _)| of_now(&of.read));
+        let picture = self.picture.get().filter(|(of, _)| of_now(of)).map(|(_, picture)| picture);
+        let corners = photograph.filter(|_| state.edits_corners()).map(|photograph| {
+            let size = photograph.size();
+            EditedCorners {
+                picture,
+                size,
+                corners: source.corners.map_or_else(|| Corners::whole(size), Corners),
+            }
+        });
+        let all = self.compared.get().filter(|(of, _)| of.is_of(materials) && of_now(&of.rectified.read));
+        Some(DisplayedPhotograph {
+            source,
+            photograph,
+            clipped: rectified.map(|(_, rectified)| rectified.clipped_share()),
+            all: all.map(|(_, all)| all),
+            corners,
+        })
+    }
+
+    /// The distributions of the chosen difference of every material, and whether they are up to date.
+    pub fn distributions(
+        &self,
+        state: &PhotographState,
+        materials: &[LoadedMaterial],
+        view: &ViewState,
+    ) -> Option<(&Distributions, bool)> {
+        let source = state.source()?;
+        let (of, all) = self.compared.get()?;
+        let (rectified, _) = self.rectified.get()?;
+        let now = key(rectified.clone(), source.falloff, materials, view);
+        let of_now = Some(&rectified.read) == read_key(state).as_ref()
+            && source.corners.is_none_or(|corners| rectified.corners == Corners(corners));
+        (of.is_of(materials) && of.kind == now.kind).then_some((&all.distributions, *of == now && of_now))
+    }
+}

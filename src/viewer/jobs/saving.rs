@@ -1,0 +1,176 @@
+//! Saving: pictures of the materials as `svbrdf render` and `svbrdf strip` write them, the view, the session, and scenes.
+
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::displayed::Displayed;
+use super::why::ComparedPair;
+use super::work::job::Job;
+use super::work::waker::Waker;
+use crate::error::Error;
+use crate::files::atomic::{self, Destination};
+use crate::image::Image;
+use crate::material::Material;
+use crate::picture::export::{PngDestination, Provenance};
+use crate::picture::quantity::Quantity;
+use crate::picture::shown::{Shown, ShownDifference, ShownPictures};
+use crate::picture::strip::{Column, Strip};
+use crate::report::{Compared, Report as _, ScenesReport};
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::ReadMaterial;
+
+/// What a picture of the panes shows.
+pub fn shown(displayed: Displayed<'_>) -> Shown {
+    let view = &displayed.model.view;
+    let difference = ShownDifference { kind: view.difference_kind(), range: Some(displayed.range()) };
+    let compares = view.display.difference && displayed.materials().len() > 1;
+    Shown { quantity: view.display.quantity, difference: compares.then_some(difference) }
+}
+
+/// Where a picture of the materials comes from.
+pub fn provenance(displayed: Displayed<'_>, shown: Shown) -> Provenance {
+    let view = &displayed.model.view;
+    Provenance {
+        shown,
+        scene: view.scene,
+        convention: view.convention(),
+        exposure_ev: view.exposure_ev,
+        sources: names(displayed.materials()),
+        renderer: "CPU, f32".to_owned(),
+    }
+}
+
+fn names(materials: &[LoadedMaterial]) -> Vec<String> {
+    materials.iter().map(|slot| slot.name().to_owned()).collect()
+}
+
+fn materials(materials: &[LoadedMaterial]) -> Vec<Arc<ReadMaterial>> {
+    materials.iter().map(|slot| slot.read.clone()).collect()
+}
+
+/// Starts to write what the panes show of all materials, side by side, to `path`.
+pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+    let shown = shown(displayed);
+    let (all, mut provenance) = (materials(displayed.materials()), provenance(displayed, shown));
+    Job::start(&displayed.jobs.waker, move |progress| {
+        let destination = Destination::new(&path)?;
+        let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
+        let ShownPictures { images, shown } =
+            shown.pictures(&all, &provenance.scene, &provenance.convention, progress)?;
+        provenance.shown = shown;
+        destination.write(&images, &provenance, progress)?;
+        Ok(path)
+    })
+}
+
+/// Starts to write the figure of all materials to `path`.
+pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+    let state = &displayed.model.view;
+    let (all, names) = (materials(displayed.materials()), names(displayed.materials()));
+    let value = |quantity| Shown { quantity, difference: None };
+    let maps = [Quantity::Normal, Quantity::Diffuse, Quantity::Roughness, Quantity::Specular];
+    let kind = state.display.differences.kind(Quantity::Rendering);
+    let set = || state.display.differences.range(Quantity::Rendering);
+    let range = if state.display.differences.is_error_map(Quantity::Rendering) { None } else { set() };
+    let difference = Some(ShownDifference { kind, range });
+    let mut shown: Vec<Shown> = maps.into_iter().chain([Quantity::Rendering]).map(value).collect();
+    if all.len() > 1 {
+        shown.push(Shown { quantity: Quantity::Rendering, difference });
+    }
+    let columns = shown.into_iter().map(|shown| Column { shown, scene: state.scene }).collect();
+    let strip = Strip { columns, convention: state.convention(), exposure_ev: state.exposure_ev };
+    Job::start(&displayed.jobs.waker, move |progress| {
+        let destination = PngDestination::new(&path)?;
+        let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
+        let picture = strip.picture(&all, &names, progress)?;
+        destination.write(&picture, &strip.entries(&names), progress)?;
+        Ok(path)
+    })
+}
+
+/// Starts to write a picture of the window, its pixels row by row, to `path`.
+pub fn view(
+    waker: &Waker,
+    picture: Image<u8>,
+    entries: Vec<(&'static str, String)>,
+    path: PathBuf,
+) -> Job<PathBuf> {
+    Job::start(waker, move |progress| {
+        let destination = PngDestination::new(&path)?;
+        destination.write(&picture, &entries, progress)?;
+        Ok(path)
+    })
+}
+
+/// Starts to write the scenes of the loss of the chosen prediction, worst first.
+pub fn scenes(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+    let pair = ComparedPair::of(&displayed.model.materials.all, &displayed.model.view);
+    let request = displayed.model.settings.loss.listed_scenes();
+    Job::start(&displayed.jobs.waker, move |progress| {
+        let pair = pair.ok_or(Error::NoPrediction)?;
+        atomic::check_place(&path)?;
+        let outcome = pair.comparison()?.run(&request, progress)?;
+        let compared = Compared::new(pair.ground_truth(), &pair.convention);
+        let text = ScenesReport::new(compared, outcome).json()?;
+        atomic::replace(&path, progress, |file| file.write_all(text.as_bytes()))?;
+        Ok(path)
+    })
+}
+
+/// Starts to write the session.
+pub fn session(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+    let session = displayed.model.session();
+    Job::start(&displayed.jobs.waker, move |progress| {
+        let text = session.text(&path)?;
+        atomic::check_place(&path)?;
+        atomic::replace(&path, progress, |file| file.write_all(text.as_bytes()))?;
+        Ok(path)
+    })
+}
+
+/// Starts to write the photograph and the renderings, or the differences of the renderings from it, side by side to `path`.
+pub fn against_photograph(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+    let all = displayed.photographs().cloned();
+    let view = &displayed.model.view;
+    let (kind, difference) = (view.difference_kind(), view.display.difference);
+    let shown = ShownDifference { kind, range: Some(displayed.range()) };
+    let shown = Shown { quantity: view.display.quantity, difference: difference.then_some(shown) };
+    let mut provenance = provenance(displayed, shown);
+    let chosen = (view.display.prediction + 1).min(displayed.materials().len().saturating_sub(1));
+    if let (false, Some(photograph)) = (difference, displayed.photograph()) {
+        provenance.sources.insert(0, photograph.title(chosen));
+    }
+    let text = displayed.photograph_text();
+    Job::start(&displayed.jobs.waker, move |progress| {
+        let destination = Destination::new(&path)?;
+        let all = all.ok_or(Error::Incomplete("the comparison with the photograph"))?;
+        let images: Vec<_> = if difference {
+            all.comparisons.iter().map(|one| one.difference(kind)).collect()
+        } else {
+            let photograph = all.get(chosen).map(|one| one.photograph.clone());
+            let renderings = all.comparisons.iter().map(|one| one.rendering.clone());
+            photograph.into_iter().chain(renderings).collect()
+        };
+        destination.write_described(&images, &provenance, text, progress)?;
+        Ok(path)
+    })
+}
+
+/// Starts to write the error maps side by side to `path`, as `svbrdf map` does.
+pub fn error_maps(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+    let maps = displayed.current_error_maps().cloned();
+    let entries = [
+        ("svbrdf:shows", displayed.error_map_text().unwrap_or_default()),
+        ("svbrdf:sources", names(displayed.materials()).join(" | ")),
+        ("svbrdf:convention", displayed.model.view.convention().name.to_owned()),
+        ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
+    ];
+    let range = displayed.range() as f32;
+    Job::start(&displayed.jobs.waker, move |progress| {
+        let destination = Destination::new(&path)?;
+        let maps = maps.ok_or(Error::Incomplete("the error map"))?;
+        destination.write_maps(&maps.images, range, &entries, progress)?;
+        Ok(path)
+    })
+}

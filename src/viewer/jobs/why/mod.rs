@@ -1,0 +1,63 @@
+//! Jobs of the tab *Why*: where and by what the chosen prediction is wrong.
+
+pub mod attribution;
+pub mod directions;
+pub mod pair;
+pub mod scenes;
+pub mod search;
+pub mod thumbnails;
+
+use crate::error::Error;
+use crate::loss::Request;
+use crate::viewer::jobs::work::context::JobContext;
+use crate::viewer::model::settings::why::{WhySection, WhySections};
+use crate::why::{Moved, Worst};
+
+pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
+pub use directions::{DirectionMap, DirectionsJob};
+pub use pair::ComparedPair;
+pub use scenes::{SceneList, ScenesJob};
+pub use search::SearchJob;
+pub use thumbnails::{MOST as MOST_THUMBNAILS, Thumbnails};
+
+/// What the results depend on besides the pair and the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WhyQuery {
+    /// The unfolded sections.
+    pub sections: WhySections,
+    /// The scenes that are listed.
+    pub scenes: Request,
+    /// Seeds the scenes of the attribution.
+    pub seed: u64,
+    /// The endpoint that moves over the hemisphere.
+    pub moved: Moved,
+}
+
+/// The jobs of the tab.
+#[derive(Debug, Default)]
+pub struct WhyJobs {
+    pub attribution: AttributionJob,
+    pub scenes: ScenesJob,
+    pub directions: DirectionsJob,
+    pub search: SearchJob,
+}
+
+impl WhyJobs {
+    /// Takes over results, and computes what is wanted now; nothing new where the tab is not `displayed`.
+    pub fn follow(&mut self, work: &JobContext<'_>, displayed: bool, query: WhyQuery) -> Vec<Error> {
+        let pair = ComparedPair::of(work.materials, work.view);
+        let (waker, pair, scene) = (work.waker, pair.as_ref(), &work.view.scene);
+        let is_open = |section| displayed && query.sections.is_open(section);
+        let errors = [
+            self.attribution.follow(waker, is_open(WhySection::Maps), pair, query.seed),
+            self.scenes.follow(waker, is_open(WhySection::Scenes), pair, query.scenes),
+            self.directions.follow(waker, is_open(WhySection::Directions), pair, query.moved, scene),
+        ];
+        errors.into_iter().flatten().collect()
+    }
+
+    /// Takes over the result of the search for the worst scene, once.
+    pub fn poll_search(&mut self, work: &JobContext<'_>) -> Option<Result<Worst, Error>> {
+        self.search.poll(ComparedPair::of(work.materials, work.view).as_ref())
+    }
+}

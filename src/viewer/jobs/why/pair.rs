@@ -1,0 +1,54 @@
+//! Pair of ground truth and chosen prediction, which the questions of the tab *Why* are about.
+
+use std::sync::Arc;
+
+use crate::error::Error;
+use crate::loss::Comparison;
+use crate::material::Material;
+use crate::model::convention::Convention;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::material::read::ReadMaterial;
+use crate::viewer::model::view::state::ViewState;
+
+/// Identity of a pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairKey {
+    /// Of the ground truth and of the prediction.
+    ids: [MaterialId; 2],
+    convention: &'static str,
+}
+
+/// A ground truth and a prediction, for a worker.
+#[derive(Clone, Debug)]
+pub struct ComparedPair {
+    pub key: PairKey,
+    materials: [Arc<ReadMaterial>; 2],
+    pub convention: Convention,
+}
+
+impl ComparedPair {
+    /// The pair of the chosen prediction, if there is one.
+    pub fn of(materials: &[LoadedMaterial], view: &ViewState) -> Option<Self> {
+        let pair = [materials.first()?, materials.get(view.display.prediction + 1)?];
+        let convention = view.convention();
+        let key = PairKey { ids: pair.map(LoadedMaterial::id), convention: convention.name };
+        Some(Self { key, materials: pair.map(|one| one.read.clone()), convention })
+    }
+
+    pub fn ground_truth(&self) -> &Material<f32> {
+        &self.materials[0].material
+    }
+
+    pub fn prediction(&self) -> &Material<f32> {
+        &self.materials[1].material
+    }
+
+    /// The comparison of the two, without a pilot.
+    ///
+    /// # Errors
+    /// [`Error::SizesDiffer`].
+    pub fn comparison(&self) -> Result<Comparison<'_, f32>, Error> {
+        Ok(Comparison::new(self.ground_truth(), &[self.prediction()], self.convention)?.without_pilot())
+    }
+}

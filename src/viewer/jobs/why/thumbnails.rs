@@ -1,0 +1,155 @@
+//! Thumbnails: small pictures of the log difference in the worst scenes, all in one picture.
+
+use crate::error::Error;
+use crate::material::{Material, Planes};
+use crate::model::scene::Scene;
+use crate::picture::colour_map::difference_to_display;
+use crate::picture::difference::Difference;
+use crate::progress::Progress;
+use crate::render;
+use crate::viewer::jobs::why::pair::ComparedPair;
+use std::sync::Arc;
+
+use crate::viewer::jobs::work::picture::Picture;
+use crate::why::RankedScene;
+
+/// Side of a thumbnail, in pixels.
+pub const SIDE: usize = 48;
+/// Thumbnails in a row of the texture.
+const COLUMNS: usize = 16;
+/// Scenes that have a thumbnail.
+pub const MOST: usize = 96;
+/// Texels along a side from which on every n-th texel is rendered.
+const LARGE: usize = 512;
+/// The share of all pixels that have less than the last colour.
+const RANGE: f64 = 0.99;
+
+/// Thumbnails of the worst scenes.
+#[derive(Debug)]
+pub struct Thumbnails {
+    pub picture: Arc<Picture>,
+    count: usize,
+    /// The log difference that has the last colour, the same in all.
+    pub range: f64,
+    /// Of each scene, row by row: the means of the log differences under a pixel.
+    pub pixels: Vec<Vec<f32>>,
+}
+
+impl Thumbnails {
+    /// The part of the picture that is the thumbnail of the scene of this rank: least and greatest x and y, as shares of its sides.
+    pub fn part(&self, rank: usize) -> Option<[[f32; 2]; 2]> {
+        let rows = self.count.div_ceil(COLUMNS);
+        let size = [1.0 / COLUMNS as f32, 1.0 / rows as f32];
+        let least = [(rank % COLUMNS) as f32 * size[0], (rank / COLUMNS) as f32 * size[1]];
+        (rank < self.count).then_some([least, [least[0] + size[0], least[1] + size[1]]])
+    }
+}
+
+/// Renders the thumbnails of the first of `ranked`, one step of `progress` each.
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub fn make(pair: &ComparedPair, ranked: &[RankedScene], progress: &Progress) -> Result<Thumbnails, Error> {
+    let materials = [reduced(pair.ground_truth())?, reduced(pair.prediction())?];
+    let scenes = &ranked[..ranked.len().min(MOST)];
+    progress.begin(scenes.len() as u64);
+    let mut pixels = Vec::new();
+    for ranked in scenes {
+        let differences = log_differences(&materials, &ranked.scene, pair, progress)?;
+        pixels.push(averaged(&differences, materials[0].size()));
+        progress.step()?;
+    }
+    let mut all: Vec<f32> = pixels.iter().flatten().copied().collect();
+    all.sort_by(f32::total_cmp);
+    let range = all.get((RANGE * all.len() as f64) as usize).copied().filter(|range| *range > 0.0);
+    let range = range.unwrap_or(1.0);
+    let picture = Arc::new(atlas(&pixels, range));
+    Ok(Thumbnails { picture, count: pixels.len(), range: f64::from(range), pixels })
+}
+
+/// The mean over RGB of the log difference of every texel.
+fn log_differences(
+    materials: &[Material<f32>; 2],
+    scene: &Scene,
+    pair: &ComparedPair,
+    progress: &Progress,
+) -> Result<Vec<f32>, Error> {
+    let render = |material| render::render_f32(material, scene, &pair.convention, &progress.part());
+    let [ground_truth, prediction] = [render(&materials[0])?, render(&materials[1])?];
+    Ok(Difference::Log.of_images(&ground_truth, &prediction, pair.convention.epsilon))
+}
+
+/// Every n-th texel of a large material along both sides, so that fewer than [`LARGE`] are left; a smaller material itself.
+fn reduced(material: &Material<f32>) -> Result<Material<f32>, Error> {
+    let [width, height] = material.size();
+    let stride = width.max(height).div_ceil(LARGE);
+    let sides = [width, height].map(|side| side.div_ceil(stride));
+    let plane = |plane: &Vec<f32>| {
+        let rows = plane.chunks(width).step_by(stride);
+        rows.flat_map(|row| row.iter().copied().step_by(stride)).collect()
+    };
+    let Planes { normal, diffuse, specular, roughness } = material.planes();
+    let planes = Planes {
+        normal: normal.each_ref().map(plane),
+        diffuse: diffuse.each_ref().map(plane),
+        specular: specular.each_ref().map(plane),
+        roughness: plane(roughness),
+    };
+    Material::new(material.name(), sides[0], sides[1], planes)
+}
+
+/// The means of `values` under each of the pixels of a thumbnail, which is as wide as high.
+fn averaged(values: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
+    let span = |index: usize, side: usize| {
+        let first = index * side / SIDE;
+        first..((index + 1) * side / SIDE).max(first + 1)
+    };
+    let pixel = |at: usize| {
+        let (columns, rows) = (span(at % SIDE, width), span(at / SIDE, height));
+        let count = (columns.len() * rows.len()) as f32;
+        rows.map(|row| values[row * width..][columns.clone()].iter().sum::<f32>()).sum::<f32>() / count
+    };
+    (0..SIDE * SIDE).map(pixel).collect()
+}
+
+fn atlas(pixels: &[Vec<f32>], range: f32) -> Picture {
+    let rows = pixels.len().div_ceil(COLUMNS).max(1);
+    let size = [COLUMNS * SIDE, rows * SIDE];
+    let mut picture = Picture { size, pixels: vec![Picture::TRANSPARENT; size[0] * size[1]] };
+    for (index, values) in pixels.iter().enumerate() {
+        let [left, top] = [index % COLUMNS * SIDE, index / COLUMNS * SIDE];
+        for (at, value) in values.iter().enumerate() {
+            let colour = difference_to_display(*value, range, false);
+            picture.pixels[(top + at / SIDE) * COLUMNS * SIDE + left + at % SIDE] = Picture::opaque(colour);
+        }
+    }
+    picture
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::samples;
+
+    #[test]
+    fn a_thumbnail_has_the_mean_of_the_texels_and_every_texel_counts_once() {
+        // Sides that are multiples of a thumbnail's, and sides below it.
+        let values: Vec<f32> = (0..96 * 144).map(|i| (i * 37 % 101) as f32).collect();
+        let pixels = averaged(&values, [96, 144]);
+        let mean = |values: &[f32]| values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len() as f64;
+        assert!((mean(&pixels) - mean(&values)).abs() < 1e-4);
+        assert!((mean(&pixels[1..]) - mean(&values)).abs() > 1e-4, "a planted fault");
+        assert_eq!(averaged(&[2.0, 4.0], [2, 1])[..2], [2.0, 2.0]);
+        assert_eq!(averaged(&[2.0, 4.0], [2, 1])[SIDE - 1], 4.0);
+    }
+
+    #[test]
+    fn large_materials_are_reduced_and_small_ones_are_not() {
+        let material = samples::load::<f32>().unwrap().ground_truth.material;
+        assert_eq!(reduced(&material).unwrap(), material);
+        let large = material.clone().resized([1300, 700]).unwrap();
+        let small = reduced(&large).unwrap();
+        assert_eq!(small.size(), [434, 234]);
+        assert_eq!(small.planes().roughness[434 + 2], large.planes().roughness[3 * 1300 + 6]);
+    }
+}

@@ -1,0 +1,25 @@
+//! Commands about texels.
+
+use crate::viewer::model::Model;
+use crate::viewer::model::command::InspectionCommand;
+use crate::viewer::model::command::effect::Effect;
+
+pub(super) fn apply(model: &mut Model, command: InspectionCommand) -> Vec<Effect> {
+    let inspection = &mut model.inspection;
+    match command {
+        InspectionCommand::TogglePin(texel) => inspection.toggle_pin(texel),
+        InspectionCommand::TogglePinHere => {
+            if let Some(texel) = model.geometry.texel {
+                inspection.toggle_pin(texel);
+            }
+        }
+        InspectionCommand::ClearPins => inspection.pins.clear(),
+        InspectionCommand::Arm(on) => inspection.is_armed = on,
+        InspectionCommand::SetRegion(region) => {
+            inspection.region = region;
+            inspection.is_armed = false;
+        }
+        InspectionCommand::CopyPins => return vec![Effect::CopyPins],
+    }
+    Vec::new()
+}

@@ -1,0 +1,92 @@
+//! Commands about files and materials.
+
+use std::path::PathBuf;
+
+use crate::files::read::ReadOptions;
+use crate::files::scene_file;
+use crate::files::session::Session;
+use crate::viewer::model::Model;
+use crate::viewer::model::command::MaterialsCommand;
+use crate::viewer::model::command::effect::{DialogEffect, Effect};
+use crate::viewer::model::material::request::{ReadRequest, Target};
+use crate::viewer::model::material::source::{Source, sources};
+use crate::viewer::model::message::Message;
+
+pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect> {
+    let materials = &mut model.materials;
+    match command {
+        MaterialsCommand::Open { paths, replace, read } => open(model, paths, replace, read),
+        MaterialsCommand::OpenAgain(source) => {
+            vec![Effect::Read(ReadRequest::new(vec![*source], Target::Predictions))]
+        }
+        MaterialsCommand::OpenBuiltIn => vec![Effect::Read(ReadRequest::built_in())],
+        MaterialsCommand::CancelReading(number) => vec![Effect::CancelReading(number)],
+        MaterialsCommand::ReopenLast => reopen_last(model),
+        MaterialsCommand::Reload => {
+            let readings = materials.reload(None).into_iter().map(Effect::Read);
+            readings.chain([Effect::RescanTraining]).collect()
+        }
+        MaterialsCommand::ReadAs { index, read } => {
+            materials.read_as(index, read).map(Effect::Read).into_iter().collect()
+        }
+        MaterialsCommand::SaveAssumptions { index } => vec![Effect::SaveAssumptions(index)],
+        MaterialsCommand::Close(index) => {
+            close(model, index);
+            Vec::new()
+        }
+        MaterialsCommand::MakeGroundTruth(index) => {
+            materials.make_ground_truth(index);
+            Vec::new()
+        }
+        MaterialsCommand::SetWatch(on) => {
+            model.settings.watch = on;
+            Vec::new()
+        }
+        MaterialsCommand::SetFit(on) => {
+            materials.rules.fit = on;
+            Vec::new()
+        }
+    }
+}
+
+fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions) -> Vec<Effect> {
+    // First: the scenes of a file replace the scenes of a session.
+    if paths.iter().any(|path| scene_file::is_named(path)) {
+        let (files, paths): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| scene_file::is_named(path));
+        let mut effects = vec![Effect::ReadScenes(files)];
+        if !paths.is_empty() {
+            effects.extend(open(model, paths, replace, read));
+        }
+        return effects;
+    }
+    if paths.iter().any(|path| Session::is_named(path)) {
+        return vec![Effect::ReadSession(paths)];
+    }
+    model.read = read;
+    let target = if replace { Target::Everything } else { Target::Predictions };
+    let (first, predictions) = paths.split_at(usize::from(replace).min(paths.len()));
+    let first = first.iter().map(|path| Source::file(path.clone(), read));
+    let sources = first.chain(sources(predictions, read)).collect();
+    vec![Effect::ReadForDialog(ReadRequest::new(sources, target))]
+}
+
+fn reopen_last(model: &mut Model) -> Vec<Effect> {
+    let Some(session) = model.last_session.clone() else {
+        model.report([Message::NothingToReopen]);
+        return Vec::new();
+    };
+    let mut effects = vec![Effect::Dialog(DialogEffect::ShowOpen(false))];
+    effects.push(Effect::Read(model.open_session(&session)));
+    effects
+}
+
+/// Closes the prediction at `index`; the chosen prediction stays the same one where it can.
+fn close(model: &mut Model, index: usize) {
+    model.materials.close(index);
+    let view = &mut model.view;
+    if index <= view.display.prediction {
+        view.display.prediction = view.display.prediction.saturating_sub(1);
+    }
+    view.display.prediction =
+        view.display.prediction.min(model.materials.predictions().len().saturating_sub(1));
+}

@@ -1,0 +1,121 @@
+//! Undo and redo.
+
+use crate::files::stamp::Stamp;
+use crate::viewer::model::Model;
+use crate::viewer::model::command::effect::Effect;
+use crate::viewer::model::history::Moment;
+
+impl Model {
+    /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
+    pub fn remember_moment(&mut self, are_materials_settled: bool, is_photograph_settled: bool) {
+        if are_materials_settled {
+            let materials = self.materials.sources();
+            if materials != self.history.materials {
+                self.history.materials = materials;
+                self.remember_session(true);
+            }
+        }
+        if !self.history.materials.is_empty() && is_photograph_settled {
+            let (time, now) = (self.time, self.moment());
+            self.history.undo.feed(time, &now);
+        }
+    }
+
+    pub(super) fn undo(&mut self) -> Vec<Effect> {
+        let now = self.moment();
+        let earlier = self.history.undo.undo(&now).cloned();
+        self.return_to(earlier)
+    }
+
+    pub(super) fn redo(&mut self) -> Vec<Effect> {
+        let now = self.moment();
+        let later = self.history.undo.redo(&now).cloned();
+        self.return_to(later)
+    }
+
+    fn moment(&self) -> Moment {
+        Moment {
+            view: self.view.clone(),
+            materials: self.history.materials.clone(),
+            scenes: self.settings.loss.file_scenes().cloned(),
+            photograph: self.photograph.source().cloned(),
+        }
+    }
+
+    fn return_to(&mut self, moment: Option<Moment>) -> Vec<Effect> {
+        let Some(Moment { view, materials, scenes, photograph }) = moment else { return Vec::new() };
+        self.view = view;
+        if scenes.as_ref() != self.settings.loss.file_scenes() {
+            self.settings.loss = self.settings.loss.with_file(scenes);
+        }
+        if photograph.as_ref() != self.photograph.source() {
+            let stamp = photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
+            self.photograph.set(photograph, stamp);
+        }
+        if materials == self.history.materials {
+            return Vec::new();
+        }
+        let request = self.materials.restore(&materials);
+        self.history.materials = materials;
+        vec![Effect::Read(request)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewer::model::command::{DisplayCommand, SceneCommand};
+    use crate::viewer::model::material::loaded::LoadedMaterial;
+    use crate::viewer::model::material::read::ReadMaterial;
+    use crate::viewer::model::material::source::Source;
+
+    /// A model with the built-in materials.
+    fn model() -> Model {
+        let samples = crate::samples::load::<f32>().unwrap();
+        let all = std::iter::once(samples.ground_truth).chain(samples.predictions).enumerate();
+        let loaded = |(number, read)| {
+            let read = ReadMaterial::new(Source::built_in(number), read);
+            LoadedMaterial::new(std::sync::Arc::new(read))
+        };
+        let mut model = Model::default();
+        model.materials.all = all.map(loaded).collect();
+        model
+    }
+
+    /// Lets the model stand still for this many seconds.
+    fn rest(model: &mut Model, seconds: f64) {
+        for _ in 0..2 {
+            model.time += seconds / 2.0;
+            model.remember_moment(true, true);
+        }
+    }
+
+    #[test]
+    fn undo_returns_to_what_stood_still_and_redo_to_what_came_after() {
+        let mut model = model();
+        rest(&mut model, 1.0);
+        let start = model.view.clone();
+        model.apply(DisplayCommand::StepExposure(1.0).into());
+        model.apply(SceneCommand::PutHighlight([0.1, 0.2]).into());
+        let changed = model.view.clone();
+        rest(&mut model, 2.0);
+        assert!(model.apply(DisplayCommand::Undo.into()).is_empty(), "the materials stay");
+        assert_eq!(model.view, start);
+        rest(&mut model, 2.0);
+        model.apply(DisplayCommand::Redo.into());
+        assert_eq!(model.view, changed);
+    }
+
+    #[test]
+    fn undo_reads_a_closed_prediction_again_and_keeps_the_others() {
+        let mut model = model();
+        rest(&mut model, 1.0);
+        model.apply(crate::viewer::model::command::MaterialsCommand::Close(1).into());
+        rest(&mut model, 2.0);
+        let effects = model.apply(DisplayCommand::Undo.into());
+        let [Effect::Read(request)] = &effects[..] else { panic!("{effects:?}") };
+        use crate::viewer::model::material::request::Item;
+        let reads = request.items.iter().filter(|item| matches!(item, Item::Read(_))).count();
+        assert_eq!((request.items.len(), reads), (crate::samples::COUNT, 1));
+    }
+}

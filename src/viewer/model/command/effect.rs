@@ -1,0 +1,89 @@
+//! Effects: what a command has done outside of the model, as values. One place of the application carries them out.
+
+use std::path::PathBuf;
+
+use super::PhotographLight;
+use crate::files::session::SessionPhotograph;
+use crate::viewer::model::material::request::ReadRequest;
+use crate::viewer::model::settings::save_kind::SaveKind;
+
+/// One effect of a command.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// Reads materials.
+    Read(ReadRequest),
+    /// Reads the materials that the open dialog has asked for, which stays open until they are there.
+    ReadForDialog(ReadRequest),
+    /// Cancels the opening of this number.
+    CancelReading(u64),
+    /// Reads scene files.
+    ReadScenes(Vec<PathBuf>),
+    /// Reads a session file, which stands alone, and opens it.
+    ReadSession(Vec<PathBuf>),
+    /// Reads light and view of a photograph where a file has them, and compares renderings with the photograph.
+    OpenPhotograph {
+        photograph: SessionPhotograph,
+        light: PhotographLight,
+    },
+    /// Saves the assumptions specified for the material at this index in a sidecar file, and reads it again.
+    SaveAssumptions(usize),
+    /// Looks for training steps again in all folders.
+    RescanTraining,
+    /// Shows the step of this number of the training run at this index.
+    ShowStep {
+        index: usize,
+        number: u64,
+    },
+    /// Goes this many steps on in the training run of the chosen prediction.
+    MoveStep(isize),
+    Loss(LossEffect),
+    Dialog(DialogEffect),
+    /// Writes to a file; `size` is the size of a picture of the view, in pixels.
+    Save {
+        kind: SaveKind,
+        path: PathBuf,
+        size: [u32; 2],
+    },
+    /// Puts the view on the clipboard as a picture.
+    CopyPicture,
+    /// Puts a text on the clipboard; `what` names it in the message.
+    CopyText {
+        text: String,
+        what: &'static str,
+    },
+    /// Puts the losses on the clipboard as text.
+    CopyLosses,
+    /// Puts the numbers of the pinned texels on the clipboard as CSV.
+    CopyPins,
+    /// Sets the size of text and controls: 1 is the size of the system.
+    SetScale(f32),
+}
+
+/// An effect on the jobs of the loss, of the study and of the search for the worst scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LossEffect {
+    Compute,
+    Cancel,
+    /// Starts a study anew.
+    StartStudy,
+    /// Starts a study unless it is there.
+    EnsureStudy,
+    CancelStudy,
+    FindWorst,
+    CancelSearch,
+}
+
+/// An effect on the dialogs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum DialogEffect {
+    ShowOpen(bool),
+    /// Shows the save dialog for this kind of file; `None` closes it.
+    ShowSave(Option<SaveKind>),
+    ShowPhotograph(bool),
+    /// Puts a path into the photograph dialog.
+    FillPhotograph(PathBuf),
+    /// Asks for files or folders with the dialog of the system.
+    Browse {
+        folder: bool,
+    },
+}

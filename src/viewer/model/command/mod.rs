@@ -1,0 +1,308 @@
+//! Commands: what can be done in the window, as values. Input, panels and dialogs return them; the model carries them out.
+//!
+//! One enum per part of the application, so that the compiler asks for every arm.
+
+use std::path::PathBuf;
+
+pub mod effect;
+pub mod photograph;
+
+pub use photograph::{PhotographCommand, PhotographLight};
+
+use super::inspection::Region;
+use super::material::source::Source;
+use super::settings::Tab;
+use super::settings::save_kind::SaveKind;
+use super::settings::why::WhySection;
+use super::view::animation::{Animation, Preset};
+use super::view::endpoint::Endpoint;
+use super::view::state::Layout;
+use crate::files::read::ReadOptions;
+use crate::loss::{LossSettings, Sampling};
+use crate::material::Map;
+use crate::model::scene::{Kind, Scene};
+use crate::picture::difference::Difference;
+use crate::picture::quantity::Quantity;
+use crate::why::Moved;
+
+/// One act. Nothing else changes the model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Command {
+    Materials(MaterialsCommand),
+    Scene(SceneCommand),
+    Display(DisplayCommand),
+    Loss(LossCommand),
+    Window(WindowCommand),
+    Inspection(InspectionCommand),
+    Why(WhyCommand),
+    Training(TrainingCommand),
+    Photograph(PhotographCommand),
+}
+
+/// Files and materials.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialsCommand {
+    /// Opens materials: the first as ground truth where there is none or where `replace` is set, the others as
+    /// predictions.
+    Open {
+        paths: Vec<PathBuf>,
+        replace: bool,
+        read: ReadOptions,
+    },
+    /// Opens a prediction that was refused or closed.
+    OpenAgain(Box<Source>),
+    OpenBuiltIn,
+    /// Cancels the opening of this number.
+    CancelReading(u64),
+    /// Opens the session of the last materials from files.
+    ReopenLast,
+    /// Reads all files again.
+    Reload,
+    /// Reads the material at this index again under other assumptions.
+    ReadAs {
+        index: usize,
+        read: ReadOptions,
+    },
+    /// Saves the assumptions specified for the material at this index in a sidecar file.
+    SaveAssumptions {
+        index: usize,
+    },
+    /// Closes the prediction at this index.
+    Close(usize),
+    /// Makes the material at this index the ground truth.
+    MakeGroundTruth(usize),
+    /// Whether files that change on disk are read again.
+    SetWatch(bool),
+    /// Whether predictions opened from now on are resized to the ground truth.
+    SetFit(bool),
+}
+
+/// Light, view and convention.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SceneCommand {
+    Set(Scene),
+    /// Makes the scene near-field or distant; light and view keep their directions and distances.
+    SetKind(Kind),
+    /// Moves an endpoint so that its projection onto the plane is at (x, y).
+    MoveOverPlane(Endpoint, [f64; 2]),
+    /// Moves the light so that its mirror highlight is at (x, y) of the plane.
+    PutHighlight([f64; 2]),
+    ScaleHeight(Endpoint, f64),
+    ScaleDistance(Endpoint, f64),
+    Orbit {
+        endpoint: Endpoint,
+        /// Radians about the upright axis y.
+        sideways: f64,
+        /// Radians towards it.
+        upwards: f64,
+    },
+    ToggleHighlightFollows,
+    /// Shows or hides the handle of the view.
+    ToggleViewHandle,
+    /// Puts the light where the preset has it.
+    Preset(Preset),
+    /// Starts or changes what moves by itself.
+    Animate(Animation),
+    /// Pauses what moves, or goes on.
+    TogglePause,
+    SetConvention(&'static str),
+    /// Puts the scene on the clipboard as a scene file.
+    Copy,
+    /// Takes the scene, or opens the files, that this text of the clipboard names.
+    Paste(String),
+}
+
+/// What the panes show, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DisplayCommand {
+    SetQuantity(Quantity),
+    CycleQuantity(isize),
+    /// Whether panes show the difference or the value.
+    ShowDifference(bool),
+    /// Chooses a difference of the quantity.
+    SetDifference(Difference),
+    /// Chooses the error map as the difference of renderings.
+    ChooseErrorMap,
+    /// Sets the difference that has the last colour; `None` makes it automatic.
+    SetRange(Option<f64>),
+    SetLayout(Layout),
+    CycleLayout,
+    ToggleProjection,
+    SetExposure(f32),
+    StepExposure(f32),
+    /// Sets the exposure at which the brightest 1% of the ground truth just clips.
+    AutoExposure,
+    ToggleClipping,
+    /// Repeats the material 2 x 2 times, or not.
+    ToggleTiled,
+    /// Shows roughness in false colours, or not.
+    ToggleFalseColour,
+    SetWipe(f32),
+    ChoosePrediction(usize),
+    /// Shows the chosen prediction with this map alone wrong, or right; `None` shows the prediction itself.
+    Isolate(Option<Map>),
+    /// Whether the isolated map is the only right one, and not the only wrong one.
+    SetOnlyRight(bool),
+    /// Chooses the prediction this many places on, around the end.
+    StepPrediction(isize),
+    /// Ground truth and chosen prediction change places.
+    Swap,
+    /// Magnifies by a factor about a point of the pane (x right, y up in [-1, 1]).
+    Zoom {
+        factor: f32,
+        at: [f32; 2],
+    },
+    Pan([f32; 2]),
+    Fit,
+    OneToOne,
+    Reset,
+    Undo,
+    Redo,
+}
+
+/// The loss and the study.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LossCommand {
+    Compute,
+    Cancel,
+    /// Whether the loss is computed again after every change.
+    SetAuto(bool),
+    SetSettings(LossSettings),
+    /// Whether the prediction with the least loss comes first in the panel.
+    SortByLoss(bool),
+    /// Puts the losses on the clipboard as text.
+    Copy,
+    ShowStudy(bool),
+    StartStudy,
+    CancelStudy,
+    /// Sets the loss to the scenes and texels of a point of the study.
+    UseSampling(Sampling),
+    /// Removes the scenes of the file that was opened.
+    RemoveFileScenes,
+}
+
+/// The window itself and its dialogs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WindowCommand {
+    ShowOpen(bool),
+    /// Asks for files or folders with the system's dialog; the choice goes into the open dialog's path field.
+    Browse {
+        folder: bool,
+    },
+    ShowSave(bool),
+    /// Shows the dialog that saves the scenes of the loss.
+    SaveScenes,
+    /// Writes to this file; `size` is the size of a picture of the view, in pixels.
+    Save {
+        what: SaveKind,
+        path: PathBuf,
+        size: [u32; 2],
+    },
+    /// Puts the view on the clipboard as a picture.
+    CopyPicture,
+    SetDark(bool),
+    /// Sets the size of text and controls: 1 is the size of the system.
+    SetScale(f32),
+    ToggleSidePanel,
+    /// Shows or hides the histograms of the values.
+    ToggleHistograms,
+    ChooseTab(Tab),
+    ShowHelp(bool),
+    /// Dismisses the message of this number.
+    DismissMessage(usize),
+    DismissMessages,
+}
+
+/// Texels that are looked at closely.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum InspectionCommand {
+    /// Pins the texel (column, row), or removes its pin.
+    TogglePin([usize; 2]),
+    /// Pins the texel under the pointer, or removes its pin; without one, the texel last under it.
+    TogglePinHere,
+    ClearPins,
+    /// Whether the next left-drag draws a rectangle.
+    Arm(bool),
+    SetRegion(Option<Region>),
+    /// Puts the numbers of the pins on the clipboard as CSV.
+    CopyPins,
+}
+
+/// The questions of the tab *Why*.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WhyCommand {
+    /// Unfolds or folds a section.
+    ShowSection(WhySection, bool),
+    /// Lists this many scenes, the worst first.
+    ListScenes(usize),
+    /// Chooses what moves over the hemisphere.
+    SetMoved(Moved),
+    /// Searches the worst scene of the chosen prediction, and shows it.
+    FindWorst,
+    CancelSearch,
+}
+
+/// The steps of training runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrainingCommand {
+    /// Shows the step of this number of the run at this index.
+    Show { index: usize, number: u64 },
+    /// Goes this many steps on in the run of the chosen prediction; stops at either end.
+    Move(isize),
+    /// Opens the step that is shown at this index as a prediction of its own.
+    Keep(usize),
+}
+
+impl From<PhotographCommand> for Command {
+    fn from(command: PhotographCommand) -> Self {
+        Self::Photograph(command)
+    }
+}
+
+impl From<TrainingCommand> for Command {
+    fn from(command: TrainingCommand) -> Self {
+        Self::Training(command)
+    }
+}
+
+impl From<WhyCommand> for Command {
+    fn from(command: WhyCommand) -> Self {
+        Self::Why(command)
+    }
+}
+
+impl From<InspectionCommand> for Command {
+    fn from(command: InspectionCommand) -> Self {
+        Self::Inspection(command)
+    }
+}
+
+impl From<MaterialsCommand> for Command {
+    fn from(command: MaterialsCommand) -> Self {
+        Self::Materials(command)
+    }
+}
+
+impl From<SceneCommand> for Command {
+    fn from(command: SceneCommand) -> Self {
+        Self::Scene(command)
+    }
+}
+
+impl From<DisplayCommand> for Command {
+    fn from(command: DisplayCommand) -> Self {
+        Self::Display(command)
+    }
+}
+
+impl From<LossCommand> for Command {
+    fn from(command: LossCommand) -> Self {
+        Self::Loss(command)
+    }
+}
+
+impl From<WindowCommand> for Command {
+    fn from(command: WindowCommand) -> Self {
+        Self::Window(command)
+    }
+}

@@ -1,0 +1,41 @@
+//! Commands about the photograph that renderings are compared with.
+
+use std::path::PathBuf;
+
+use crate::files::read::Transfer;
+use crate::files::session::SessionPhotograph;
+use crate::photograph::Corners;
+
+/// The photograph that renderings are compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PhotographCommand {
+    ShowOpen(bool),
+    /// Puts a path into the dialog.
+    Fill(PathBuf),
+    /// Compares renderings with this photograph, and sets light and view.
+    Open {
+        photograph: SessionPhotograph,
+        light: PhotographLight,
+    },
+    /// Compares with the ground truth again.
+    Close,
+    /// `None`: by the file.
+    SetTransfer(Option<Transfer>),
+    /// Shows the photograph as it was taken, with handles on the corners of the material, or as it is compared.
+    EditCorners(bool),
+    /// `None`: the whole picture.
+    SetCorners(Option<Corners>),
+    /// Whether the falloff of the light is divided out.
+    SetFalloff(bool),
+}
+
+/// Light and view of a photograph.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PhotographLight {
+    /// Those of the window.
+    AsNow,
+    /// A flash at the camera.
+    Flash { fov_degrees: f64 },
+    /// A scene of a file.
+    File { path: PathBuf, number: usize },
+}

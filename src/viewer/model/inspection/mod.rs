@@ -1,0 +1,65 @@
+//! Inspection of texels: pins, and a rectangle.
+
+pub mod pin;
+pub mod region;
+
+pub use pin::{HEADS, csv, rows};
+pub use region::Region;
+
+/// Most pinned texels.
+const MOST: usize = 12;
+
+/// Pinned texels and the rectangle. Undo does not cover them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inspection {
+    /// The pinned (column, row)s, the earliest first.
+    pub pins: Vec<[usize; 2]>,
+    pub region: Option<Region>,
+    /// Whether the next left-drag draws the rectangle.
+    pub is_armed: bool,
+}
+
+impl Inspection {
+    /// Pins a texel, or removes its pin. The earliest pin makes room for one too many.
+    pub fn toggle_pin(&mut self, texel: [usize; 2]) {
+        if let Some(index) = self.pins.iter().position(|pin| *pin == texel) {
+            self.pins.remove(index);
+            return;
+        }
+        if self.pins.len() == MOST {
+            self.pins.remove(0);
+        }
+        self.pins.push(texel);
+    }
+
+    /// Drops what lies outside of materials of `size` = (width, height).
+    pub fn keep_within(&mut self, size: [usize; 2]) {
+        self.pins.retain(|pin| pin[0] < size[0] && pin[1] < size[1]);
+        self.region = self.region.filter(|region| region.last[0] < size[0] && region.last[1] < size[1]);
+    }
+
+    /// Whether the drawer has something to show.
+    pub fn is_empty(&self) -> bool {
+        self.pins.is_empty() && self.region.is_none()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pin_is_set_once_and_removed_by_setting_it_again() {
+        let mut inspection = Inspection::default();
+        for texel in [[1, 2], [3, 4], [1, 2]] {
+            inspection.toggle_pin(texel);
+        }
+        assert_eq!(inspection.pins, [[3, 4]]);
+        (0..20).for_each(|i| inspection.toggle_pin([i, 9]));
+        assert_eq!((inspection.pins.len(), inspection.pins[0]), (MOST, [8, 9]));
+        inspection.keep_within([10, 10]);
+        assert_eq!(inspection.pins, [[8, 9], [9, 9]]);
+        inspection.keep_within([10, 9]);
+        assert!(inspection.is_empty());
+    }
+}

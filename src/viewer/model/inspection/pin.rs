@@ -1,0 +1,172 @@
+//! Numbers of a pinned texel, computed in f64.
+
+use crate::material::Material;
+use crate::math::real::Vec3;
+use crate::model::brdf::{Model, Texel};
+use crate::model::convention::Convention;
+use crate::model::scene::Scene;
+use crate::model::terms::Terms;
+
+/// The columns of [`Row::cells`]: a name, and what it means.
+pub const HEADS: [(&str, &str); 14] = [
+    ("normal", "The unit normal: x, y, z"),
+    ("diffuse", "Diffuse albedo, linear RGB"),
+    ("specular", "Specular reflectance at normal incidence, linear RGB"),
+    ("roughness", "Roughness; the GGX width is its square"),
+    ("rendering", "Radiance under this light and view, linear RGB"),
+    ("D", "The GGX distribution"),
+    ("G", "The geometry term, with 1 / (NoL NoV) of the microfacet denominator cancelled"),
+    ("F", "The Fresnel term, RGB"),
+    ("NoL", "Cosine between normal and light"),
+    ("NoV", "Cosine between normal and view"),
+    ("NoH", "Cosine between normal and half vector"),
+    ("VoH", "Cosine between view and half vector"),
+    ("normal error", "The angle to the ground truth's normal, in degrees"),
+    (
+        "loss term",
+        "Mean over RGB of |ln(p + epsilon) - ln(g + epsilon)|: the texel's part of the loss of this scene",
+    ),
+];
+
+/// A texel of one material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    pub texel: Texel<f64>,
+    pub terms: Terms<f64>,
+    /// The angle to the ground truth's normal in degrees, and the loss term; `None` for the ground truth.
+    pub errors: Option<[f64; 2]>,
+}
+
+impl Row {
+    /// The numbers in the order of [`HEADS`].
+    pub fn cells(&self) -> [Vec<f64>; 14] {
+        let Self { texel, terms, errors } = self;
+        let error = |i: usize| errors.map_or_else(Vec::new, |errors| vec![errors[i]]);
+        [
+            texel.normal.to_array().to_vec(),
+            texel.diffuse.to_vec(),
+            texel.specular.to_vec(),
+            vec![texel.roughness],
+            terms.radiance.to_vec(),
+            vec![terms.d],
+            vec![terms.g],
+            terms.f.to_vec(),
+            vec![terms.n_dot_l],
+            vec![terms.n_dot_v],
+            vec![terms.n_dot_h],
+            vec![terms.v_dot_h],
+            error(0),
+            error(1),
+        ]
+    }
+}
+
+/// The texel in column `column` of row `row` of every material, the ground truth first.
+pub fn rows<'a>(
+    materials: impl IntoIterator<Item = &'a Material<f32>>,
+    [column, row]: [usize; 2],
+    scene: &Scene,
+    convention: &Convention,
+) -> Vec<Row> {
+    let (model, rays) = (Model::<f64>::from(convention), scene.rays::<f64>());
+    let mut rows: Vec<Row> = Vec::new();
+    for material in materials {
+        let texel = in_f64(&material.texel(row * material.width() + column));
+        let at: Vec3<f64> = material.grid().position(column, row);
+        let (w_l, w_v) = rays.from_texel(at);
+        let terms = Terms::of(&model, &texel, w_l, w_v);
+        let errors = rows.first().map(|ground_truth| {
+            let [g, p] = [ground_truth.terms.radiance, terms.radiance];
+            let ln = |v: f64| (v + convention.epsilon).ln();
+            let loss = (0..3).map(|c| (ln(p[c]) - ln(g[c])).abs()).sum::<f64>() / 3.0;
+            let [g, p] = [ground_truth.texel.normal, texel.normal];
+            [g.cross(p).length().atan2(g.dot(p)).to_degrees(), loss]
+        });
+        rows.push(Row { texel, terms, errors });
+    }
+    rows
+}
+
+/// As a cast material has it.
+fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
+    Texel {
+        normal: texel.normal.as_dvec3(),
+        diffuse: texel.diffuse.map(f64::from),
+        specular: texel.specular.map(f64::from),
+        roughness: f64::from(texel.roughness),
+    }
+}
+
+/// All pins as CSV, one line for each pin and material, every number in full.
+pub fn csv<'a>(all: impl IntoIterator<Item = ([usize; 2], Vec<(&'a str, Row)>)>) -> String {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut heads = vec!["column".to_owned(), "row".to_owned(), "material".to_owned()];
+    for (name, _) in HEADS {
+        let channels: &[&str] = match name {
+            "normal" => &[".x", ".y", ".z"],
+            "diffuse" | "specular" | "rendering" | "F" => &[".r", ".g", ".b"],
+            _ => &[""],
+        };
+        heads.extend(channels.iter().map(|channel| format!("{}{channel}", name.replace(' ', "_"))));
+    }
+    // Writing into memory does not fail.
+    let _ = writer.write_record(&heads);
+    for ([column, row], materials) in all {
+        for (name, numbers) in materials {
+            let mut record = vec![column.to_string(), row.to_string(), name.to_owned()];
+            for cell in numbers.cells() {
+                record.extend(cell.iter().map(f64::to_string));
+            }
+            record.resize(heads.len(), String::new());
+            let _ = writer.write_record(&record);
+        }
+    }
+    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::convention::PRINTED;
+    use crate::model::scene::Kind;
+    use crate::progress::Progress;
+    use crate::{render, samples};
+
+    #[test]
+    fn the_numbers_of_a_pin_are_those_of_the_core_in_f64() {
+        let samples = samples::load::<f32>().unwrap();
+        let materials = [samples.ground_truth.material, samples.predictions[0].material.clone()];
+        let scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 2.0], light: [0.4, 0.5, 1.2] };
+        let pictures = [0, 1].map(|i| {
+            render::render(&materials[i].cast::<f64>(), &scene, &PRINTED, &Progress::default()).unwrap()
+        });
+        for texel in [[0, 0], [255, 0], [0, 255], [255, 255], [100, 37]] {
+            let index = texel[1] * 256 + texel[0];
+            let rows = rows(&materials, texel, &scene, &PRINTED);
+            let [g, p] = [0, 1].map(|i| pictures[i].pixels[index]);
+            assert_eq!([rows[0].terms.radiance, rows[1].terms.radiance], [g, p], "{texel:?}");
+            let ln = |v: f64| (v + PRINTED.epsilon).ln();
+            let loss = (0..3).map(|c| (ln(p[c]) - ln(g[c])).abs()).sum::<f64>() / 3.0;
+            assert_eq!(rows[1].errors.unwrap()[1], loss);
+            assert!(rows[0].errors.is_none());
+        }
+    }
+
+    #[test]
+    fn csv_has_a_line_for_each_pin_and_material_and_as_many_fields_as_heads() {
+        let samples = samples::load::<f32>().unwrap();
+        let materials = [samples.ground_truth.material, samples.predictions[0].material.clone()];
+        let scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 2.0], light: [0.4, 0.5, 1.2] };
+        let pin = |texel| {
+            (texel, ["a", "b,c"].into_iter().zip(rows(&materials, texel, &scene, &PRINTED)).collect())
+        };
+        let text = csv([pin([1, 2]), pin([3, 4])]);
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        assert_eq!(reader.headers().unwrap().len(), 27);
+        let records: Vec<_> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(records.len(), 4);
+        assert_eq!((&records[3][0], &records[3][1], &records[3][2]), ("3", "4", "b,c"));
+        let roughness: f64 = records[1][12].parse().unwrap();
+        assert_eq!(roughness, f64::from(materials[1].texel(2 * 256 + 1).roughness));
+    }
+}

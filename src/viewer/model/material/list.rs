@@ -1,0 +1,204 @@
+//! Material list: the materials in the window, the ground truth first, and what it takes to read them again.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::loaded::{LoadedMaterial, mismatch, rename};
+use super::problem::MaterialProblem;
+use super::read::{MaterialId, ReadMaterial, Rules};
+use super::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
+use super::source::{Origin, Source};
+use crate::error::Error;
+use crate::files::read::{ReadOptions, Sidecar};
+
+/// The materials in the window.
+#[derive(Debug, Default)]
+pub struct MaterialList {
+    /// The ground truth first, then the predictions.
+    pub all: Vec<LoadedMaterial>,
+    pub rules: Rules,
+    /// The paths that have been opened since they were last taken.
+    pub opened: Vec<PathBuf>,
+    /// The paths that have been read, whether for the first time or again, since they were last taken.
+    pub read: Vec<PathBuf>,
+}
+
+impl MaterialList {
+    pub fn ground_truth(&self) -> Option<&LoadedMaterial> {
+        self.all.first()
+    }
+
+    pub fn predictions(&self) -> &[LoadedMaterial] {
+        self.all.get(1..).unwrap_or_default()
+    }
+
+    /// Whether there are only built-in materials, which the first opened material replaces.
+    pub fn only_built_in(&self) -> bool {
+        self.all.iter().all(|one| matches!(one.read.origin, Origin::BuiltIn(_)))
+    }
+
+    /// Whether the files of a material hold something else by now, so that results of the materials are stale.
+    pub fn is_stale(&self) -> bool {
+        self.all.iter().any(LoadedMaterial::is_stale)
+    }
+
+    /// Of each prediction, whether results of it and of the ground truth are stale.
+    pub fn stale_predictions(&self) -> Vec<bool> {
+        let of_ground_truth = self.ground_truth().is_some_and(LoadedMaterial::is_stale);
+        self.predictions().iter().map(|one| of_ground_truth || one.is_stale()).collect()
+    }
+
+    /// What it takes to open this set of materials again.
+    pub fn sources(&self) -> Vec<Source> {
+        self.all.iter().map(|one| one.read.source().of_set()).collect()
+    }
+
+    /// The request that makes these the materials in the window. Those that are there already are not read again.
+    pub fn restore(&self, sources: &[Source]) -> ReadRequest {
+        let mut there = self.all.clone();
+        let is = |material: &LoadedMaterial, source: &Source| {
+            let there = material.read.source();
+            there == *source || there.of_set() == *source
+        };
+        let item = |source: &Source| match there.iter().position(|one| is(one, source)) {
+            Some(index) => Item::Loaded(there.remove(index)),
+            None => Item::Read(source.clone()),
+        };
+        ReadRequest { items: sources.iter().map(item).collect(), target: Target::Everything }
+    }
+
+    /// The size of the ground truth that materials for `target` are compared with; `None` where they bring their own.
+    pub fn size_for(&self, target: &Target) -> Option<[usize; 2]> {
+        let stays = |ground_truth: &&LoadedMaterial| match target {
+            Target::Everything => false,
+            Target::Predictions => true,
+            Target::Again(id) => *id != ground_truth.id(),
+        };
+        self.ground_truth().filter(stays).map(|one| one.material().size())
+    }
+
+    /// Places a material; false where those after it are not wanted.
+    pub fn place(
+        &mut self,
+        place: &ArrivalPlace,
+        arrival: Arrival,
+        problems: &mut Vec<MaterialProblem>,
+    ) -> bool {
+        let replaces_all = place.target == Target::Everything && place.is_first;
+        match (arrival, &place.target) {
+            (Arrival::Failed(_, Error::Cancelled), _) => return false,
+            (Arrival::Failed(source, error), target) => {
+                self.mark(target, &error);
+                problems.push(MaterialProblem::NotRead { source, error, opening: place.opening });
+                // Predictions need their ground truth: the materials in the window stay.
+                if replaces_all && !place.others.is_empty() {
+                    problems.push(MaterialProblem::NotOpened(place.others.clone()));
+                }
+                return !replaces_all;
+            }
+            (arrival, Target::Everything | Target::Predictions) => {
+                if replaces_all {
+                    self.all.clear();
+                }
+                match arrival {
+                    Arrival::Loaded(material) => self.all.push(material),
+                    Arrival::Read(read) => self.add(read, problems),
+                    Arrival::Failed(..) => {}
+                }
+            }
+            (Arrival::Read(read), Target::Again(id)) => self.replace(*id, read, problems),
+            (_, Target::Again(_)) => {}
+        }
+        rename(&mut self.all);
+        true
+    }
+
+    /// Marks the material that could not be read again as stale.
+    fn mark(&mut self, target: &Target, problem: &dyn std::fmt::Display) {
+        let Target::Again(id) = target else { return };
+        if let Some(material) = self.all.iter_mut().find(|one| one.id() == *id) {
+            material.problem = Some(format!("Not read again: {problem}"));
+        }
+    }
+
+    fn add(&mut self, read: Arc<ReadMaterial>, problems: &mut Vec<MaterialProblem>) {
+        if let Some(sizes) = self.ground_truth().and_then(|ground_truth| mismatch(ground_truth, &read)) {
+            return problems.push(MaterialProblem::Refused(Box::new(sizes)));
+        }
+        if let Origin::Path(path) = &read.origin {
+            self.opened.push(read.run.as_ref().map_or(path, |run| &run.folder).clone());
+            self.read.push(path.clone());
+        }
+        self.all.push(LoadedMaterial::new(read));
+    }
+
+    /// Replaces the material of this id. A ground truth of another size closes the predictions; a prediction of another size is
+    /// refused, and the one in the window is stale from then on.
+    fn replace(&mut self, id: MaterialId, read: Arc<ReadMaterial>, problems: &mut Vec<MaterialProblem>) {
+        let Some(index) = self.all.iter().position(|one| one.id() == id) else { return };
+        self.read.push(read.path().to_owned());
+        let new = LoadedMaterial::new(read);
+        if index == 0 {
+            let mismatches = self.predictions().iter().filter_map(|one| mismatch(&new, &one.read));
+            problems.extend(mismatches.map(|sizes| MaterialProblem::Closed(Box::new(sizes))));
+            self.all.retain(|one| one.id() == id || mismatch(&new, &one.read).is_none());
+        } else if let Some(sizes) = self.ground_truth().and_then(|gt| mismatch(gt, &new.read)) {
+            self.mark(&Target::Again(id), &sizes);
+            return problems.push(MaterialProblem::Refused(Box::new(sizes)));
+        }
+        self.all[index] = new;
+    }
+
+    /// The requests that read materials from files again: all of them, or those at the given indices.
+    pub fn reload(&self, only: Option<&[usize]>) -> Vec<ReadRequest> {
+        let is_wanted = |index: &usize| only.is_none_or(|only| only.contains(index));
+        (0..self.all.len()).filter(is_wanted).filter_map(|index| self.again(index, |_| {})).collect()
+    }
+
+    /// The request that reads the step at `path` of the training run at `index`.
+    pub fn read_step(&self, index: usize, path: PathBuf) -> Option<ReadRequest> {
+        self.again(index, |source| source.origin = Origin::Path(path))
+    }
+
+    /// The request that reads the material at `index` again with these options alone.
+    pub fn read_as(&self, index: usize, options: ReadOptions) -> Option<ReadRequest> {
+        self.again(index, |source| source.chosen = Some(options))
+    }
+
+    /// The request that reads the material at `index` again, with changes of its source; `None` for a built-in one.
+    fn again(&self, index: usize, change: impl FnOnce(&mut Source)) -> Option<ReadRequest> {
+        let material = self.all.get(index)?;
+        if matches!(material.read.origin, Origin::BuiltIn(_)) {
+            return None;
+        }
+        let (mut source, target) = (material.read.source(), Target::Again(material.id()));
+        change(&mut source);
+        Some(ReadRequest::new(vec![source], target))
+    }
+
+    /// Saves the assumptions specified for the material at `index` in a sidecar file; the request that opens it again.
+    ///
+    /// # Errors
+    /// Those of [`Sidecar`].
+    pub fn save_assumptions(&self, index: usize) -> Result<Option<ReadRequest>, Error> {
+        let Some(material) = self.all.get(index) else { return Ok(None) };
+        let Origin::Path(path) = &material.read.origin else { return Ok(None) };
+        Sidecar { options: material.read.options, ..Sidecar::load(path)? }.save(path)?;
+        Ok(self.again(index, |source| (source.specified, source.chosen) = (ReadOptions::AUTO, None)))
+    }
+
+    /// Closes the prediction at `index`.
+    pub fn close(&mut self, index: usize) {
+        if index > 0 && index < self.all.len() {
+            self.all.remove(index);
+            rename(&mut self.all);
+        }
+    }
+
+    /// Makes the material at `index` the ground truth; the old one becomes a prediction in its place.
+    pub fn make_ground_truth(&mut self, index: usize) {
+        if index < self.all.len() {
+            self.all.swap(0, index);
+        }
+    }
+}

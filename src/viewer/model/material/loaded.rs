@@ -1,0 +1,82 @@
+//! Loaded material: a material in the window, with its unique name and whether its files still hold it.
+
+use std::sync::Arc;
+
+use super::problem::SizeMismatch;
+use super::read::{MaterialId, ReadMaterial};
+use crate::material::{Grid, Material};
+use crate::report::distinct_names;
+
+/// A material in the window.
+#[derive(Clone, Debug)]
+pub struct LoadedMaterial {
+    pub read: Arc<ReadMaterial>,
+    /// Why it is stale: its files are gone, or could not be read again.
+    pub problem: Option<String>,
+    /// Its name, unique in the window.
+    name: String,
+}
+
+impl LoadedMaterial {
+    pub fn new(read: Arc<ReadMaterial>) -> Self {
+        let name = read.material.name().to_owned();
+        Self { read, problem: None, name }
+    }
+
+    /// A material made of others, with this name.
+    pub fn named(read: Arc<ReadMaterial>, problem: Option<String>, name: String) -> Self {
+        Self { read, problem, name }
+    }
+
+    /// What identifies its maps: every reading of every version of its files has another one.
+    pub fn id(&self) -> MaterialId {
+        self.read.id
+    }
+
+    pub fn material(&self) -> &Material<f32> {
+        &self.read.material
+    }
+
+    pub fn grid(&self) -> Grid {
+        self.read.material.grid()
+    }
+
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether its files hold something else by now: it and every result of it are stale.
+    pub fn is_stale(&self) -> bool {
+        self.problem.is_some()
+    }
+
+    /// Its name, marked where it is stale.
+    pub fn label(&self) -> String {
+        let mark = if self.is_stale() { "  (stale)" } else { "" };
+        format!("{}{mark}", self.name)
+    }
+}
+
+/// The ids of materials, in their order: what results of them depend on.
+pub fn ids(materials: &[LoadedMaterial]) -> Vec<MaterialId> {
+    materials.iter().map(LoadedMaterial::id).collect()
+}
+
+/// Gives every material a unique name.
+pub fn rename(materials: &mut [LoadedMaterial]) {
+    let named: Vec<_> = materials.iter().map(|one| (one.material().name(), one.read.path())).collect();
+    let names = distinct_names(&named);
+    materials.iter_mut().zip(names).for_each(|(material, name)| material.name = name);
+}
+
+/// The two sizes, where `prediction` has another size than the ground truth.
+pub fn mismatch(ground_truth: &LoadedMaterial, prediction: &ReadMaterial) -> Option<SizeMismatch> {
+    let [gt, material] = [ground_truth.material(), &prediction.material];
+    (gt.size() != material.size()).then(|| SizeMismatch {
+        prediction: material.name().to_owned(),
+        prediction_size: material.size(),
+        ground_truth: gt.name().to_owned(),
+        ground_truth_size: gt.size(),
+        source: prediction.source(),
+    })
+}

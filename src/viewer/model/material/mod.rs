@@ -1,0 +1,10 @@
+//! Materials of the window: where they come from, what was learnt in reading them, and the list of those that are loaded.
+
+pub mod list;
+pub mod loaded;
+pub mod photograph;
+pub mod problem;
+pub mod read;
+pub mod request;
+pub mod source;
+pub mod training;

@@ -1,0 +1,65 @@
+//! Read request: which materials are to be read, and where they go once they have been read.
+
+use std::sync::Arc;
+
+use super::loaded::LoadedMaterial;
+use super::read::{MaterialId, ReadMaterial};
+use super::source::Source;
+use crate::error::Error;
+use crate::samples;
+
+/// Where materials go once they have been read.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// The first replaces the ground truth, the others the predictions.
+    Everything,
+    /// All are added as predictions.
+    Predictions,
+    /// The one replaces the material of this id, in its place.
+    Again(MaterialId),
+}
+
+/// A material of a set: one that is in the window and stays, or one to be read.
+#[derive(Clone, Debug)]
+pub enum Item {
+    Loaded(LoadedMaterial),
+    Read(Source),
+}
+
+/// Materials to be read one after the other, and where they go.
+#[derive(Clone, Debug)]
+pub struct ReadRequest {
+    pub items: Vec<Item>,
+    pub target: Target,
+}
+
+impl ReadRequest {
+    pub fn new(sources: Vec<Source>, target: Target) -> Self {
+        Self { items: sources.into_iter().map(Item::Read).collect(), target }
+    }
+
+    /// The built-in materials, in the place of all others.
+    pub fn built_in() -> Self {
+        Self::new((0..samples::COUNT).map(Source::built_in).collect(), Target::Everything)
+    }
+}
+
+/// A material that has been read, or why not.
+#[derive(Debug)]
+pub enum Arrival {
+    Loaded(LoadedMaterial),
+    Read(Arc<ReadMaterial>),
+    Failed(Box<Source>, Error),
+}
+
+/// Which opening an arrival belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArrivalPlace {
+    /// The number of the opening.
+    pub opening: u64,
+    pub target: Target,
+    /// Whether it is the first material of its opening.
+    pub is_first: bool,
+    /// The names of the materials after the first.
+    pub others: Vec<String>,
+}

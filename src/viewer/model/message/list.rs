@@ -1,0 +1,110 @@
+//! List of the messages in the window: successes for a moment, everything else until it is settled or dismissed.
+
+use std::path::Path;
+
+use super::{Message, Severity};
+
+/// How long a success is shown, in seconds.
+const MOMENT: f64 = 6.0;
+
+/// A message, and the time at which it disappears.
+#[derive(Debug)]
+struct Posted {
+    message: Message,
+    until: Option<f64>,
+}
+
+/// The messages, the latest last.
+#[derive(Debug, Default)]
+pub struct MessageList {
+    posted: Vec<Posted>,
+}
+
+impl MessageList {
+    /// Adds a message at this time; a repeated one moves to the end.
+    pub fn add(&mut self, message: Message, now: f64) {
+        let text = message.to_string();
+        self.posted.retain(|earlier| earlier.message.to_string() != text);
+        let until = (message.severity() == Severity::Success).then_some(now + MOMENT);
+        self.posted.push(Posted { message, until });
+    }
+
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Message> {
+        self.posted.iter().map(|posted| &posted.message)
+    }
+
+    /// The messages that stay until they are dismissed, each with its number.
+    pub fn lasting(&self) -> impl DoubleEndedIterator<Item = (usize, &Message)> {
+        let all = self.posted.iter().enumerate();
+        all.filter(|(_, posted)| posted.until.is_none()).map(|(i, posted)| (i, &posted.message))
+    }
+
+    /// The latest of the messages that disappear by themselves.
+    pub fn passing(&self) -> Option<&Message> {
+        self.posted.iter().rev().find(|posted| posted.until.is_some()).map(|posted| &posted.message)
+    }
+
+    /// Removes what has been shown for long enough; the seconds until the next one disappears.
+    pub fn expire(&mut self, now: f64) -> Option<f64> {
+        self.posted.retain(|posted| posted.until.is_none_or(|until| until > now));
+        self.posted.iter().filter_map(|posted| posted.until).map(|until| until - now).min_by(f64::total_cmp)
+    }
+
+    /// Removes the message of this number.
+    pub fn dismiss(&mut self, number: usize) {
+        if number < self.posted.len() {
+            self.posted.remove(number);
+        }
+    }
+
+    pub fn dismiss_all(&mut self) {
+        self.posted.clear();
+    }
+
+    /// Removes the messages about a file that has been read since.
+    pub fn settle(&mut self, path: &Path) {
+        self.posted.retain(|posted| posted.message.path() != Some(path));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::Error;
+    use crate::files::read::ReadOptions;
+    use crate::viewer::model::material::problem::MaterialProblem;
+    use crate::viewer::model::material::source::Source;
+
+    fn not_read(path: &str) -> Message {
+        let source = Box::new(Source::file(path.into(), ReadOptions::AUTO));
+        MaterialProblem::NotRead { source, error: Error::Internal(format!("{path} is broken")), opening: 1 }
+            .into()
+    }
+
+    #[test]
+    fn a_success_disappears_and_an_error_stays_until_its_file_has_been_read() {
+        let mut list = MessageList::default();
+        list.add(Message::Saved("view.png".into()), 10.0);
+        list.add(not_read("a.png"), 10.0);
+        list.add(not_read("b.png"), 10.0);
+        assert_eq!(list.expire(12.0), Some(MOMENT - 2.0));
+        assert!(list.passing().is_some() && list.lasting().count() == 2);
+        assert_eq!(list.expire(17.0), None);
+        assert!(list.passing().is_none() && list.lasting().count() == 2);
+        list.settle(Path::new("a.png"));
+        let left: Vec<_> = list.iter().map(ToString::to_string).collect();
+        assert_eq!(left, [not_read("b.png").to_string()]);
+    }
+
+    #[test]
+    fn a_repeated_message_moves_to_the_end() {
+        let mut list = MessageList::default();
+        for path in ["a.png", "b.png", "a.png"] {
+            list.add(not_read(path), 0.0);
+        }
+        let texts: Vec<_> = list.iter().map(ToString::to_string).collect();
+        assert_eq!(texts, ["b.png", "a.png"].map(|path| not_read(path).to_string()));
+        list.dismiss(0);
+        assert_eq!(list.iter().count(), 1);
+    }
+}

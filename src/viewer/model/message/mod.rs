@@ -1,0 +1,141 @@
+//! Messages of the window: values here, text where they are drawn.
+
+pub mod list;
+pub mod pasted;
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use super::command::{Command, MaterialsCommand};
+use super::material::problem::MaterialProblem;
+use super::material::source::Source;
+use crate::error::Error;
+
+/// How much a message matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    Success,
+    Warning,
+    Error,
+}
+
+/// Something that happened and that the person should know. Its text is complete.
+#[derive(Debug)]
+pub enum Message {
+    /// The view was written to this file.
+    Saved(PathBuf),
+    /// A material is not in the window, or not any more.
+    Material(MaterialProblem),
+    /// Something is on the clipboard.
+    Copied(&'static str),
+    /// The loss is over the n scenes of the file of this name.
+    ScenesOpened(String, usize),
+    NotPasted(PasteProblem),
+    /// There is no session of materials from files.
+    NothingToReopen,
+    Failed(Error),
+}
+
+/// Why the clipboard's text was not taken.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PasteProblem {
+    /// It is neither a scene nor paths of files.
+    NoScene,
+    /// It has a scene that cannot be rendered, for this reason.
+    Unusable(String),
+}
+
+impl From<MaterialProblem> for Message {
+    fn from(problem: MaterialProblem) -> Self {
+        Self::Material(problem)
+    }
+}
+
+impl Message {
+    pub fn severity(&self) -> Severity {
+        match self {
+            Self::Saved(_) | Self::Copied(_) | Self::ScenesOpened(..) => Severity::Success,
+            Self::Material(MaterialProblem::Closed(_)) => Severity::Warning,
+            Self::Material(_) | Self::NotPasted(_) | Self::NothingToReopen | Self::Failed(_) => {
+                Severity::Error
+            }
+        }
+    }
+
+    /// What can be done about it, and the label of its button.
+    pub fn remedy(&self) -> Option<(&'static str, Command)> {
+        match self {
+            Self::Material(MaterialProblem::Refused(sizes) | MaterialProblem::Closed(sizes)) => {
+                let source = Source { fit: true, ..sizes.source.clone() };
+                Some(("Fit and open", MaterialsCommand::OpenAgain(Box::new(source)).into()))
+            }
+            _ => None,
+        }
+    }
+
+    /// The file that it is about: the message is settled once that has been read.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Material(problem) => problem.path(),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Saved(path) => write!(f, "Saved {}", path.display()),
+            Self::Material(problem) => problem.fmt(f),
+            Self::NotPasted(PasteProblem::NoScene) => f.write_str(
+                "Not pasted: the clipboard holds neither a scene nor paths of files. Copy a scene from this window or \
+                 from a scene file, or files of materials.",
+            ),
+            Self::NotPasted(PasteProblem::Unusable(problem)) => {
+                write!(f, "Not pasted: the scene cannot be rendered, {problem}.")
+            }
+            Self::NothingToReopen => f.write_str(
+                "Nothing to reopen: no materials from files have been open yet. Open some with Ctrl+O.",
+            ),
+            Self::Copied(what) => write!(f, "Copied {what}"),
+            Self::ScenesOpened(name, count) => write!(f, "The loss is over the {count} scenes of {name}"),
+            Self::Failed(error) => error.fmt(f),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::read::ReadOptions;
+    use crate::viewer::model::material::problem::SizeMismatch;
+
+    #[test]
+    fn only_what_went_wrong_is_an_error() {
+        let sizes = SizeMismatch {
+            prediction: "small".to_owned(),
+            prediction_size: [128, 64],
+            ground_truth: "large".to_owned(),
+            ground_truth_size: [256, 256],
+            source: Source::file("small.png".into(), ReadOptions::AUTO),
+        };
+        let sizes = Box::new(sizes);
+        let saved = Error::AboveLimit { name: "Saved".to_owned(), loss: 2.0, limit: 1.0 };
+        let text = "small is 128 x 64 and the ground truth large is 256 x 256";
+        for (message, severity, start) in [
+            (Message::Saved("a.png".into()), Severity::Success, "Saved a.png".to_owned()),
+            (
+                MaterialProblem::Closed(sizes.clone()).into(),
+                Severity::Warning,
+                format!("Prediction closed: {text}"),
+            ),
+            (MaterialProblem::Refused(sizes).into(), Severity::Error, format!("Not opened: {text}")),
+            (Message::NotPasted(PasteProblem::NoScene), Severity::Error, "Not pasted".to_owned()),
+            // A file of this name is still an error where it cannot be read.
+            (Message::Failed(saved), Severity::Error, "Saved".to_owned()),
+        ] {
+            assert_eq!(message.severity(), severity, "{message}");
+            assert!(message.to_string().starts_with(&start), "{message}");
+        }
+    }
+}

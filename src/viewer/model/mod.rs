@@ -1,0 +1,104 @@
+//! The model of the window: materials, view, settings and history, changed by commands and by the results of jobs.
+//!
+//! It knows no window library and no graphics adapter. [`Model::apply`] carries out a command and returns the effects that
+//! lie outside of it as values: a job to start, a dialog to open, a text for the clipboard.
+
+pub mod apply;
+pub mod command;
+pub mod history;
+pub mod inspection;
+pub mod material;
+pub mod message;
+pub mod session;
+pub mod settings;
+pub mod view;
+
+use crate::files::read::ReadOptions;
+use crate::files::session::Session;
+use crate::loss::FileScenes;
+
+use history::History;
+use inspection::Inspection;
+use material::list::MaterialList;
+use material::photograph::PhotographState;
+use material::training::TrainingState;
+use message::Message;
+use message::list::MessageList;
+use settings::Settings;
+use settings::loss_query::LossQuery;
+use settings::why::WhyState;
+use view::animation::Animation;
+use view::geometry::WindowGeometry;
+use view::pan_limits;
+use view::state::ViewState;
+
+/// Everything that commands change.
+#[derive(Debug, Default)]
+pub struct Model {
+    /// Light, view and display: what undo covers.
+    pub view: ViewState,
+    /// What persists from one start to the next.
+    pub settings: Settings,
+    /// The session of the last materials from files, for the next start.
+    pub last_session: Option<Session>,
+    pub materials: MaterialList,
+    pub photograph: PhotographState,
+    pub training: TrainingState,
+    pub inspection: Inspection,
+    pub why: WhyState,
+    pub animation: Animation,
+    pub history: History,
+    pub messages: MessageList,
+    /// Whether ground truth and chosen prediction have changed places.
+    pub swapped: bool,
+    /// Whether the help is open.
+    pub help: bool,
+    /// Whether the study is open.
+    pub study: bool,
+    /// Whether the side panel is open where the window is narrow.
+    pub narrow_side_panel: bool,
+    /// How the last materials were read: the open dialog starts with it.
+    pub read: ReadOptions,
+    /// What the last frame measured.
+    pub geometry: WindowGeometry,
+    /// The time of this frame, in seconds.
+    pub time: f64,
+}
+
+impl Model {
+    /// Whether the side panel is open. Narrow windows have a choice of their own, which starts closed.
+    pub fn side_panel(&self) -> bool {
+        if self.geometry.is_narrow { self.narrow_side_panel } else { self.settings.side_panel }
+    }
+
+    /// The question of the loss: by the settings, in the convention that is rendered.
+    pub fn loss_query(&self) -> LossQuery {
+        LossQuery { request: self.settings.loss.request(), convention: self.view.convention() }
+    }
+
+    /// Adds messages.
+    pub fn report(&mut self, messages: impl IntoIterator<Item = Message>) {
+        let now = self.time;
+        messages.into_iter().for_each(|message| self.messages.add(message, now));
+    }
+
+    /// Takes the scenes of a file as those of the loss.
+    pub fn use_scenes(&mut self, file: FileScenes) {
+        self.report([Message::ScenesOpened(file.name.clone(), file.scenes.len())]);
+        self.settings.loss = self.settings.loss.with_file(Some(file));
+    }
+
+    /// Moves on what moves by itself, by `seconds`; whether anything does.
+    pub fn animate(&mut self, seconds: f64) -> bool {
+        self.animation.step(&mut self.view.scene, seconds);
+        self.animation.is_running()
+    }
+
+    /// Pans back a material that would be lost from the panes.
+    pub fn keep_visible(&mut self) {
+        if let Some(ground_truth) = self.materials.ground_truth() {
+            let grid = ground_truth.grid();
+            self.view.display.pan = pan_limits::limited(&self.view, grid, self.geometry.aspect());
+        }
+    }
+}

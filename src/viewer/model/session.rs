@@ -1,0 +1,101 @@
+//! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
+
+use super::Model;
+use super::command::effect::Effect;
+use super::material::read::Rules;
+use super::material::request::{ReadRequest, Target};
+use super::material::source::{Origin, Source, sources};
+use super::view::state::ViewState;
+use crate::files::read::ReadOptions;
+use crate::files::session::{Session, SessionMaterial, SessionPhotograph};
+use crate::files::session_window::SessionWindow;
+use crate::files::stamp::Stamp;
+use crate::files::steps::RunId;
+use crate::viewer::model::settings::options::ViewerOptions;
+
+impl Model {
+    /// Takes in what the window starts with; the request that reads its materials.
+    pub fn start(&mut self, options: ViewerOptions) -> Effect {
+        self.materials.rules = Rules { strict: options.strict, fit: options.fit };
+        let request = match (&options.session, options.ground_truth) {
+            (Some(session), _) => self.open_session(session),
+            (None, None) => ReadRequest::built_in(),
+            (None, Some(ground_truth)) => {
+                let predictions = sources(&options.predictions, options.prediction_read);
+                let ground_truth = Source::file(ground_truth, options.ground_truth_read);
+                let all = std::iter::once(ground_truth).chain(predictions).collect();
+                ReadRequest::new(all, Target::Everything)
+            }
+        };
+        // After a session, which may have others.
+        if let Some((photograph, scene)) = options.photograph {
+            let stamp = Stamp::of(&photograph.path);
+            self.show_photograph(photograph, stamp, scene);
+        }
+        options.scenes.into_iter().for_each(|file| self.use_scenes(file));
+        Effect::Read(request)
+    }
+
+    /// The current session.
+    pub fn session(&self) -> Session {
+        let materials = self.materials.all.iter().map(|one| {
+            let (path, built_in) = match &one.read.origin {
+                Origin::Path(path) => {
+                    (Some(std::path::absolute(path).unwrap_or_else(|_| path.clone())), None)
+                }
+                Origin::BuiltIn(number) => (None, Some(*number)),
+            };
+            let read = if built_in.is_some() { ReadOptions::AUTO } else { one.read.options };
+            let steps = one.read.run.is_some();
+            SessionMaterial { path, built_in, read, fit: one.read.fit, steps }
+        });
+        let view = &self.view;
+        let convention = view.convention.clone();
+        let mut session = Session::new(materials.collect(), view.scene, convention, view.exposure_ev);
+        session.photograph = self.photograph.source().map(|source| SessionPhotograph {
+            path: std::path::absolute(&source.path).unwrap_or_else(|_| source.path.clone()),
+            ..source.clone()
+        });
+        let (display, loss) = (Some(view.display.clone()), Some(self.settings.loss.clone()));
+        session.window = SessionWindow { display, loss };
+        session
+    }
+
+    /// Takes over light, view, display, loss settings and photograph of a session; the request that reads its materials.
+    pub fn open_session(&mut self, session: &Session) -> ReadRequest {
+        self.view = ViewState {
+            scene: session.scene,
+            convention: session.convention.clone(),
+            exposure_ev: session.exposure,
+            display: session.window.display.clone().unwrap_or_default(),
+        };
+        if let Some(loss) = &session.window.loss {
+            self.settings.loss = loss.clone();
+        }
+        let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
+        self.photograph.set(session.photograph.clone(), stamp);
+        let sources: Vec<_> = session.materials.iter().filter_map(source).collect();
+        // They show the step that was saved, whatever has come since.
+        self.training.pinned.extend(sources.iter().filter_map(|source| source.run.clone()));
+        self.materials.restore(&sources)
+    }
+
+    /// Remembers the session for the next start, unless there are only built-in materials, or some are still being read.
+    pub fn remember_session(&mut self, are_materials_settled: bool) {
+        if are_materials_settled && !self.materials.only_built_in() {
+            self.last_session = Some(self.session());
+        }
+    }
+}
+
+fn source(material: &SessionMaterial) -> Option<Source> {
+    let (origin, run) = match (&material.path, material.built_in) {
+        (Some(path), _) => {
+            let run = RunId::of_step(path).filter(|_| material.steps);
+            (Origin::Path(path.clone()), run.map(|(run, _)| run))
+        }
+        (None, number) => return number.map(Source::built_in),
+    };
+    let (read, fit) = (material.read, material.fit);
+    Some(Source { origin, specified: read, chosen: Some(read), fit, run })
+}

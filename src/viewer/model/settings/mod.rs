@@ -1,0 +1,103 @@
+//! Settings that persist from one start to the next.
+
+pub mod loss_query;
+pub mod options;
+pub mod save_kind;
+pub mod why;
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::loss::LossSettings;
+use why::WhySections;
+
+/// Number of recent materials.
+const RECENT: usize = 12;
+
+/// The questions that the side panel answers, one at a time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Tab {
+    /// Which prediction is better?
+    #[default]
+    Loss,
+    /// Where and by what is it wrong?
+    Why,
+    /// Is each material read rightly?
+    Files,
+}
+
+impl Tab {
+    /// Every tab with its name and its question.
+    pub const ALL: [(Self, &'static str, &'static str); 3] = [
+        (Self::Loss, "Loss", "Which prediction is better?"),
+        (Self::Why, "Why", "Where and by what is a prediction wrong?"),
+        (Self::Files, "Files", "Is each material read rightly?"),
+    ];
+}
+
+/// Persistent settings. Every field has a default, so that the settings of older versions load.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    pub dark: bool,
+    pub side_panel: bool,
+    /// Whether a left-drag moves the highlight under the pointer, instead of the light.
+    pub highlight_follows: bool,
+    /// Whether the handle of the view is shown.
+    pub view_handle: bool,
+    /// Size of the window's text and controls: 1 is the size of the system.
+    pub ui_scale: f32,
+    /// Whether histograms of the values are below the panes.
+    pub histograms: bool,
+    /// The tab of the side panel.
+    pub tab: Tab,
+    /// Whether the prediction with the least loss comes first in the panel.
+    pub sort_losses: bool,
+    /// The unfolded sections of the tab *Why*.
+    pub why: WhySections,
+    /// Whether the loss is computed again after every change.
+    pub auto_loss: bool,
+    pub loss: LossSettings,
+    /// Whether files that change on disk are read again.
+    pub watch: bool,
+    /// Recently opened materials, the latest first.
+    pub recent: Vec<PathBuf>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            dark: true,
+            side_panel: true,
+            highlight_follows: false,
+            view_handle: true,
+            ui_scale: 1.0,
+            histograms: false,
+            tab: Tab::Loss,
+            sort_losses: true,
+            why: WhySections::default(),
+            auto_loss: true,
+            loss: LossSettings::default(),
+            watch: false,
+            recent: Vec::new(),
+        }
+    }
+}
+
+impl Settings {
+    /// The settings for the next start, which begins without the scenes of a file: they belong to the materials that are open,
+    /// and come back with their session.
+    #[must_use]
+    pub fn for_next_start(&self) -> Self {
+        Self { loss: self.loss.with_file(None), ..self.clone() }
+    }
+
+    /// Puts `path` first among the recent materials, as an absolute path.
+    pub fn remember(&mut self, path: &Path) {
+        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        self.recent.retain(|p| *p != path);
+        self.recent.insert(0, path);
+        self.recent.truncate(RECENT);
+    }
+}

@@ -1,0 +1,28 @@
+//! Options of the window: what it starts with.
+
+use std::path::PathBuf;
+
+use crate::files::read::ReadOptions;
+use crate::files::session::{Session, SessionPhotograph};
+use crate::loss::FileScenes;
+use crate::model::scene::Scene;
+
+/// The materials that the window opens, and how it reads them.
+#[derive(Clone, Debug, Default)]
+pub struct ViewerOptions {
+    /// A session, in place of materials.
+    pub session: Option<Session>,
+    /// `None` for the built-in pair.
+    pub ground_truth: Option<PathBuf>,
+    pub predictions: Vec<PathBuf>,
+    pub ground_truth_read: ReadOptions,
+    pub prediction_read: ReadOptions,
+    /// Whether guesses about materials are errors.
+    pub strict: bool,
+    /// Whether predictions of another size are resized to the ground truth.
+    pub fit: bool,
+    /// A photograph that renderings are compared with; with its light and view, `None` for the scene of the session or the default.
+    pub photograph: Option<(SessionPhotograph, Option<Scene>)>,
+    /// The scenes of the loss; `None` for the scenes of the session or the settings.
+    pub scenes: Option<FileScenes>,
+}

@@ -1,0 +1,69 @@
+//! Kinds of files that the window saves.
+
+/// What is saved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SaveKind {
+    /// The panes and the legend, as they are seen.
+    #[default]
+    View,
+    /// Every material's whole picture, side by side, as `svbrdf render` writes.
+    Renderings,
+    /// A labelled figure of all maps, the rendering and its difference, as `svbrdf strip` writes.
+    Strip,
+    /// Files, assumptions, scene, display and loss settings.
+    Session,
+    /// The scenes of the loss of the chosen prediction, as `svbrdf scenes` writes.
+    Scenes,
+}
+
+impl SaveKind {
+    pub const ALL: [Self; 5] = [Self::View, Self::Renderings, Self::Strip, Self::Session, Self::Scenes];
+
+    /// The label of its button.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::View => "View",
+            Self::Renderings => "Renderings",
+            Self::Strip => "Strip",
+            Self::Session => "Session",
+            Self::Scenes => "Scenes",
+        }
+    }
+
+    /// What the file holds.
+    pub fn explanation(self) -> &'static str {
+        match self {
+            Self::View => {
+                "The panes and the legend as they are seen, at any size, with light, view, exposure and convention in \
+                 the file's metadata."
+            }
+            Self::Renderings => {
+                "The rendering, map or difference that is selected, of every material side by side, one pixel per texel; \
+                 the same as `svbrdf render` writes. PNG as displayed, EXR as linear floats."
+            }
+            Self::Strip => {
+                "A labelled figure: a row per material; all maps, the rendering and its difference in columns; the same \
+                 as `svbrdf strip` writes."
+            }
+            Self::Session => {
+                "Paths of the files (relative to this one), assumptions, scene, display and loss settings. `svbrdf` opens \
+                 it, and so does Open."
+            }
+            Self::Scenes => {
+                "The scenes that the tab Why lists for the chosen prediction, worst first, with their losses. Open takes \
+                 them as the scenes of the loss, and so does --scenes of `svbrdf`."
+            }
+        }
+    }
+
+    /// The name that the dialog proposes.
+    pub fn proposal(self) -> &'static str {
+        match self {
+            Self::View => "svbrdf-view.png",
+            Self::Renderings => "svbrdf-renderings.png",
+            Self::Strip => "svbrdf-strip.png",
+            Self::Session => "comparison.svbrdf-session.json",
+            Self::Scenes => "scenes.json",
+        }
+    }
+}

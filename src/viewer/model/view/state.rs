@@ -1,0 +1,74 @@
+//! State of the view: light, view and display as one value, which undo covers.
+
+use crate::files::session_window::Display;
+pub use crate::files::session_window::{Layout, Projection};
+use crate::material::Grid;
+use crate::model::convention::{self, Convention};
+use crate::model::scene::{Kind, Scene};
+use crate::picture::camera::Camera;
+use crate::picture::difference::Difference;
+
+/// Light, view and display, as one value: undo returns to an earlier one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ViewState {
+    pub scene: Scene,
+    /// The name of the convention of renderings and loss.
+    pub convention: String,
+    /// Exposure in stops: radiance is multiplied by 2^exposure_ev.
+    pub exposure_ev: f32,
+    pub display: Display,
+}
+
+impl Default for ViewState {
+    fn default() -> Self {
+        Self {
+            scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
+            convention: convention::PRINTED.name.to_owned(),
+            exposure_ev: 0.0,
+            display: Display::default(),
+        }
+    }
+}
+
+impl ViewState {
+    /// The convention of that name; the default where the name is not known.
+    pub fn convention(&self) -> Convention {
+        self.convention.parse().unwrap_or_default()
+    }
+
+    /// The chosen difference of the quantity.
+    pub fn difference_kind(&self) -> Difference {
+        self.display.differences.kind(self.display.quantity)
+    }
+
+    /// Whether the difference is the error map, which averages over scenes.
+    pub fn is_error_map(&self) -> bool {
+        self.display.differences.is_error_map(self.display.quantity)
+    }
+
+    /// The name of the chosen difference.
+    pub fn difference_name(&self) -> &'static str {
+        if self.is_error_map() { "error map" } else { self.difference_kind().name() }
+    }
+
+    /// The camera that fits the material into a pane of `aspect` = width / height, before zoom and pan.
+    pub fn fitted_camera(&self, grid: Grid, aspect: f32) -> Camera {
+        match self.display.projection {
+            Projection::Flat => Camera::flat(grid, aspect),
+            Projection::Perspective => Camera::of_scene(&self.scene, grid, aspect),
+        }
+    }
+
+    /// The texel that is seen at a point of the plane.
+    pub fn texel_at(&self, grid: Grid, point: [f32; 2]) -> Option<[usize; 2]> {
+        if self.display.tiled { grid.repeated_texel_at(point) } else { grid.texel_at(point) }
+    }
+
+    /// The default light, view and display, with the current prediction, layout and convention.
+    #[must_use]
+    pub fn reset(&self) -> Self {
+        let Display { wipe, zoom, pan, show_clipping, .. } = Display::default();
+        let display = Display { wipe, zoom, pan, show_clipping, ..self.display.clone() };
+        Self { convention: self.convention.clone(), display, ..Self::default() }
+    }
+}

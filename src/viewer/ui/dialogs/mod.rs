@@ -1,0 +1,75 @@
+//! Dialogs, each with what is typed and chosen in it so far.
+
+pub mod help;
+pub mod open;
+pub mod path_field;
+pub mod photograph;
+pub mod save;
+
+use std::path::PathBuf;
+
+use eframe::egui;
+
+use open::OpenDialog;
+use photograph::PhotographDialog;
+use save::SaveDialog;
+
+use super::loss::study::StudyWindow;
+use crate::error::Error;
+use crate::viewer::jobs::browse::Browsed;
+use crate::viewer::jobs::displayed::Displayed;
+use crate::viewer::model::command::Command;
+
+/// What to do without a file dialog.
+const NO_DIALOG: &str = "This system has no file dialog: install zenity or a desktop portal. Type a path here, or drop files \
+                         on the window.";
+
+/// The dialogs that are open.
+#[derive(Debug, Default)]
+pub struct Dialogs {
+    pub open: Option<OpenDialog>,
+    pub save: Option<SaveDialog>,
+    pub photograph: Option<PhotographDialog>,
+}
+
+impl Dialogs {
+    /// Draws the dialogs; `view_size` is the size of the view in the window, in pixels.
+    pub fn ui(&mut self, ctx: &egui::Context, displayed: Displayed<'_>, view_size: [u32; 2]) -> Vec<Command> {
+        let (model, mut commands) = (displayed.model, Vec::new());
+        if model.help {
+            commands.extend(help::ui(ctx));
+        }
+        if model.study {
+            commands.extend(StudyWindow::new(displayed).ui(ctx));
+        }
+        if let Some(dialog) = &mut self.open {
+            commands.extend(dialog.ui(ctx, &model.settings.recent, model.last_session.as_ref()));
+        }
+        if let Some(dialog) = &mut self.photograph {
+            commands.extend(dialog.ui(ctx));
+        }
+        if let Some(dialog) = &mut self.save {
+            commands.extend(dialog.ui(ctx, view_size));
+        }
+        commands
+    }
+
+    /// Takes over what was chosen in the dialog of the system: the photograph dialog where it is open, otherwise the open dialog.
+    pub fn browsed(&mut self, result: Result<Browsed, Error>) {
+        let chosen = match result {
+            Ok(Browsed::Chosen(paths)) => Ok(paths),
+            Ok(Browsed::Cancelled) => Ok(Vec::new()),
+            Ok(Browsed::Unavailable) => Err(NO_DIALOG.to_owned()),
+            Err(error) => Err(error.to_string()),
+        };
+        match (&mut self.photograph, chosen) {
+            (Some(dialog), Ok(paths)) => paths.first().into_iter().for_each(|path| dialog.fill(path)),
+            (Some(dialog), Err(problem)) => dialog.fail(problem),
+            (None, Ok(paths)) => {
+                let dialog = self.open.get_or_insert_default();
+                paths.iter().for_each(|path: &PathBuf| dialog.add(&path.display().to_string()));
+            }
+            (None, Err(problem)) => self.open.get_or_insert_default().fail(problem),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Dialog that saves the view, the renderings, a strip, the session or the scenes of the loss.
+
+use std::path::PathBuf;
+
+use eframe::egui::{self, RichText};
+
+use super::path_field::{PathField, dialog};
+use crate::viewer::model::command::{Command, WindowCommand};
+use crate::viewer::model::settings::save_kind::SaveKind;
+use crate::viewer::ui::widgets::number;
+use crate::viewer::ui::widgets::theme;
+
+/// What is typed and chosen so far.
+#[derive(Debug)]
+pub struct SaveDialog {
+    pub path: String,
+    pub what: SaveKind,
+    /// Size of a picture of the view, in pixels.
+    size: [u32; 2],
+    /// The path of an existing file, once the dialog has said that it exists.
+    replaces: Option<String>,
+    /// Whether the button gets the focus, so that Return presses it.
+    focus_button: bool,
+    /// Whether the file is being written.
+    saving: bool,
+    field: PathField,
+}
+
+impl SaveDialog {
+    /// `what` is chosen at first; `size` is the size of the view in the window, in pixels.
+    pub fn new(what: SaveKind, size: [u32; 2]) -> Self {
+        let path = what.proposal().to_owned();
+        Self {
+            path,
+            what,
+            size,
+            replaces: None,
+            focus_button: false,
+            saving: false,
+            field: PathField::default(),
+        }
+    }
+
+    /// `view_size` is the size of the view in the window, in pixels.
+    pub fn ui(&mut self, ctx: &egui::Context, view_size: [u32; 2]) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let open = dialog(ctx, "Save", 420.0, |ui| self.contents(ui, view_size, &mut commands));
+        if !open {
+            commands.push(WindowCommand::ShowSave(false).into());
+        }
+        commands
+    }
+
+    fn contents(&mut self, ui: &mut egui::Ui, view_size: [u32; 2], commands: &mut Vec<Command>) {
+        self.choice(ui);
+        let field = self.field.ui(ui, "To file:", egui::TextEdit::singleline(&mut self.path));
+        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+        ui.label(RichText::new(self.what.explanation()).small().weak());
+        if self.what == SaveKind::View {
+            self.sizes(ui, view_size);
+        }
+        let replaces = self.replaces.as_deref() == Some(self.path.trim());
+        if replaces {
+            ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
+        }
+        self.field.problem(ui);
+        let text = match (self.saving, replaces) {
+            (true, _) => "Saving...",
+            (_, true) => "Replace it",
+            _ => "Save file",
+        };
+        let button = ui.add_enabled(!self.saving, egui::Button::new(text));
+        if std::mem::take(&mut self.focus_button) {
+            button.request_focus();
+        }
+        if button.clicked() || (entered && !self.saving) {
+            self.save(commands);
+        }
+    }
+
+    /// What is saved; a name that was proposed follows.
+    fn choice(&mut self, ui: &mut egui::Ui) {
+        ui.horizontal(|ui| {
+            for what in SaveKind::ALL {
+                let button = ui.selectable_label(self.what == what, what.name());
+                if button.on_hover_text(what.explanation()).clicked() {
+                    if SaveKind::ALL.iter().any(|kind| kind.proposal() == self.path) {
+                        self.path = what.proposal().to_owned();
+                    }
+                    self.what = what;
+                    // Return saves.
+                    self.field = PathField::default();
+                }
+            }
+        });
+    }
+
+    fn sizes(&mut self, ui: &mut egui::Ui, view_size: [u32; 2]) {
+        ui.horizontal(|ui| {
+            ui.label("Size");
+            for (name, side, default) in
+                [("Width in pixels", 0, view_size[0]), ("Height in pixels", 1, view_size[1])]
+            {
+                number(ui, name, &mut self.size[side], default, |drag| drag.range(64..=8192));
+            }
+            if ui.button("As in the window").clicked() {
+                self.size = view_size;
+            }
+        });
+    }
+
+    /// Shows what went wrong, and puts the cursor into the path field.
+    pub fn fail(&mut self, problem: String) {
+        self.field.fail(problem);
+        self.saving = false;
+    }
+
+    /// Saves, unless that replaces a file and the dialog has not said so yet.
+    fn save(&mut self, commands: &mut Vec<Command>) {
+        let path = PathBuf::from(self.path.trim());
+        if path.exists() && self.replaces.as_deref() != Some(self.path.trim()) {
+            self.replaces = Some(self.path.trim().to_owned());
+            self.focus_button = true;
+            return;
+        }
+        self.saving = true;
+        self.field.clear();
+        commands.push(WindowCommand::Save { what: self.what, path, size: self.size }.into());
+    }
+}

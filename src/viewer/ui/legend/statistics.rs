@@ -1,0 +1,105 @@
+//! The statistics of the differences beside their histogram.
+
+use eframe::egui::{self, RichText};
+
+use crate::picture::difference::Difference;
+use crate::picture::quantity::Quantity;
+use crate::picture::statistics::{Histogram, Statistics};
+use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
+use crate::viewer::ui::legend::strip::{BAR, HISTOGRAM, LegendStrip, STATISTICS};
+use crate::viewer::ui::widgets::names::shortened;
+use crate::viewer::ui::widgets::numbers::digits;
+use crate::viewer::ui::widgets::theme;
+
+/// Width of a name, in points, and its characters.
+const NAME: f32 = 146.0;
+const CHARACTERS: usize = 18;
+
+impl LegendStrip<'_> {
+    /// A row of numbers for each prediction.
+    pub fn statistics(&self, ui: &mut egui::Ui) {
+        let Some(distributions) = self.distributions else {
+            match &self.error_map {
+                Some(ErrorMapSummary { progress: Some(fraction), scenes }) => {
+                    let text = format!("{:.0}% of {scenes} scenes", 100.0 * fraction);
+                    ui.add(egui::ProgressBar::new(*fraction).text(text).desired_width(STATISTICS * 0.6));
+                }
+                _ => {
+                    ui.weak("Computing statistics...");
+                }
+            }
+            return;
+        };
+        if !self.current {
+            ui.set_opacity(0.5);
+        }
+        let loss = match self.error_map {
+            Some(_) => "Mean over the texels: the rendering loss over these scenes",
+            None => "Mean over the texels: the rendering loss of this scene",
+        };
+        let is_loss = self.kind == Difference::Log && self.quantity == Quantity::Rendering && self.first == 1;
+        let mean = match is_loss {
+            true => ("mean = loss", loss),
+            false if self.first == 0 => {
+                ("mean", "Mean over the texels that are not clipped in the photograph")
+            }
+            false => ("mean", "Mean over the texels"),
+        };
+        let short = shortened(&self.names, CHARACTERS);
+        let heads = [mean, ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
+        egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {
+            // Low rows: three of them are seen at once.
+            let grid = egui::Grid::new("difference statistics").num_columns(5).min_row_height(0.0);
+            grid.spacing([10.0, 2.0]).show(ui, |ui| {
+                ui.label("");
+                for (head, hover) in heads {
+                    ui.label(RichText::new(head).small().weak()).on_hover_text(hover);
+                }
+                ui.end_row();
+                for (index, statistics) in distributions.statistics.iter().enumerate() {
+                    let name = short.get(index).map_or("", String::as_str);
+                    self.row(ui, (index, name), statistics.as_ref(), distributions.histograms.get(index));
+                    ui.end_row();
+                }
+            });
+        });
+    }
+
+    /// The colour of the difference in place `index`: the colour of its prediction, or one of its own for the ground truth.
+    pub fn series(&self, index: usize) -> usize {
+        match index + self.first {
+            0 => self.names.len().saturating_sub(1),
+            slot => slot - 1,
+        }
+    }
+
+    fn row(
+        &self,
+        ui: &mut egui::Ui,
+        (index, short): (usize, &str),
+        statistics: Option<&Statistics>,
+        histogram: Option<&Histogram>,
+    ) {
+        let colour = theme::series(self.series(index), ui.visuals().dark_mode);
+        let name = self.names.get(index).copied().unwrap_or_default();
+        let number = if index + self.first == 0 { "gt".to_owned() } else { (index + self.first).to_string() };
+        let text = RichText::new(format!("{number}  {short}")).color(colour);
+        let text = if index == self.chosen { text.strong().underline() } else { text };
+        let label = ui.scope(|ui| {
+            ui.set_max_width(NAME);
+            ui.add(egui::Label::new(text).truncate())
+        });
+        let Some(Statistics { mean, minimum, median, p95, maximum, not_finite }) = statistics else {
+            ui.label("not finite");
+            return;
+        };
+        let beyond = histogram.map_or(0, |histogram| histogram.below + histogram.above);
+        label.inner.on_hover_text(format!(
+            "{name}\nminimum {}; {beyond} texels beyond the axis, {not_finite} not finite",
+            digits(*minimum)
+        ));
+        for value in [mean, median, p95, maximum] {
+            ui.label(RichText::new(digits(*value)).monospace());
+        }
+    }
+}

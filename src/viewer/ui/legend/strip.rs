@@ -1,0 +1,242 @@
+//! The strip below the panes that show a difference: its colours, its range, its histogram and its statistics.
+
+use eframe::egui::{
+    self, Align2, Color32, FontId, Painter, Pos2, Rect, Response, RichText, Sense, Shape, Stroke, pos2, vec2,
+};
+
+use crate::picture::colour_map::{diverging, heat};
+use crate::picture::difference::Difference;
+use crate::picture::quantity::Quantity;
+use crate::picture::statistics::{Distributions, Histogram};
+use crate::viewer::jobs::displayed::Displayed;
+use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
+use crate::viewer::model::command::{Command, DisplayCommand};
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::ui::widgets::number;
+use crate::viewer::ui::widgets::numbers::digits;
+use crate::viewer::ui::widgets::theme;
+
+/// The error map in the drop-down of differences.
+const ERROR_MAP: &str = "error map (all scenes)";
+/// Height of the histograms and of the colour bar below them, in points.
+pub const HISTOGRAM: f32 = 54.0;
+pub const BAR: f32 = 12.0;
+/// Colours in the bar.
+const STEPS: usize = 128;
+/// Widths of the controls and of the statistics, in points.
+const CONTROLS: f32 = 170.0;
+pub const STATISTICS: f32 = 396.0;
+/// How far from 0 the axis goes in units of the range, before there are histograms.
+const AXIS: f64 = 1.5;
+
+/// What the strip shows.
+#[derive(Debug)]
+pub struct LegendStrip<'a> {
+    pub quantity: Quantity,
+    pub kind: Difference,
+    /// Where the difference is the error map, its scenes.
+    pub error_map: Option<ErrorMapSummary>,
+    /// The range that is set; `None` where it is automatic.
+    pub set_range: Option<f64>,
+    /// The difference that has the last colour.
+    pub range: f64,
+    pub distributions: Option<&'a Distributions>,
+    /// Whether the distributions are up to date.
+    pub current: bool,
+    /// Of the materials with a difference.
+    pub names: Vec<&'a str>,
+    /// The slot of the first of them: 1, or 0 where they are compared with a photograph.
+    pub first: usize,
+    /// The chosen one of them.
+    pub chosen: usize,
+}
+
+impl<'a> LegendStrip<'a> {
+    /// The legend for what is displayed.
+    pub fn new(displayed: Displayed<'a>) -> Self {
+        let (view, materials) = (&displayed.model.view, displayed.materials());
+        let distributions = displayed.distributions();
+        let first = usize::from(displayed.photograph().is_none());
+        Self {
+            quantity: view.display.quantity,
+            kind: view.difference_kind(),
+            error_map: view.is_error_map().then(|| displayed.error_map_summary()),
+            set_range: view.display.differences.range(view.display.quantity),
+            range: displayed.range(),
+            distributions: distributions.map(|(distributions, _)| distributions),
+            current: distributions.is_some_and(|(_, current)| current),
+            names: materials.iter().skip(first).map(LoadedMaterial::name).collect(),
+            first,
+            chosen: (view.display.prediction + 1)
+                .min(materials.len().saturating_sub(1))
+                .saturating_sub(first),
+        }
+    }
+
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        ui.horizontal_top(|ui| {
+            ui.allocate_ui(vec2(CONTROLS, HISTOGRAM + BAR), |ui| {
+                ui.vertical(|ui| self.controls(ui, &mut commands));
+            });
+            let statistics = if ui.available_width() > STATISTICS + 200.0 { STATISTICS } else { 0.0 };
+            let width = (ui.available_width() - statistics - 16.0).max(80.0);
+            commands.extend(self.scale(ui, width));
+            if statistics > 0.0 {
+                ui.vertical(|ui| self.statistics(ui));
+            }
+        });
+        commands
+    }
+
+    fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let combo = egui::ComboBox::from_id_salt("difference").width(CONTROLS - 16.0);
+        let combo = combo.selected_text(self.error_map.map_or(self.kind.name(), |_| ERROR_MAP)).show_ui(ui, |ui| {
+            for &kind in Difference::all(self.quantity) {
+                let chosen = self.error_map.is_none() && kind == self.kind;
+                if ui.selectable_label(chosen, kind.name()).clicked() {
+                    commands.push(DisplayCommand::SetDifference(kind).into());
+                }
+            }
+            if self.quantity == Quantity::Rendering {
+                let label = ui.selectable_label(self.error_map.is_some(), ERROR_MAP);
+                let hover = "The log difference of each texel, averaged over the scenes of the loss: its mean is the loss";
+                if label.on_hover_text(hover).clicked() {
+                    commands.push(DisplayCommand::ChooseErrorMap.into());
+                }
+            }
+        });
+        combo.response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Difference"));
+        let of = if self.first == 0 {
+            "a rendering p from the photograph g"
+        } else {
+            "a prediction p from the ground truth g"
+        };
+        combo.response.on_hover_text(format!("Which difference of {of}"));
+        ui.horizontal(|ui| {
+            ui.label("Range");
+            let mut range = self.range;
+            let auto = self.distributions.map_or(self.kind.default_range(), |d| d.auto_range);
+            number(ui, "Range", &mut range, auto, |drag| {
+                drag.speed(0.01 * self.range).range(1e-6..=1e6).max_decimals(4)
+            })
+            .on_hover_text("The difference that has the last colour; double-click for Auto");
+            if range != self.range {
+                let set = (range != auto).then_some(range);
+                commands.push(DisplayCommand::SetRange(set).into());
+            }
+            let auto = ui.selectable_label(self.set_range.is_none(), "Auto");
+            let hover = "The 99th percentile, of the prediction where it is largest";
+            if auto.on_hover_text(hover).clicked() {
+                let set = self.set_range.is_none().then_some(self.range);
+                commands.push(DisplayCommand::SetRange(set).into());
+            }
+        });
+        let unit = match &self.error_map {
+            Some(summary) => format!("mean {} of {} scenes", self.kind.unit(), summary.scenes),
+            None => self.kind.unit().to_owned(),
+        };
+        ui.label(RichText::new(unit).small().weak());
+    }
+
+    /// The low and high end of the axis.
+    fn axis(&self) -> [f64; 2] {
+        match self.distributions.and_then(|distributions| distributions.histograms.first()) {
+            Some(histogram) => [histogram.low, histogram.high],
+            None if self.kind.is_signed() => [-AXIS * self.range, AXIS * self.range],
+            None => [0.0, AXIS * self.range],
+        }
+    }
+
+    /// Histograms over the colour bar, with the handles of the range.
+    fn scale(&self, ui: &mut egui::Ui, width: f32) -> Option<Command> {
+        let size = vec2(width, HISTOGRAM + BAR + 14.0);
+        let (response, painter) = ui.allocate_painter(size, Sense::click_and_drag());
+        response.widget_info(|| egui::WidgetInfo::slider(true, self.range, "Difference range"));
+        let area = response.rect.shrink2(vec2(8.0, 0.0)).with_max_y(response.rect.top() + HISTOGRAM + BAR);
+        let [low, high] = self.axis();
+        let x = |value: f64| {
+            let share = ((value - low) / (high - low)).clamp(0.0, 1.0) as f32;
+            area.left() + share * area.width()
+        };
+        let bar = area.with_min_y(area.bottom() - BAR);
+        let ink = ui.visuals().text_color();
+        self.paint_bar(&painter, bar, [low, high]);
+        let fade = if self.current { 1.0 } else { 0.5 };
+        let histograms = self.distributions.map_or(&[][..], |distributions| &distributions.histograms);
+        for (index, histogram) in histograms.iter().enumerate() {
+            let colour = theme::series(self.series(index), ui.visuals().dark_mode).gamma_multiply(fade);
+            let stroke = Stroke::new(if index == self.chosen { 2.0 } else { 1.0 }, colour);
+            painter.add(Shape::line(outline(histogram, area.with_max_y(bar.top())), stroke));
+        }
+        let handles = if self.kind.is_signed() { vec![-self.range, self.range] } else { vec![self.range] };
+        for value in handles {
+            let at = x(value);
+            painter.line_segment([pos2(at, area.top()), pos2(at, bar.bottom())], Stroke::new(1.5, ink));
+            painter.circle_filled(pos2(at, bar.center().y), 4.5, ink);
+        }
+        self.paint_numbers(&painter, area, [low, high], ink);
+        let value = |pos: Pos2| low + f64::from((pos.x - area.left()) / area.width()) * (high - low);
+        self.dragged(&response, value)
+    }
+
+    /// The range under the pointer that drags a handle.
+    fn dragged(&self, response: &Response, value: impl Fn(Pos2) -> f64) -> Option<Command> {
+        let hint = "Drag to set the range. Counts are logarithmic; the thick line is the chosen prediction.";
+        let response = response.clone().on_hover_text(hint);
+        let pos = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())?;
+        let range = value(pos).abs();
+        (range > 0.0).then(|| DisplayCommand::SetRange(Some(range)).into())
+    }
+
+    fn paint_bar(&self, painter: &Painter, bar: Rect, [low, high]: [f64; 2]) {
+        let map = if self.kind.is_signed() { diverging } else { heat };
+        let step = bar.width() / STEPS as f32;
+        for i in 0..STEPS {
+            let value = low + (high - low) * (i as f64 + 0.5) / STEPS as f64;
+            let [r, g, b] = map((value / self.range) as f32).map(|c| (c * 255.0).round() as u8);
+            let left = bar.left() + step * i as f32;
+            let part = Rect::from_x_y_ranges(left..=left + step + 0.5, bar.y_range());
+            painter.rect_filled(part.intersect(bar), 0.0, Color32::from_rgb(r, g, b));
+        }
+    }
+
+    fn paint_numbers(&self, painter: &Painter, area: Rect, [low, high]: [f64; 2], ink: Color32) {
+        let unit = if self.kind == Difference::Angle { " deg" } else { "" };
+        let numbers = [
+            (Align2::LEFT_TOP, area.left_bottom(), low),
+            (Align2::CENTER_TOP, area.center_bottom(), 0.5 * (low + high)),
+            (Align2::RIGHT_TOP, area.right_bottom(), high),
+        ];
+        for (align, at, value) in numbers {
+            painter.text(at, align, format!("{}{unit}", digits(value)), FontId::monospace(11.0), ink);
+        }
+    }
+}
+
+/// The logarithms of the counts as a line over `area`.
+pub fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
+    let log = |count: u64| (1.0 + count as f64).ln() as f32;
+    let highest = histogram.counts.iter().map(|count| log(*count)).fold(f32::MIN_POSITIVE, f32::max);
+    let step = area.width() / histogram.counts.len() as f32;
+    let point = |(i, count): (usize, &u64)| {
+        let height = log(*count) / highest * (area.height() - 4.0);
+        pos2(area.left() + (i as f32 + 0.5) * step, area.bottom() - height)
+    };
+    histogram.counts.iter().enumerate().map(point).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_outline_is_highest_where_most_texels_are() {
+        let histogram = Histogram { low: 0.0, high: 3.0, counts: vec![9, 1000, 0], below: 0, above: 0 };
+        let area = Rect::from_min_size(pos2(10.0, 20.0), vec2(30.0, 54.0));
+        let points = outline(&histogram, area);
+        assert_eq!(points.iter().map(|p| p.x).collect::<Vec<_>>(), [15.0, 25.0, 35.0]);
+        assert!((points[1].y - 24.0).abs() < 1e-3 && points[2].y == 74.0);
+        assert!(points[0].y > points[1].y && points[0].y < points[2].y);
+    }
+}

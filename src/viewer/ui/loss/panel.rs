@@ -1,0 +1,301 @@
+//! Sampled rendering loss: its settings, its progress, its result.
+
+use std::time::Duration;
+
+use eframe::egui::{self, RichText, Slider};
+
+use crate::loss::{Ask, LossSettings, Request, Texels};
+use crate::model::sampler::Sampler;
+use crate::model::scene::Kind;
+use crate::viewer::jobs::loss::{LossJob, Losses};
+use crate::viewer::model::command::{Command, LossCommand, WindowCommand};
+use crate::viewer::model::material::list::MaterialList;
+use crate::viewer::ui::loss::results::Results;
+use crate::viewer::ui::widgets::number;
+use crate::viewer::ui::widgets::numbers::{self, seconds};
+use crate::viewer::ui::widgets::theme;
+
+/// Most scenes of one kind.
+const MOST: usize = 100_000;
+/// Range of the accuracy, in percent of the loss.
+const PERCENT: std::ops::RangeInclusive<f64> = 0.1..=20.0;
+/// Range of the time, in milliseconds.
+const MILLISECONDS: std::ops::RangeInclusive<u64> = 16..=10_000;
+
+/// What the section shows.
+#[derive(Debug)]
+pub struct LossPanel<'a> {
+    pub settings: &'a LossSettings,
+    pub auto: bool,
+    pub job: &'a LossJob,
+    /// The loss over the few scenes of the papers, where it is another one.
+    pub few: &'a LossJob,
+    /// Whether the least loss comes first.
+    pub sorted: bool,
+    pub materials: &'a MaterialList,
+    pub chosen: usize,
+}
+
+impl LossPanel<'_> {
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let mut settings = self.settings.clone();
+        request(ui, &mut settings, &mut commands);
+        if settings != *self.settings {
+            commands.push(LossCommand::SetSettings(settings).into());
+        }
+        self.controls(ui, &mut commands);
+        if self.materials.predictions().is_empty() {
+            let missing = match self.materials.ground_truth() {
+                Some(_) => "Open a prediction to compare with the ground truth.",
+                None => "Open a ground truth and predictions of it.",
+            };
+            ui.label(missing);
+            return commands;
+        }
+        self.state(ui);
+        if let Some(losses) = self.job.losses() {
+            ui.scope(|ui| {
+                if self.is_stale() {
+                    ui.set_opacity(0.5);
+                }
+                let few = self.few.losses().filter(|_| self.few.is_complete());
+                // Those of other materials or of another convention belong to no row.
+                let of_these = |few: &&Losses| {
+                    few.key.ids == losses.key.ids && few.key.query.convention == losses.key.query.convention
+                };
+                let results = Results {
+                    latest: losses,
+                    few: few.filter(of_these),
+                    few_are_coming: self.auto && self.settings.question().few_scenes.is_some(),
+                    chosen: self.chosen,
+                    stale: self.materials.stale_predictions(),
+                    sorted: self.sorted,
+                };
+                commands.extend(results.ui(ui));
+            });
+        }
+        commands
+    }
+
+    /// Whether the latest losses are of other materials or settings, or of other files than there are now.
+    fn is_stale(&self) -> bool {
+        self.job.stale() || self.materials.is_stale()
+    }
+
+    fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        ui.horizontal_wrapped(|ui| {
+            if self.job.busy().is_some() {
+                if ui
+                    .add(button("Cancel loss"))
+                    .on_hover_text("Stop, and keep the result so far (Esc)")
+                    .clicked()
+                {
+                    commands.push(LossCommand::Cancel.into());
+                }
+            } else {
+                let enabled = !self.materials.predictions().is_empty();
+                let compute = ui.add_enabled(enabled, button("Compute loss"));
+                if compute.on_hover_text("Enter").clicked() {
+                    commands.push(LossCommand::Compute.into());
+                }
+            }
+            let mut auto = self.auto;
+            ui.checkbox(&mut auto, "Auto")
+                .on_hover_text("Compute again after every change of materials, settings or convention");
+            if auto != self.auto {
+                commands.push(LossCommand::SetAuto(auto).into());
+            }
+            let copy = ui.add_enabled(self.job.losses().is_some(), egui::Button::new("Copy losses"));
+            if copy.on_hover_text("As text, as `svbrdf loss` prints it").clicked() {
+                commands.push(LossCommand::Copy.into());
+            }
+        });
+    }
+
+    /// One line of constant height, so that the results below stay in place: the progress, or what the loss took.
+    fn state(&self, ui: &mut egui::Ui) {
+        if let Some((fraction, elapsed, reached)) = self.job.busy() {
+            let doing = if reached { "refining" } else { "first scenes" };
+            let text = format!("{doing}, {} s", elapsed.as_secs());
+            let height = ui.spacing().interact_size.y;
+            ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
+            return;
+        }
+        if let Some(problem) = self.job.problem() {
+            ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
+            return;
+        }
+        let text = match self.job.losses() {
+            None => RichText::new("Not computed yet."),
+            Some(_) if self.is_stale() => RichText::new("Stale: materials or settings have changed."),
+            Some(losses) => self.outcome(losses, ui.visuals()),
+        };
+        ui.horizontal_wrapped(|ui| ui.label(text.small()));
+    }
+
+    /// The accuracy reached, what it took, and whether that meets the request.
+    fn outcome(&self, losses: &Losses, visuals: &egui::Visuals) -> RichText {
+        let (near, distant) = (losses.report.count(Kind::Near), losses.report.count(Kind::Distant));
+        let (error, elapsed) = (losses.relative_error(), losses.elapsed);
+        let took =
+            format!("{} from {near} + {distant} scenes in {}", numbers::accuracy(error), seconds(elapsed));
+        match missed(losses.request(), error, elapsed) {
+            _ if self.job.is_partial() => {
+                RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color)
+            }
+            Some(missed) if self.job.is_complete() => {
+                RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
+            }
+            _ => RichText::new(took),
+        }
+    }
+}
+
+/// The requested accuracy or time, where it was missed.
+fn missed(request: &Request, relative_error: f64, elapsed: Duration) -> Option<String> {
+    match *request {
+        Request::Accuracy { target, .. } if relative_error > target => {
+            Some(format!("Not within {}", numbers::accuracy(target)))
+        }
+        Request::Time { budget, .. } if elapsed > budget => Some(format!("Not within {}", seconds(budget))),
+        _ => None,
+    }
+}
+
+/// A button of the width of the one that replaces it.
+fn button(text: &str) -> egui::Button<'_> {
+    egui::Button::new(text).min_size(egui::vec2(90.0, 0.0))
+}
+
+/// The settings of the loss: first what decides the number of scenes, then the fields of that choice.
+fn request(ui: &mut egui::Ui, settings: &mut LossSettings, commands: &mut Vec<Command>) {
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for (ask, name, meaning) in [
+            (Ask::Scenes, "Scenes", "A fixed number of scenes, such as the 6 + 3 of the papers"),
+            (Ask::Accuracy, "Accuracy", "As many scenes as this accuracy of every loss takes"),
+            (Ask::Time, "Time", "As many scenes as fit into this time"),
+        ] {
+            ui.selectable_value(&mut settings.ask, ask, name).on_hover_text(meaning);
+        }
+        if let Some(file) = &settings.file {
+            let meaning = format!("The {} scenes of {}, on all texels", file.scenes.len(), file.name);
+            ui.selectable_value(&mut settings.ask, Ask::File, "File").on_hover_text(meaning);
+        }
+    });
+    match settings.ask {
+        Ask::Scenes => scenes(ui, settings),
+        Ask::Accuracy => accuracy(ui, &mut settings.target_percent),
+        Ask::Time => time(ui, &mut settings.time_ms),
+        Ask::File => file(ui, settings, commands),
+    }
+    if settings.ask == Ask::File {
+        return;
+    }
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Seed");
+        number(ui, "Seed", &mut settings.seed, 0, |d| d.speed(0.2))
+            .on_hover_text("The same seed gives the same scenes");
+        if settings.ask == Ask::Scenes {
+            ui.selectable_value(&mut settings.sampler, Sampler::Random, "random")
+                .on_hover_text("Independent random scenes, as in the papers");
+            ui.selectable_value(&mut settings.sampler, Sampler::Sobol, "Sobol")
+                .on_hover_text("Scrambled Sobol sequences: a smaller error for the same number of scenes");
+        }
+        if settings.ask == Ask::Scenes {
+            let open = ui.small_button("Scene file...");
+            let hover =
+                "Compute the loss over the scenes of a file (JSON, or render.json of a MaterialGAN capture)";
+            if open.on_hover_text(hover).clicked() {
+                commands.push(WindowCommand::ShowOpen(true).into());
+            }
+        }
+    });
+}
+
+/// Which file the scenes are of, and the button that removes them.
+fn file(ui: &mut egui::Ui, settings: &LossSettings, commands: &mut Vec<Command>) {
+    let Some(file) = &settings.file else { return };
+    ui.horizontal_wrapped(|ui| {
+        let scenes = if file.scenes.len() == 1 { "scene" } else { "scenes" };
+        ui.label(format!("{} {scenes} of {}", file.scenes.len(), file.name));
+        let remove = ui.small_button("Remove scenes").on_hover_text("Sample the scenes of the loss again");
+        if remove.clicked() {
+            commands.push(LossCommand::RemoveFileScenes.into());
+        }
+    });
+}
+
+fn scenes(ui: &mut egui::Ui, settings: &mut LossSettings) {
+    let default = LossSettings::default();
+    ui.horizontal_wrapped(|ui| {
+        ui.label("Near");
+        number(ui, "Near-field scenes", &mut settings.near, default.near, |d| d.speed(0.2).range(0..=MOST));
+        ui.label("Distant");
+        number(ui, "Distant scenes", &mut settings.distant, default.distant, |d| {
+            d.speed(0.2).range(0..=MOST)
+        });
+        texels(ui, &mut settings.texels);
+    });
+}
+
+/// How many texels of each scene are compared; 0 stands for all.
+fn texels(ui: &mut egui::Ui, texels: &mut Texels) {
+    let mut count = match *texels {
+        Texels::All => 0,
+        Texels::Sampled(count) => count,
+    };
+    let text = |count: f64, _| if count < 1.0 { "all".to_owned() } else { format!("{count:.0}") };
+    let parsed = |text: &str| if text.trim() == "all" { Some(0.0) } else { text.trim().parse().ok() };
+    ui.label("Texels");
+    number(ui, "Texels of each scene", &mut count, 0, |d| {
+        d.speed(1.0).range(0..=MOST).custom_formatter(text).custom_parser(parsed)
+    })
+    .on_hover_text("An independent random subset of texels per scene; 0 or all: every texel");
+    *texels = if count == 0 { Texels::All } else { Texels::Sampled(count) };
+}
+
+fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
+    let default = LossSettings::default().target_percent;
+    ui.horizontal_wrapped(|ui| {
+        slider(ui, "Accuracy slider", Slider::new(target, PERCENT).max_decimals(2));
+        number(ui, "Accuracy", target, default, |d| {
+            d.speed(0.01).range(PERCENT).max_decimals(2).prefix("+-").suffix("%")
+        });
+        ui.label("at 95%")
+            .on_hover_text("Half the width of the 95% interval of every loss, relative to the loss");
+    });
+}
+
+fn time(ui: &mut egui::Ui, milliseconds: &mut u64) {
+    let default = LossSettings::default().time_ms;
+    ui.horizontal_wrapped(|ui| {
+        slider(ui, "Time slider", Slider::new(milliseconds, MILLISECONDS));
+        number(ui, "Time", milliseconds, default, |d| d.range(MILLISECONDS).suffix(" ms"));
+    });
+}
+
+/// A logarithmic slider without its number.
+fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) {
+    ui.spacing_mut().slider_width = 80.0;
+    let response = ui.add(slider.logarithmic(true).show_value(false));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, name));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missed_accuracy_or_time_is_reported() {
+        let of = |request| missed(&request, 0.02, Duration::from_millis(50));
+        let accuracy = |target| Request::Accuracy { target, seed: 0 };
+        let time = |ms| Request::Time { budget: Duration::from_millis(ms), seed: 0 };
+        assert_eq!(of(accuracy(0.01)), Some("Not within +-1.00%".to_owned()));
+        assert_eq!(of(time(16)), Some("Not within 16 ms".to_owned()));
+        assert_eq!(of(accuracy(0.03)), None);
+        assert_eq!(of(time(60)), None);
+        assert_eq!(of(Request::default()), None);
+    }
+}

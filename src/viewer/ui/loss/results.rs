@@ -1,0 +1,260 @@
+//! The losses with their intervals, and their differences.
+
+use eframe::egui::{self, Color32, Rect, RichText, Sense, Sides, Stroke, pos2, vec2};
+
+use crate::loss::{Estimate, Loss};
+use crate::model::sampler::Sampler;
+use crate::model::scene::Kind;
+use crate::viewer::jobs::loss::Losses;
+use crate::viewer::model::command::{Command, DisplayCommand, LossCommand};
+use crate::viewer::ui::widgets::names::shortened;
+use crate::viewer::ui::widgets::numbers::significant;
+use crate::viewer::ui::widgets::theme;
+
+/// Number of predictions from which on there is a field that filters them.
+const MANY: usize = 12;
+/// Characters of a name in a row.
+const NAME: usize = 30;
+/// Height of a bar, in points.
+const BAR: f32 = 6.0;
+
+/// What follows the number of a prediction whose loss is stale.
+const STALE_MARK: &str = " (stale)";
+
+/// What the rows show.
+#[derive(Debug)]
+pub struct Results<'a> {
+    pub latest: &'a Losses,
+    /// The losses over the 6 + 3 scenes of the papers; `None` where they are not known, or are what `latest` is.
+    pub few: Option<&'a Losses>,
+    /// Whether those losses are on their way where they are not known: their line keeps its place, so that what is below stays.
+    pub few_are_coming: bool,
+    pub chosen: usize,
+    /// Of each prediction, whether its files or those of the ground truth hold something else by now.
+    pub stale: Vec<bool>,
+    /// Whether the least loss comes first.
+    pub sorted: bool,
+}
+
+impl Results<'_> {
+    /// A row for each prediction; a click chooses it.
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let losses = &self.latest.report.outcome.losses;
+        let filter = self.controls(ui, losses.len(), &mut commands);
+        let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
+        let short = shortened(&names, NAME);
+        for index in order(losses, self.sorted) {
+            if !names[index].to_lowercase().contains(&filter) {
+                continue;
+            }
+            let is_stale = self.stale.get(index).is_some_and(|is_stale| *is_stale);
+            let mark = if is_stale { STALE_MARK } else { "" };
+            let name = format!("{}{mark}  {}", index + 1, short[index]);
+            if self.row(ui, index, &losses[index], name).clicked() {
+                commands.push(DisplayCommand::ChoosePrediction(index).into());
+            }
+        }
+        ui.add_space(4.0);
+        ui.label(RichText::new(summary(self.latest)).weak().small());
+        commands
+    }
+
+    /// The order, and the text that names must contain.
+    fn controls(&self, ui: &mut egui::Ui, count: usize, commands: &mut Vec<Command>) -> String {
+        let mut filter = String::new();
+        ui.horizontal(|ui| {
+            if count > 1 {
+                let mut sorted = self.sorted;
+                ui.checkbox(&mut sorted, "Sort by loss").on_hover_text("Otherwise in the order of the panes");
+                if sorted != self.sorted {
+                    commands.push(LossCommand::SortByLoss(sorted).into());
+                }
+            }
+            if count > MANY {
+                let id = ui.scope_id().with("filter");
+                filter = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+                let field =
+                    egui::TextEdit::singleline(&mut filter).hint_text("Filter names").desired_width(120.0);
+                ui.add(field);
+                ui.data_mut(|data| data.insert_temp(id, filter.clone()));
+            }
+        });
+        filter.to_lowercase()
+    }
+
+    fn row(&self, ui: &mut egui::Ui, index: usize, loss: &Loss, name: String) -> egui::Response {
+        let chosen = index == self.chosen;
+        let [mean, interval] = significant(&loss.estimate);
+        let left = |ui: &mut egui::Ui| {
+            let hover = format!("{}\nClick to choose this prediction", loss.prediction);
+            ui.selectable_label(chosen, name).on_hover_text(hover)
+        };
+        let right = |ui: &mut egui::Ui| {
+            ui.label(RichText::new(mean).monospace().strong()).on_hover_text(self.in_full(&loss.estimate));
+        };
+        let (response, ()) = Sides::new().shrink_left().truncate().show(ui, left, right);
+        ui.horizontal(|ui| {
+            ui.add_space(10.0);
+            self.bar(ui, index, &loss.estimate);
+            ui.label(RichText::new(interval).monospace().size(11.5))
+                .on_hover_text(self.in_full(&loss.estimate));
+        });
+        self.difference(ui, index);
+        self.few_scenes(ui, index);
+        response
+    }
+
+    /// The loss as a share of the largest one, with its interval as a line.
+    fn bar(&self, ui: &mut egui::Ui, index: usize, estimate: &Estimate) {
+        let end = |estimate: &Estimate| estimate.interval95.map_or(estimate.mean, |[_, high]| high);
+        let losses = &self.latest.report.outcome.losses;
+        let most = losses.iter().map(|loss| end(&loss.estimate)).fold(f64::MIN_POSITIVE, f64::max);
+        let width = (ui.available_width() - 150.0).max(30.0);
+        let (area, _) = ui.allocate_exact_size(vec2(width, BAR + 6.0), Sense::hover());
+        let x = |value: f64| area.left() + area.width() * (value / most).clamp(0.0, 1.0) as f32;
+        let bar = Rect::from_center_size(area.center(), vec2(width, BAR)).with_max_x(x(estimate.mean));
+        let colour = theme::series(index, ui.visuals().dark_mode);
+        ui.painter().rect_filled(bar, 1.0, colour);
+        if let Some([low, high]) = estimate.interval95 {
+            let y = area.center().y;
+            let stroke = Stroke::new(1.5, ui.visuals().text_color());
+            ui.painter().line_segment([pos2(x(low), y), pos2(x(high), y)], stroke);
+            for at in [low, high] {
+                ui.painter().line_segment([pos2(x(at), y - 4.0), pos2(x(at), y + 4.0)], stroke);
+            }
+        }
+    }
+
+    /// The loss - the loss of the chosen prediction, and whether the difference is significant.
+    fn difference(&self, ui: &mut egui::Ui, index: usize) {
+        let of_chosen = self.latest.differences.get(self.chosen);
+        let Some(estimate) = of_chosen.and_then(|all| all.get(index)).filter(|_| index != self.chosen) else {
+            return;
+        };
+        let verdict = Verdict::of(estimate);
+        let colour = verdict.colour(ui.visuals());
+        let name = format!("{} - {}", index + 1, self.chosen + 1);
+        let [mean, interval] = significant(estimate);
+        let meaning = verdict.meaning(index + 1, self.chosen + 1);
+        ui.horizontal_wrapped(|ui| {
+            ui.add_space(10.0);
+            ui.spacing_mut().item_spacing.x = 6.0;
+            ui.label(RichText::new(name).small().weak());
+            let sign = if estimate.mean > 0.0 { "+" } else { "" };
+            ui.label(RichText::new(format!("{sign}{mean}")).monospace().size(11.5))
+                .on_hover_text(format!("{interval}\n{}", self.in_full(estimate)));
+            ui.label(RichText::new(verdict.text()).monospace().size(11.5).color(colour))
+                .on_hover_text(meaning);
+        });
+    }
+
+    fn few_scenes(&self, ui: &mut egui::Ui, index: usize) {
+        let known = |few: &Losses| {
+            let [mean, interval] = significant(&few.report.outcome.losses.get(index)?.estimate);
+            Some(format!("6 + 3 scenes: {mean} {interval}"))
+        };
+        let coming = || self.few_are_coming.then(|| "6 + 3 scenes: ...".to_owned());
+        let Some(text) = self.few.map_or_else(coming, known) else { return };
+        ui.horizontal(|ui| {
+            ui.add_space(10.0);
+            ui.label(RichText::new(text).small().weak()).on_hover_text(
+                "The loss over the 6 near-field and 3 distant random scenes of the papers, for this seed: other seeds \
+                 give other numbers within about this interval",
+            );
+        });
+    }
+
+    /// Every digit, the standard error and the scenes.
+    fn in_full(&self, estimate: &Estimate) -> String {
+        let [mean, error, interval] = estimate.texts();
+        let [near, distant] = [Kind::Near, Kind::Distant].map(|kind| self.latest.report.count(kind));
+        format!(
+            "{mean} +- {error} (standard error)\n95% interval {interval}\n{near} near-field and {distant} distant scenes"
+        )
+    }
+}
+
+/// The indices of the losses as rows show them.
+fn order(losses: &[Loss], sorted: bool) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..losses.len()).collect();
+    if sorted {
+        order.sort_by(|a, b| losses[*a].estimate.mean.total_cmp(&losses[*b].estimate.mean));
+    }
+    order
+}
+
+/// What a difference says of its first prediction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Better,
+    Worse,
+    NotSignificant,
+}
+
+impl Verdict {
+    /// By whether the 95% interval excludes 0, and on which side.
+    fn of(difference: &Estimate) -> Self {
+        match difference.interval95 {
+            Some([_, high]) if high < 0.0 => Self::Better,
+            Some([low, _]) if low > 0.0 => Self::Worse,
+            _ => Self::NotSignificant,
+        }
+    }
+
+    fn text(self) -> &'static str {
+        match self {
+            Self::Better => "\u{2193} better",
+            Self::Worse => "\u{2191} worse",
+            Self::NotSignificant => "no significant difference",
+        }
+    }
+
+    fn colour(self, visuals: &egui::Visuals) -> Color32 {
+        match self {
+            Self::Better => theme::better(visuals),
+            Self::Worse => theme::problem(visuals),
+            Self::NotSignificant => visuals.weak_text_color(),
+        }
+    }
+
+    fn meaning(self, first: usize, second: usize) -> String {
+        match self {
+            Self::Better => format!("{first} is closer to the ground truth than {second}"),
+            Self::Worse => format!("{first} is farther from the ground truth than {second}"),
+            Self::NotSignificant => "The 95% interval includes 0: use more scenes".to_owned(),
+        }
+    }
+}
+
+fn summary(latest: &Losses) -> String {
+    let report = &latest.report;
+    let sampler = match report.sampler() {
+        Some(Sampler::Sobol) => "scrambled Sobol",
+        Some(Sampler::Random) => "random",
+        None => "listed",
+    };
+    format!(
+        "convention {}, epsilon {}, {sampler} scenes{}, {} on the {}",
+        report.convention.name,
+        report.convention.epsilon,
+        report.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
+        report.precision,
+        report.backend,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_is_a_verdict_only_where_its_interval_excludes_0() {
+        let of = |interval95| Verdict::of(&Estimate { mean: 0.0, standard_error: None, interval95 });
+        assert_eq!(of(Some([-0.2, -0.1])), Verdict::Better);
+        assert_eq!(of(Some([0.1, 0.2])), Verdict::Worse);
+        assert_eq!(of(Some([-0.1, 0.2])), Verdict::NotSignificant);
+        assert_eq!(of(Some([0.0, 0.0])), Verdict::NotSignificant);
+        assert_eq!(of(None), Verdict::NotSignificant);
+    }
+}

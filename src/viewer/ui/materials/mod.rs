@@ -1,0 +1,4 @@
+//! Tab *Files*: the materials, and what was assumed about each.
+
+pub mod assumptions;
+pub mod panel;

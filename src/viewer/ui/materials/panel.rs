@@ -1,0 +1,174 @@
+//! The materials in the window, and the assumptions in reading each.
+
+use eframe::egui::text::{LayoutJob, TextFormat};
+use eframe::egui::{self, FontId, RichText};
+
+use super::assumptions::{self, AssumedLine};
+use crate::files::read::{Note, ReadOptions, Sidecar};
+use crate::viewer::jobs::reading::opening::Openings;
+use crate::viewer::model::command::{Command, MaterialsCommand};
+use crate::viewer::model::material::list::MaterialList;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::source::Origin;
+use crate::viewer::ui::widgets::read_options::read_options;
+use crate::viewer::ui::widgets::theme;
+
+/// What the section shows.
+#[derive(Debug)]
+pub struct MaterialsPanel<'a> {
+    pub materials: &'a MaterialList,
+    pub openings: &'a Openings,
+    pub watch: bool,
+}
+
+impl MaterialsPanel<'_> {
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        ui.horizontal_wrapped(|ui| {
+            if ui.button("Reload").on_hover_text("Read all files again (Ctrl+R)").clicked() {
+                commands.push(MaterialsCommand::Reload.into());
+            }
+            let mut watch = self.watch;
+            ui.checkbox(&mut watch, "Watch").on_hover_text("Read files again when they change on disk");
+            if watch != self.watch {
+                commands.push(MaterialsCommand::SetWatch(watch).into());
+            }
+            let mut fit = self.materials.rules.fit;
+            ui.checkbox(&mut fit, "Fit sizes")
+                .on_hover_text("Resize predictions that are opened from now on to the ground truth");
+            if fit != self.materials.rules.fit {
+                commands.push(MaterialsCommand::SetFit(fit).into());
+            }
+            if ui.button("Built-in pair").clicked() {
+                commands.push(MaterialsCommand::OpenBuiltIn.into());
+            }
+        });
+        for opening in self.openings.iter() {
+            ui.add(egui::ProgressBar::new(opening.fraction()).text(opening.text()));
+            if ui.small_button("Cancel reading").clicked() {
+                commands.push(MaterialsCommand::CancelReading(opening.number()).into());
+            }
+        }
+        for (index, material) in self.materials.all.iter().enumerate() {
+            ui.separator();
+            // Its id changes whenever it is read again; what is unfolded stays unfolded.
+            ui.push_id(index, |ui| section(ui, index, material, &mut commands));
+        }
+        commands
+    }
+}
+
+/// The button that saves the chosen assumptions, where they are not the saved ones.
+fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands: &mut Vec<Command>) {
+    let (Origin::Path(path), loaded) = (&material.read.origin, &material.read) else { return };
+    if loaded.options == loaded.saved {
+        return;
+    }
+    let button = ui.button("Save assumptions");
+    let name = format!("Save assumptions of {}", material.name());
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    let place = Sidecar::path_for(path);
+    let hover = format!(
+        "Write these assumptions to {}, which is read whenever the material is opened",
+        place.display()
+    );
+    if button.on_hover_text(hover).clicked() {
+        commands.push(MaterialsCommand::SaveAssumptions { index }.into());
+    }
+}
+
+/// The names of a file of several materials, to choose one.
+fn chooser(ui: &mut egui::Ui, material: &LoadedMaterial, read: &mut ReadOptions) {
+    let names = material.read.notes.iter().find_map(|note| match note {
+        Note::Materials { names, index } => Some((names, *index)),
+        _ => None,
+    });
+    let Some((names, index)) = names else { return };
+    let mut chosen = index;
+    let text = names.get(index).map_or("", String::as_str);
+    let response = egui::ComboBox::from_id_salt((material.id(), "material"))
+        .selected_text(format!("material {text}"))
+        .show_ui(ui, |ui| {
+            for (i, name) in names.iter().enumerate() {
+                ui.selectable_value(&mut chosen, i, format!("{i}: {name}"));
+            }
+        })
+        .response;
+    let label = format!("material of {}", material.name());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, &label));
+    response.on_hover_text(format!("The file has {} materials", names.len()));
+    if chosen != index {
+        read.exemplar = Some(chosen);
+    }
+}
+
+/// What was assumed about a map and why, in two rows at most: all of it on hovering.
+fn line(ui: &mut egui::Ui, line: &AssumedLine) {
+    const ROWS: usize = 2;
+    let (font, small) = (FontId::proportional(12.5), FontId::proportional(11.0));
+    let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
+    let (panel, warning) = (ui.visuals().panel_fill, ui.visuals().warn_fg_color);
+    let mut job = LayoutJob::default();
+    job.append(&format!("{}: ", line.name), 0.0, TextFormat::simple(font.clone(), weak));
+    job.append(&line.chosen, 0.0, TextFormat::simple(font, text));
+    if line.unsure {
+        let badge = TextFormat { background: warning, ..TextFormat::simple(small.clone(), panel) };
+        job.append(" unsure ", 6.0, badge);
+    }
+    job.append(&format!(": {}", line.why), 0.0, TextFormat::simple(small, weak));
+    job.wrap.max_rows = ROWS;
+    ui.label(job);
+}
+
+fn section(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands: &mut Vec<Command>) {
+    let loaded = &material.read;
+    let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
+    let colour = if index == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(role).color(colour).small());
+        if index > 0 {
+            if ui.small_button("Make ground truth").clicked() {
+                commands.push(MaterialsCommand::MakeGroundTruth(index).into());
+            }
+            if ui.small_button("Close").clicked() {
+                commands.push(MaterialsCommand::Close(index).into());
+            }
+        }
+    });
+    let [width, height] = loaded.material.size();
+    ui.add(egui::Label::new(RichText::new(material.name()).strong()).truncate());
+    let origin = match &loaded.origin {
+        Origin::BuiltIn(_) => "built in".to_owned(),
+        Origin::Path(path) => path.display().to_string(),
+    };
+    ui.add(
+        egui::Label::new(RichText::new(format!("{width} x {height}, {origin}")).small().weak()).truncate(),
+    );
+    if let Some(problem) = &material.problem {
+        ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
+    }
+    for one in assumptions::lines(&loaded.assumptions) {
+        line(ui, &one);
+    }
+    // Which file is which map stands in "As stored".
+    for note in loaded.notes.iter().filter(|note| !note.is_routine()) {
+        let text = RichText::new(note.to_string()).small();
+        ui.label(if note.changes_look() { text.color(ui.visuals().warn_fg_color) } else { text });
+    }
+    if matches!(loaded.origin, Origin::Path(_)) {
+        let mut read = loaded.options;
+        chooser(ui, material, &mut read);
+        ui.collapsing("Change...", |ui| {
+            read_options(ui, material.name(), &mut read, &loaded.assumptions);
+        });
+        if read != loaded.options {
+            commands.push(MaterialsCommand::ReadAs { index, read }.into());
+        }
+        save_button(ui, index, material, commands);
+    }
+    ui.collapsing("As stored", |ui| {
+        for map in &loaded.maps {
+            ui.label(RichText::new(map.to_string()).small());
+        }
+    });
+}

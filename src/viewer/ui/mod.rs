@@ -1,0 +1,146 @@
+//! User interface: input, panes, panels and dialogs. They see the model and the jobs, and return commands.
+//!
+//! [`WindowUi::input`] reads keys and gestures before anything is drawn; [`WindowUi::draw`] draws, and returns what was clicked.
+
+pub mod content;
+pub mod dialogs;
+pub mod input;
+pub mod legend;
+pub mod loss;
+pub mod materials;
+pub mod pane;
+pub mod panels;
+pub mod photograph;
+pub mod shading;
+pub mod side;
+pub mod snapshot;
+pub mod why;
+pub mod widgets;
+
+use eframe::egui;
+
+use content::Content;
+use dialogs::Dialogs;
+use input::Input;
+use pane::viewport::Viewport;
+use panels::inspection::Drawer;
+use panels::status::StatusBar;
+use panels::top::TopBar;
+use shading::gpu_view::GpuView;
+use widgets::texture::PanelTextures;
+
+use crate::viewer::jobs::displayed::Displayed;
+use crate::viewer::model::command::{Command, WindowCommand};
+use crate::viewer::model::view::geometry::WindowGeometry;
+
+/// Least width of the side panel, in points: its contents do not fit into less.
+const SIDE: f32 = 320.0;
+/// Width of a window, in points, below which the side panel is closed until it is asked for.
+const NARROW: f32 = 900.0;
+
+/// The state of the user interface between frames.
+#[derive(Debug, Default)]
+pub struct WindowUi {
+    pub dialogs: Dialogs,
+    input: Input,
+    viewport: Viewport,
+    textures: PanelTextures,
+    /// Size of the panes and the legend, in pixels.
+    picture_size: [u32; 2],
+    /// Share of the window between its bars that the drawer takes.
+    drawer_share: f32,
+    /// Processor time of the last frame, in milliseconds.
+    pub frame_ms: f32,
+}
+
+/// A panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.
+pub fn bare(panel: egui::Panel, ui: &egui::Ui) -> egui::Panel {
+    panel.frame(egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT))
+}
+
+impl WindowUi {
+    /// What the last frame measured.
+    pub fn geometry(&self, ctx: &egui::Context) -> WindowGeometry {
+        WindowGeometry {
+            pane: self.viewport.pane_pixels(),
+            picture: self.picture_size,
+            is_narrow: ctx.content_rect().width() < NARROW,
+            texel: self.viewport.last_texel,
+        }
+    }
+
+    /// Whether an empty place beside the panes is filled.
+    pub fn has_extra_pane(&self) -> bool {
+        self.viewport.has_extra
+    }
+
+    /// The commands of keys, dropped files and gestures: all that is read before the window is drawn.
+    pub fn input(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Vec<Command> {
+        let mut commands = self.input.commands(ctx, displayed, &self.dialogs);
+        let scenery = content::scenery(ctx, displayed, 0.0);
+        commands.extend(self.viewport.gestures(ctx, &scenery));
+        commands
+    }
+
+    /// Draws everything and returns the commands of what was clicked and dragged in panels and dialogs.
+    pub fn draw(
+        &mut self,
+        ui: &mut egui::Ui,
+        displayed: Displayed<'_>,
+        gpu: Option<&mut GpuView>,
+    ) -> Vec<Command> {
+        let (model, mut commands) = (displayed.model, Vec::new());
+        bare(egui::Panel::top("top"), ui).show(ui, |ui| commands.extend(TopBar::new(displayed).ui(ui)));
+        bare(egui::Panel::bottom("status"), ui)
+            .show(ui, |ui| commands.extend(self.status(ui, displayed, gpu.as_deref())));
+        let below_bar = ui.available_height();
+        if !model.inspection.is_empty() && model.materials.ground_truth().is_some() {
+            bare(egui::Panel::bottom("drawer"), ui)
+                .resizable(false)
+                .show(ui, |ui| commands.extend(Drawer::new(displayed).ui(ui)));
+        }
+        let was_open = model.side_panel();
+        let mut is_open = was_open;
+        bare(egui::Panel::right("side"), ui)
+            .default_size(SIDE)
+            .size_range(SIDE..=(0.4 * ui.available_width()).max(SIDE))
+            .show_collapsible(ui, &mut is_open, |ui| {
+                commands.extend(side::ui(ui, displayed, &mut self.textures));
+            });
+        if is_open != was_open {
+            commands.push(WindowCommand::ToggleSidePanel.into());
+        }
+        let area = ui.available_rect_before_wrap();
+        self.drawer_share = 1.0 - area.height() / below_bar.max(1.0);
+        self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
+        let mut content = Content {
+            displayed,
+            viewport: &mut self.viewport,
+            textures: &mut self.textures,
+            drawer_share: self.drawer_share,
+        };
+        commands.extend(content.ui(ui, gpu));
+        commands.extend(panels::messages::ui(ui.ctx(), area, &model.messages));
+        commands.extend(self.dialogs.ui(ui.ctx(), displayed, self.picture_size));
+        commands
+    }
+
+    fn status(&self, ui: &mut egui::Ui, displayed: Displayed<'_>, gpu: Option<&GpuView>) -> Vec<Command> {
+        let view = &displayed.model.view;
+        let hovered = self.viewport.hovered;
+        let grid = displayed.model.materials.ground_truth().map(|ground_truth| ground_truth.grid());
+        let bar = StatusBar {
+            state: view,
+            materials: displayed.materials(),
+            error_maps: displayed.error_maps().map(AsRef::as_ref),
+            photographs: displayed.photographs().map(AsRef::as_ref),
+            texel: hovered.and_then(|hovered| view.texel_at(grid?, hovered.point)),
+            hovered: hovered.map(|hovered| hovered.index),
+            magnification: grid.map_or(1.0, |grid| self.viewport.magnification(grid, view)),
+            is_armed: displayed.model.inspection.is_armed,
+            adapter: gpu.map(|gpu| &gpu.gpu.report),
+            frame_ms: self.frame_ms,
+        };
+        bar.ui(ui)
+    }
+}

@@ -1,0 +1,129 @@
+//! Cells: the arrangement of the panes.
+
+use eframe::egui::{self, Rect, Vec2, vec2};
+
+use crate::material::Grid;
+
+/// Height of the title above a pane.
+pub const TITLE: f32 = 24.0;
+/// Room between two panes.
+const GAP: f32 = 6.0;
+
+/// How many times larger another arrangement must show the material, for the panes to be rearranged while something below
+/// them is open.
+const WORTH_MOVING: f32 = 1.6;
+
+/// Splits `area` into `count` cells. All have the same size in whole pixels (`scale` pixels per point): only then are
+/// equal pictures equal pixel by pixel.
+///
+/// The number of columns shows the material largest in an area of height `undivided`, with everything below the panes
+/// closed: panes do not change places when a drawer opens, unless they would become much smaller than they need be.
+pub fn cells(area: Rect, undivided: f32, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
+    let whole = |v: Vec2| (v * scale).floor() / scale;
+    let area = Rect::from_min_max(((area.min.to_vec2() * scale).ceil() / scale).to_pos2(), area.max);
+    let [half_width, half_height] = grid.half_extent();
+    let size = |room: Vec2, columns: usize| {
+        let cell = cell_size(room, columns, count.div_ceil(columns));
+        ((cell.x) / half_width).min((cell.y - TITLE) / half_height)
+    };
+    let best =
+        |room: Vec2| (1..=count.max(1)).max_by(|a, b| size(room, *a).total_cmp(&size(room, *b))).unwrap_or(1);
+    let open = vec2(area.width(), undivided.max(area.height()));
+    let (usual, now) = (best(open), best(area.size()));
+    let is_worth = size(area.size(), now) > WORTH_MOVING * size(area.size(), usual);
+    let columns = if is_worth { now } else { usual };
+    let cell = whole(cell_size(area.size(), columns, count.div_ceil(columns)));
+    let step = cell + whole(Vec2::splat(GAP));
+    (0..count)
+        .map(|i| {
+            let place = vec2((i % columns) as f32, (i / columns) as f32);
+            Rect::from_min_size(area.min + place * step, cell)
+        })
+        .collect()
+}
+
+/// The empty place behind the last of `cells`, in a grid whose last row is not full.
+pub fn free_cell(area: Rect, cells: &[Rect]) -> Option<Rect> {
+    let [first, second, .., last] = cells else { return None };
+    let step = second.left() - first.left();
+    let free = last.translate(vec2(step, 0.0));
+    (step > 0.0 && area.expand(0.5).contains_rect(free)).then_some(free)
+}
+
+fn cell_size(area: Vec2, columns: usize, rows: usize) -> Vec2 {
+    let gaps = vec2(columns as f32 - 1.0, rows as f32 - 1.0) * GAP;
+    ((area - gaps) / vec2(columns as f32, rows as f32)).max(Vec2::splat(TITLE + 8.0))
+}
+
+/// The rectangle rounded to whole physical pixels, so that the shader's pixels are the screen's.
+fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
+    let scale = ui.pixels_per_point();
+    let round = |p: egui::Pos2| (p.to_vec2() * scale).round() / scale;
+    Rect::from_min_max(round(rect.min).to_pos2(), round(rect.max).to_pos2())
+}
+
+/// The rectangle of a pane's picture: its cell without the title.
+pub fn picture_rect(ui: &egui::Ui, cell: Rect) -> Rect {
+    pixel_aligned(ui, cell.split_top_bottom_at_y(cell.top() + TITLE).1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: Grid = Grid { width: 256, height: 256 };
+
+    fn area(width: f32, height: f32) -> Rect {
+        Rect::from_min_size(egui::pos2(10.0, 20.0), vec2(width, height))
+    }
+
+    #[test]
+    fn cells_lie_inside_the_area_and_apart() {
+        for (count, size) in
+            [(1, (800.0, 600.0)), (3, (1000.0, 300.0)), (5, (700.0, 900.0)), (9, (640.0, 480.0))]
+        {
+            let area = area(size.0, size.1);
+            let cells = cells(area, 0.0, count, SQUARE, 1.5);
+            let off = |cell: &Rect| (cell.size() - cells[0].size()).length();
+            assert!(cells.iter().all(|cell| off(cell) < 1e-3), "{cells:?}");
+            let pixels = cells.iter().flat_map(|cell| [cell.min, cell.max]).map(|p| p.to_vec2() * 1.5);
+            assert!(pixels.clone().all(|p| (p - p.round()).length() < 1e-3), "{cells:?}");
+            assert_eq!(cells.len(), count);
+            for (i, cell) in cells.iter().enumerate() {
+                assert!(area.expand(0.1).contains_rect(*cell), "{count} cells: {cell:?} in {area:?}");
+                assert!(cells[..i].iter().all(|other| !other.shrink(0.1).intersects(cell.shrink(0.1))));
+            }
+        }
+    }
+
+    #[test]
+    fn a_grid_of_three_has_a_free_cell_and_a_row_has_none() {
+        let square = area(900.0, 900.0);
+        let three = cells(square, 0.0, 3, SQUARE, 1.0);
+        let free = free_cell(square, &three).unwrap();
+        assert!(
+            three.iter().all(|cell| !cell.shrink(0.1).intersects(free.shrink(0.1))),
+            "{three:?}, {free:?}"
+        );
+        assert_eq!((free.left(), free.top()), (three[1].left(), three[2].top()));
+        assert_eq!(free_cell(square, &cells(square, 0.0, 4, SQUARE, 1.0)), None);
+        let wide = area(1200.0, 400.0);
+        assert_eq!(free_cell(wide, &cells(wide, 0.0, 3, SQUARE, 1.0)), None);
+    }
+
+    #[test]
+    fn a_wide_area_has_its_panes_in_a_row_and_a_high_one_in_a_column() {
+        assert!(cells(area(1200.0, 400.0), 0.0, 3, SQUARE, 1.0).iter().all(|c| c.top() == 20.0));
+        assert!(cells(area(300.0, 1200.0), 0.0, 3, SQUARE, 1.0).iter().all(|c| c.left() == 10.0));
+    }
+
+    #[test]
+    fn panes_keep_their_places_when_a_drawer_opens_unless_it_leaves_little() {
+        let columns = |cells: &[Rect]| cells.iter().filter(|cell| cell.top() == cells[0].top()).count();
+        let (full, left) = (780.0, 600.0);
+        assert_eq!(columns(&cells(area(1020.0, full), full, 3, SQUARE, 1.0)), 2);
+        assert_eq!(columns(&cells(area(1020.0, left), left, 3, SQUARE, 1.0)), 3, "without a drawer");
+        assert_eq!(columns(&cells(area(1020.0, left), full, 3, SQUARE, 1.0)), 2, "with one");
+        assert_eq!(columns(&cells(area(1020.0, 300.0), full, 3, SQUARE, 1.0)), 3, "too little is left");
+    }
+}

@@ -1,0 +1,177 @@
+//! Scenery: which panes there are, and what each displays.
+
+use crate::gpu::DisplayMode;
+use crate::material::Grid;
+use crate::picture::camera::Camera;
+use crate::viewer::jobs::panes::error_map::ErrorMaps;
+use crate::viewer::jobs::photograph::DisplayedPhotograph;
+use crate::viewer::model::inspection::Inspection;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::view::state::{Layout, ViewState};
+use crate::viewer::ui::photograph::corner_editor::CornerEditor;
+
+/// What the panes show, for one frame.
+#[derive(Debug)]
+pub struct Scenery<'a> {
+    pub materials: &'a [LoadedMaterial],
+    pub state: &'a ViewState,
+    pub dark: bool,
+    pub highlight_follows: bool,
+    /// Whether the handle of the view is shown.
+    pub view_handle: bool,
+    /// Whether every pane shows the ground truth, as long as a key is held.
+    pub peek: bool,
+    /// Whether the chosen prediction and the ground truth are swapped.
+    pub swapped: bool,
+    /// Whether materials are being read.
+    pub reading: bool,
+    /// The difference that has the last colour.
+    pub range: f64,
+    /// Where the difference is the error map, the maps once they are there.
+    pub error_maps: Option<&'a ErrorMaps>,
+    /// The photograph, where renderings are compared with one.
+    pub photograph: Option<DisplayedPhotograph<'a>>,
+    /// Pins and rectangle.
+    pub inspection: &'a Inspection,
+    /// Height of the panes with the drawer and the legend closed, in points.
+    pub undivided: f32,
+}
+
+/// The content of a pane: the index of the material that it displays, that of the material it is compared with, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Content {
+    pub index: usize,
+    pub reference: usize,
+    pub mode: DisplayMode,
+    /// Whether the difference from the reference is displayed, in place of the value.
+    pub difference: bool,
+    pub photograph: PhotographUse,
+}
+
+/// What a photograph is in a pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PhotographUse {
+    /// Nothing: materials are compared with each other.
+    Absent,
+    /// What is displayed, at the exposure of the material.
+    Shown,
+    /// What the material is compared with, at its exposure.
+    Reference,
+}
+
+impl Scenery<'_> {
+    /// The index of the chosen prediction; the ground truth's where there is no prediction.
+    pub fn chosen(&self) -> usize {
+        (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1))
+    }
+
+    /// The index of the material that is displayed in the place of material `index`.
+    fn in_place_of(&self, index: usize) -> usize {
+        match index {
+            _ if self.peek => 0,
+            0 if self.swapped => self.chosen(),
+            i if self.swapped && i == self.chosen() => 0,
+            i => i,
+        }
+    }
+
+    /// The content of every pane. The ground truth is never compared with itself: its pane shows its value.
+    pub fn contents(&self) -> Vec<Content> {
+        let content = |index, reference, mode| {
+            let difference = self.state.display.difference && index != 0;
+            let reference = if difference { 0 } else { reference };
+            Content { index, reference, mode, difference, photograph: PhotographUse::Absent }
+        };
+        if self.photograph.is_some() {
+            return self.photograph_contents();
+        }
+        let (ground_truth, chosen) = (self.in_place_of(0), self.in_place_of(self.chosen()));
+        match self.state.display.layout {
+            Layout::SideBySide => (0..self.materials.len())
+                .map(|i| content(self.in_place_of(i), 0, DisplayMode::Value))
+                .collect(),
+            Layout::Single => vec![content(chosen, 0, DisplayMode::Value)],
+            Layout::Wipe => {
+                vec![content(chosen, ground_truth, DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0))]
+            }
+        }
+    }
+
+    /// The content of every pane beside a photograph: the photograph at the exposure of the chosen material, then every material.
+    fn photograph_contents(&self) -> Vec<Content> {
+        let difference = self.state.display.difference;
+        let material = |index| Content {
+            index,
+            reference: index,
+            mode: DisplayMode::Value,
+            difference,
+            photograph: PhotographUse::Reference,
+        };
+        let chosen = material(self.chosen());
+        let photograph = Content { difference: false, photograph: PhotographUse::Shown, ..chosen };
+        let mut panes: Vec<Content> = match self.state.display.layout {
+            Layout::SideBySide => {
+                std::iter::once(photograph).chain((0..self.materials.len()).map(material)).collect()
+            }
+            Layout::Single | Layout::Wipe if self.corner_editor(photograph).is_some() => vec![photograph],
+            Layout::Single => vec![if self.swapped { photograph } else { chosen }],
+            Layout::Wipe => {
+                vec![Content { mode: DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0), ..chosen }]
+            }
+        };
+        if self.peek {
+            panes.fill(photograph);
+        } else if self.swapped && self.state.display.layout == Layout::SideBySide {
+            panes.swap(0, self.chosen() + 1);
+        }
+        panes
+    }
+
+    /// Where a pane shows the whole photograph, to edit the corners of the material in it.
+    pub fn corner_editor(&self, content: Content) -> Option<CornerEditor<'_>> {
+        let corners = self.photograph?.corners.filter(|_| content.photograph == PhotographUse::Shown);
+        corners.map(CornerEditor)
+    }
+
+    /// What fills an empty place beside the panes: of the chosen prediction, the difference where the others show values,
+    /// and the value where they show differences.
+    pub fn extra(&self) -> Option<Content> {
+        let is_plain = !self.peek && !self.swapped;
+        let panes = self.materials.len() + usize::from(self.photograph.is_some());
+        let grid = self.state.display.layout == Layout::SideBySide && panes > 2;
+        let difference = !self.state.display.difference;
+        let photograph = match self.photograph {
+            Some(_) => PhotographUse::Reference,
+            None => PhotographUse::Absent,
+        };
+        let mode = DisplayMode::Value;
+        let content = Content { index: self.chosen(), reference: 0, mode, difference, photograph };
+        (is_plain && grid).then_some(content)
+    }
+
+    pub fn camera(&self, grid: Grid, aspect: f32) -> Camera {
+        self.state.fitted_camera(grid, aspect).zoomed(self.state.display.zoom, self.state.display.pan)
+    }
+
+    /// The name of what a pane shows, without its difference.
+    pub fn name_of(&self, content: Content) -> String {
+        match (self.photograph, content.photograph) {
+            (Some(photograph), PhotographUse::Shown) => photograph.title(content.index),
+            _ => self.title(content.index),
+        }
+    }
+
+    /// The name of what a pane compares with.
+    pub fn name_of_reference(&self, content: Content) -> String {
+        match (self.photograph, content.photograph) {
+            (Some(photograph), PhotographUse::Reference) => photograph.title(content.index),
+            _ => self.title(content.reference),
+        }
+    }
+
+    /// The name of material `index` in titles.
+    pub fn title(&self, index: usize) -> String {
+        let name = self.materials[index].label();
+        if index == 0 { format!("GROUND TRUTH  {name}") } else { format!("{index}  {name}") }
+    }
+}

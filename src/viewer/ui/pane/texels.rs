@@ -1,0 +1,41 @@
+//! Texels that a pane draws.
+
+use crate::gpu::DisplayMode;
+use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::viewer::ui::shading::gpu_view::{GpuView, PaneTexels};
+
+/// What a pane draws and what it compares that with; a hint in its place where that is not there yet.
+pub fn texels(
+    gpu: &mut GpuView,
+    scenery: &Scenery<'_>,
+    content: Content,
+) -> Result<[PaneTexels; 2], &'static str> {
+    let [shown, reference] = [content.index, content.reference].map(|i| scenery.materials[i].id());
+    let material = PaneTexels::Shaded(shown);
+    if content.difference && scenery.state.is_error_map() {
+        let map = scenery.error_maps.and_then(|maps| maps.shaded(content.index));
+        gpu.give(shown, map.ok_or("Averaging over the scenes of the loss...")?);
+        return Ok([PaneTexels::Differences(shown), PaneTexels::Shaded(reference)]);
+    }
+    let compares = content.difference || content.mode != DisplayMode::Value;
+    if content.photograph == PhotographUse::Absent
+        || (content.photograph == PhotographUse::Reference && !compares)
+    {
+        return Ok([material, PaneTexels::Shaded(reference)]);
+    }
+    let photograph = scenery.photograph.and_then(|photograph| photograph.all?.shaded(content.index));
+    gpu.give_photograph(shown, photograph.ok_or("Reading the photograph...")?);
+    let photograph = PaneTexels::Photograph(shown);
+    Ok([if content.photograph == PhotographUse::Shown { photograph } else { material }, photograph])
+}
+
+/// The index of the material whose value is displayed at this x of a pane, from -1 to 1; the number of materials for a photograph.
+pub fn index_at(scenery: &Scenery<'_>, content: Content, x: f32) -> usize {
+    let photograph = scenery.materials.len();
+    match (content.mode, content.photograph) {
+        (_, PhotographUse::Shown) => photograph,
+        (DisplayMode::Wipe(line), PhotographUse::Reference) if x < line => photograph,
+        (DisplayMode::Wipe(line), _) if x < line => content.reference,
+        _ => content.index,
+    }
+}

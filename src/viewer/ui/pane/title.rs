@@ -1,0 +1,67 @@
+//! Title above a pane.
+
+use eframe::egui::{self, FontId, Rect, Sense, vec2};
+
+use crate::gpu::DisplayMode;
+use crate::viewer::model::command::{Command, DisplayCommand};
+use crate::viewer::model::view::state::Layout;
+use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::viewer::ui::widgets::theme;
+
+/// Width of the button that shows all maps again, in points.
+const BACK: f32 = 96.0;
+
+/// The title of a pane. A click on the title of a prediction chooses the prediction.
+pub fn title_bar(
+    ui: &mut egui::Ui,
+    scenery: &Scenery<'_>,
+    number: usize,
+    content: Content,
+    rect: Rect,
+) -> Option<Command> {
+    let is_material = content.photograph != PhotographUse::Shown;
+    let prediction = content.index.checked_sub(1).filter(|_| is_material);
+    let chosen = is_material && content.index == scenery.chosen() && content.index != 0;
+    let difference = scenery.state.difference_name();
+    let text = match content.mode {
+        DisplayMode::Value if content.difference => {
+            format!("{}: {difference}", scenery.name_of(content))
+        }
+        DisplayMode::Wipe(_) if content.difference => {
+            format!("{}   |   {}: {difference}", scenery.name_of_reference(content), scenery.name_of(content))
+        }
+        DisplayMode::Value => scenery.name_of(content),
+        DisplayMode::Wipe(_) => {
+            format!("{}   |   {}", scenery.name_of_reference(content), scenery.name_of(content))
+        }
+    };
+    let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
+    let mixed = chosen && scenery.state.display.isolated.is_some();
+    let back = Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()).shrink(2.0);
+    let painter = ui.painter_at(rect);
+    let colour = if content.index == 0 || !is_material {
+        theme::accent(ui.visuals())
+    } else {
+        ui.visuals().text_color()
+    };
+    let width = rect.width() - 16.0 - if mixed { BACK } else { 0.0 };
+    let font = FontId::proportional(13.5);
+    let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
+        .into_galley(ui, Some(egui::TextWrapMode::Truncate), width, font);
+    let elided = galley.elided;
+    let at = rect.left_center() + vec2(8.0, -galley.size().y * 0.5);
+    painter.galley(at, galley, colour);
+    if chosen && scenery.state.display.layout == Layout::SideBySide && scenery.materials.len() > 2 {
+        let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
+        painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
+    }
+    if mixed {
+        let button = ui.put(back, egui::Button::new(egui::RichText::new("Show all maps").small()));
+        if button.on_hover_text("Show the prediction itself again (Esc)").clicked() {
+            return Some(DisplayCommand::Isolate(None).into());
+        }
+    }
+    let response = if elided { response.on_hover_text(text) } else { response };
+    prediction.filter(|_| response.clicked()).map(|index| DisplayCommand::ChoosePrediction(index).into())
+}

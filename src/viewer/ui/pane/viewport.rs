@@ -1,0 +1,332 @@
+//! Viewport: the panes, drawn, and the gestures in them.
+
+use std::collections::BTreeSet;
+
+use eframe::egui::{self, Rect, Sense, Vec2};
+
+use super::cells::{TITLE, cells, free_cell, picture_rect};
+use super::gestures::{self, Gesture, PaneTarget};
+use super::handles;
+use super::hovered::Hovered;
+use super::marks::Placed;
+use super::scenery::{Content, PhotographUse, Scenery};
+use super::texels::texels;
+use super::title::title_bar;
+use crate::gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
+use crate::material::Grid;
+use crate::picture::camera::Camera;
+use crate::picture::quantity::Quantity;
+use crate::viewer::jobs::reading::upload::{BAND, Uploads};
+use crate::viewer::model::command::Command;
+use crate::viewer::model::view::geometry::WindowGeometry;
+use crate::viewer::model::view::pan_limits;
+use crate::viewer::model::view::state::{Projection, ViewState};
+use crate::viewer::ui::shading::draft_policy::{DraftPolicy, PAUSE, PaneView};
+use crate::viewer::ui::shading::gpu_view::GpuView;
+use crate::viewer::ui::shading::shaded::{ShadedPart, ShadingRequest};
+use crate::viewer::ui::shading::visible::shaded_part;
+use crate::viewer::ui::widgets::hint::{note, paint_hint};
+use crate::viewer::ui::widgets::readout::{self, Readout};
+use crate::viewer::ui::widgets::texture::PanelTextures;
+use crate::viewer::ui::widgets::theme;
+
+/// A view steeper than this above the plane (its sine) is one from straight above.
+const STEEP: f64 = 0.999;
+
+/// What panes are drawn with.
+#[derive(Debug)]
+pub struct PaneDrawing<'a> {
+    /// `None` where there is no adapter.
+    pub gpu: Option<&'a mut GpuView>,
+    pub uploads: &'a Uploads,
+    pub textures: &'a mut PanelTextures,
+}
+
+/// The state of the panes between frames.
+#[derive(Debug, Default)]
+pub struct Viewport {
+    gesture: Option<Gesture>,
+    /// Where the panes with materials were drawn, for the gestures of the next frame.
+    placed: Vec<PlacedPane>,
+    /// What is under the pointer.
+    pub hovered: Option<Hovered>,
+    /// The texel that was under the pointer last.
+    pub last_texel: Option<[usize; 2]>,
+    policy: DraftPolicy,
+    /// Whether pixels show the nearest of their texels: while something moves on a slow adapter.
+    is_draft: bool,
+    /// Whether everything is shaded in full at once, for pictures that are saved.
+    is_exact: bool,
+    /// Whether the difference or the value of the chosen prediction fills an empty place.
+    pub has_extra: bool,
+    /// Size of a pane in physical pixels.
+    pane_pixels: Vec2,
+}
+
+/// A pane that was drawn.
+#[derive(Clone, Copy, Debug)]
+struct PlacedPane {
+    id: egui::Id,
+    rect: Rect,
+}
+
+impl Viewport {
+    /// Panes that are shaded in full before they are drawn.
+    pub fn exact() -> Self {
+        Self { is_exact: true, ..Self::default() }
+    }
+
+    /// The commands of the mouse in the panes, as the last frame has drawn them.
+    pub fn gestures(&mut self, ctx: &egui::Context, scenery: &Scenery<'_>) -> Vec<Command> {
+        let Some(ground_truth) = scenery.materials.first() else { return Vec::new() };
+        let grid = ground_truth.grid();
+        let mut commands = Vec::new();
+        for PlacedPane { id, rect } in &self.placed {
+            let Some(response) = ctx.read_response(*id) else { continue };
+            let camera = scenery.camera(grid, rect.width() / rect.height());
+            let target = PaneTarget {
+                rect: *rect,
+                camera: &camera,
+                state: scenery.state,
+                highlight_follows: scenery.highlight_follows,
+                view_handle: scenery.view_handle,
+                grid,
+                is_armed: scenery.inspection.is_armed,
+            };
+            commands.extend(gestures::commands(ctx, &response, &target, &mut self.gesture));
+        }
+        commands
+    }
+
+    /// Draws the panes and returns the commands of their titles and of the corner editor.
+    pub fn ui(&mut self, ui: &mut egui::Ui, scenery: &Scenery<'_>, drawing: PaneDrawing<'_>) -> Vec<Command> {
+        let area = ui.available_rect_before_wrap();
+        self.hovered = None;
+        self.placed.clear();
+        let PaneDrawing { gpu: Some(gpu), uploads, textures } = drawing else {
+            note(ui, area, "No graphics adapter: materials cannot be drawn. The loss can be computed.");
+            return Vec::new();
+        };
+        if scenery.materials.is_empty() {
+            let text = if scenery.reading {
+                "Reading..."
+            } else {
+                "Open a material with Ctrl+O, or drop files or folders here."
+            };
+            note(ui, area, text);
+            return Vec::new();
+        }
+        let contents = scenery.contents();
+        let grid = scenery.materials[0].grid();
+        let cells = cells(area, scenery.undivided, contents.len(), grid, ui.pixels_per_point());
+        if let Some(cell) = cells.first() {
+            self.pane_pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
+        }
+        if let Err(problem) = self.shade(ui, gpu, uploads, scenery, &contents) {
+            note(ui, area, &problem);
+            return Vec::new();
+        }
+        let free = free_cell(area, &cells);
+        let mut panes: Vec<(Content, Rect)> = contents.into_iter().zip(cells).collect();
+        let extra = scenery.extra().zip(free);
+        self.has_extra = extra.is_some();
+        panes.extend(extra);
+        let mut on_material = panes.iter().filter(|(content, _)| scenery.corner_editor(*content).is_none());
+        self.hovered = on_material.find_map(|(content, cell)| Hovered::in_pane(ui, scenery, *content, *cell));
+        if let Some(texel) = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point)) {
+            self.last_texel = Some(texel);
+        }
+        let mut commands = Vec::new();
+        for (i, (content, cell)) in panes.into_iter().enumerate() {
+            let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
+            commands.extend(title_bar(ui, scenery, i, content, title));
+            let rect = picture_rect(ui, cell);
+            match scenery.corner_editor(content) {
+                Some(editor) => commands.extend(editor.ui(ui, rect, i, textures)),
+                None => self.pane(ui, scenery, gpu, i, content, rect),
+            }
+        }
+        commands
+    }
+
+    fn pane(
+        &mut self,
+        ui: &mut egui::Ui,
+        scenery: &Scenery<'_>,
+        gpu: &mut GpuView,
+        number: usize,
+        content: Content,
+        rect: Rect,
+    ) {
+        let id = ui.scope_id().with(("pane", number));
+        let response = ui.interact(rect, id, Sense::drag());
+        self.placed.push(PlacedPane { id, rect });
+        let kind = match (number < scenery.contents().len(), content.difference) {
+            (true, _) => "Pane",
+            (false, true) => "Difference pane",
+            (false, false) => "Value pane",
+        };
+        let label = format!("{kind} {}", scenery.name_of(content));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
+        let camera = scenery.camera(scenery.materials[0].grid(), rect.width() / rect.height());
+        self.paint(ui, scenery, gpu, (number, content), rect, camera);
+    }
+
+    fn paint(
+        &self,
+        ui: &egui::Ui,
+        scenery: &Scenery<'_>,
+        gpu: &mut GpuView,
+        (number, content): (usize, Content),
+        rect: Rect,
+        camera: Camera,
+    ) {
+        let state = scenery.state;
+        let painter = ui.painter_at(rect);
+        let background = theme::surround(scenery.dark).to_normalized_gamma_f32();
+        let params = DisplayParams {
+            camera,
+            exposure_ev: state.exposure_ev,
+            mode: content.mode,
+            difference: content.difference.then(|| DisplayedDifference {
+                kind: state.difference_kind(),
+                range: scenery.range as f32,
+                is_computed: state.is_error_map(),
+            }),
+            encoding: state.display.quantity.into(),
+            show_clipping: state.display.show_clipping,
+            epsilon: state.convention().epsilon as f32,
+            tiled: state.display.tiled,
+            false_colour: state.display.false_colour,
+            nearest: self.is_draft,
+            background: [background[0], background[1], background[2]],
+        };
+        let drawn = match texels(gpu, scenery, content) {
+            Ok(drawn) => drawn,
+            Err(hint) => {
+                painter.rect_filled(rect, 0.0, theme::surround(scenery.dark));
+                return paint_hint(&painter, rect, hint);
+            }
+        };
+        gpu.paint(&painter, rect, number, drawn, params);
+        self.paint_marks(&painter, scenery, content, rect, &camera);
+        if state.display.quantity == Quantity::Rendering {
+            handles::paint_endpoints(&painter, rect, &camera, state, scenery.view_handle);
+        }
+        if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
+            handles::paint_wipe(&painter, rect, state.display.wipe);
+        }
+        if let Some(text) = hint(scenery, rect.width() / rect.height()) {
+            paint_hint(&painter, rect, text);
+        }
+    }
+
+    /// Shades every material in a pane; on a slow adapter only what the screen needs while something moves, and the rest bit by
+    /// bit.
+    fn shade(
+        &mut self,
+        ui: &egui::Ui,
+        gpu: &mut GpuView,
+        uploads: &Uploads,
+        scenery: &Scenery<'_>,
+        contents: &[Content],
+    ) -> Result<(), String> {
+        let state = scenery.state;
+        let params = ShadeParams {
+            scene: state.scene,
+            convention: state.convention(),
+            quantity: state.display.quantity,
+        };
+        // Where the last frame did not ask for this one, the time between them is not that of a frame.
+        let (now, seconds) = ui.input(|i| (i.time, i.stable_dt));
+        let software = gpu.gpu.report.software;
+        let visible = PaneView { params, zoom: state.display.zoom, pan: state.display.pan };
+        let moves = self.policy.frame(visible, now, seconds, software);
+        if moves {
+            ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
+        }
+        let grid = scenery.materials[0].grid();
+        let is_large = grid.width * grid.height > BAND && (software || self.policy.is_slow());
+        // What is compared with an error map or a photograph, and what is saved, is never shaded in part.
+        let is_exact = self.is_exact || state.is_error_map() || scenery.photograph.is_some();
+        self.is_draft = moves && !is_exact;
+        let part = if self.is_draft || is_large && !is_exact {
+            shaded_part(state, grid, self.aspect(), self.magnification(grid, state))
+        } else {
+            ShadedPart::Whole
+        };
+        let sharpens = !moves && part != ShadedPart::Whole;
+        let request = ShadingRequest { params, part, sharpens, waits: scenery.reading, exact: is_exact };
+        gpu.keep_only(scenery.materials, contents.len() + 1);
+        let displayed: BTreeSet<usize> = contents.iter().flat_map(|one| [one.index, one.reference]).collect();
+        let materials: Vec<_> = displayed.into_iter().map(|index| &scenery.materials[index]).collect();
+        if gpu.shade(&materials, uploads, request)? {
+            ui.ctx().request_repaint();
+        }
+        Ok(())
+    }
+
+    /// What is drawn over a pane about texels.
+    fn paint_marks(
+        &self,
+        painter: &egui::Painter,
+        scenery: &Scenery<'_>,
+        content: Content,
+        rect: Rect,
+        camera: &Camera,
+    ) {
+        let grid = scenery.materials[0].grid();
+        let placed = Placed { rect, camera, grid };
+        let state = scenery.state;
+        if state.display.tiled {
+            // A texel is in four places.
+            return;
+        }
+        if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
+            let (index, difference) = (content.index, content.difference);
+            let photographs = scenery.photograph.and_then(|photograph| photograph.all).map(AsRef::as_ref);
+            let readout =
+                Readout { materials: scenery.materials, state, error_maps: scenery.error_maps, photographs };
+            placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
+                (PhotographUse::Shown, Some(photographs)) => readout::photograph(photographs, index, texel),
+                _ => readout::shown(readout, index, difference, texel),
+            });
+        }
+        placed.paint_inspected(painter, scenery.inspection);
+        let texel = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point));
+        if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
+            placed.paint_crosshair(painter, texel);
+        }
+    }
+
+    /// Screen pixels per texel in the middle of a pane.
+    pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
+        let camera = state.fitted_camera(grid, self.aspect()).zoomed(state.display.zoom, state.display.pan);
+        let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
+        let middle = camera.plane_from_ndc(0.0, 0.0).and_then(|point| grid.texel_at(point));
+        let middle = middle.unwrap_or([grid.width / 2, grid.height / 2]);
+        Placed { rect, camera: &camera, grid }.texel_side(middle)
+    }
+
+    /// Width and height of the picture of a pane, in physical pixels; 0 before there is one.
+    pub fn pane_pixels(&self) -> [f32; 2] {
+        self.pane_pixels.into()
+    }
+
+    fn aspect(&self) -> f32 {
+        WindowGeometry { pane: self.pane_pixels(), ..WindowGeometry::default() }.aspect()
+    }
+}
+
+/// What a pane says at its bottom, where its picture may puzzle.
+fn hint(scenery: &Scenery<'_>, aspect: f32) -> Option<&'static str> {
+    let state = scenery.state;
+    let grid = scenery.materials.first()?.grid();
+    if pan_limits::visible_share(state, grid, aspect) < pan_limits::NEARLY_LOST {
+        return Some("F fits the material");
+    }
+    let [x, y, z] = state.scene.view;
+    let steep = z > STEEP * (x * x + y * y + z * z).sqrt();
+    let perspective = state.display.projection == Projection::Perspective;
+    (perspective && steep).then_some("Perspective from straight above: right-drag to tilt")
+}

@@ -1,0 +1,186 @@
+//! Status bar: the line at the bottom: the numbers of the texel under the pointer, and the graphics adapter.
+
+use eframe::egui::{self, RichText};
+
+use crate::gpu::AdapterReport;
+use crate::viewer::jobs::panes::error_map::ErrorMaps;
+use crate::viewer::jobs::photograph::Photographs;
+use crate::viewer::model::command::{Command, InspectionCommand};
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::view::state::ViewState;
+use crate::viewer::ui::widgets::readout::{self, Readout};
+use crate::viewer::ui::widgets::theme;
+
+/// Least width of the line, in points, in which the adapter is named.
+const WIDE: f32 = 1000.0;
+/// Width of the line, in points, below which its buttons have short names.
+const NARROW: f32 = 850.0;
+/// Characters of the texel's (column, row).
+const PLACE: usize = 9;
+
+/// What the line shows.
+#[derive(Debug)]
+pub struct StatusBar<'a> {
+    pub state: &'a ViewState,
+    pub materials: &'a [LoadedMaterial],
+    /// Where the difference is the error map, the maps once they are there.
+    pub error_maps: Option<&'a ErrorMaps>,
+    /// Where renderings are compared with a photograph, the photograph beside every slot.
+    pub photographs: Option<&'a Photographs>,
+    /// The texel under the pointer.
+    pub texel: Option<[usize; 2]>,
+    /// The slot of the pane under the pointer.
+    pub hovered: Option<usize>,
+    /// Screen pixels per texel.
+    pub magnification: f32,
+    pub is_armed: bool,
+    /// `None` where there is no adapter.
+    pub adapter: Option<&'a AdapterReport>,
+    pub frame_ms: f32,
+}
+
+impl StatusBar<'_> {
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.set_height(ui.spacing().interact_size.y);
+            if ui.available_width() > WIDE {
+                self.adapter(ui);
+            }
+            self.buttons(ui, &mut commands);
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| self.columns(ui));
+        });
+        commands
+    }
+
+    fn adapter(&self, ui: &mut egui::Ui) {
+        ui.label(RichText::new(milliseconds(self.frame_ms)).monospace().weak())
+            .on_hover_text("CPU time of the last frame");
+        if let Some(adapter) = self.adapter {
+            let name = egui::Label::new(RichText::new(&adapter.name).weak()).truncate();
+            ui.add_sized([120.0, 16.0], name).on_hover_text(adapter.to_string());
+        }
+    }
+
+    fn buttons(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let wide = ui.ctx().content_rect().width() > NARROW;
+        let (rectangle, pin) = if wide { ("Rectangle (Q)", "Pin (I)") } else { ("Rect.", "Pin") };
+        let rectangle = ui.selectable_label(self.is_armed, rectangle).on_hover_text(
+            "Statistics of a rectangle: the next left-drag draws it (Q); on maps also Shift + left-drag",
+        );
+        if rectangle.clicked() {
+            commands.push(InspectionCommand::Arm(!self.is_armed).into());
+        }
+        let pin = ui.button(pin).on_hover_text(
+            "Pin the texel that was last under the pointer: all its numbers in a table (I); also Alt + click",
+        );
+        if pin.clicked() {
+            commands.push(InspectionCommand::TogglePinHere.into());
+        }
+    }
+
+    /// The texel, then one column for each material whose numbers fit, the ground truth first.
+    fn columns(&self, ui: &mut egui::Ui) {
+        let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 10.5 };
+        let font = egui::FontId::monospace(size);
+        let place = match self.texel {
+            Some([column, row]) => format!("{column},{row}"),
+            None => "-".to_owned(),
+        };
+        let mono = |text: String| RichText::new(text).font(font.clone());
+        ui.label(mono(format!("texel {place:<PLACE$}")));
+        ui.label(mono(magnification(self.magnification)).weak())
+            .on_hover_text("Magnification: screen pixels per texel");
+        if let Some(photographs) = self.photographs {
+            self.photograph(ui, photographs, mono);
+        }
+        for index in self.order() {
+            let name = if index == 0 { "gt".to_owned() } else { index.to_string() };
+            let text = format!("{name} {}", self.numbers(index));
+            let glyph = ui.fonts_mut(|fonts| fonts.glyph_width(&font, 'm'));
+            let width = glyph * text.chars().count() as f32;
+            if ui.available_width() < width + 12.0 {
+                break;
+            }
+            ui.separator();
+            let text = if index == 0 { mono(text).color(theme::accent(ui.visuals())) } else { mono(text) };
+            let text = if self.hovered == Some(index) { text.strong() } else { text };
+            ui.label(text).on_hover_text(self.materials[index].name());
+        }
+    }
+
+    /// The column of the photograph, at the exposure of the chosen material.
+    fn photograph(&self, ui: &mut egui::Ui, photographs: &Photographs, mono: impl Fn(String) -> RichText) {
+        let chosen = (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1));
+        let numbers: Vec<String> = match self.texel {
+            Some(texel) => {
+                readout::photograph(photographs, chosen, texel).into_iter().map(readout::fixed).collect()
+            }
+            None => vec![format!("{:>1$}", "-", readout::WIDTH); 3],
+        };
+        ui.separator();
+        let text = mono(format!("photo {}", numbers.join(" "))).color(theme::accent(ui.visuals()));
+        let hover = format!("The photograph at the exposure of {}", self.materials[chosen].name());
+        ui.label(text).on_hover_text(hover);
+    }
+
+    /// The indices in the order of their columns: the ground truth, the chosen prediction, then the others. It does not depend
+    /// on the pointer, so that columns stay where they are.
+    fn order(&self) -> Vec<usize> {
+        let all = 0..self.materials.len();
+        let fits_all = self.materials.len() <= 4;
+        let chosen = self.state.display.prediction + 1;
+        let mut order: Vec<usize> = all.collect();
+        if !fits_all && chosen < order.len() {
+            order.remove(chosen);
+            order.insert(1, chosen);
+        }
+        order
+    }
+
+    /// The numbers of material `index` at the texel, always of the same width.
+    fn numbers(&self, index: usize) -> String {
+        let unit = readout::unit(self.state, index);
+        let Self { materials, state, error_maps, photographs, .. } = *self;
+        let readout = Readout { materials, state, error_maps, photographs };
+        let numbers: Vec<String> = match self.texel {
+            Some(texel) => readout::shown(readout, index, self.state.display.difference, texel)
+                .into_iter()
+                .map(readout::fixed)
+                .collect(),
+            None => vec![format!("{:>1$}", "-", readout::WIDTH); readout::count(readout, index)],
+        };
+        format!("{}{unit}", numbers.join(" "))
+    }
+}
+
+/// Screen pixels per texel, in 6 characters.
+fn magnification(pixels: f32) -> String {
+    match pixels {
+        p if p >= 9.95 => format!("x{p:<5.0}"),
+        p if p >= 0.995 => format!("x{p:<5.1}"),
+        p => format!("x{p:<5.2}"),
+    }
+}
+
+/// A time in 8 characters, also where a frame takes seconds: its column must not push others out of the line.
+fn milliseconds(time: f32) -> String {
+    if time < 999.95 { format!("{time:5.1} ms") } else { format!("{:5.0} ms", time.min(99_999.0)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_of_a_frame_keeps_its_width() {
+        let times = [0.0, 9.96, 99.96, 999.94, 999.96, 1234.5, 1e7].map(milliseconds);
+        assert!(times.iter().all(|text| text.chars().count() == 8), "{times:?}");
+        assert_eq!([&times[1], &times[5]], [" 10.0 ms", " 1234 ms"]);
+    }
+
+    #[test]
+    fn the_magnification_keeps_its_width() {
+        assert_eq!([0.254, 1.0, 12.3, 400.0].map(magnification), ["x0.25 ", "x1.0  ", "x12   ", "x400  "]);
+    }
+}

@@ -1,0 +1,95 @@
+//! Visible part of a material: what is shaded while something moves on a slow adapter.
+
+use crate::material::Grid;
+use crate::picture::camera::Camera;
+use crate::viewer::model::inspection::Region;
+use crate::viewer::model::view::state::ViewState;
+use crate::viewer::ui::shading::shaded::ShadedPart;
+
+/// Most texels along an axis that one stands for.
+const MOST: usize = 64;
+/// How far around a pane texels are shaded, as a share of it: those at its edge are averaged with their neighbours.
+const AROUND: f32 = 0.04;
+
+/// About one texel a pixel where several fall into one, the visible texels otherwise. `pixels_per_texel` is the
+/// magnification in panes of `aspect` = width / height.
+pub fn shaded_part(state: &ViewState, grid: Grid, aspect: f32, pixels_per_texel: f32) -> ShadedPart {
+    let stride = (pixels_per_texel.recip().round() as usize).clamp(1, MOST);
+    if stride > 1 {
+        return ShadedPart::EveryNth(stride);
+    }
+    let camera = state.fitted_camera(grid, aspect).zoomed(state.display.zoom, state.display.pan);
+    let all = [grid.width, grid.height];
+    let region = visible(&camera, grid).filter(|region| !state.display.tiled && region.size() != all);
+    region.map_or(ShadedPart::Whole, ShadedPart::Visible)
+}
+
+/// The texels in a pane; `None` where its corners do not show the plane, or nothing of the material is in it.
+fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
+    let far = 1.0 + AROUND;
+    let corners = [(-far, -far), (far, -far), (-far, far), (far, far)];
+    let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+    for (x, y) in corners {
+        let point = camera.plane_from_ndc(x, y)?;
+        for axis in 0..2 {
+            low[axis] = low[axis].min(point[axis]);
+            high[axis] = high[axis].max(point[axis]);
+        }
+    }
+    Region::between(grid, low, high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::session_window::Display;
+    use crate::viewer::model::view::state::Projection;
+
+    const GRID: Grid = Grid { width: 256, height: 128 };
+
+    /// Every texel that a ray of a pane meets.
+    fn visible_texels(state: &ViewState) -> Vec<[usize; 2]> {
+        let camera = state.fitted_camera(GRID, 1.5).zoomed(state.display.zoom, state.display.pan);
+        let steps = || (0..=60).map(|i| i as f32 / 30.0 - 1.0);
+        let rays = steps().flat_map(|x| steps().map(move |y| (x, y)));
+        rays.filter_map(|(x, y)| GRID.texel_at(camera.plane_from_ndc(x, y)?)).collect()
+    }
+
+    #[test]
+    fn all_that_is_visible_is_shaded_and_little_else() {
+        for projection in [Projection::Flat, Projection::Perspective] {
+            for (zoom, pan) in [(1.0, [0.0, 0.0]), (4.0, [0.3, -0.2]), (16.0, [-2.0, 1.5])] {
+                let mut state = ViewState::default();
+                state.display = Display { projection, zoom, pan, ..Display::default() };
+                state.scene.view = [0.7, -0.4, 2.0];
+                let part = shaded_part(&state, GRID, 1.5, 2.0);
+                let texels = visible_texels(&state);
+                assert!(!texels.is_empty(), "{projection:?} {zoom}");
+                let whole = Region { first: [0; 2], last: [GRID.width - 1, GRID.height - 1] };
+                let region = match part {
+                    ShadedPart::Visible(region) => region,
+                    ShadedPart::Whole if zoom == 1.0 => whole,
+                    _ => panic!("{projection:?} {zoom}: {part:?}"),
+                };
+                let is_in = |[x, y]: &[usize; 2]| {
+                    let ([left, top], [right, bottom]) = (region.first, region.last);
+                    (left..=right).contains(x) && (top..=bottom).contains(y)
+                };
+                assert!(texels.iter().all(is_in), "{projection:?} {zoom}: {region:?}");
+                let [columns, rows] = region.size();
+                let share = (columns * rows) as f32 / (GRID.width * GRID.height) as f32;
+                assert!(share < 4.0 / (zoom * zoom) + 0.05, "{projection:?} {zoom}: {share}");
+            }
+        }
+    }
+
+    #[test]
+    fn minified_materials_have_about_a_texel_a_pixel_and_tiled_ones_are_shaded_whole() {
+        let mut state = ViewState::default();
+        assert_eq!(shaded_part(&state, GRID, 1.0, 0.3), ShadedPart::EveryNth(3));
+        assert_eq!(shaded_part(&state, GRID, 1.0, 0.252), ShadedPart::EveryNth(4));
+        assert_eq!(shaded_part(&state, GRID, 1.0, 1e-9), ShadedPart::EveryNth(MOST));
+        state.display.tiled = true;
+        assert_eq!(shaded_part(&state, GRID, 1.0, 2.0), ShadedPart::Whole);
+    }
+}

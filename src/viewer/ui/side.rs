@@ -1,0 +1,113 @@
+//! Side panel: a tab, and below it the photograph, light and view.
+
+use eframe::egui::{self, RichText};
+
+use super::bare;
+use super::loss::panel::LossPanel;
+use super::loss::training::TrainingPanel;
+use super::materials::panel::MaterialsPanel;
+use super::panels::light_and_view::ScenePanel;
+use super::photograph::card::PhotographCard;
+use super::why::WhyPanel;
+use super::widgets::texture::PanelTextures;
+use crate::files::read::Certainty;
+use crate::viewer::jobs::displayed::Displayed;
+use crate::viewer::jobs::why::ComparedPair;
+use crate::viewer::model::command::{Command, WindowCommand};
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::settings::Tab;
+
+pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextures) -> Vec<Command> {
+    let (model, jobs) = (displayed.model, displayed.jobs);
+    let mut commands = tabs(ui, displayed);
+    bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
+        let header = egui::CollapsingHeader::new("Light and view").default_open(true);
+        let scene = ScenePanel { state: &model.view, settings: &model.settings, animation: &model.animation };
+        header.show_unindented(ui, |ui| commands.extend(scene.ui(ui)));
+    });
+    if let Some(photograph) = jobs.photograph.displayed(&model.photograph, displayed.materials()) {
+        let is_compared = displayed.photograph().is_some();
+        let names = displayed.materials().iter().map(LoadedMaterial::name).collect();
+        let card = PhotographCard { photograph, names, is_compared };
+        bare(egui::Panel::bottom("photograph"), ui)
+            .resizable(false)
+            .show(ui, |ui| commands.extend(card.ui(ui)));
+    }
+    let scroll = egui::ScrollArea::vertical().id_salt(model.settings.tab as usize);
+    scroll.auto_shrink([false, false]).show(ui, |ui| {
+        commands.extend(match model.settings.tab {
+            Tab::Loss => loss_tab(ui, displayed),
+            Tab::Why => why_tab(ui, displayed, textures),
+            Tab::Files => {
+                let (materials, openings) = (&model.materials, &jobs.openings);
+                MaterialsPanel { materials, openings, watch: model.settings.watch }.ui(ui)
+            }
+        });
+    });
+    commands
+}
+
+fn tabs(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
+    let model = displayed.model;
+    let mut commands = Vec::new();
+    let unsure = model.materials.all.iter().flat_map(|one| &one.read.assumptions);
+    let unsure = unsure.filter(|assumption| assumption.certainty == Certainty::Unsure).count();
+    ui.horizontal(|ui| {
+        for (tab, name, question) in Tab::ALL {
+            let text = match tab {
+                Tab::Files if unsure > 0 => {
+                    RichText::new(format!("{name} ({unsure}?)")).color(ui.visuals().warn_fg_color)
+                }
+                _ => RichText::new(name),
+            };
+            let label = ui.selectable_label(model.settings.tab == tab, text.size(14.5));
+            label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Tab, true, format!("Tab {name}")));
+            let hover = match tab {
+                Tab::Files if unsure > 0 => format!("{question} {unsure} guesses are unsure"),
+                _ => question.to_owned(),
+            };
+            if label.on_hover_text(hover).clicked() {
+                commands.push(WindowCommand::ChooseTab(tab).into());
+            }
+        }
+    });
+    ui.separator();
+    commands
+}
+
+fn loss_tab(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
+    let (model, jobs) = (displayed.model, displayed.jobs);
+    let loss = LossPanel {
+        settings: &model.settings.loss,
+        auto: model.settings.auto_loss,
+        job: &jobs.loss,
+        few: &jobs.few,
+        sorted: model.settings.sort_losses,
+        materials: &model.materials,
+        chosen: model.view.display.prediction,
+    };
+    let mut commands = loss.ui(ui);
+    let training = TrainingPanel {
+        runs: jobs.training.views(&model.materials.all, model.training.requested.as_ref()),
+        chosen: model.view.display.prediction,
+        watch: model.settings.watch,
+        busy: jobs.training.losses.busy(),
+    };
+    commands.extend(training.ui(ui));
+    commands
+}
+
+fn why_tab(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextures) -> Vec<Command> {
+    let (model, jobs) = (displayed.model, displayed.jobs);
+    let why = WhyPanel {
+        state: &model.view,
+        losses: jobs.scene_loss.get(&model.materials.all, &model.view),
+        names: model.materials.predictions().iter().map(LoadedMaterial::name).collect(),
+        pair: ComparedPair::of(&model.materials.all, &model.view),
+        why: model.why,
+        jobs: &jobs.why,
+        sections: model.settings.why,
+        settings: &model.settings.loss,
+    };
+    why.ui(ui, textures)
+}

@@ -1,0 +1,48 @@
+//! Snapshot of the content: the panes and the legend in a picture of any size.
+
+use eframe::egui;
+
+use super::WindowUi;
+use super::content::Content;
+use super::pane::viewport::Viewport;
+use super::shading::gpu_view::GpuView;
+use super::shading::snapshot::{Size, snapshot};
+use crate::error::Error;
+use crate::viewer::jobs::displayed::Displayed;
+
+impl WindowUi {
+    /// The panes and the legend in a picture of this size, in pixels.
+    ///
+    /// # Errors
+    /// [`Error::Gpu`] where the adapter cannot make a picture of this size, [`Error::Internal`] without an adapter.
+    pub fn picture(
+        &mut self,
+        ctx: &egui::Context,
+        displayed: Displayed<'_>,
+        gpu: Option<&mut GpuView>,
+        pixels: [u32; 2],
+    ) -> Result<egui::ColorImage, Error> {
+        let window = self.picture_size;
+        // A larger picture has larger text.
+        let grown =
+            (pixels[0] as f32 / window[0].max(1) as f32).min(pixels[1] as f32 / window[1].max(1) as f32);
+        let scale = (ctx.pixels_per_point() * grown).clamp(0.5, 8.0);
+        let Some(view) = gpu else {
+            return Err(Error::Internal("there is no graphics adapter to draw the view".to_owned()));
+        };
+        let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), displayed.model.settings.dark);
+        for material in displayed.materials() {
+            let uploaded = displayed.jobs.uploads.get(material.id());
+            uploaded.into_iter().for_each(|uploaded| uploaded.complete(&gpu, material.material()));
+        }
+        // Gestures and corner handles stay in the window.
+        let displayed = Displayed { hides_corners: true, ..displayed };
+        let mut viewport = Viewport::exact();
+        let drawer_share = self.drawer_share;
+        snapshot(&state, &gpu, Size { pixels, scale }, dark, |ui| {
+            let (viewport, textures) = (&mut viewport, &mut self.textures);
+            let mut content = Content { displayed, viewport, textures, drawer_share };
+            drop(content.ui(ui, Some(view)));
+        })
+    }
+}

@@ -1,0 +1,183 @@
+//! How much of the loss of the chosen prediction comes from each map.
+
+use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
+
+use crate::material::Map;
+use crate::model::scene::Kind;
+use crate::viewer::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair};
+use crate::viewer::model::command::{Command, DisplayCommand};
+use crate::viewer::ui::why::WhyPanel;
+use crate::viewer::ui::widgets::numbers::{accuracy, seconds, significant};
+use crate::viewer::ui::widgets::theme;
+use crate::why::MapShare;
+
+/// Height of a row, and widths of its name and of its numbers, in points.
+const ROW: f32 = 20.0;
+const NAME: f32 = 74.0;
+const NUMBERS: f32 = 114.0;
+
+impl WhyPanel<'_> {
+    pub fn maps(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
+        let attributed = self.jobs.attribution.get(pair, self.settings.seed);
+        let axis = attributed.map_or([0.0, 1.0], axis);
+        for map in Map::ALL {
+            let row = MapRow { map, attributed, axis, chosen: self.state.display.prediction };
+            let isolated = self.state.display.isolated == Some(map);
+            if row.ui(ui, isolated, self.state.display.only_right).clicked() {
+                commands.push(DisplayCommand::Isolate((!isolated).then_some(map)).into());
+            }
+        }
+        self.state_line(ui, attributed);
+        if let Some(note) = attributed.and_then(|attributed| attributed.attribution.note()) {
+            ui.label(RichText::new(note).small());
+        }
+        self.pane_choice(ui, commands);
+    }
+
+    /// One line of constant height: the progress, or the sum and what it took.
+    fn state_line(&self, ui: &mut egui::Ui, attributed: Option<&Attributed>) {
+        let height = ui.spacing().interact_size.y;
+        let Some(Attributed { attribution, elapsed }) = attributed else {
+            let (fraction, elapsed) = self.jobs.attribution.busy().unwrap_or_default();
+            let text = format!("Mixing maps, {} s", elapsed.as_secs());
+            ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
+            return;
+        };
+        let count = |kind| attribution.scenes.iter().filter(|scene| scene.kind == kind).count();
+        let [mean, interval] = significant(&attribution.loss);
+        let text = format!(
+            "Sum {mean} {interval}, {} + {} scenes, {}",
+            count(Kind::Near),
+            count(Kind::Distant),
+            seconds(*elapsed)
+        );
+        let missed = attribution.loss.relative_error95() > ATTRIBUTION_TARGET;
+        let missed =
+            if missed { format!("Not within {}: ", accuracy(ATTRIBUTION_TARGET)) } else { String::new() };
+        let text = missed + &text;
+        ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
+            ui.set_min_height(height);
+            ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
+                "All 16 mixtures of true and predicted maps, in the same scenes on the same texels. The Shapley value \
+                 of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; \
+                 the four add up to the loss. Below 0%: the error of a map hides errors of others. At most 49,152 scenes are \
+                 sampled.",
+            );
+        });
+    }
+
+    /// What a click on a map shows.
+    fn pane_choice(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        ui.horizontal_wrapped(|ui| {
+            ui.label("A click shows").on_hover_text(
+                "A click on a map shows the chosen prediction with this map alone wrong, or alone right, in its pane. \
+                 Another click, or Esc, shows the prediction itself.",
+            );
+            for (right, name, hover) in [
+                (false, "only it wrong", "The ground truth with this map of the prediction"),
+                (true, "only it right", "The prediction with this map of the ground truth"),
+            ] {
+                let label = ui.selectable_label(self.state.display.only_right == right, name).on_hover_text(hover);
+                if label.clicked() {
+                    commands.push(DisplayCommand::SetOnlyRight(right).into());
+                }
+            }
+        });
+    }
+}
+
+/// One map.
+struct MapRow<'a> {
+    map: Map,
+    attributed: Option<&'a Attributed>,
+    /// The values at both ends of the bars.
+    axis: [f64; 2],
+    /// The chosen prediction.
+    chosen: usize,
+}
+
+impl MapRow<'_> {
+    fn ui(&self, ui: &mut egui::Ui, isolated: bool, only_right: bool) -> egui::Response {
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+        let share = self.attributed.map(|attributed| attributed.attribution.of(self.map));
+        let text = self.attributed.map_or_else(String::new, |attributed| percent(attributed, self.map));
+        let label = format!("{}: {text} of the loss", self.map.name());
+        response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, isolated, &label));
+        let visuals = ui.visuals();
+        let painter = ui.painter();
+        if isolated {
+            painter.rect_filled(area, 3.0, visuals.selection.bg_fill);
+        } else if response.hovered() {
+            painter.rect_filled(area, 3.0, visuals.widgets.hovered.weak_bg_fill);
+        }
+        if response.has_focus() {
+            painter.rect_stroke(area, 3.0, visuals.selection.stroke, egui::StrokeKind::Inside);
+        }
+        let ink = visuals.text_color();
+        let (middle, font) = (area.center().y, FontId::monospace(12.0));
+        let name = pos2(area.left() + 4.0, middle);
+        painter.text(name, Align2::LEFT_CENTER, self.map.name(), FontId::proportional(13.0), ink);
+        let bars = Rect::from_x_y_ranges(area.left() + NAME..=area.right() - NUMBERS, area.y_range());
+        if let Some(share) = share {
+            self.bar(ui, bars, share);
+            let value = format!("{:.4}", share.shapley.mean);
+            painter.text(pos2(area.right() - 4.0, middle), Align2::RIGHT_CENTER, value, font.clone(), ink);
+        }
+        painter.text(pos2(area.right() - 64.0, middle), Align2::RIGHT_CENTER, text, font, ink);
+        let side = if only_right { "right" } else { "wrong" };
+        let name = self.map.name();
+        response.on_hover_ui(|ui| {
+            if let Some(share) = share {
+                ui.label(numbers(share));
+            }
+            ui.label(match isolated {
+                true => "Click to show the prediction itself (Esc)".to_owned(),
+                false => format!("Click to show the prediction with only its {name} {side}"),
+            });
+        })
+    }
+
+    fn bar(&self, ui: &egui::Ui, area: Rect, share: &MapShare) {
+        let [low, high] = self.axis;
+        let x = |value: f64| area.left() + area.width() * ((value - low) / (high - low)) as f32;
+        let (zero, end, middle) = (x(0.0), x(share.shapley.mean), area.center().y);
+        let bar = Rect::from_x_y_ranges(zero.min(end)..=zero.max(end), middle - 4.0..=middle + 4.0);
+        let painter = ui.painter();
+        painter.rect_filled(bar, 1.0, theme::series(self.chosen, ui.visuals().dark_mode));
+        let thin = Stroke::new(1.0, ui.visuals().weak_text_color());
+        painter.line_segment([pos2(zero, area.top() + 3.0), pos2(zero, area.bottom() - 3.0)], thin);
+        if let Some([low, high]) = share.shapley.interval95 {
+            let stroke = Stroke::new(1.5, ui.visuals().text_color());
+            painter.line_segment([pos2(x(low), middle), pos2(x(high), middle)], stroke);
+            for at in [x(low), x(high)] {
+                painter.line_segment([pos2(at, middle - 4.0), pos2(at, middle + 4.0)], stroke);
+            }
+        }
+    }
+}
+
+fn percent(Attributed { attribution, .. }: &Attributed, map: Map) -> String {
+    let whole = attribution.loss.mean;
+    if whole > 0.0 {
+        format!("{:.1}%", 100.0 * attribution.of(map).shapley.mean / whole)
+    } else {
+        "-".to_owned()
+    }
+}
+
+/// The numbers of a map, for its tooltip.
+fn numbers(share: &MapShare) -> String {
+    let [shapley, wrong, right] = [share.shapley, share.only_wrong, share.only_right].map(|estimate| {
+        let [mean, interval] = significant(&estimate);
+        format!("{mean} {interval}")
+    });
+    format!("Shapley value {shapley}\nLoss with only it wrong {wrong}\nLoss with only it right {right}")
+}
+
+/// From 0, or the least value where errors of maps cancel, to the largest.
+fn axis(Attributed { attribution, .. }: &Attributed) -> [f64; 2] {
+    let ends = |share: &MapShare| share.shapley.interval95.unwrap_or([share.shapley.mean; 2]);
+    let low = attribution.maps.iter().map(|share| ends(share)[0]).fold(0.0, f64::min);
+    let high = attribution.maps.iter().map(|share| ends(share)[1]).fold(f64::MIN_POSITIVE, f64::max);
+    [low, high]
+}

@@ -1,0 +1,127 @@
+//! Tab *Why*: maps, scenes and directions from which the loss of the chosen prediction comes.
+
+pub mod directions;
+pub mod maps;
+pub mod scenes;
+
+use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
+
+use crate::loss::LossSettings;
+use crate::picture::quantity::Quantity;
+use crate::viewer::jobs::why::{ComparedPair, WhyJobs};
+use crate::viewer::model::command::{Command, DisplayCommand, WhyCommand};
+use crate::viewer::model::settings::why::{WhySection, WhySections, WhyState};
+use crate::viewer::model::view::state::ViewState;
+use crate::viewer::ui::widgets::names::shortened;
+use crate::viewer::ui::widgets::texture::PanelTextures;
+use crate::viewer::ui::widgets::theme;
+
+/// Characters of a name in a row.
+const NAME: usize = 30;
+
+/// What the tab shows.
+#[derive(Debug)]
+pub struct WhyPanel<'a> {
+    pub state: &'a ViewState,
+    /// The loss of each prediction in the current scene, and whether they are up to date.
+    pub losses: Option<(&'a [f64], bool)>,
+    /// Of the predictions.
+    pub names: Vec<&'a str>,
+    /// The ground truth and the chosen prediction.
+    pub pair: Option<ComparedPair>,
+    pub why: WhyState,
+    pub jobs: &'a WhyJobs,
+    pub sections: WhySections,
+    /// Say which scenes are listed.
+    pub settings: &'a LossSettings,
+}
+
+impl WhyPanel<'_> {
+    pub fn ui(&self, ui: &mut egui::Ui, textures: &mut PanelTextures) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let Some(pair) = &self.pair else {
+            ui.label("Open a prediction to compare with the ground truth.");
+            return commands;
+        };
+        ui.strong("Loss in this scene").on_hover_text(
+            "Under the light and view of the panes: the mean of the log difference over the texels",
+        );
+        match self.losses {
+            Some((losses, current)) => {
+                ui.scope(|ui| {
+                    if !current {
+                        ui.set_opacity(0.5);
+                    }
+                    self.rows(ui, losses, &mut commands);
+                });
+            }
+            None => {
+                ui.weak("Computing...");
+            }
+        }
+        self.shown(ui, &mut commands);
+        for (section, title, question) in [
+            (WhySection::Maps, "Which map", "How much of the loss comes from each map"),
+            (WhySection::Scenes, "Which scenes", "The scenes of the loss, worst first"),
+            (
+                WhySection::Directions,
+                "Which light or view",
+                "The loss over the directions of a distant light or view",
+            ),
+        ] {
+            ui.separator();
+            let open = self.sections.is_open(section);
+            let header = egui::CollapsingHeader::new(RichText::new(title).strong()).open(Some(open));
+            let header = header.show_unindented(ui, |ui| match section {
+                WhySection::Maps => self.maps(ui, pair, &mut commands),
+                WhySection::Scenes => self.scenes(ui, pair, textures, &mut commands),
+                WhySection::Directions => self.directions(ui, pair, textures, &mut commands),
+            });
+            if header.header_response.on_hover_text(question).clicked() {
+                commands.push(WhyCommand::ShowSection(section, !open).into());
+            }
+        }
+        commands
+    }
+
+    fn rows(&self, ui: &mut egui::Ui, losses: &[f64], commands: &mut Vec<Command>) {
+        let most = losses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        for (index, (loss, name)) in losses.iter().zip(shortened(&self.names, NAME)).enumerate() {
+            let left = |ui: &mut egui::Ui| {
+                ui.selectable_label(index == self.state.display.prediction, format!("{}  {name}", index + 1))
+                    .on_hover_text(self.names[index])
+            };
+            let right = |ui: &mut egui::Ui| {
+                ui.label(RichText::new(format!("{loss:.4}")).monospace());
+            };
+            let (response, ()) = Sides::new().shrink_left().truncate().show(ui, left, right);
+            if response.clicked() {
+                commands.push(DisplayCommand::ChoosePrediction(index).into());
+            }
+            let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), 6.0), Sense::hover());
+            let bar = Rect::from_min_size(area.min, vec2(area.width() * (loss / most) as f32, area.height()));
+            ui.painter().rect_filled(bar, 1.0, theme::series(index, ui.visuals().dark_mode));
+        }
+    }
+
+    /// What the panes show: values, or differences.
+    fn shown(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        ui.add_space(6.0);
+        let difference = self.state.display.difference;
+        ui.horizontal_wrapped(|ui| {
+            let label = if difference { "Show the values" } else { "Show where: the difference" };
+            if ui.button(label).on_hover_text("Value or difference in the panes (D)").clicked() {
+                commands.push(DisplayCommand::ShowDifference(!difference).into());
+            }
+            let shown = difference && self.state.is_error_map();
+            let hover = "Where on the material the loss comes from: the log difference of each texel, averaged over the \
+                         scenes of the loss";
+            let button = ui.add(egui::Button::new("Error map").selected(shown));
+            if button.on_hover_text(hover).clicked() && !shown {
+                let rendering = DisplayCommand::SetQuantity(Quantity::Rendering);
+                let on = DisplayCommand::ShowDifference(true);
+                commands.extend([rendering, DisplayCommand::ChooseErrorMap, on].map(Command::from));
+            }
+        });
+    }
+}

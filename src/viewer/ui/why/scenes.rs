@@ -1,0 +1,279 @@
+//! The scenes of the loss of the chosen prediction, worst first, and the search for the worst of all.
+
+use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
+
+use crate::loss::LossSettings;
+use crate::model::scene::{Kind, Scene};
+use crate::picture::statistics::Histogram;
+use crate::viewer::jobs::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbnails};
+use crate::viewer::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};
+use crate::viewer::ui::why::WhyPanel;
+use crate::viewer::ui::widgets::numbers::digits;
+use crate::viewer::ui::widgets::texture::PanelTextures;
+use crate::viewer::ui::widgets::theme;
+use crate::why::{RankedScene, Worst};
+
+/// Side of a thumbnail and height of the number below it, in points.
+const SIDE: f32 = 52.0;
+const NUMBER: f32 = 15.0;
+/// Height of the histogram, in points.
+const HISTOGRAM: f32 = 40.0;
+/// Scenes that one click adds to the list.
+const MORE: usize = 20;
+
+impl WhyPanel<'_> {
+    pub fn scenes(
+        &self,
+        ui: &mut egui::Ui,
+        pair: &ComparedPair,
+        textures: &mut PanelTextures,
+        commands: &mut Vec<Command>,
+    ) {
+        let scenes = self.settings.listed_scenes();
+        match self.jobs.scenes.get(pair, &scenes) {
+            Some((list, thumbnails)) => {
+                self.histogram(ui, list);
+                distribution(ui, list, self.settings);
+                let texture = thumbnails.map(|thumbnails| {
+                    textures.id(ui.ctx(), &thumbnails.picture, egui::TextureOptions::LINEAR)
+                });
+                self.thumbnails(ui, list, thumbnails.zip(texture), commands);
+            }
+            None => {
+                let fraction = self.jobs.scenes.busy().unwrap_or_default();
+                let count = scenes.count().unwrap_or(0);
+                ui.add(egui::ProgressBar::new(fraction).text(format!("{count} scenes")).corner_radius(3.0));
+            }
+        }
+        self.search(ui, pair, commands);
+    }
+
+    /// How many scenes have which loss, with the mean and the loss of the current scene.
+    fn histogram(&self, ui: &mut egui::Ui, list: &SceneList) {
+        let size = vec2(ui.available_width(), HISTOGRAM + 14.0);
+        let (response, painter) = ui.allocate_painter(size, Sense::hover());
+        response.widget_info(|| {
+            egui::WidgetInfo::labeled(egui::Role::Image, true, "Histogram of the losses of the scenes")
+        });
+        let area = response.rect.shrink2(vec2(4.0, 0.0)).with_max_y(response.rect.top() + HISTOGRAM);
+        let Histogram { low, high, counts, .. } = &list.histogram;
+        let x = |loss: f64| area.left() + area.width() * ((loss - low) / (high - low)).clamp(0.0, 1.0) as f32;
+        let highest = counts.iter().copied().max().unwrap_or(0).max(1) as f32;
+        let step = area.width() / counts.len() as f32;
+        let colour = theme::series(self.state.display.prediction, ui.visuals().dark_mode);
+        for (bin, count) in counts.iter().enumerate().filter(|(_, count)| **count > 0) {
+            let left = area.left() + bin as f32 * step;
+            let top = area.bottom() - (*count as f32 / highest * (HISTOGRAM - 2.0)).max(1.5);
+            let bar = Rect::from_x_y_ranges(left..=left + (step - 1.0).max(1.0), top..=area.bottom());
+            painter.rect_filled(bar, 0.0, colour);
+        }
+        let ink = ui.visuals().text_color();
+        painter.line_segment([area.left_bottom(), area.right_bottom()], Stroke::new(1.0, ink));
+        let mark = |loss: f64, stroke: Stroke| {
+            painter.line_segment([pos2(x(loss), area.top()), pos2(x(loss), area.bottom())], stroke);
+        };
+        mark(list.mean, Stroke::new(1.5, ink));
+        let here = self.losses.and_then(|(losses, _)| losses.get(self.state.display.prediction).copied());
+        if let Some(here) = here {
+            mark(here, Stroke::new(2.0, theme::accent(ui.visuals())));
+        }
+        let (font, weak) = (FontId::monospace(11.0), ui.visuals().weak_text_color());
+        painter.text(area.left_bottom(), Align2::LEFT_TOP, "0", font.clone(), weak);
+        painter.text(area.right_bottom(), Align2::RIGHT_TOP, digits(*high), font.clone(), weak);
+        let mean = pos2(x(list.mean).clamp(area.left() + 60.0, area.right() - 90.0), area.bottom());
+        painter.text(mean, Align2::CENTER_TOP, format!("mean {}", digits(list.mean)), font, ink);
+        let [mean, current] = if ui.visuals().dark_mode { ["White", "orange"] } else { ["Black", "brown"] };
+        response.on_hover_text(format!(
+            "Number of scenes by their loss, on all texels. {mean}: the mean; {current}: the current scene"
+        ));
+    }
+
+    fn thumbnails(
+        &self,
+        ui: &mut egui::Ui,
+        list: &SceneList,
+        thumbnails: Option<(&Thumbnails, egui::TextureId)>,
+        commands: &mut Vec<Command>,
+    ) {
+        let listed = self.why.listed.min(list.ranked.len());
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
+            for (rank, ranked) in list.ranked[..listed].iter().enumerate() {
+                let part = thumbnails.and_then(|(thumbnails, texture)| {
+                    let [least, greatest] = thumbnails.part(rank)?;
+                    Some((texture, Rect::from_min_max(least.into(), greatest.into())))
+                });
+                if thumbnail(ui, ranked, rank, part, ranked.scene == self.state.scene).clicked() {
+                    commands.push(SceneCommand::Set(ranked.scene).into());
+                }
+            }
+        });
+        ui.horizontal_wrapped(|ui| {
+            let most = list.ranked.len().min(MOST_THUMBNAILS);
+            if listed < most {
+                let more = ui.small_button("More scenes");
+                if more.on_hover_text(format!("{listed} of {} are listed", list.ranked.len())).clicked() {
+                    commands.push(WhyCommand::ListScenes(listed + MORE).into());
+                }
+            }
+            if listed > MORE / 2 && ui.small_button("Fewer scenes").clicked() {
+                commands.push(WhyCommand::ListScenes(MORE / 2).into());
+            }
+            let save = ui.small_button("Save scenes...");
+            let hover =
+                "Write these scenes to a scene file, worst first; Open, and --scenes of svbrdf, take it";
+            if save.on_hover_text(hover).clicked() {
+                commands.push(WindowCommand::SaveScenes.into());
+            }
+            if let Some((thumbnails, _)) = thumbnails {
+                let text = format!("log difference, 0 to {}", digits(thumbnails.range));
+                ui.label(RichText::new(text).small().weak())
+                    .on_hover_text("From black to light yellow, the same in all thumbnails");
+            }
+        });
+    }
+
+    /// The button that searches, its progress, and what was found.
+    fn search(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
+        let search = &self.jobs.search;
+        if let Some((fraction, elapsed)) = search.busy() {
+            ui.horizontal(|ui| {
+                if ui.button("Cancel search").on_hover_text("Esc").clicked() {
+                    commands.push(WhyCommand::CancelSearch.into());
+                }
+                let text = format!("{:.0}%, {} s", 100.0 * fraction, elapsed.as_secs());
+                ui.add(egui::ProgressBar::new(fraction).text(text).corner_radius(3.0));
+            });
+            return;
+        }
+        ui.horizontal_wrapped(|ui| {
+            let hover =
+                "Searches all scenes that the loss samples from for the largest loss, and shows the scene";
+            if ui.button("Find worst scene").on_hover_text(hover).clicked() {
+                commands.push(WhyCommand::FindWorst.into());
+            }
+            if let Some(worst) = search.found(pair) {
+                let chosen = worst.scene == self.state.scene;
+                let label = ui.selectable_label(chosen, times(worst));
+                if label.on_hover_text(found(worst)).clicked() {
+                    commands.push(SceneCommand::Set(worst.scene).into());
+                }
+            }
+        });
+        if let Some(worst) = search.found(pair) {
+            let text = format!("{} scenes tried; mean {:.4}", worst.evaluations, worst.mean.mean);
+            ui.label(RichText::new(text).small().weak());
+        }
+    }
+}
+
+/// The worst loss, and how far above the mean it is.
+fn times(worst: &Worst) -> String {
+    let mean = worst.mean.mean;
+    if mean > 0.0 {
+        format!("{:.4}, {:.1} x the mean", worst.loss, worst.loss / mean)
+    } else {
+        format!("{:.4}", worst.loss)
+    }
+}
+
+fn found(worst: &Worst) -> String {
+    format!(
+        "{}\nThe search compares up to 1,024 texels; the loss is over all. It may miss a maximum that is narrower than \
+         the gaps between its first scenes. Click to show this scene again.",
+        place(&worst.scene)
+    )
+}
+
+/// Kind, light and view.
+fn place(scene: &Scene) -> String {
+    let kind = match scene.kind {
+        Kind::Near => "near-field",
+        Kind::Distant => "distant",
+    };
+    let triple = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
+    format!("{kind}, light {}, view {}", triple(scene.light), triple(scene.view))
+}
+
+fn distribution(ui: &mut egui::Ui, list: &SceneList, settings: &LossSettings) {
+    let Some(distribution) = list.distribution else { return };
+    let text = format!(
+        "{} + {} scenes: median {}, 95% below {}, the worst tenth adds {:.0}% of the loss",
+        list.counts[0],
+        list.counts[1],
+        digits(distribution.median),
+        digits(distribution.percentile95),
+        100.0 * distribution.worst_tenth
+    );
+    let of = match settings.file_scenes() {
+        Some(file) => format!("Near-field and distant scenes of {}, each on all texels", file.name),
+        None => "Near-field and distant scenes of the seed of the loss, each on all texels".to_owned(),
+    };
+    ui.label(RichText::new(text).small().weak()).on_hover_text(of);
+}
+
+fn thumbnail(
+    ui: &mut egui::Ui,
+    ranked: &RankedScene,
+    rank: usize,
+    picture: Option<(egui::TextureId, Rect)>,
+    current: bool,
+) -> egui::Response {
+    let (area, response) = ui.allocate_exact_size(vec2(SIDE, SIDE + NUMBER), Sense::click());
+    let loss = ranked.losses[0];
+    response.widget_info(|| {
+        let label = format!("Scene {}: {loss:.4}", rank + 1);
+        egui::WidgetInfo::selected(egui::Role::Button, true, current, label)
+    });
+    let square = area.with_max_y(area.top() + SIDE);
+    let painter = ui.painter();
+    match picture {
+        Some((texture, part)) => {
+            painter.image(texture, square, part, Color32::WHITE);
+        }
+        None => {
+            painter.rect_filled(square, 0.0, ui.visuals().widgets.inactive.weak_bg_fill);
+        }
+    }
+    let visuals = ui.visuals();
+    let outline = if current {
+        Some(Stroke::new(2.0, theme::accent(visuals)))
+    } else if response.hovered() || response.has_focus() {
+        Some(Stroke::new(1.5, visuals.text_color()))
+    } else {
+        None
+    };
+    if let Some(stroke) = outline {
+        painter.rect_stroke(square, 1.0, stroke, egui::StrokeKind::Outside);
+    }
+    let number = pos2(area.center().x, area.bottom());
+    painter.text(number, Align2::CENTER_BOTTOM, digits(loss), FontId::monospace(11.5), visuals.text_color());
+    response.on_hover_text(format!(
+        "{} of the losses: {loss:.6}\n{}\nClick for this light and view",
+        ordinal(rank + 1),
+        place(&ranked.scene)
+    ))
+}
+
+/// 1 as "the largest", 2 as "the 2nd largest" and so on.
+fn ordinal(number: usize) -> String {
+    let ending = match (number % 10, number % 100) {
+        (1, tens) if tens != 11 => "st",
+        (2, tens) if tens != 12 => "nd",
+        (3, tens) if tens != 13 => "rd",
+        _ => "th",
+    };
+    if number == 1 { "The largest".to_owned() } else { format!("The {number}{ending} largest") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ordinals() {
+        let all = [1, 2, 3, 4, 11, 12, 13, 21, 22, 112].map(ordinal);
+        let expected = ["", "2nd ", "3rd ", "4th ", "11th ", "12th ", "13th ", "21st ", "22nd ", "112th "];
+        assert_eq!(all, expected.map(|number| format!("The {number}largest")));
+    }
+}

@@ -1,0 +1,253 @@
+//! The drop-downs of assumptions: what they switch is switched in the material, the panes and the loss.
+
+use std::path::PathBuf;
+
+use eframe::egui::accesskit::Role;
+use svbrdf::material::Material;
+use svbrdf::samples::generate;
+
+use super::*;
+
+/// The built-in ground truth as two files, `truth` and `guess`.
+fn two_strips() -> (tempfile::TempDir, [PathBuf; 2]) {
+    let folder = tempfile::tempdir().unwrap();
+    let side = generate::SIDE as u32;
+    let pixels = generate::pack(&generate::ground_truth());
+    let paths = ["truth.png", "guess.png"].map(|name| folder.path().join(name));
+    for path in &paths {
+        image::save_buffer(path, &pixels, 4 * side, side, image::ColorType::Rgb8).unwrap();
+    }
+    (folder, paths)
+}
+
+/// Unfolds the drop-downs of every material.
+fn change(window: &mut Window<'_>) {
+    let count = window.query_all_by_label("Change...").count();
+    for index in 0..count {
+        window.query_all_by_label("Change...").nth(index).unwrap().click();
+        window.run_steps(12);
+    }
+}
+
+/// A window on both, high enough for all panels, once their loss is there.
+fn on_two_strips<'a>([truth, guess]: [PathBuf; 2]) -> Window<'a> {
+    let options =
+        ViewerOptions { ground_truth: Some(truth), predictions: vec![guess], ..ViewerOptions::default() };
+    let mut window = window(options);
+    tab(&mut window, "Files");
+    window.set_size(vec2(1200.0, 2000.0));
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    change(&mut window);
+    window
+}
+
+/// Clicks the drop-down `name`, then `choice` in it; not before the loss is there, whose panel moves those below.
+fn choose(window: &mut Window<'_>, name: &str, choice: &str) {
+    loss(window);
+    window.get_by_role_and_label(Role::ComboBox, name).click();
+    window.run_steps(4);
+    window.get_by_label(choice).click();
+    window.run_steps(2);
+}
+
+fn material(app: &App, index: usize) -> Material<f32> {
+    app.materials().nth(index).unwrap().clone()
+}
+
+fn loss(window: &mut Window<'_>) -> f64 {
+    wait(window, "the loss", |app| app.losses().is_some());
+    window.state().losses().unwrap()[0].estimate.mean
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_click_on_another_albedo_changes_material_pane_and_loss() {
+    let (_folder, paths) = two_strips();
+    let mut window = on_two_strips(paths);
+    assert_eq!(loss(&mut window), 0.0, "a material beside itself");
+    let panes = ["GROUND TRUTH  truth", "1  guess"].map(|title| pane(&window, title));
+    let before = panes.map(|rect| pixels(&mut window, rect));
+    let materials = [0, 1].map(|index| material(window.state(), index));
+    assert_eq!(materials[0].planes(), materials[1].planes());
+
+    choose(&mut window, "albedo of guess", "albedo srgb");
+    wait(&mut window, "the material to be read again", |app| {
+        *app.materials().nth(1).unwrap() != materials[1]
+    });
+    let switched = material(window.state(), 1);
+    let decode = |v: f32| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
+    for (old, new) in
+        materials[1].planes().diffuse.iter().flatten().zip(switched.planes().diffuse.iter().flatten())
+    {
+        assert!((decode(*old) - new).abs() < 1e-6, "{old} became {new}");
+    }
+    assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
+    assert_eq!(material(window.state(), 0), materials[0]);
+    assert!(loss(&mut window) > 0.1);
+    window.get_by_label("Diffuse: srgb: as specified");
+    let after = panes.map(|rect| pixels(&mut window, rect));
+    assert!(before[0] == after[0], "the pane of the ground truth stays");
+    assert!(before[1] != after[1], "the pane of the prediction changes");
+
+    choose(&mut window, "albedo of guess", "auto: infer albedo");
+    wait(&mut window, "the material to be as before", |app| *app.materials().nth(1).unwrap() == materials[1]);
+    assert_eq!(loss(&mut window), 0.0);
+    assert!(pixels(&mut window, panes[1]) == before[1]);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
+    let (_folder, paths) = two_strips();
+    let mut window = on_two_strips(paths);
+    for (what, choice) in [
+        ("preset", "materialgan"),
+        ("order", "dsrn"),
+        ("albedo", "log0.01"),
+        ("specular", "gamma2.2"),
+        ("normal y", "down"),
+        ("normal encoding", "xy"),
+        ("roughness", "gloss"),
+        ("energy", "unscaled"),
+    ] {
+        let before = material(window.state(), 0);
+        choose(&mut window, &format!("{what} of truth"), &format!("{what} {choice}"));
+        wait(&mut window, choice, |app| *app.materials().next().unwrap() != before);
+        assert!(window.state().messages().is_empty(), "{choice}: {:?}", window.state().messages());
+        assert!(loss(&mut window) > 0.0, "{choice}");
+        let changed = material(window.state(), 0);
+        choose(&mut window, &format!("{what} of truth"), &format!("auto: infer {what}"));
+        wait(&mut window, "auto", |app| *app.materials().next().unwrap() != changed);
+        assert!(material(window.state(), 0) == before, "{choice}, and back");
+    }
+    assert_eq!(loss(&mut window), 0.0);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_click_on_another_workflow_changes_the_material() {
+    let folder = tempfile::tempdir().unwrap();
+    let put = |name: &str, value: u8| {
+        image::RgbImage::from_pixel(32, 32, [value; 3].into()).save(folder.path().join(name)).unwrap();
+    };
+    put("diffuse.png", 188);
+    put("metallic.png", 255);
+    put("roughness.png", 128);
+    put("specular.png", 99);
+    let options = ViewerOptions { ground_truth: Some(folder.path().to_owned()), ..ViewerOptions::default() };
+    let mut window = window(options);
+    tab(&mut window, "Files");
+    window.set_size(vec2(1200.0, 2000.0));
+    window.run_steps(3);
+    change(&mut window);
+    let name = window.state().names()[0].clone();
+    let diffuse = |app: &App| app.materials().next().unwrap().planes().diffuse[0][0];
+    assert!(diffuse(window.state()) > 0.4);
+    for (choice, metallic) in
+        [("workflow metallic", true), ("workflow specular", false), ("auto: infer workflow", false)]
+    {
+        window.get_by_role_and_label(Role::ComboBox, &format!("workflow of {name}")).click();
+        window.run_steps(4);
+        window.get_by_label(choice).click();
+        window.run_steps(2);
+        wait(&mut window, choice, |app| !app.is_reading() && (diffuse(app) == 0.0) == metallic);
+    }
+    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wide.png");
+    let tile =
+        |x: u32, _| image::Rgb(if (32..64).contains(&x) { [128, 128, 255] } else { [(x % 32) as u8; 3] });
+    image::RgbImage::from_fn(3 * 32, 16, tile).save(&path).unwrap();
+    let options = ViewerOptions { ground_truth: Some(path), ..ViewerOptions::default() };
+    let mut window = window(options);
+    tab(&mut window, "Files");
+    window.set_size(vec2(1200.0, 2000.0));
+    window.run_steps(3);
+    change(&mut window);
+    assert_eq!(material(window.state(), 0).size(), [16, 16]);
+    let enter = |window: &mut Window<'_>, name: &str, text: &str| {
+        window.get_by_role_and_label(Role::SpinButton, name).click();
+        window.run_steps(2);
+        window.get_by_role_and_label(Role::SpinButton, name).type_text(text);
+        press(window, egui::Key::Enter);
+    };
+    choose_order(&mut window, "order of wide", "order dnr");
+    enter(&mut window, "columns of tiles of wide", "3");
+    wait(&mut window, "the wide tiles", |app| app.materials().next().unwrap().size() == [32, 16]);
+    let specular = |app: &App| app.materials().next().unwrap().planes().specular[0][0];
+    assert_eq!(specular(window.state()), 0.04);
+    enter(&mut window, "F0 of wide", "0.08");
+    wait(&mut window, "another F0", |app| specular(app) == 0.08);
+    enter(&mut window, "columns of tiles of wide", "0");
+    wait(&mut window, "square tiles again", |app| app.materials().next().unwrap().size() == [16, 16]);
+}
+
+/// Clicks a drop-down and one of its choices, where there is no loss to wait for.
+fn choose_order(window: &mut Window<'_>, name: &str, choice: &str) {
+    window.get_by_role_and_label(Role::ComboBox, name).click();
+    window.run_steps(4);
+    window.get_by_label(choice).click();
+    window.run_steps(2);
+    wait(window, choice, |app| !app.is_reading());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
+    let (folder, paths) = two_strips();
+    let kept = folder.path().join("guess.svbrdf.json");
+    let mut window = on_two_strips(paths.clone());
+    let before = material(window.state(), 1);
+    assert!(window.query_by_label("Save assumptions of guess").is_none(), "there is nothing to keep");
+    choose(&mut window, "roughness of guess", "roughness gloss");
+    wait(&mut window, "the material to be read again", |app| *app.materials().nth(1).unwrap() != before);
+    let gloss = material(window.state(), 1);
+    assert!(!kept.exists());
+    window.get_by_label("Save assumptions of guess").click();
+    window.run_steps(2);
+    wait(&mut window, "the material to be opened again", |app| !app.is_reading());
+    let text = std::fs::read_to_string(&kept).unwrap();
+    assert_eq!(
+        serde_json::from_str::<serde_json::Value>(&text).unwrap(),
+        serde_json::json!({"roughness": "gloss"})
+    );
+    window.get_by_label("Roughness: gloss: as saved in guess.svbrdf.json");
+    assert!(window.query_by_label("Save assumptions of guess").is_none(), "it is kept");
+
+    // A new window opens it so; a drop-down wins over it, also over what it says.
+    let mut window = on_two_strips(paths);
+    assert!(material(window.state(), 1) == gloss);
+    choose(&mut window, "roughness of guess", "auto: infer roughness");
+    wait(&mut window, "auto", |app| *app.materials().nth(1).unwrap() == before);
+    window.get_by_label("Save assumptions of guess").click();
+    wait(&mut window, "the material to be opened again", |app| !app.is_reading());
+    assert_eq!(std::fs::read_to_string(&kept).unwrap(), "{}\n");
+    assert!(material(window.state(), 1) == before);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn what_the_maps_hold_is_listed_on_a_click() {
+    let (_folder, paths) = two_strips();
+    let mut window = on_two_strips(paths);
+    let normal = "256 x 256, 8-bit, 3 channels";
+    assert_eq!(window.query_all_by_label_contains(normal).count(), 0);
+    window.query_all_by_label("As stored").next().unwrap().click();
+    window.run_steps(12);
+    assert_eq!(window.query_all_by_label_contains(normal).count(), 4);
+    assert_eq!(window.query_all_by_label_contains("curl correlation").count(), 1);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn built_in_materials_are_not_reported_as_specified() {
+    let mut window = built_in();
+    tab(&mut window, "Files");
+    assert!(window.query_all_by_label_contains("as specified").next().is_none());
+    assert!(window.query_all_by_label_contains("the built-in materials are stored in this way").count() >= 3);
+}
