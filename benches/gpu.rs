@@ -10,17 +10,17 @@ mod support;
 
 use divan::counter::ItemsCount;
 use glam::Vec3;
-use svbrdf::gpu::{
+use svbrdf_core::loss::{Comparison, Request, Sampling};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render;
+use svbrdf_gpu::{
     DisplayMode, DisplayParams, Encoding, Gpu, GpuLosses, MaterialTextures, ShadeParams, Shaded, Shading,
 };
-use svbrdf::loss::{Comparison, Request, Sampling};
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::picture::camera::Camera;
-use svbrdf::picture::quantity::Quantity;
-use svbrdf::progress::Progress;
-use svbrdf::render::render;
 
 const SIDES: [usize; 3] = [256, 1024, 2048];
 /// Most that a mean over a picture or a loss may be off the CPU's in f32, relative.
@@ -137,7 +137,7 @@ fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
     let shown = screen.read(gpu);
     let radiances = shaded.read_back(gpu).expect("read back").pixels;
     for [column, row] in [[0, 0], [side / 2, side / 3], [side - 1, side - 1]] {
-        let want = radiances[row * side + column].map(|x| 255.0 * svbrdf::picture::tone::srgb_encode(x));
+        let want = radiances[row * side + column].map(|x| 255.0 * svbrdf_core::picture::tone::srgb_encode(x));
         let got = shown.at(column, row).map(f32::from);
         assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() <= 1.0), "{got:?}, not {want:?}");
     }

@@ -19,9 +19,9 @@ use exr::prelude::{
 };
 use image::{DynamicImage, GrayImage, ImageFormat, ImageReader, Limits, RgbImage};
 use rayon::prelude::*;
-use svbrdf::files::read::{ReadOptions, read};
-use svbrdf::files::write::{self, FileKind, WriteOptions};
-use svbrdf::progress::Progress;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{ReadOptions, read};
+use svbrdf_files::write::{self, FileKind, WriteOptions};
 
 /// Seconds that each row takes, at least.
 const PATIENCE: f64 = 3.0;

@@ -6,10 +6,10 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use svbrdf::error::Error;
-use svbrdf::files::write::{self, Depth, FileKind, WriteOptions};
-use svbrdf::material::{Material, Planes};
-use svbrdf::samples;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_files::samples;
+use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
-use svbrdf::material::Planes;
-use svbrdf::samples::generate::{SIDE, blurred_normals, ground_truth, pack, wrong_roughness};
+use svbrdf_core::material::Planes;
+use svbrdf_files::samples::generate::{SIDE, blurred_normals, ground_truth, pack, wrong_roughness};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let truth = ground_truth();

@@ -8,11 +8,11 @@
 use std::path::Path;
 use std::time::Instant;
 
-use svbrdf::loss::{Comparison, Request};
-use svbrdf::material::{Material, Planes};
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::Scene;
-use svbrdf::progress::Progress;
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
 
 type Failure = Box<dyn std::error::Error + Send + Sync>;
 

@@ -23,10 +23,10 @@
 use std::fmt;
 use std::time::{Duration, Instant};
 
-use crate::error::Error;
-use crate::loss::{Backend, Comparison, Outcome, Request, Sampling, Texels};
-use crate::model::scene::Scene;
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Backend, Comparison, Outcome, Request, Sampling, Texels};
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
 
 /// Starting an adapter takes about this long: shorter losses stay on the CPU.
 const SHORT: Duration = Duration::from_millis(100);
@@ -146,7 +146,7 @@ fn predict(
 /// A graphics adapter that is ready to compute losses.
 #[cfg(feature = "gpu")]
 #[derive(Debug)]
-pub struct Adapter(crate::gpu::GpuLosses);
+pub struct Adapter(svbrdf_gpu::GpuLosses);
 
 #[cfg(feature = "gpu")]
 impl Adapter {
@@ -155,7 +155,7 @@ impl Adapter {
     /// # Errors
     /// [`Error::NoAdapter`] without one, [`Error::Gpu`] where it fails.
     pub fn start() -> Result<Self, Error> {
-        Ok(Self(crate::gpu::GpuLosses::new(&crate::gpu::Gpu::headless()?)?))
+        Ok(Self(svbrdf_gpu::GpuLosses::new(&svbrdf_gpu::Gpu::headless()?)?))
     }
 
     /// Its name, as its driver gives it.

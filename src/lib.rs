@@ -1,86 +1,54 @@
 //! Rendering of SVBRDF materials, and the rendering loss of predictions against a ground truth.
 //!
-//! A material is four maps: normal, diffuse, specular and roughness. The headless core renders it under a light and a
-//! view (Algorithm 3 of Deschaintre et al. 2018-2020) and computes the rendering loss between two materials over
-//! sampled scenes (Algorithms 1 and 2):
+//! A material is four maps: normal, diffuse, specular and roughness. The library renders it under a light and a view
+//! (Algorithm 3 of Deschaintre et al. 2018-2020) and computes the rendering loss between two materials over sampled
+//! scenes (Algorithms 1 and 2):
 //!
 //! ```
-//! use svbrdf::loss::{Comparison, Request};
-//! use svbrdf::model::convention::Convention;
-//! use svbrdf::progress::Progress;
-//! use svbrdf::samples;
+//! use svbrdf::{Comparison, Convention, Progress, Request, built_in};
 //!
-//! let built_in = samples::load::<f32>()?;
-//! let prediction = &built_in.predictions[0].material;
-//! let comparison = Comparison::new(&built_in.ground_truth.material, &[prediction], Convention::default())?;
+//! let materials = built_in::<f32>()?;
+//! let prediction = &materials.predictions[0].material;
+//! let comparison = Comparison::new(&materials.ground_truth.material, &[prediction], Convention::default())?;
 //! let outcome = comparison.run(&Request::default(), &Progress::default())?;
 //! let estimate = &outcome.losses[0].estimate;
 //! assert!((estimate.mean - 0.3712).abs() < 1e-4);
 //! assert!(estimate.standard_error.is_some_and(|error| error < 0.05));
-//! # Ok::<(), svbrdf::error::Error>(())
+//! # Ok::<(), svbrdf::Error>(())
 //! ```
 //!
-//! # Modules
+//! The root has what a first program needs. Everything else is in the crates that this one is made of; each depends on
+//! those above it only:
 //!
-//! | module | content |
-//! |---|---|
-//! | [`math`], [`image`] | the two precisions and their vectors; RGB images of linear radiance |
-//! | [`model::convention`] | the differences between the printed algorithms and the released codes, as data |
-//! | [`model::brdf`] | Algorithm 3 at one point, one function per term |
-//! | [`model::scene`], [`model::sampler`] | Algorithm 2: scenes as functions of a point of the unit cube; random points, or scrambled Sobol sequences |
-//! | [`model::scene_file`] | files of scenes |
-//! | [`material`] | the four maps, validated once |
-//! | [`render`] | Algorithm 3 over a whole material |
-//! | [`picture`] | renderings as PNG and EXR files |
-//! | [`files`] | reading and writing materials |
-//! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
-//! | [`backend`] | the processor or a graphics adapter, whichever is faster |
-//! | [`report`] | results with their settings as values, and as text, JSON, CSV and LaTeX |
-//! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
-//! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
-//! | [`photograph`] | renderings against a photograph: four corners, one exposure factor |
-//! | [`rank`] | many predictions of one ground truth, best first |
-//! | [`dataset`] | many materials and methods: result files, means with intervals over materials |
-//! | [`study`] | speed against accuracy, measured for one pair on one machine |
-//! | [`samples`] | built-in materials |
-//! | [`source`] | where a material comes from and how it is read: files, built-in materials, entries of sessions |
-//! | [`progress`], [`error`] | progress and cancellation of long operations; one error variant per cause |
-#![cfg_attr(feature = "gpu", doc = "| [`gpu`] | rendering and loss on a graphics adapter |")]
-#![cfg_attr(feature = "viewer", doc = "| [`open_viewer`] | the window |")]
+//! | crate | folder | content |
+//! |---|---|---|
+//! | [`svbrdf_core`] | `src/core` | numbers only: BRDF, scenes, rendering, loss, what a loss comes from, metrics, reports |
+//! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, data sets, the built-in materials |
+//! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter; the shaders are in `shaders/` |
+//! | `svbrdf` | `src` | [`backend`] (processor or adapter, whichever is faster), the window in `src/viewer` (feature `viewer`), and the command line in `src/cli`, which is part of the binary |
 //!
-//! Modules use lower layers only; a test checks it. The core does not depend on graphics, `gpu` depends on the core, `viewer` on
-//! both, and the command line is part of the binary. Without default features the crate is the core with the command line.
-//! The feature `testing` makes internals public for the tests of this repository; it has no stable interface.
+//! In `src/viewer`, `model` is what the window displays, changed by commands alone; `jobs` computes in the background; `ui` reads
+//! the hand and draws. The compiler guards the order of the crates, `tests/layering.rs` that of the modules within.
+//! `docs/architecture.md` follows a loss, a drag and a folder through them.
 
 pub mod backend;
 
-// Until all callers name the crates themselves.
-pub use svbrdf_core::{
-    error, image, loss, material, math, metrics, progress, rank, render, report, text, why,
-};
-pub use svbrdf_files as files;
-pub use svbrdf_files::{dataset, photograph, samples, source};
-#[cfg(feature = "gpu")]
-pub use svbrdf_gpu as gpu;
-
-pub mod model {
-    pub use svbrdf_core::model::*;
-    pub use svbrdf_files::scene_file;
-}
-
-pub mod picture {
-    pub use svbrdf_core::picture::*;
-    pub use svbrdf_files::export;
-    pub use svbrdf_files::export::strip;
-}
-
-pub mod study {
-    pub use svbrdf_core::study::*;
-    pub use svbrdf_files::export::{study_csv, study_plot as plot};
-}
+pub use svbrdf_core::error::Error;
+pub use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request, Sampling, Texels};
+pub use svbrdf_core::material::{Map, Material, Planes};
+pub use svbrdf_core::model::convention::Convention;
+pub use svbrdf_core::model::sampler::Sampler;
+pub use svbrdf_core::model::scene::{Kind, Scene};
+pub use svbrdf_core::progress::Progress;
+pub use svbrdf_core::render::render_f32 as render;
+pub use svbrdf_core::why::attribute;
+pub use svbrdf_files::read::{Read, ReadOptions, read};
+pub use svbrdf_files::samples::load as built_in;
+pub use svbrdf_files::write::{FileKind, WriteOptions, write};
 
 #[cfg(all(feature = "viewer", not(feature = "testing")))]
 mod viewer;
+/// The window's internals, for the tests of this repository.
 #[cfg(feature = "testing")]
 pub mod viewer;
 

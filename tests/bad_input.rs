@@ -6,9 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::{GrayImage, RgbImage};
-use svbrdf::files::read::{ReadOptions, read, read_bytes};
-use svbrdf::material::Material;
-use svbrdf::progress::Progress;
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{ReadOptions, read, read_bytes};
 use tempfile::tempdir;
 
 use crate::support::fixtures::{bytes_at, flat, map, png_bytes, save, save_maps, strip};

@@ -7,10 +7,10 @@ mod measured;
 mod pairs;
 mod table;
 
-use svbrdf::loss::{Compute, Estimate, Request, Sampling, Texels};
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::sampler::Sampler;
-use svbrdf::progress::Progress;
+use svbrdf_core::loss::{Compute, Estimate, Request, Sampling, Texels};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
 
 use measured::{ALLOWED, Pair, Seen, allowed, built_in, holds, made};
 
@@ -64,7 +64,8 @@ fn intervals_from_a_few_texels_of_a_map_cover_the_loss_of_all() {
 fn the_interval_of_a_difference_covers_it() {
     let [a, b] = &built_in(32, 10)[..] else { panic!("two predictions") };
     let comparison =
-        svbrdf::loss::Comparison::new(&a.ground_truth, &[&a.prediction, &b.prediction], PRINTED).unwrap();
+        svbrdf_core::loss::Comparison::new(&a.ground_truth, &[&a.prediction, &b.prediction], PRINTED)
+            .unwrap();
     let expected = a.reference - b.reference;
     let held = (0..SEEDS).filter(|&seed| {
         let request = Request::Scenes(Sampling { seed, ..Sampling::default() });

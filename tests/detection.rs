@@ -5,8 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use image::{Rgb, RgbImage};
-use svbrdf::files::read::{Assumption, Certainty, Read, ReadOptions, What, read};
-use svbrdf::progress::Progress;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{Assumption, Certainty, Read, ReadOptions, What, read};
 use tempfile::tempdir;
 
 use crate::support::pictures::{rgb_exr, srgb};

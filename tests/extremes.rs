@@ -15,8 +15,8 @@ mod survey;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use svbrdf::model::brdf::half_vector;
-use svbrdf::model::convention::{Convention, GUIDED_2020, MULTI_IMAGE_2019, SINGLE_IMAGE_2018};
+use svbrdf_core::model::brdf::half_vector;
+use svbrdf_core::model::convention::{Convention, GUIDED_2020, MULTI_IMAGE_2019, SINGLE_IMAGE_2018};
 
 use cases::RANDOM_TEXELS;
 use regions::Region;

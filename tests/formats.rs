@@ -17,13 +17,13 @@ mod written;
 use std::path::Path;
 
 use image::{DynamicImage, GrayImage, ImageFormat};
-use svbrdf::error::Error;
-use svbrdf::files::read::{
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{
     Albedo, Certainty, NonFinite, NormalY, Order, Preset, Read, ReadOptions, Roughness, What, read,
 };
-use svbrdf::files::write::{self, Depth, FileKind, WriteOptions};
-use svbrdf::material::Material;
-use svbrdf::progress::Progress;
+use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 use tempfile::tempdir;
 
 use crate::support::pictures::{

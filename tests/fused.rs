@@ -6,14 +6,14 @@ mod extremes;
 mod golden;
 mod pictures;
 
-use svbrdf::error::Error;
-use svbrdf::loss::{Backend, Comparison, Fused, Plain, Request, Sampling};
-use svbrdf::material::{Material, Planes};
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::{self, Convention};
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::progress::Progress;
-use svbrdf::render::simd::Level;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Backend, Comparison, Fused, Plain, Request, Sampling};
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::simd::Level;
 
 use crate::support::losses::losses;
 use crate::support::tolerance;

@@ -4,14 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use svbrdf::files::read::{ReadOptions, read};
-use svbrdf::loss::{Compute, Plain};
-use svbrdf::material::Material;
-use svbrdf::math::real::Real;
-use svbrdf::model::convention::{ALL, Convention, PRINTED};
-use svbrdf::model::scene::Scene;
-use svbrdf::progress::Progress;
-use svbrdf::render::render;
+use svbrdf_core::loss::{Compute, Plain};
+use svbrdf_core::material::Material;
+use svbrdf_core::math::real::Real;
+use svbrdf_core::model::convention::{ALL, Convention, PRINTED};
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render;
+use svbrdf_files::read::{ReadOptions, read};
 
 use crate::support::losses::losses;
 use crate::support::tolerance::{GOLDEN_LOSS_F32, GOLDEN_LOSS_F64, GOLDEN_PROBE_F32, GOLDEN_PROBE_F64};

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use serde::Deserialize;
-use svbrdf::math::real::{Real, Vec3, Vector};
-use svbrdf::model::brdf::{self, Model, Texel};
-use svbrdf::model::convention::{Convention, GUIDED_2020, MULTI_IMAGE_2019, PRINTED};
+use svbrdf_core::math::real::{Real, Vec3, Vector};
+use svbrdf_core::model::brdf::{self, Model, Texel};
+use svbrdf_core::model::convention::{Convention, GUIDED_2020, MULTI_IMAGE_2019, PRINTED};
 
 use crate::support::tolerance::{GOLDEN_POINTS, GOLDEN_POINTS_F32_KAPPA};
 

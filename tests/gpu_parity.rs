@@ -8,14 +8,14 @@ mod loss;
 
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
-use svbrdf::gpu::Gpu;
-use svbrdf::material::Material;
-use svbrdf::model::brdf::{self, Model, Texel};
-use svbrdf::model::convention::{self, Convention, PRINTED};
-use svbrdf::model::scene::{self, Kind, Scene};
-use svbrdf::progress::Progress;
-use svbrdf::render;
-use svbrdf::samples;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::{self, Model, Texel};
+use svbrdf_core::model::convention::{self, Convention, PRINTED};
+use svbrdf_core::model::scene::{self, Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render;
+use svbrdf_files::samples;
+use svbrdf_gpu::Gpu;
 
 use crate::support::compare::{Worst, compare_rgb_with};
 use crate::support::gpu::{bumpy, gpu, gpu_f32};
@@ -231,8 +231,9 @@ fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
     let scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.5, 0.2, 0.8] };
     let on_gpu = gpu.render(&material, &scene, &PRINTED).expect("rendered");
     let on_cpu = render::render(&material, &scene, &PRINTED, &Progress::default()).expect("rendered");
-    let mean =
-        |image: &svbrdf::image::Image<f32>| image.pixels.iter().flatten().map(|&x| f64::from(x)).sum::<f64>();
+    let mean = |image: &svbrdf_core::image::Image<f32>| {
+        image.pixels.iter().flatten().map(|&x| f64::from(x)).sum::<f64>()
+    };
     let ratio = mean(&on_gpu) / mean(&on_cpu);
     assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
 }

@@ -1,11 +1,11 @@
 //! Metrics against closed forms.
 
-use svbrdf::material::{Material, Planes};
-use svbrdf::metrics::{Metric, of_maps, of_renderings};
-use svbrdf::model::convention::Convention;
-use svbrdf::model::sampler::Sampler;
-use svbrdf::progress::Progress;
-use svbrdf::samples;
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::metrics::{Metric, of_maps, of_renderings};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::samples;
 
 /// Two texels of one normal, with diffuse, specular and roughness of each.
 fn two(normal: [f64; 3], diffuse: [f64; 2], specular: [f64; 2], roughness: [f64; 2]) -> Material<f64> {
@@ -74,8 +74,8 @@ fn renderings_of_diffuse_materials_have_their_closed_form() {
     // Without specular reflectance at normal incidence: d / pi NoL / l.z = d / pi, but for the Fresnel term, which is tiny here.
     let material = |d| two([0.0, 0.0, 1.0], [d; 2], [0.0; 2], [1.0; 2]).cast::<f32>();
     let direction = [0.0, 0.0, 1.0];
-    let scene = svbrdf::model::scene::Scene {
-        kind: svbrdf::model::scene::Kind::Distant,
+    let scene = svbrdf_core::model::scene::Scene {
+        kind: svbrdf_core::model::scene::Kind::Distant,
         view: direction,
         light: direction,
     };
@@ -152,7 +152,7 @@ fn ssim_is_that_of_scikit_image() {
 /// ```
 mod matfusion {
     use super::*;
-    use svbrdf::metrics::{matfusion_renderings, of_matfusion};
+    use svbrdf_core::metrics::{matfusion_renderings, of_matfusion};
 
     const SIZE: [usize; 2] = [8, 8];
     /// Diffuse, specular, roughness, normals.

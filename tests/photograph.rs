@@ -3,15 +3,15 @@
 mod comparing;
 mod reading;
 
-use svbrdf::files::read::{Photograph, Transfer};
-use svbrdf::image::Image;
-use svbrdf::material::Material;
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::photograph::{Corners, PhotographComparison, Rectified};
-use svbrdf::progress::Progress;
-use svbrdf::samples;
+use svbrdf_core::image::Image;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_files::photograph::{Corners, PhotographComparison, Rectified};
+use svbrdf_files::read::{Photograph, Transfer};
+use svbrdf_files::samples;
 
 /// A light and a view of a hand-held photograph.
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.2, -0.1, 2.4], light: [0.5, 0.3, 1.6] };

@@ -5,15 +5,16 @@ use std::collections::BTreeMap;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
-use svbrdf::dataset::{
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::material::Map;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::rank;
+use svbrdf_files::dataset::{
     KnownLoss, MaterialResult, Pick, PredictionResult, best_by_metric, interval_of_mean, summarize,
     summarize_metrics,
 };
-use svbrdf::loss::{Comparison, Request};
-use svbrdf::material::Map;
-use svbrdf::model::convention::Convention;
-use svbrdf::progress::Progress;
-use svbrdf::{rank, samples};
+use svbrdf_files::samples;
 
 #[test]
 fn predictions_are_ranked_and_equal_ones_share_a_group() {

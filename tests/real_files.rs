@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use svbrdf::files::read::{ReadOptions, read};
-use svbrdf::material::Material;
-use svbrdf::progress::Progress;
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{ReadOptions, read};
 
 fn real() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/real")
@@ -84,7 +84,7 @@ fn real_files_are_read_as_their_formats_specify() {
 #[test]
 fn a_mean_that_is_off_by_more_than_the_tolerance_is_seen() {
     assert!(is_near(0.5, 0.512) && !is_near(0.5, 0.52) && is_near(0.0, 0.004) && !is_near(0.0, 0.005));
-    let planes = |d: f32| svbrdf::material::Planes {
+    let planes = |d: f32| svbrdf_core::material::Planes {
         normal: [vec![0.0], vec![0.0], vec![1.0]],
         diffuse: [vec![d], vec![0.2], vec![0.3]],
         specular: [vec![0.04], vec![0.04], vec![0.04]],

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 use statrs::distribution::{ContinuousCDF, Normal};
-use svbrdf::material::Grid;
-use svbrdf::model::convention::{self, Convention, PRINTED, SINGLE_IMAGE_2018};
-use svbrdf::model::scene::{Kind, Scene, sample};
+use svbrdf_core::material::Grid;
+use svbrdf_core::model::convention::{self, Convention, PRINTED, SINGLE_IMAGE_2018};
+use svbrdf_core::model::scene::{Kind, Scene, sample};
 
 use crate::support::tolerance::{CHI_SQUARED_63, GEOMETRY_F64, GOLDEN_SCENES, KOLMOGOROV};
 

@@ -8,8 +8,8 @@ mod real;
 use std::path::Path;
 
 use image::ImageFormat;
-use svbrdf::files::read::{Certainty, Read, ReadOptions, What, read};
-use svbrdf::progress::Progress;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{Certainty, Read, ReadOptions, What, read};
 use tempfile::{TempDir, tempdir};
 
 use crate::support::pictures::{SIDE, picture, srgb, stored, texel, write as save};

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use std::mem::offset_of;
 use std::path::Path;
 
-use svbrdf::gpu::shaders::ALL;
-use svbrdf::gpu::uniforms::{
+use svbrdf_gpu::shaders::ALL;
+use svbrdf_gpu::uniforms::{
     Band, CameraUniforms, DisplayUniforms, LogSum, ModelUniforms, ProbePoint, SceneUniforms, ShadingUniforms,
 };
 use wgpu::naga;

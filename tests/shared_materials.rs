@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::files::read::{Albedo, Read, ReadOptions, What, read};
-use svbrdf::material::Material;
-use svbrdf::progress::Progress;
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{Albedo, Read, ReadOptions, What, read};
 
 fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data")

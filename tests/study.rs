@@ -2,16 +2,16 @@
 
 use std::sync::LazyLock;
 
-use svbrdf::error::Error;
-use svbrdf::files::read;
-use svbrdf::files::read::Preset;
-use svbrdf::files::write::{self, Depth, FileKind};
-use svbrdf::loss::{Comparison, Plain, Request, Sampling};
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::progress::Progress;
-use svbrdf::samples;
-use svbrdf::study::{self, Choice, Family, Pair, Point, Study};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Plain, Request, Sampling};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::study::{self, Choice, Family, Pair, Point, Study};
+use svbrdf_files::read;
+use svbrdf_files::read::Preset;
+use svbrdf_files::samples;
+use svbrdf_files::write::{self, Depth, FileKind};
 
 use crate::support::fixtures::LINEAR;
 use crate::support::tolerance::{STUDY_ERROR, STUDY_REFERENCE, STUDY_SHIFT};

@@ -4,9 +4,9 @@ mod attribution;
 mod directions;
 mod texels;
 
-use svbrdf::material::{Material, Planes};
-use svbrdf::model::convention::Convention;
-use svbrdf::samples;
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_files::samples;
 
 fn built_in() -> [Material<f32>; 3] {
     let built_in = samples::load::<f32>().unwrap();

@@ -2,12 +2,12 @@
 
 use std::time::Instant;
 
-use svbrdf::loss::{Backend, Comparison, Fused, Plain, Request, Sampling};
-use svbrdf::material::{Material, Planes};
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::Scene;
-use svbrdf::progress::Progress;
-use svbrdf::render::simd::Level;
+use svbrdf_core::loss::{Backend, Comparison, Fused, Plain, Request, Sampling};
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::simd::Level;
 
 /// Largest relative difference of the fused loss from the plain one in f32, whose own error is 1e-7.
 pub const TOLERANCE: f64 = 1e-6;

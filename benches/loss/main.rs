@@ -10,7 +10,7 @@ mod job;
 mod rows;
 
 use divan::counter::ItemsCount;
-use svbrdf::render::simd::Level;
+use svbrdf_core::render::simd::Level;
 
 use bound::bound;
 use job::{FUSED, Job, on};

@@ -1,13 +1,13 @@
 //! Tables beside that of sizes and instruction sets.
 
-use svbrdf::image::Image;
-use svbrdf::loss::{Comparison, Request, Sampling, Texels};
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::sampler::Sampler;
-use svbrdf::progress::Progress;
-use svbrdf::render::{render, render_f32};
-use svbrdf::samples;
+use svbrdf_core::image::Image;
+use svbrdf_core::loss::{Comparison, Request, Sampling, Texels};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::{render, render_f32};
+use svbrdf_files::samples;
 
 use crate::bound::flops_per_texel_scene;
 use crate::job::{FUSED, Job, TOLERANCE, fastest, loss, material, on};

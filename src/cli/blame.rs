@@ -2,16 +2,16 @@
 
 use std::path::PathBuf;
 
-use svbrdf::loss::Request;
-use svbrdf::material::Material;
-use svbrdf::model::scene_file;
-use svbrdf::report::{BlameReport, Compared, Report as _};
-use svbrdf::why::attribute;
+use svbrdf_core::loss::Request;
+use svbrdf_core::material::Material;
+use svbrdf_core::report::{BlameReport, Compared, Report as _};
+use svbrdf_core::why::attribute;
+use svbrdf_files::scene_file;
 
 use super::args::{ComparisonArgs, Given, values};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
-use super::report::ReportFormat;
 
 /// Prints how much of the rendering loss comes from each map
 ///

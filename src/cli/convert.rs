@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use svbrdf::files::read::{Binding, Preset};
-use svbrdf::files::write::{self, Depth, FileKind, WriteOptions};
-use svbrdf::material::Material;
+use svbrdf_core::material::Material;
+use svbrdf_files::read::{Binding, Preset};
+use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 
 use super::args::reading::ReadingArgs;
 use super::job::materials::{noted, read_one};

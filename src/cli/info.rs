@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use serde::Serialize;
-use svbrdf::files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
+use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;
 use super::args::{Given, modes};
@@ -61,7 +61,7 @@ struct Info<'a> {
 /// Reads the material and prints the report.
 ///
 /// # Errors
-/// Those of the reader; [`Error::Guessed`](svbrdf::error::Error::Guessed) with `--strict`; [`Error::Unwritable`](svbrdf::error::Error::Unwritable) with `--save`.
+/// Those of the reader; [`Error::Guessed`](svbrdf_core::error::Error::Guessed) with `--strict`; [`Error::Unwritable`](svbrdf_core::error::Error::Unwritable) with `--save`.
 pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
     given.check(&modes::INFO)?;
     let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading)?;

@@ -4,17 +4,17 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use svbrdf::backend::{self, Adapter};
-use svbrdf::error::Error;
-use svbrdf::loss::{Comparison, Compute, Precision, Question, Request, Sampling, Texels};
-use svbrdf::model::sampler::Sampler;
-use svbrdf::model::scene_file;
-use svbrdf::report::{LossReport, Report as _};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Compute, Precision, Question, Request, Sampling, Texels};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::report::{LossReport, Report as _};
+use svbrdf_files::scene_file;
 
 use super::args::values::{duration, percent};
 use super::args::{ComparisonArgs, Given, modes};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
-use super::report::ReportFormat;
 
 /// Prints the rendering loss of predictions against a ground truth
 ///

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::error::Error;
-use svbrdf::loss::Comparison;
-use svbrdf::picture::export::{Destination, PictureFormat, Provenance, check_place, write_text};
-use svbrdf::report::{MapReport, Report as _};
-use svbrdf::why::Moved;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Comparison;
+use svbrdf_core::report::{MapReport, Report as _};
+use svbrdf_core::why::Moved;
+use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, write_text};
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};

@@ -1,16 +1,16 @@
 //! `svbrdf metrics`: metrics beside the loss.
 
-use svbrdf::error::Error;
-use svbrdf::material::Material;
-use svbrdf::metrics::{Metric, of_maps, of_renderings};
-use svbrdf::report::{Compared, MetricsReport};
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::metrics::{Metric, of_maps, of_renderings};
+use svbrdf_core::report::{Compared, MetricsReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given, modes};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
 use super::protocol::{self, ProtocolArgs};
-use super::report::ReportFormat;
 
 /// Prints metrics of maps and renderings, each with its convention in its name
 ///

@@ -13,7 +13,6 @@ mod photo;
 mod protocol;
 mod rank;
 mod render;
-mod report;
 mod scenes;
 mod strip;
 mod study;

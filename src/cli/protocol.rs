@@ -2,19 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::error::Error;
-use svbrdf::files::read::{self, Energy, ReadOptions};
-use svbrdf::loss::check_same_size;
-use svbrdf::material::{Material, Planes};
-use svbrdf::metrics::{Metric, matfusion_renderings, of_matfusion};
-use svbrdf::picture::export::write_npy;
-use svbrdf::progress::Progress;
-use svbrdf::report::MetricsReport;
-use svbrdf::source::{MaterialSource, Place};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::check_same_size;
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::metrics::{Metric, matfusion_renderings, of_matfusion};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::report::MetricsReport;
+use svbrdf_files::export::write_npy;
+use svbrdf_files::read::{self, Energy, ReadOptions};
+use svbrdf_files::source::{MaterialSource, Place};
 
 use super::job::{ComparisonJob, MaterialJob};
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
-use super::report::ReportFormat;
 
 #[derive(Debug, clap::Args)]
 pub struct ProtocolArgs {

@@ -2,16 +2,16 @@
 
 use std::path::PathBuf;
 
-use svbrdf::error::Error;
-use svbrdf::image::Image;
-use svbrdf::loss::check_same_size;
-use svbrdf::material::Material;
-use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::Scene;
-use svbrdf::picture::difference::Difference;
-use svbrdf::picture::export::{Destination, PictureFormat, Provenance};
-use svbrdf::picture::quantity::Quantity;
-use svbrdf::picture::shown::{Shown, ShownDifference, ShownPictures};
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::loss::check_same_size;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::shown::{Shown, ShownDifference, ShownPictures};
+use svbrdf_files::export::{Destination, PictureFormat, Provenance};
 
 use super::args::scenes::OneSceneArgs;
 use super::args::values::{Range, stops};
@@ -164,7 +164,7 @@ fn rendered_on_adapter(
     scene: &Scene,
     convention: &Convention,
 ) -> Result<(Vec<Image<f32>>, String), Error> {
-    let gpu = svbrdf::gpu::Gpu::headless()?;
+    let gpu = svbrdf_gpu::Gpu::headless()?;
     let renderer = gpu.report.to_string();
     super::output::exit::tell(&format!("note: {renderer}"));
     let one = |material| gpu.render(material, scene, convention);

@@ -1,13 +1,13 @@
 //! `svbrdf scenes`: the scenes with the largest losses.
 
-use svbrdf::loss::Comparison;
-use svbrdf::report::{Compared, ScenesReport};
+use svbrdf_core::loss::Comparison;
+use svbrdf_core::report::{Compared, ScenesReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
-use super::report::ReportFormat;
 
 /// Prints the scenes with the largest losses, worst first
 ///

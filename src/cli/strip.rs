@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use svbrdf::loss::check_same_size;
-use svbrdf::material::Material;
-use svbrdf::model::scene_file;
-use svbrdf::picture::export::PngDestination;
-use svbrdf::picture::quantity::Quantity;
-use svbrdf::picture::shown::Shown;
-use svbrdf::picture::strip::{Column, Strip};
+use svbrdf_core::loss::check_same_size;
+use svbrdf_core::material::Material;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::shown::Shown;
+use svbrdf_files::export::PngDestination;
+use svbrdf_files::export::strip::{Column, Strip};
+use svbrdf_files::scene_file;
 
 use super::args::scenes::OneSceneArgs;
 use super::args::values::{Range, stops};

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use svbrdf::backend::Adapter;
-use svbrdf::loss::check_same_size;
-use svbrdf::picture::export;
-use svbrdf::study::{self, Pair, Study, plot, study_csv};
+use svbrdf_core::loss::check_same_size;
+use svbrdf_core::study::{self, Pair, Study};
+use svbrdf_files::export;
+use svbrdf_files::export::{study_csv, study_plot as plot};
 
 use super::args::{ComparisonArgs, Given};
 use super::job::{ComparisonJob, MaterialJob};

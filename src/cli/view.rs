@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-use svbrdf::error::Error;
-use svbrdf::files::scene_file;
-use svbrdf::files::session::Session;
+use svbrdf_core::error::Error;
 #[cfg(feature = "viewer")]
-use svbrdf::files::session::SessionPhotograph;
+use svbrdf_core::loss::FileScenes;
 #[cfg(feature = "viewer")]
-use svbrdf::loss::FileScenes;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_files::scene_file;
+use svbrdf_files::session::Session;
 #[cfg(feature = "viewer")]
-use svbrdf::model::scene::Scene;
+use svbrdf_files::session::SessionPhotograph;
 
 use super::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
 use super::args::{Given, MaterialArgs, modes};

@@ -1,13 +1,13 @@
 //! `svbrdf worst`: the scene with the largest loss.
 
-use svbrdf::material::Material;
-use svbrdf::report::{Compared, Report as _, WorstReport};
-use svbrdf::why::worst;
+use svbrdf_core::material::Material;
+use svbrdf_core::report::{Compared, Report as _, WorstReport};
+use svbrdf_core::why::worst;
 
 use super::args::{ComparisonArgs, Given};
 use super::job::ComparisonJob;
+use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
-use super::report::ReportFormat;
 
 /// Searches for the scene with the largest loss of each prediction
 ///

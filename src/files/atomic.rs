@@ -4,8 +4,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use crate::error::Error;
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 
 /// The program and its version, as the files that it writes name it.
 pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));

@@ -33,8 +33,3 @@ pub mod stamp;
 mod step_names;
 pub mod steps;
 pub mod write;
-
-use crate as files;
-use svbrdf_core::{
-    error, image, loss, material, math, metrics, model, picture, progress, rank, render, report, study, text,
-};

@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::{BufReader, Read as _};
 use std::path::{Path, PathBuf};
 
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// Who named a file.
 #[derive(Clone, Debug, PartialEq, Eq)]

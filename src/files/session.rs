@@ -7,9 +7,9 @@ use serde_json::Value;
 
 use super::read::{PhotographOptions, ReadOptions};
 use super::session_window::SessionWindow;
-use crate::error::Error;
-use crate::model::scene::Scene;
 use crate::open::NamedFile;
+use svbrdf_core::error::Error;
+use svbrdf_core::model::scene::Scene;
 
 /// What the names of session files end with.
 const ENDING: &str = ".svbrdf-session.json";
@@ -180,8 +180,8 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::files::read::{Albedo, Transfer};
-    use crate::model::scene::Kind;
+    use crate::read::{Albedo, Transfer};
+    use svbrdf_core::model::scene::Kind;
 
     fn session(paths: &[PathBuf]) -> Session {
         let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };

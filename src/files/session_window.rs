@@ -4,10 +4,10 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use crate::loss::LossSettings;
-use crate::material::Map as MaterialMap;
-use crate::picture::differences::Differences;
-use crate::picture::quantity::Quantity;
+use svbrdf_core::loss::LossSettings;
+use svbrdf_core::material::Map as MaterialMap;
+use svbrdf_core::picture::differences::Differences;
+use svbrdf_core::picture::quantity::Quantity;
 
 /// What a window adds to a session; `None` where nothing was saved.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

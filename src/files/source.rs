@@ -14,12 +14,12 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::error::Error;
-use crate::files::read::{self, Read, ReadOptions};
-use crate::files::session::SessionMaterial;
-use crate::math::real::Real;
-use crate::progress::Progress;
+use crate::read::{self, Read, ReadOptions};
 use crate::samples;
+use crate::session::SessionMaterial;
+use svbrdf_core::error::Error;
+use svbrdf_core::math::real::Real;
+use svbrdf_core::progress::Progress;
 
 /// Where a material is.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use super::read::EXTENSIONS;
 use super::stamp::Stamp;
 use super::step_names::Counted;
 pub use super::step_names::Counter;
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// What identifies a training run.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

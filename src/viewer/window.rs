@@ -8,8 +8,8 @@ use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 use super::app::{App, CrashGuard, Stop, outcome};
 use super::jobs::work::{panics, priority};
 use super::model::settings::options::ViewerOptions;
-use crate::error::Error;
-use crate::gpu::Gpu;
+use svbrdf_core::error::Error;
+use svbrdf_gpu::Gpu;
 
 /// Opens the window and returns when it is closed.
 ///

@@ -196,6 +196,25 @@ fn fixture() -> TempDir {
     }
     let value = |x, y| if (x, y) == (1, 1) { (f32::NAN, 0.5, 0.5) } else { (0.2, 0.3, 0.4) };
     exr::prelude::write_rgb_file(of("nan/diffuse.exr"), 8, 8, value).unwrap();
+    write_data_set(folder.path());
+    let pairs = "gt.png,a.png\ngt.png,b.png\nb.png,a.png\nrows.png,a.png\nnan,a.png\nmetal,a.png\n";
+    fs::write(of("pairs.csv"), format!("ground_truth,prediction\n{pairs}")).unwrap();
+    succeed(folder.path(), "rank --dataset set/gt set/ours --target-error 30% --journal journal.jsonl");
+    // A loss that is known less well than it should be.
+    let journal = fs::read_to_string(of("journal.jsonl")).unwrap();
+    let start = journal.rfind("\"interval95\":[").unwrap();
+    let end = start + journal[start..].find(']').unwrap();
+    fs::write(
+        of("journal.jsonl"),
+        format!("{}\"interval95\":[0.0,9.0{}", &journal[..start], &journal[end..]),
+    )
+    .unwrap();
+    folder
+}
+
+/// Two materials and a method, and one material of each kind that is read in its own way.
+fn write_data_set(folder: &Path) {
+    let of = |name: &str| folder.join(name);
     for (path, roughness) in
         [("gt/m0", 90), ("gt/m1", 120), ("ours/m0_0", 100), ("ours/m0_1", 160), ("ours/m1", 130)]
     {
@@ -211,19 +230,6 @@ fn fixture() -> TempDir {
     }
     write_material(&of("set/ours/rows.png"), 8, 99);
     RgbImage::from_pixel(8, 8, Rgb([60; 3])).save(of("set/ours/metal/roughness.png")).unwrap();
-    let pairs = "gt.png,a.png\ngt.png,b.png\nb.png,a.png\nrows.png,a.png\nnan,a.png\nmetal,a.png\n";
-    fs::write(of("pairs.csv"), format!("ground_truth,prediction\n{pairs}")).unwrap();
-    succeed(folder.path(), "rank --dataset set/gt set/ours --target-error 30% --journal journal.jsonl");
-    // A loss that is known less well than it should be.
-    let journal = fs::read_to_string(of("journal.jsonl")).unwrap();
-    let start = journal.rfind("\"interval95\":[").unwrap();
-    let end = start + journal[start..].find(']').unwrap();
-    fs::write(
-        of("journal.jsonl"),
-        format!("{}\"interval95\":[0.0,9.0{}", &journal[..start], &journal[end..]),
-    )
-    .unwrap();
-    folder
 }
 
 /// The names of the options of a subcommand, by its help page.

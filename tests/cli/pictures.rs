@@ -2,17 +2,17 @@
 
 use std::path::Path;
 
-use svbrdf::image::Image;
-use svbrdf::loss::Compute as _;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::picture::colour_map::difference_to_display;
-use svbrdf::picture::export::GAP;
-use svbrdf::picture::strip::HEADER;
-use svbrdf::picture::tone::to_display;
-use svbrdf::progress::Progress;
-use svbrdf::render::render_f32;
-use svbrdf::samples;
+use svbrdf_core::image::Image;
+use svbrdf_core::loss::Compute as _;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::colour_map::difference_to_display;
+use svbrdf_core::picture::tone::to_display;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
+use svbrdf_files::export::GAP;
+use svbrdf_files::export::strip::HEADER;
+use svbrdf_files::samples;
 
 use super::{fail, folder, succeed};
 use crate::support::losses::losses;

@@ -1,7 +1,7 @@
 //! Options that are saved in a sidecar file.
 
-use svbrdf::files::read::ReadOptions;
-use svbrdf::progress::Progress;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::ReadOptions;
 
 use super::*;
 
@@ -23,7 +23,7 @@ fn saved_options_hold_for_every_command_until_others_are_specified() {
     let converted = |args: &str| {
         let _ = std::fs::remove_file(of("out.exr"));
         succeed(folder.path(), &format!("convert {args} out.exr --depth float"));
-        let read = svbrdf::files::read::read::<f32>(&of("out.exr"), &ReadOptions::AUTO, &Progress::default());
+        let read = svbrdf_files::read::read::<f32>(&of("out.exr"), &ReadOptions::AUTO, &Progress::default());
         read.unwrap().material.planes().clone()
     };
     let saved = converted("a.png");

@@ -4,13 +4,13 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use statrs::distribution::{Binomial, DiscreteCDF};
-use svbrdf::files::read::{Albedo, ReadOptions, read};
-use svbrdf::loss::{Comparison, Estimate, Loss, Outcome, Request, Sampling, Texels};
-use svbrdf::material::{Material, Planes};
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::sampler::Sampler;
-use svbrdf::progress::Progress;
-use svbrdf::samples;
+use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request, Sampling, Texels};
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{Albedo, ReadOptions, read};
+use svbrdf_files::samples;
 
 use super::pairs;
 

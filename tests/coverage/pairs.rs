@@ -1,6 +1,6 @@
 //! Pairs of materials whose losses are hard to estimate, made here: no file is needed.
 
-use svbrdf::material::{Material, Planes};
+use svbrdf_core::material::{Material, Planes};
 
 /// What one texel holds: slope of the surface in x and y, diffuse, specular, roughness.
 #[derive(Clone, Copy)]

@@ -1,7 +1,7 @@
 //! The whole table of coverages: minutes to an hour, ignored unless asked for.
 
-use svbrdf::loss::{Estimate, TEXELS, Texels};
-use svbrdf::model::sampler::Sampler;
+use svbrdf_core::loss::{Estimate, TEXELS, Texels};
+use svbrdf_core::model::sampler::Sampler;
 
 use super::measured::{ALLOWED, PROMISED, Pair, Seen, built_in, golden, made};
 

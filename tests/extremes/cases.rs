@@ -2,9 +2,9 @@
 
 use exr::prelude::f16;
 use glam::{DVec3, Vec3};
-use svbrdf::material::{Material, Planes};
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::{self, Convention};
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::{self, Convention};
 
 use crate::support::points::Generator;
 

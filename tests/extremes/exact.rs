@@ -6,8 +6,8 @@ use std::sync::LazyLock;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use glam::Vec3;
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::Convention;
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::Convention;
 
 type Big = FBig<HalfEven, 2>;
 type BigVec = [Big; 3];

@@ -4,8 +4,8 @@ use std::fmt::{Display, Write as _};
 
 use glam::DVec3;
 use rayon::prelude::*;
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::PRINTED;
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::PRINTED;
 
 use super::cases::{Batch, row, turned};
 use super::regions::Truth;

@@ -1,10 +1,10 @@
 //! Defects that a rung might have, shown to its comparator.
 
 use glam::DVec3;
-use svbrdf::material::Material;
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::{GUIDED_2020, PRINTED};
-use svbrdf::render::simd::Level;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::{GUIDED_2020, PRINTED};
+use svbrdf_core::render::simd::Level;
 
 use super::cases::{self, Batch, row, turned};
 use super::regions::{Region, Truth};

@@ -1,12 +1,12 @@
 //! What computes the cases: the ladder of precision, and what it is compared with.
 
 use glam::Vec3;
-use svbrdf::material::Material;
-use svbrdf::model::brdf::{self, Model, Texel};
-use svbrdf::model::convention::{Convention, GUIDED_2020, PRINTED};
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::progress::Progress;
-use svbrdf::render::simd::{Level, render_at};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::{self, Model, Texel};
+use svbrdf_core::model::convention::{Convention, GUIDED_2020, PRINTED};
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::simd::{Level, render_at};
 
 use super::cases::{Batch, row};
 use super::exact;
@@ -81,7 +81,7 @@ pub fn fused(level: Level, batch: &Batch) -> Option<Vec<Rgb>> {
 /// The shader, for each batch; `None` where there is no adapter.
 #[cfg(all(feature = "gpu", has_adapter))]
 pub fn on_gpu(batches: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
-    use svbrdf::model::convention;
+    use svbrdf_core::model::convention;
 
     let gpu = crate::support::gpu::gpu();
     let mut values: Vec<_> = batches.iter().map(|_| Vec::new()).collect();

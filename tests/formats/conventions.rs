@@ -1,6 +1,6 @@
 //! What sources of materials mean beyond layouts and names.
 
-use svbrdf::files::read::Workflow;
+use svbrdf_files::read::Workflow;
 
 use super::*;
 use crate::support::pictures::layered_with_more;
@@ -26,7 +26,7 @@ fn a_level_of_specular_scales_what_no_metal_reflects() {
     let got = read.material.texel(7);
     assert!(near(got.diffuse[0], 0.375) && near(got.specular[1], 0.08 * 0.8 * 0.75 + 0.125), "{got:?}");
     assert_eq!(chosen(&read, What::Specular), "0.08 times the level");
-    assert!(read.maps.iter().any(|map| map.map == svbrdf::files::read::Role::SpecularLevel));
+    assert!(read.maps.iter().any(|map| map.map == svbrdf_files::read::Role::SpecularLevel));
     // Without metal it is all that is known of specular.
     std::fs::remove_file(folder.path().join("w_metallic.png")).unwrap();
     let read = open(folder.path());

@@ -1,6 +1,6 @@
 //! What the user can say.
 
-use svbrdf::files::read::{Binding, Energy, NormalEncoding, Workflow, read_bound};
+use svbrdf_files::read::{Binding, Energy, NormalEncoding, Workflow, read_bound};
 
 use super::*;
 

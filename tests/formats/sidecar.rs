@@ -1,6 +1,6 @@
 //! What is kept with a material, in a file beside it.
 
-use svbrdf::files::read::{Binding, Sidecar, read_as, read_bound};
+use svbrdf_files::read::{Binding, Sidecar, read_as, read_bound};
 
 use super::*;
 

@@ -1,9 +1,9 @@
 //! Whole images of the fused kernel against f64, texel by texel, and against the plain ones.
 
-use svbrdf::image::Image;
-use svbrdf::model::brdf::Model;
-use svbrdf::render::simd::render_at;
-use svbrdf::render::{render, render_f32};
+use svbrdf_core::image::Image;
+use svbrdf_core::model::brdf::Model;
+use svbrdf_core::render::simd::render_at;
+use svbrdf_core::render::{render, render_f32};
 
 use super::*;
 use crate::support::compare::{Worst, compare_rgb_with};

@@ -3,14 +3,14 @@
 use std::process::Command;
 
 use glam::Vec3;
-use svbrdf::error::Error;
-use svbrdf::gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shading};
-use svbrdf::material::Material;
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::picture::camera::Camera;
-use svbrdf::picture::quantity::Quantity;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shading};
 
 use crate::support::gpu::{STALE_BUILD, bumpy, find_gpu, gpu, picture};
 

@@ -3,15 +3,13 @@
 mod differences;
 
 use glam::Vec3;
-use svbrdf::gpu::{
-    DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading,
-};
-use svbrdf::material::Material;
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::picture::camera::Camera;
-use svbrdf::picture::quantity::Quantity;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 
 use crate::support::gpu::{Picture, bumpy, gpu, gpu_f32, picture};
 use crate::support::tolerance::SCREEN_LEVELS;

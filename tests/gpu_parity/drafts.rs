@@ -1,9 +1,9 @@
 //! Every n-th texel of a material, shaded while a light moves on a slow adapter.
 
-use svbrdf::gpu::{MaterialTextures, ShadeParams, Shading};
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::picture::quantity::Quantity;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_gpu::{MaterialTextures, ShadeParams, Shading};
 
 use crate::support::gpu::{bumpy, gpu};
 

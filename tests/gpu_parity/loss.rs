@@ -2,14 +2,14 @@
 
 use std::sync::OnceLock;
 
-use svbrdf::error::Error;
-use svbrdf::gpu::GpuLosses;
-use svbrdf::loss::{Comparison, Loss, Plain, Request};
-use svbrdf::material::{Material, Planes};
-use svbrdf::model::convention::{self, Convention, GUIDED_2020, PRINTED};
-use svbrdf::model::scene::{self, Kind, Scene};
-use svbrdf::progress::Progress;
-use svbrdf::samples;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Loss, Plain, Request};
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::convention::{self, Convention, GUIDED_2020, PRINTED};
+use svbrdf_core::model::scene::{self, Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_files::samples;
+use svbrdf_gpu::GpuLosses;
 
 use crate::golden_loss;
 use crate::support::gpu::{bumpy, gpu};
@@ -172,7 +172,7 @@ fn equal_materials_have_no_loss_at_all() {
 fn mirrors_and_grazing_lights_have_finite_losses() {
     let computer = Computer::get();
     let uniform = |roughness, specular| {
-        let texel = svbrdf::model::brdf::Texel {
+        let texel = svbrdf_core::model::brdf::Texel {
             normal: glam::Vec3::Z,
             diffuse: [0.0; 3],
             specular: [specular; 3],

@@ -1,6 +1,6 @@
 //! Names of files and options of any letters.
 
-use svbrdf::files::read::{Binding, Reflectance, TileGrid};
+use svbrdf_files::read::{Binding, Reflectance, TileGrid};
 
 use super::*;
 

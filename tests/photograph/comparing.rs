@@ -1,16 +1,16 @@
 //! Known corners, factor, light and material.
 
 use glam::{DMat3, DVec3};
-use svbrdf::error::Error;
-use svbrdf::image::Image;
-use svbrdf::material::Material;
-use svbrdf::model::brdf::{Model, Texel, render};
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::photograph::{Corners, PhotographComparison, flash};
-use svbrdf::picture::difference::Difference;
-use svbrdf::progress::Progress;
-use svbrdf::render::render_f32;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::{Model, Texel, render};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
+use svbrdf_files::photograph::{Corners, PhotographComparison, flash};
 
 use super::{SCENE, compared, glossy, photograph, rectified, small};
 use crate::support::tolerance::{PHOTOGRAPH_FACTOR, PHOTOGRAPH_LOG};
@@ -30,7 +30,7 @@ fn basis(points: [[f64; 2]; 4]) -> DMat3 {
 
 /// The photograph of a plane of one texel within `corners`, 1 / `factor` as bright as its rendering. The plane goes on beyond
 /// the corners.
-fn pictured(material: &Material<f32>, corners: &Corners, factor: f64) -> svbrdf::files::read::Photograph {
+fn pictured(material: &Material<f32>, corners: &Corners, factor: f64) -> svbrdf_files::read::Photograph {
     let unit = basis([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
     let from_pixel = unit * basis(corners.0).inverse();
     let [half_width, half_height] = material.grid().half_extent().map(f64::from);

@@ -5,12 +5,12 @@ use std::path::Path;
 
 use exr::prelude::{AnyChannel, FlatSamples};
 use image::{Rgb, RgbImage};
-use svbrdf::files::read::{PhotographOptions, Transfer, read_photograph};
-use svbrdf::model::convention::PRINTED;
-use svbrdf::photograph::Corners;
-use svbrdf::picture::difference::Difference;
-use svbrdf::progress::Progress;
-use svbrdf::render::render_f32;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
+use svbrdf_files::photograph::Corners;
+use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
 use tempfile::tempdir;
 
 use super::{SCENE, compared, rectified, small};

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use svbrdf::model::brdf::{self, Model, Texel};
-use svbrdf::model::convention::{self, Convention, GUIDED_2020, PRINTED};
+use svbrdf_core::model::brdf::{self, Model, Texel};
+use svbrdf_core::model::convention::{self, Convention, GUIDED_2020, PRINTED};
 
 use super::plot;
 

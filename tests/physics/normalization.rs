@@ -1,13 +1,13 @@
 //! The microfacet distribution D is normalized: the integral of D(n.h) (n.h) over the hemisphere of h is 1.
 
 use glam::DVec3;
-use svbrdf::material::Material;
-use svbrdf::math::real::{Real, Vec3, Vector as _};
-use svbrdf::model::brdf::{self, Model, Texel};
-use svbrdf::model::convention::{Convention, GUIDED_2020, PRINTED};
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::progress::Progress;
-use svbrdf::render::simd::{Level, render_at};
+use svbrdf_core::material::Material;
+use svbrdf_core::math::real::{Real, Vec3, Vector as _};
+use svbrdf_core::model::brdf::{self, Model, Texel};
+use svbrdf_core::model::convention::{Convention, GUIDED_2020, PRINTED};
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::simd::{Level, render_at};
 
 use crate::support::tolerance::{NORMALIZATION_F32, NORMALIZATION_F64, NORMALIZATION_FUSED};
 

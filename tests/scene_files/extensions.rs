@@ -77,7 +77,7 @@ fn the_scale_of_a_normal_texture_scales_slopes() {
 }
 
 /// The only texel of a material of constants.
-fn constant(extensions: &str) -> svbrdf::model::brdf::Texel<f64> {
+fn constant(extensions: &str) -> svbrdf_core::model::brdf::Texel<f64> {
     let folder = textures();
     let material = format!(
         r#"{{"name": "wall", "extensions": {{{extensions}}}, "pbrMetallicRoughness": {{
@@ -169,7 +169,7 @@ fn of_many_materials_the_first_with_textures_opens_and_all_are_named() {
     let said: Vec<String> = read.messages().collect();
     assert!(said.iter().any(|s| s.contains("0 glass, 1 wall, 2 brass")), "{said:?}");
     let options = ReadOptions { exemplar: Some(2), ..ReadOptions::AUTO };
-    let brass = svbrdf::files::read::read::<f64>(&path, &options, &Progress::default()).unwrap();
+    let brass = svbrdf_files::read::read::<f64>(&path, &options, &Progress::default()).unwrap();
     assert_eq!((brass.material.name(), brass.material.size()), ("brass", [1, 1]));
 }
 

@@ -1,6 +1,6 @@
 //! MaterialX surfaces: values by their specifications, factors, procedural inputs, what is not modelled.
 
-use svbrdf::model::brdf::Texel;
+use svbrdf_core::model::brdf::Texel;
 
 use super::*;
 

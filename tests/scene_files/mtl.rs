@@ -67,7 +67,7 @@ fn other_ways_to_say_it_in_mtl_are_the_same_material() {
         assert_eq!(names, Some(("other wall".to_owned(), 1)), "{what}");
         let third = ReadOptions { exemplar: Some(2), ..ReadOptions::AUTO };
         let refused =
-            svbrdf::files::read::read::<f64>(&path, &third, &Progress::default()).unwrap_err().to_string();
+            svbrdf_files::read::read::<f64>(&path, &third, &Progress::default()).unwrap_err().to_string();
         assert!(refused.contains("an exemplar from 0 to 1"), "{refused}");
     }
 }

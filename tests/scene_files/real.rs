@@ -1,7 +1,7 @@
 //! The glTF and MaterialX files of `../shared/real`, decoded independently by the rules of their formats.
 
 use serde_json::Value;
-use svbrdf::files::read::ReadOptions;
+use svbrdf_files::read::ReadOptions;
 
 use super::*;
 

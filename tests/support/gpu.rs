@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-use svbrdf::gpu::{Display, DisplayParams, Gpu, Pane, PanePlace, Shaded};
-use svbrdf::material::{Material, Planes};
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_gpu::{Display, DisplayParams, Gpu, Pane, PanePlace, Shaded};
 
 /// What to do where the tests and the build disagree on what is there.
 pub const STALE_BUILD: &str = "this machine has changed since the build looked at it: touch build.rs";

@@ -1,11 +1,11 @@
 //! Losses over listed scenes, for tests that compare backends.
 
-use svbrdf::error::Error;
-use svbrdf::loss::{Backend, Comparison, Compute, Loss, Request};
-use svbrdf::material::Material;
-use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::Scene;
-use svbrdf::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Backend, Comparison, Compute, Loss, Request};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
 
 /// The losses of `predictions` over `scenes`, computed by `backend`.
 pub fn losses<T: Compute>(

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
-use svbrdf::model::brdf::{self, Model, Texel};
+use svbrdf_core::model::brdf::{self, Model, Texel};
 
 /// Half the distance of 1 and the next f32.
 pub const U: f64 = 1.0 / (1 << 24) as f64;

@@ -1,10 +1,10 @@
 //! How much of a loss comes from each map.
 
-use svbrdf::loss::{Comparison, Request};
-use svbrdf::material::{Map, Material};
-use svbrdf::model::sampler::Sampler;
-use svbrdf::progress::Progress;
-use svbrdf::why::{Attribution, attribute};
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::material::{Map, Material};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::why::{Attribution, attribute};
 
 use super::{built_in, printed};
 use crate::support::tolerance::{SHAPLEY_SUM, SHAPLEY_SUM_F32};

@@ -1,16 +1,16 @@
 //! The loss over directions, and the worst scene.
 
 use glam::DVec3;
-use svbrdf::loss::{Comparison, Request};
-use svbrdf::model::sampler::Sampler;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::progress::Progress;
-use svbrdf::why::{Hemisphere, Moved, hemisphere, worst};
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::why::{Hemisphere, Moved, hemisphere, worst};
 
 use super::{built_in, printed, uniform};
 
 /// A tilted normal whose highlight the prediction lacks, and the light under which the view from above sees it.
-fn planted() -> (svbrdf::material::Material<f64>, svbrdf::material::Material<f64>, DVec3) {
+fn planted() -> (svbrdf_core::material::Material<f64>, svbrdf_core::material::Material<f64>, DVec3) {
     let normal = DVec3::new(0.25, 0.15, 1.0).normalize();
     let light = 2.0 * normal.z * normal - DVec3::Z;
     let material = |specular| uniform(normal.to_array(), 0.3, specular, 0.15);

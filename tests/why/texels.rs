@@ -1,12 +1,12 @@
 //! The loss over texels, and over scenes.
 
-use svbrdf::image::Image;
-use svbrdf::loss::{Comparison, Request, Sampling};
-use svbrdf::material::Material;
-use svbrdf::model::scene::Scene;
-use svbrdf::progress::Progress;
-use svbrdf::render::render_f32;
-use svbrdf::why::{error_maps, mean, worst_first};
+use svbrdf_core::image::Image;
+use svbrdf_core::loss::{Comparison, Request, Sampling};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
+use svbrdf_core::why::{error_maps, mean, worst_first};
 
 use super::{built_in, printed};
 use crate::support::tolerance::{ERROR_MAP_MEAN, ERROR_MAP_TEXEL};
@@ -81,7 +81,8 @@ fn the_error_map_is_zero_where_the_texels_are_equal() {
     for (plane, other) in planes.normal.iter_mut().zip(&blurred.planes().normal) {
         plane[at] = other[at];
     }
-    let one = svbrdf::material::Material::new("one texel", truth.width(), truth.height(), planes).unwrap();
+    let one =
+        svbrdf_core::material::Material::new("one texel", truth.width(), truth.height(), planes).unwrap();
     let comparison = Comparison::new(&truth, &[&one], printed()).unwrap();
     let scenes = Sampling::default().scenes(&printed()).unwrap();
     let map = error_maps(&comparison, &scenes, &Progress::default()).unwrap().remove(0);

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use eframe::egui::accesskit::Role;
-use svbrdf::material::Material;
-use svbrdf::samples::generate;
+use svbrdf_core::material::Material;
+use svbrdf_files::samples::generate;
 
 use super::*;
 

@@ -1,8 +1,8 @@
 //! The corners of the material in a photograph, dragged by their handles.
 
-use svbrdf::photograph::Corners;
 use svbrdf::viewer::model::command::{DisplayCommand, PhotographCommand};
 use svbrdf::viewer::model::view::state::Layout;
+use svbrdf_files::photograph::Corners;
 
 use super::photograph::{CORNERS, SIZE, agrees, apply, expected_within, opened};
 use super::*;
@@ -150,6 +150,6 @@ fn the_whole_photograph_is_shown_in_every_layout_until_the_corners_are_done() {
     edit(&mut window);
     assert_eq!(
         window.state().parts.model.view.display.quantity,
-        svbrdf::picture::quantity::Quantity::Rendering
+        svbrdf_core::picture::quantity::Quantity::Rendering
     );
 }

@@ -1,14 +1,15 @@
 //! The difference as a quantity: in every layout, with its numbers, its range and its colours.
 
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::Scene;
-use svbrdf::picture::difference::Difference;
-use svbrdf::picture::quantity::Quantity;
-use svbrdf::picture::statistics::Statistics;
-use svbrdf::progress::Progress;
 use svbrdf::viewer::model::view::state::Layout;
-use svbrdf::{render, samples};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::Statistics;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render;
+use svbrdf_files::samples;
 
 use super::*;
 

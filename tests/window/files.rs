@@ -115,8 +115,8 @@ fn a_file_is_replaced_only_by_a_person_who_knows() {
 
 /// Two strips of the built-in ground truth, the second one a half as large.
 fn two_sizes(folder: &std::path::Path) -> [std::path::PathBuf; 2] {
-    let side = svbrdf::samples::generate::SIDE as u32;
-    let pixels = svbrdf::samples::generate::pack(&svbrdf::samples::generate::ground_truth());
+    let side = svbrdf_files::samples::generate::SIDE as u32;
+    let pixels = svbrdf_files::samples::generate::pack(&svbrdf_files::samples::generate::ground_truth());
     let large = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
     let small = image::imageops::thumbnail(&large, 2 * side, side / 2);
     [("large.png", large), ("small.png", small)].map(|(name, picture)| {

@@ -1,8 +1,8 @@
 //! What the keys do.
 
-use svbrdf::picture::quantity::Quantity;
 use svbrdf::viewer::model::view::state::{Layout, Projection};
 use svbrdf::viewer::ui::input::keys;
+use svbrdf_core::picture::quantity::Quantity;
 
 use super::*;
 

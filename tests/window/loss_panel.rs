@@ -4,11 +4,11 @@ mod differences;
 mod on_the_way;
 mod tabs;
 
-use svbrdf::loss::{Comparison, Outcome, Request, Sampling};
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::progress::Progress;
-use svbrdf::samples;
+use svbrdf_core::loss::{Comparison, Outcome, Request, Sampling};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::samples;
 
 use super::*;
 

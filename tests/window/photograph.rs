@@ -2,20 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::files::read::{PhotographOptions, Transfer, read_photograph};
-use svbrdf::files::session::{Session, SessionPhotograph};
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::photograph::{Corners, PhotographComparison, Rectified, flash};
-use svbrdf::picture::colour_map::difference_to_display;
-use svbrdf::picture::difference::Difference;
-use svbrdf::progress::Progress;
-use svbrdf::render::render_f32;
-use svbrdf::samples;
 use svbrdf::viewer::model::command::{
     Command, DisplayCommand, PhotographCommand, PhotographLight, WindowCommand,
 };
 use svbrdf::viewer::model::settings::save_kind::SaveKind;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::picture::colour_map::difference_to_display;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
+use svbrdf_files::photograph::{Corners, PhotographComparison, Rectified, flash};
+use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
+use svbrdf_files::samples;
+use svbrdf_files::session::{Session, SessionPhotograph};
 
 use super::*;
 
@@ -105,7 +105,7 @@ pub(super) fn opened<'a>() -> (Window<'a>, tempfile::TempDir) {
     (window, folder)
 }
 
-fn statistics(window: &Window<'_>) -> Vec<svbrdf::picture::statistics::Statistics> {
+fn statistics(window: &Window<'_>) -> Vec<svbrdf_core::picture::statistics::Statistics> {
     window.state().difference_statistics().unwrap().iter().map(|one| one.unwrap()).collect()
 }
 
@@ -216,7 +216,7 @@ fn saved_differences_are_those_from_the_photograph_and_a_session_keeps_it() {
         },
     );
     let (width, saved) = saved.unwrap().layer_data.channel_data.pixels;
-    let gap = svbrdf::picture::export::GAP;
+    let gap = svbrdf_files::export::GAP;
     assert_eq!(width, 3 * 256 + 2 * gap);
     let mut left_out = 0;
     for (i, expected) in core[2].difference(Difference::Log).pixels.iter().enumerate() {

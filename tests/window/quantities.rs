@@ -1,13 +1,14 @@
 //! The numbers of every quantity below the panes: statistics and histograms, against values written out in f64.
 
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::picture::difference::Difference;
-use svbrdf::picture::quantity::Quantity;
-use svbrdf::picture::statistics::{Histogram, Statistics};
-use svbrdf::progress::Progress;
 use svbrdf::viewer::model::view::state::ViewState;
-use svbrdf::{render, samples};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::{Histogram, Statistics};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render;
+use svbrdf_files::samples;
 
 use super::*;
 

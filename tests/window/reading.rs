@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use svbrdf::files::read::ReadOptions;
-use svbrdf::samples::generate;
 use svbrdf::viewer::model::command::{Command, DisplayCommand, MaterialsCommand};
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::samples::generate;
 
 use super::*;
 

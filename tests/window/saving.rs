@@ -2,17 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::files::read::ReadOptions;
-use svbrdf::files::session::Session;
-use svbrdf::picture::difference::Difference;
-use svbrdf::picture::quantity::Quantity;
-use svbrdf::picture::shown::{Shown, ShownDifference};
-use svbrdf::progress::Progress;
 use svbrdf::viewer::model::command::{
     Command, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
 };
 use svbrdf::viewer::model::settings::save_kind::SaveKind;
 use svbrdf::viewer::model::view::state::{Layout, Projection};
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::shown::{Shown, ShownDifference};
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::Session;
 
 use super::*;
 
@@ -107,8 +107,8 @@ fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
 
 /// Two strips in a folder.
 fn strips(folder: &Path) -> [PathBuf; 2] {
-    let side = svbrdf::samples::generate::SIDE as u32;
-    let pixels = svbrdf::samples::generate::pack(&svbrdf::samples::generate::ground_truth());
+    let side = svbrdf_files::samples::generate::SIDE as u32;
+    let pixels = svbrdf_files::samples::generate::pack(&svbrdf_files::samples::generate::ground_truth());
     let strip = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
     ["gt.png", "p.png"].map(|name| {
         let path = folder.join(name);
@@ -124,7 +124,7 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let [gt, p] = strips(folder.path());
     let options = ViewerOptions { ground_truth: Some(gt), predictions: vec![p], ..ViewerOptions::default() };
     let mut first = window(options);
-    let read = ReadOptions { normal_y: Some(svbrdf::files::read::NormalY::Down), ..ReadOptions::AUTO };
+    let read = ReadOptions { normal_y: Some(svbrdf_files::read::NormalY::Down), ..ReadOptions::AUTO };
     apply(&mut first, MaterialsCommand::ReadAs { index: 1, read });
     wait(&mut first, "the other assumption", |app| !app.is_reading());
     apply(&mut first, DisplayCommand::SetLayout(Layout::Wipe));

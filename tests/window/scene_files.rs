@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::files::read::ReadOptions;
-use svbrdf::loss::{Comparison, Outcome, Request};
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::Scene;
-use svbrdf::model::scene_file;
-use svbrdf::progress::Progress;
-use svbrdf::samples;
 use svbrdf::viewer::model::command::{DisplayCommand, LossCommand, MaterialsCommand, WindowCommand};
 use svbrdf::viewer::model::settings::save_kind::SaveKind;
+use svbrdf_core::loss::{Comparison, Outcome, Request};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::samples;
+use svbrdf_files::scene_file;
 
 use super::reading::apply;
 use super::*;
@@ -118,7 +118,7 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     let session = folder.path().join("a.svbrdf-session.json");
     apply(&mut window, WindowCommand::Save { what: SaveKind::Session, path: session.clone(), size: [0; 2] });
     wait(&mut window, "the session", |_| session.exists());
-    let session = svbrdf::files::session::Session::read(&session).unwrap();
+    let session = svbrdf_files::session::Session::read(&session).unwrap();
     let mut other = super::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });
     wait(&mut other, "the loss", |app| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 9));
     assert_eq!(other.state().losses().unwrap(), expected(&saved).losses);

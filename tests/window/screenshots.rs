@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use svbrdf::files::session::SessionPhotograph;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::photograph::flash;
-use svbrdf::picture::tone::to_display;
-use svbrdf::progress::Progress;
-use svbrdf::render::render_f32;
-use svbrdf::samples::{self, generate};
 use svbrdf::viewer::model::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::picture::tone::to_display;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
+use svbrdf_files::photograph::flash;
+use svbrdf_files::samples::{self, generate};
+use svbrdf_files::session::SessionPhotograph;
 
 use super::photograph::apply;
 use super::*;

@@ -1,7 +1,7 @@
 //! The study window.
 
-use svbrdf::loss::Texels;
-use svbrdf::model::sampler::Sampler;
+use svbrdf_core::loss::Texels;
+use svbrdf_core::model::sampler::Sampler;
 
 use super::*;
 use crate::pictures::packed;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use svbrdf::files::read::{Albedo, ReadOptions};
 use svbrdf::viewer::model::view::state::Projection;
+use svbrdf_files::read::{Albedo, ReadOptions};
 
 use super::*;
 
@@ -84,7 +84,8 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
     let folder = tempfile::tempdir().unwrap();
     for scale in [1.0, 1.25, 1.5, 2.0] {
         let mut window = scaled_window(numbered(folder.path()), scale);
-        window.state_mut().parts.model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+        window.state_mut().parts.model.view.display.quantity =
+            svbrdf_core::picture::quantity::Quantity::Diffuse;
         for projection in [Projection::Flat, Projection::Perspective] {
             window.state_mut().parts.model.view.display.projection = projection;
             window.state_mut().parts.model.view.scene.view = [0.7, -0.9, 2.0];
@@ -107,7 +108,7 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
 fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().parts.model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    window.state_mut().parts.model.view.display.quantity = svbrdf_core::picture::quantity::Quantity::Diffuse;
     press(&mut window, egui::Key::T);
     assert!(window.state().parts.model.view.display.tiled);
     assert!(check_readout(&mut window, 1.0, "tiled") > 20);
@@ -123,12 +124,13 @@ fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
 fn roughness_in_false_colours_has_the_colour_of_its_value() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().parts.model.view.display.quantity = svbrdf::picture::quantity::Quantity::Roughness;
+    window.state_mut().parts.model.view.display.quantity =
+        svbrdf_core::picture::quantity::Quantity::Roughness;
     press(&mut window, egui::Key::V);
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
     let picture = pixels(&mut window, rect);
     let found = picture.get_pixel(picture.width() / 3, picture.height() / 2).0;
-    let expected = svbrdf::picture::colour_map::heat(100.0 / 255.0).map(|c| (c * 255.0).round() as u8);
+    let expected = svbrdf_core::picture::colour_map::heat(100.0 / 255.0).map(|c| (c * 255.0).round() as u8);
     assert!((0..3).all(|c| found[c].abs_diff(expected[c]) <= 1), "{found:?}, expected {expected:?}");
 }
 
@@ -149,7 +151,7 @@ fn the_colours_of_texels_are_told_apart() {
 fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
-    window.state_mut().parts.model.view.display.quantity = svbrdf::picture::quantity::Quantity::Diffuse;
+    window.state_mut().parts.model.view.display.quantity = svbrdf_core::picture::quantity::Quantity::Diffuse;
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
     let fitted = (rect.width() / SIZE[0] as f32).min(rect.height() / SIZE[1] as f32);
     hover(&mut window, Pos2::ZERO);

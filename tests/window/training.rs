@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::files::read::{ReadOptions, read};
-use svbrdf::loss::Comparison;
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::progress::Progress;
-use svbrdf::samples::generate;
 use svbrdf::viewer::model::command::{MaterialsCommand, TrainingCommand};
+use svbrdf_core::loss::Comparison;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::read::{ReadOptions, read};
+use svbrdf_files::samples::generate;
 
 use super::reading::apply;
 use super::*;

@@ -80,7 +80,7 @@ fn a_right_drag_moves_the_view_the_same_way_in_both_projections() {
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_surface_follows_the_hand_in_perspective() {
-    use svbrdf::picture::camera::Camera;
+    use svbrdf_core::picture::camera::Camera;
     let mut window = built_in();
     press(&mut window, egui::Key::P);
     let rect = pane(&window, GROUND_TRUTH);

@@ -5,12 +5,12 @@ mod error_map;
 mod maps;
 mod scenes;
 
-use svbrdf::loss::Comparison;
-use svbrdf::material::Material;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::model::scene::Scene;
-use svbrdf::progress::Progress;
-use svbrdf::samples;
+use svbrdf_core::loss::Comparison;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::samples;
 
 use super::*;
 
@@ -33,7 +33,7 @@ fn materials() -> Vec<Material<f32>> {
 fn loss_in(scene: Scene, prediction: usize) -> f64 {
     let materials = materials();
     let comparison = Comparison::new(&materials[0], &[&materials[prediction]], PRINTED).unwrap();
-    let request = svbrdf::loss::Request::Listed(vec![scene]);
+    let request = svbrdf_core::loss::Request::Listed(vec![scene]);
     comparison.run(&request, &Progress::default()).unwrap().losses[0].estimate.mean
 }
 

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use svbrdf::error::Error;
-use svbrdf::files::steps::runs_in;
-use svbrdf::model::convention::Convention;
+use svbrdf_core::error::Error;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_files::steps::runs_in;
 
 use super::reading::PairReadingArgs;
 

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::files::read::{PhotographOptions, Transfer};
+use svbrdf_core::model::scene::Scene;
+use svbrdf_files::photograph::{Corners, flash};
+use svbrdf_files::read::{PhotographOptions, Transfer};
+use svbrdf_files::scene_file;
 #[cfg(feature = "viewer")]
-use svbrdf::files::session::SessionPhotograph;
-use svbrdf::model::scene::Scene;
-use svbrdf::model::scene_file;
-use svbrdf::photograph::{Corners, flash};
+use svbrdf_files::session::SessionPhotograph;
 
 use super::values::{degrees, pair, positive};
 use crate::cli::output::CommandError;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use svbrdf::files::read::{
+use svbrdf_files::read::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Roughness,
     TileGrid, Workflow,
 };

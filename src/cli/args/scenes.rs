@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use svbrdf::error::Error;
-use svbrdf::loss::{Request, Sampling, Texels};
-use svbrdf::model::convention::Convention;
-use svbrdf::model::sampler::Sampler;
-use svbrdf::model::scene::{Kind, Scene};
-use svbrdf::model::scene_file;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Request, Sampling, Texels};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_files::scene_file;
 
 use super::values::triple;
 

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::error::Error;
-use svbrdf::files::read::{self, Assumption, Binding, Certainty, Read, What};
-use svbrdf::files::session::Session;
-use svbrdf::material::Material;
-use svbrdf::math::real::Real;
-use svbrdf::report::distinct_names;
-use svbrdf::samples;
-use svbrdf::source::MaterialSource;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::math::real::Real;
+use svbrdf_core::report::distinct_names;
+use svbrdf_files::read::{self, Assumption, Binding, Certainty, Read, What};
+use svbrdf_files::samples;
+use svbrdf_files::session::Session;
+use svbrdf_files::source::MaterialSource;
 
 use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
 use crate::cli::args::{Given, MaterialArgs, modes};

@@ -3,7 +3,7 @@
 pub mod materials;
 pub mod session;
 
-use svbrdf::model::convention::Convention;
+use svbrdf_core::model::convention::Convention;
 
 use super::args::{ComparisonArgs, Given};
 use super::output::CommandError;

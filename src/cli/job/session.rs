@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use svbrdf::error::Error;
-use svbrdf::files::session::Session;
-use svbrdf::files::session_window::Display;
-use svbrdf::loss::{LossSettings, Request};
-use svbrdf::model::convention::Convention;
-use svbrdf::model::scene::Scene;
-use svbrdf::picture::quantity::Quantity;
-use svbrdf::picture::shown::{Shown, ShownDifference};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{LossSettings, Request};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::shown::{Shown, ShownDifference};
+use svbrdf_files::session::Session;
+use svbrdf_files::session_window::Display;
 
 use crate::cli::args::MaterialArgs;
 use crate::cli::output::CommandError;

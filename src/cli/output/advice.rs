@@ -1,7 +1,7 @@
 //! Advice: the options of the command line that help with an error or a note. The library names none.
 
-use svbrdf::error::{Error, OutputProblem};
-use svbrdf::files::read::{Assumption, Note, Reason, Subject};
+use svbrdf_core::error::{Error, OutputProblem};
+use svbrdf_files::read::{Assumption, Note, Reason, Subject};
 
 use super::error::CommandError;
 

@@ -6,7 +6,7 @@ use std::thread;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use svbrdf::progress::Progress;
+use svbrdf_core::progress::Progress;
 
 /// Operations that end sooner get no bar.
 const DELAY: Duration = Duration::from_millis(500);

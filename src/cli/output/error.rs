@@ -1,6 +1,6 @@
 //! Errors of a command: those of the library, and command lines that make no sense.
 
-use svbrdf::error::Error;
+use svbrdf_core::error::Error;
 
 /// Why a command ends without success.
 #[derive(Debug, thiserror::Error)]

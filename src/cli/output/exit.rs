@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use svbrdf::error::Error;
+use svbrdf_core::error::Error;
 
 use super::advice;
 use super::error::CommandError;

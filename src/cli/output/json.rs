@@ -1,6 +1,6 @@
 //! Objects as JSON.
 
-use svbrdf::error::Error;
+use svbrdf_core::error::Error;
 
 use super::exit;
 

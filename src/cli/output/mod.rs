@@ -5,6 +5,7 @@ pub mod bar;
 pub mod error;
 pub mod exit;
 pub mod json;
+pub mod report;
 pub mod stop;
 pub mod target;
 

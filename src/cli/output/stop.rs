@@ -2,7 +2,7 @@
 
 use std::process;
 
-use svbrdf::progress::Progress;
+use svbrdf_core::progress::Progress;
 
 use super::exit::INTERRUPTED;
 

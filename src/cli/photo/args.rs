@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use svbrdf::picture::difference::Difference;
+use svbrdf_core::picture::difference::Difference;
 
 use crate::cli::args::ComparisonArgs;
 use crate::cli::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
-use crate::cli::report::ReportFormat;
+use crate::cli::output::report::ReportFormat;
 
 /// Compares renderings of materials with a photograph
 ///

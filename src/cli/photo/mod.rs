@@ -3,12 +3,12 @@
 mod args;
 mod output;
 
-use svbrdf::error::Error;
-use svbrdf::files::read::read_photograph;
-use svbrdf::material::Material;
-use svbrdf::photograph::{PhotoReport, PhotoSetting};
-use svbrdf::picture::difference::Difference;
-use svbrdf::picture::export::{Destination, PictureFormat};
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_files::export::{Destination, PictureFormat};
+use svbrdf_files::photograph::{PhotoReport, PhotoSetting};
+use svbrdf_files::read::read_photograph;
 
 use super::args::Given;
 use super::job::{ComparisonJob, check_heights};

@@ -1,11 +1,11 @@
 //! What a picture of `svbrdf photo` records.
 
-use svbrdf::model::scene::Scene;
-use svbrdf::photograph::PhotoReport;
-use svbrdf::picture::difference::Difference;
-use svbrdf::picture::export::Provenance;
-use svbrdf::picture::statistics::Distributions;
-use svbrdf::report::position;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::statistics::Distributions;
+use svbrdf_core::report::position;
+use svbrdf_files::export::Provenance;
+use svbrdf_files::photograph::PhotoReport;
 
 /// The difference that has the last colour: the 99th percentile of the material where it is largest.
 pub fn last_colour(report: &PhotoReport, kind: Difference) -> f64 {

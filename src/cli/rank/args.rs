@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use svbrdf::dataset::{Pick, Shard};
-use svbrdf::error::Error;
-use svbrdf::report::Report;
+use svbrdf_core::error::Error;
+use svbrdf_core::report::Report;
+use svbrdf_files::dataset::{Pick, Shard};
 
 use crate::cli::args::{ComparisonArgs, values};
 use crate::cli::output::CommandError;

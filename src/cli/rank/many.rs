@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::dataset::{
+use svbrdf_core::report::{Report as _, distinct_names};
+use svbrdf_files::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, MaterialResult,
     cases_of_folders, cases_of_table,
 };
-use svbrdf::report::{Report as _, distinct_names};
 
 use super::args::{RankArgs, check_limit};
 use crate::cli::args::{ComparisonArgs, Given, modes, wildcards};

@@ -1,8 +1,8 @@
 //! Many predictions of one ground truth.
 
-use svbrdf::loss::{Comparison, Request};
-use svbrdf::rank::most_scenes;
-use svbrdf::report::{Compared, RankReport, Report as _};
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::rank::most_scenes;
+use svbrdf_core::report::{Compared, RankReport, Report as _};
 
 use super::args::{RankArgs, check_limit};
 use crate::cli::args::{Given, modes, wildcards};

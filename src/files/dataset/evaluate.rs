@@ -9,14 +9,14 @@ use rayon::prelude::*;
 use super::record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, MaterialResult, PredictionResult,
 };
-use crate::error::Error;
-use crate::files::read::{self, ReadOptions};
-use crate::loss::{Comparison, Loss, Request, check_same_size};
-use crate::material::Material;
-use crate::metrics::of_maps;
-use crate::model::convention::Convention;
-use crate::progress::Progress;
-use crate::rank::most_scenes;
+use crate::read::{self, ReadOptions};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Loss, Request, check_same_size};
+use svbrdf_core::material::Material;
+use svbrdf_core::metrics::of_maps;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::rank::most_scenes;
 
 /// The result of a material, and the files that it was computed from.
 #[derive(Debug)]

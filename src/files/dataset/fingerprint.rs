@@ -8,8 +8,8 @@ use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
 
-use crate::files::read::{EXTENSIONS, Sidecar};
 use crate::open::NamedFile;
+use crate::read::{EXTENSIONS, Sidecar};
 
 /// The files of a material: those that were read, its sidecar file, and all pictures of a folder or prefix, which would be read.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -17,10 +17,10 @@ use serde_json::Value;
 use super::evaluate::Evaluated;
 use super::fingerprint::MaterialFiles;
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
-use crate::error::Error;
-use crate::files::atomic::write_text;
+use crate::atomic::write_text;
 use crate::open::NamedFile;
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 
 /// The version of the format that is written and read.
 const FORMAT: u32 = 2;

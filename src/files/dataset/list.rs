@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use super::record::{Candidate, Case};
-use crate::error::Error;
 use crate::open::NamedFile;
+use svbrdf_core::error::Error;
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];

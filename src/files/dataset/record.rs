@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use crate::files::read::ReadOptions;
-use crate::loss::Estimate;
+use crate::read::ReadOptions;
+use svbrdf_core::loss::Estimate;
 
 /// A material: its ground truth, and the predictions of all methods.
 #[derive(Clone, Debug, PartialEq, Eq)]

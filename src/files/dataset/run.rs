@@ -6,8 +6,8 @@ use std::sync::{Mutex, PoisonError};
 use super::evaluate::{Evaluated, evaluate};
 use super::journal::{Head, Journal, Recomputed, remaining};
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
-use crate::error::Error;
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 
 /// The results of a run over a data set.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use super::bootstrap::interval_of_mean;
 use super::record::{KnownLoss, MaterialResult};
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// The 97.5% quantile of the normal distribution.
 const Z: f64 = 1.959_964;

@@ -8,7 +8,7 @@ use exr::prelude::{
 };
 
 use super::provenance::{Entries, Provenance};
-use crate::image::Image;
+use svbrdf_core::image::Image;
 
 /// Writes one layer of channels R, G and B.
 ///

@@ -15,10 +15,10 @@ pub use crate::atomic::{Destination, check_place, write_text};
 pub use npy::write_npy;
 pub use provenance::{Entries, Provenance};
 
-use crate::error::Error;
-use crate::image::Image;
-use crate::picture::colour_map::heat;
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::picture::colour_map::heat;
+use svbrdf_core::progress::Progress;
 
 /// Texels between two panes of a picture.
 pub const GAP: usize = 4;

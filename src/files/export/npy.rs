@@ -6,9 +6,9 @@ use std::path::Path;
 use npyz::WriterBuilder;
 
 use crate::atomic::{check_place, replace};
-use crate::error::Error;
-use crate::image::Image;
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::progress::Progress;
 
 /// Writes pictures of one size into a file of NumPy: number x height x width x 3, 32-bit floats. It appears when it is complete,
 /// or not at all.

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::provenance::{Entries, Provenance};
-use crate::image::Image;
+use svbrdf_core::image::Image;
 
 pub(super) fn write(file: impl Write, image: &Image<u8>, entries: &Entries) -> io::Result<()> {
     let mut encoder = png::Encoder::new(file, side(image.width)?, side(image.height)?);

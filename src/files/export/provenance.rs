@@ -1,9 +1,9 @@
 //! Provenance of a picture: everything that makes it again.
 
 use crate::atomic;
-use crate::model::convention::Convention;
-use crate::model::scene::{Kind, Scene};
-use crate::picture::shown::Shown;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::shown::Shown;
 
 /// The metadata of a picture: (keyword, text).
 pub type Entries = [(&'static str, String)];

@@ -1,14 +1,14 @@
 //! A figure: materials in rows; maps, renderings and differences in columns.
 
 use super::text::{self, Anchor};
-use crate::error::Error;
-use crate::image::Image;
-use crate::material::Material;
-use crate::model::convention::Convention;
-use crate::model::scene::{Kind, Scene};
-use crate::picture::quantity::Quantity;
-use crate::picture::shown::{Shown, ShownDifference};
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::shown::{Shown, ShownDifference};
+use svbrdf_core::progress::Progress;
 
 /// Pixels between two cells.
 pub const GAP: usize = 4;

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::atomic;
-use crate::error::Error;
-use crate::loss::Precision;
-use crate::progress::Progress;
-use crate::study::{Device, Point, Study};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Precision;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::study::{Device, Point, Study};
 
 const CSV_HEADING: [&str; 15] = [
     "scenes",

@@ -12,10 +12,10 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 
 use crate::atomic::Destination;
-use crate::error::Error;
-use crate::progress::Progress;
-use crate::study::{Family, Point, Study};
-use crate::text::{percent, time};
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::study::{Family, Point, Study};
+use svbrdf_core::text::{percent, time};
 
 /// Width and height of the picture in pixels.
 const SIZE: (u32, u32) = (1200, 780);

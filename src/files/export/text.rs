@@ -7,8 +7,8 @@ use plotters::prelude::{BitMapBackend, IntoDrawingArea, IntoFont, RGBColor, Text
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, TextStyle, register_font};
 
-use crate::error::Error;
-use crate::image::Image;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
 
 /// The family name of the font.
 const FONT: &str = "sans-serif";

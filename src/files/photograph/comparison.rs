@@ -2,15 +2,15 @@
 
 use super::exposure;
 use super::rectified::Rectified;
-use crate::error::Error;
-use crate::image::Image;
-use crate::material::Material;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::picture::difference::Difference;
-use crate::picture::statistics::Statistics;
-use crate::progress::Progress;
-use crate::render;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::statistics::Statistics;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render;
 
 /// A rendering and the photograph at its exposure.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// Least area, in pixels, of a triangle between three corners.
 const LEAST: f64 = 1e-3;

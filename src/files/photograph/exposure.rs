@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::image::Image;
+use svbrdf_core::image::Image;
 
 /// The factor k that brings `photograph` to the exposure of `rendering`: the median of p / g over texels and channels, each with
 /// the weight p / (p + epsilon), for a photograph g and a rendering p.

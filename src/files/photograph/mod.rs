@@ -44,8 +44,8 @@ pub use corners::Corners;
 pub use rectified::Rectified;
 pub use report::{PhotoReport, PhotoResult, PhotoSetting};
 
-use crate::error::Error;
-use crate::model::scene::{Kind, Scene};
+use svbrdf_core::error::Error;
+use svbrdf_core::model::scene::{Kind, Scene};
 
 /// The scene of a photograph taken with the flash at the camera, straight above the middle of the plane, whose width of 2 spans
 /// an angle of `fov_degrees`: light and view at the height 1 / tan(fov / 2).

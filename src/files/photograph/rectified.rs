@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 
 use super::corners::{Corners, Homography};
-use crate::error::Error;
-use crate::files::read::Photograph;
-use crate::image::Image;
-use crate::material::Grid;
-use crate::model::scene::{Kind, Scene};
-use crate::progress::Progress;
+use crate::read::Photograph;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::material::Grid;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
 
 /// How much a length in pixels may exceed a whole number by rounding.
 const ROUNDING: f64 = 1e-6;

@@ -5,15 +5,15 @@ use serde::{Serialize, Serializer};
 use super::comparison::PhotographComparison;
 use super::corners::Corners;
 use super::rectified::Rectified;
-use crate::error::Error;
-use crate::material::Material;
-use crate::model::convention::Convention;
-use crate::model::scene::Scene;
-use crate::picture::difference::Difference;
-use crate::picture::statistics::Statistics;
-use crate::progress::Progress;
 use crate::read::Photograph;
-use crate::report::{Cell, Report, Table, aligned, position};
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::statistics::Statistics;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::report::{Cell, Report, Table, aligned, position};
 
 const TITLES: [&str; 13] = [
     "material",

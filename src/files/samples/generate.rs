@@ -4,7 +4,7 @@
 
 use super::noise::mix;
 use super::tiles::{Surface, surface};
-use crate::material::Planes;
+use svbrdf_core::material::Planes;
 
 /// Width and height of a sample, in texels.
 pub const SIDE: usize = 256;

@@ -7,12 +7,12 @@ use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage,
 use rayon::prelude::*;
 
 use crate::atomic::SOFTWARE;
-use crate::material::{Material, Planes, half_normals};
-use crate::model::convention::PRINTED;
-use crate::model::scene::{Kind, Scene};
-use crate::progress::Progress;
 use crate::read::decode::exr::NATIVE;
-use crate::render::render_f32;
+use svbrdf_core::material::{Material, Planes, half_normals};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
 
 /// The meaning of the values of such an EXR.
 const MEANING: &str = "svbrdf:workflow=specular, linear Rec. 709\nsvbrdf:normal=signed, +y\n\

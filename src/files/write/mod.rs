@@ -7,13 +7,13 @@ mod png;
 
 use std::path::Path;
 
-pub use crate::material::Depth;
+pub use svbrdf_core::material::Depth;
 
 use super::read::Preset;
 use crate::atomic;
-use crate::error::{Error, OutputProblem};
-use crate::material::Material;
-use crate::progress::Progress;
+use svbrdf_core::error::{Error, OutputProblem};
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
 
 /// Kinds of files that materials are read from and not written into: as the name of a folder they are a mistake.
 const NOT_WRITTEN: [&str; 12] =

@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use super::curve::Curve;
 use super::metallic::base_and_metallic;
 use crate::atomic::{self, SOFTWARE};
-use crate::material::{Material, Planes};
-use crate::progress::Progress;
 use crate::read::options::transfer::{encoded, encoded_roughness, linear, roughness};
 use crate::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::progress::Progress;
 
 /// The map in a picture.
 #[derive(Clone, Copy, Debug)]

@@ -6,11 +6,6 @@ use eframe::egui;
 
 use super::parts::Parts;
 use super::{saving, training};
-use crate::error::Error;
-use crate::files::scene_file;
-use crate::files::session::{Session, SessionPhotograph};
-use crate::files::stamp::Stamp;
-use crate::photograph::flash;
 use crate::viewer::jobs::browse;
 use crate::viewer::jobs::why::ComparedPair;
 use crate::viewer::model::command::PhotographLight;
@@ -21,7 +16,12 @@ use crate::viewer::model::message::Message;
 use crate::viewer::ui::dialogs::open::OpenDialog;
 use crate::viewer::ui::dialogs::photograph::PhotographDialog;
 use crate::viewer::ui::dialogs::save::SaveDialog;
+use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_files::photograph::flash;
+use svbrdf_files::scene_file;
+use svbrdf_files::session::{Session, SessionPhotograph};
+use svbrdf_files::stamp::Stamp;
 
 /// Carries out what a command has done outside of the model: the only place that does.
 pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {

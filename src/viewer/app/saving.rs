@@ -5,13 +5,13 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use super::parts::Parts;
-use crate::error::Error;
-use crate::image::Image;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::saving;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::model::message::Message;
 use crate::viewer::model::settings::save_kind::SaveKind;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
 use svbrdf_files::export::Provenance;
 
 /// Starts to save; `size` is the size of a picture of the view.

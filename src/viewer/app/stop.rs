@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use eframe::egui;
 
-use crate::progress::Progress;
+use svbrdf_core::progress::Progress;
 
 /// How long the window may take to close after a signal.
 const TIME_TO_CLOSE: Duration = Duration::from_secs(5);

@@ -3,9 +3,9 @@
 use eframe::egui;
 use serde::Deserialize;
 
-use crate::files::session::Session;
 use crate::viewer::model::Model;
 use crate::viewer::model::settings::Settings;
+use svbrdf_files::session::Session;
 
 /// The key of the settings in the storage.
 const SETTINGS: &str = "settings";
@@ -69,7 +69,7 @@ mod tests {
     use std::collections::HashMap;
 
     use super::*;
-    use crate::loss::{Ask, FileScenes, LossSettings};
+    use svbrdf_core::loss::{Ask, FileScenes, LossSettings};
 
     #[derive(Default)]
     struct Memory(HashMap<String, String>);

@@ -6,12 +6,12 @@
 use std::path::PathBuf;
 
 use super::parts::Parts;
-use crate::files::steps::{RunId, TrainingStep};
 use crate::viewer::jobs::training::{RunLossesKey, RunNews, WantedRun};
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::request::{ReadRequest, Target};
 use crate::viewer::model::material::source::{Origin, Source};
 use crate::viewer::model::settings::Tab;
+use svbrdf_files::steps::{RunId, TrainingStep};
 
 /// Follows the folders of the training runs in the window.
 pub(super) fn follow(parts: &mut Parts) {

@@ -4,12 +4,12 @@ use super::Jobs;
 use super::displayed::Displayed;
 use super::why::WhyQuery;
 use super::work::context::JobContext;
-use crate::error::Error;
-use crate::loss::Request;
 use crate::viewer::model::Model;
 use crate::viewer::model::settings::Tab;
 use crate::viewer::model::settings::loss_query::LossQuery;
-use crate::why::Worst;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Request;
+use svbrdf_core::why::Worst;
 
 /// What the window displays, as far as jobs depend on it.
 #[derive(Clone, Copy, Debug, Default)]

@@ -32,12 +32,12 @@ use why::WhyJobs;
 use work::job::Job;
 use work::waker::Waker;
 
-use crate::error::Error;
-use crate::files::scene_file;
-use crate::gpu::Gpu;
-use crate::loss::FileScenes;
 use crate::viewer::model::Model;
 use crate::viewer::model::material::request::{ReadRequest, Target};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::FileScenes;
+use svbrdf_files::scene_file;
+use svbrdf_gpu::Gpu;
 
 /// All background work of the window.
 #[derive(Debug, Default)]

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use super::material::source::Source;
 use super::view::state::ViewState;
-use crate::files::session::SessionPhotograph;
-use crate::loss::FileScenes;
+use svbrdf_core::loss::FileScenes;
+use svbrdf_files::session::SessionPhotograph;
 
 /// How long nothing changes, in seconds, before it becomes a moment to return to.
 const STABLE: f64 = 0.4;

@@ -13,9 +13,9 @@ pub mod session;
 pub mod settings;
 pub mod view;
 
-use crate::files::read::ReadOptions;
-use crate::files::session::Session;
-use crate::loss::FileScenes;
+use svbrdf_core::loss::FileScenes;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::Session;
 
 use history::History;
 use inspection::Inspection;

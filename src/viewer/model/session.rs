@@ -10,12 +10,12 @@ use super::material::read::Rules;
 use super::material::request::{ReadRequest, Target};
 use super::material::source::{Origin, Source, sources};
 use super::view::state::ViewState;
-use crate::files::read::ReadOptions;
-use crate::files::session::{Session, SessionMaterial, SessionPhotograph};
-use crate::files::session_window::SessionWindow;
-use crate::files::stamp::Stamp;
-use crate::files::steps::RunId;
 use crate::viewer::model::settings::options::ViewerOptions;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::{Session, SessionMaterial, SessionPhotograph};
+use svbrdf_files::session_window::SessionWindow;
+use svbrdf_files::stamp::Stamp;
+use svbrdf_files::steps::RunId;
 
 impl Model {
     /// Takes in what the window starts with; the request that reads its materials.

@@ -10,12 +10,12 @@ use super::photograph::card::PhotographCard;
 use super::why::WhyPanel;
 use super::widgets::bare;
 use super::widgets::texture::PanelTextures;
-use crate::files::read::Certainty;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::why::ComparedPair;
 use crate::viewer::model::command::{Command, WindowCommand};
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::settings::Tab;
+use svbrdf_files::read::Certainty;
 
 pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextures) -> Vec<Command> {
     let (model, jobs) = (displayed.model, displayed.jobs);

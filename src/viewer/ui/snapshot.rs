@@ -7,8 +7,8 @@ use super::content::Content;
 use super::pane::viewport::Viewport;
 use super::shading::gpu_view::GpuView;
 use super::shading::snapshot::{Size, snapshot};
-use crate::error::Error;
 use crate::viewer::jobs::displayed::Displayed;
+use svbrdf_core::error::Error;
 
 impl WindowUi {
     /// The panes and the legend in a picture of this size, in pixels.

@@ -1,14 +1,14 @@
 //! Differences as colours, against the numbers of the core.
 
 use glam::Vec3;
-use svbrdf::gpu::{DisplayParams, DisplayedDifference, Shaded};
-use svbrdf::material::Material;
-use svbrdf::model::brdf::Texel;
-use svbrdf::model::convention::PRINTED;
-use svbrdf::picture::colour_map::{diverging, heat};
-use svbrdf::picture::difference::Difference;
-use svbrdf::picture::quantity::Quantity;
-use svbrdf::progress::Progress;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::picture::colour_map::{diverging, heat};
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::progress::Progress;
+use svbrdf_gpu::{DisplayParams, DisplayedDifference, Shaded};
 
 use super::{ABOVE, faults, levels, params, shaded, whole};
 use crate::support::gpu::{bumpy, gpu_f32, picture};

@@ -1,7 +1,7 @@
 //! The map over the directions of light and view.
 
-use svbrdf::model::scene::Kind;
-use svbrdf::why::{Hemisphere, Moved, hemisphere};
+use svbrdf_core::model::scene::Kind;
+use svbrdf_core::why::{Hemisphere, Moved, hemisphere};
 
 use super::*;
 

@@ -1,13 +1,13 @@
 //! The error map: the log difference of each texel, averaged over the scenes of the loss.
 
-use svbrdf::image::Image;
-use svbrdf::loss::{Request, Sampling, Texels};
-use svbrdf::model::sampler::Sampler;
-use svbrdf::picture::colour_map::difference_to_display;
-use svbrdf::picture::statistics::Statistics;
 use svbrdf::viewer::model::command::{Command, DisplayCommand, WindowCommand};
 use svbrdf::viewer::model::settings::save_kind::SaveKind;
-use svbrdf::why;
+use svbrdf_core::image::Image;
+use svbrdf_core::loss::{Request, Sampling, Texels};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::picture::colour_map::difference_to_display;
+use svbrdf_core::picture::statistics::Statistics;
+use svbrdf_core::why;
 
 use super::*;
 
@@ -74,7 +74,7 @@ fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
     assert_ne!(window.state().parts.model.view.scene, before);
     assert_eq!(statistics(&window), found);
     // Another difference is of the scene again.
-    apply(&mut window, DisplayCommand::SetDifference(svbrdf::picture::difference::Difference::Log));
+    apply(&mut window, DisplayCommand::SetDifference(svbrdf_core::picture::difference::Difference::Log));
     wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
     assert_ne!(statistics(&window), found);
     window.get_by_label("Title 1  blurred normals: log difference");
@@ -137,7 +137,7 @@ fn a_saved_error_map_has_its_numbers_and_says_what_it_is() {
     );
     let (width, saved) = saved.unwrap().layer_data.channel_data.pixels;
     let map = &expected()[1];
-    let gap = svbrdf::picture::export::GAP;
+    let gap = svbrdf_files::export::GAP;
     assert_eq!((width, saved.len()), (2 * 256 + gap, 256 * (2 * 256 + gap)));
     for (i, rgb) in map.pixels.iter().enumerate().step_by(97) {
         let [x, y] = [i % 256 + 256 + gap, i / 256];

@@ -1,9 +1,9 @@
 //! Which map the loss comes from, and one map alone in the panes.
 
-use svbrdf::loss::Request;
-use svbrdf::material::Map;
-use svbrdf::model::convention::{self, Convention};
-use svbrdf::why::{Attribution, attribute};
+use svbrdf_core::loss::Request;
+use svbrdf_core::material::Map;
+use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::why::{Attribution, attribute};
 
 use super::*;
 

@@ -1,8 +1,8 @@
 //! The scenes of the loss, worst first, and the search for the worst of all.
 
-use svbrdf::loss::{Request, Sampling, Texels};
-use svbrdf::model::sampler::Sampler;
-use svbrdf::why::{RankedScene, worst, worst_first};
+use svbrdf_core::loss::{Request, Sampling, Texels};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::why::{RankedScene, worst, worst_first};
 
 use super::*;
 

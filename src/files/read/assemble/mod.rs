@@ -3,12 +3,12 @@
 mod read;
 mod workflow;
 
-use crate::material::Planes;
-use crate::math::real::Real;
 use crate::read::interpret::LinearMaterial;
 use crate::read::options::ReadOptions;
 use crate::read::record::{Note, SpecifiedBy};
 pub use read::Read;
+use svbrdf_core::material::Planes;
+use svbrdf_core::math::real::Real;
 
 /// The planes of the material, taken out of its linear maps; the choices that are made here are recorded in `found`.
 pub(super) fn planes<T: Real>(found: &mut LinearMaterial<T>, options: &ReadOptions) -> Planes<T> {

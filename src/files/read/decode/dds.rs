@@ -5,9 +5,9 @@ use std::io::{BufRead, ErrorKind, Seek};
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
 use super::place::Place;
-use crate::error::Error;
 use crate::panics::caught;
 use crate::read::raster::{Buffer, Raster, Samples};
+use svbrdf_core::error::Error;
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
     let contradiction = |_| place.invalid("DDS", "a contradiction in it");

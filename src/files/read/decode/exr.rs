@@ -10,10 +10,10 @@ use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
 use super::dwa;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
-use crate::error::Error;
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
+use svbrdf_core::error::Error;
 
 /// The beginning of the comments of an EXR that this program wrote as a material.
 pub(crate) const NATIVE: &str = "svbrdf:version=1\n";

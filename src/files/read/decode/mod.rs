@@ -19,12 +19,12 @@ mod tiff;
 use std::io::{BufRead, Seek};
 use std::path::Path;
 
-use crate::error::Error;
 use crate::open::NamedFile;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
 pub(super) use place::{Decoded, Layer};
 use place::{Place, alone};
+use svbrdf_core::error::Error;
 
 /// Decodes `file`, which is expected to be `what`.
 ///

@@ -7,8 +7,8 @@ use npyz::{NpyFile, Order};
 
 use super::layout::{self, Axes};
 use super::place::{Decoded, Layer, MAX_BYTES, Place, alone};
-use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
+use svbrdf_core::error::Error;
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;

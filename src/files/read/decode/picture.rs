@@ -15,10 +15,10 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 use super::head::{self, PngHead};
 use super::known;
 use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
-use crate::error::Error;
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
+use svbrdf_core::error::Error;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);

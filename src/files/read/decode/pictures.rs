@@ -5,8 +5,6 @@ use std::io::Cursor;
 use rayon::prelude::*;
 
 use super::{Decoded, Layer, from_reader, one, whole};
-use crate::error::Error;
-use crate::progress::Progress;
 use crate::read::located::binding::LocatedBinding;
 use crate::read::located::gltf::LocatedGltf;
 use crate::read::located::mtl::LocatedMtl;
@@ -17,6 +15,8 @@ use crate::read::located::{Candidate, WholePicture};
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
 use crate::read::stored::StoredMap;
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 
 /// A picture of a material, and what its decoder noticed.
 #[derive(Clone, Debug)]

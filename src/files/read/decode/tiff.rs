@@ -7,8 +7,8 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::place::{MAX_BYTES, Place};
-use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
+use svbrdf_core::error::Error;
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
     let invalid = |error: tiff::TiffError| match error {

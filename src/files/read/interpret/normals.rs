@@ -3,14 +3,14 @@
 use rayon::prelude::*;
 
 use super::decide::decide;
-use crate::error::Error;
-use crate::material::resize::{self, Filter};
-use crate::math::real::Real;
 use crate::read::measure::{self, NORMAL_AT_LEAST};
 use crate::read::options::{NormalEncoding, NormalY, ReadOptions};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Assumption, Certainty, Reason, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
+use svbrdf_core::error::Error;
+use svbrdf_core::material::resize::{self, Filter};
+use svbrdf_core::math::real::Real;
 
 /// Shorter vectors have no direction.
 const SHORTEST: f64 = 1e-3;

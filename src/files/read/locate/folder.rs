@@ -5,12 +5,12 @@ use std::path::Path;
 
 use super::directory::{self, folder_of, list, material_name};
 use super::grouping;
-use crate::error::Error;
 use crate::open::NamedFile;
 use crate::read::located::set::{LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located, WholePicture};
 use crate::read::names::{Label, listing};
 use crate::read::options::Role;
+use svbrdf_core::error::Error;
 
 /// Locates the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
 ///

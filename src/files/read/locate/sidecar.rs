@@ -7,14 +7,14 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value};
 
 use crate::atomic;
-use crate::error::Error;
 use crate::open::NamedFile;
-use crate::progress::Progress;
 use crate::read::located::binding::Binding;
 use crate::read::names::Label;
 use crate::read::options::ReadOptions;
 use crate::read::options::extensions::EXTENSIONS;
 use crate::read::record::{Assumption, Certainty, Note, SpecifiedBy, What};
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 
 /// The name of the file in a folder.
 const IN_FOLDER: &str = "svbrdf.json";

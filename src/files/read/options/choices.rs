@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// An enum whose values have names for users and files; `| "old"` is a former name that is still read.
 macro_rules! choices {
@@ -35,12 +35,12 @@ macro_rules! choices {
         }
 
         impl std::str::FromStr for $type {
-            type Err = crate::error::Error;
+            type Err = svbrdf_core::error::Error;
 
             fn from_str(name: &str) -> Result<Self, Self::Err> {
                 match name {
                     $($name $(| $old)* => Ok(Self::$variant),)+
-                    _ => Err(crate::error::Error::UnknownName {
+                    _ => Err(svbrdf_core::error::Error::UnknownName {
                         what: $what,
                         found: name.to_owned(),
                         known: Self::ALL.map(Self::name).join(", "),

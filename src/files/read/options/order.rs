@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use super::role::Role;
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// Most tiles of a material.
 const MOST: usize = 6;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::buffer::{Buffer, View};
 use super::out_of_range::OutOfRange;
-use crate::math::real::Real;
+use svbrdf_core::math::real::Real;
 
 /// Samples that one task converts.
 const CHUNK: usize = 1 << 16;

@@ -1,7 +1,6 @@
 //! Maps that are specified one by one: a picture, or one of its channels or layers.
 
 use super::layers;
-use crate::error::Error;
 use crate::read::decode::Layer;
 use crate::read::decode::pictures::DecodedBinding;
 use crate::read::located::binding::LocatedBinding;
@@ -9,6 +8,7 @@ use crate::read::names::listing;
 use crate::read::options::Role;
 use crate::read::record::Subject;
 use crate::read::stored::StoredMap;
+use svbrdf_core::error::Error;
 
 /// The map of a binding out of its decoded file.
 ///

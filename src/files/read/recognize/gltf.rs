@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use super::field::{Field, reflectance, separated};
 use super::roles::MapsByRole;
 use super::scaled_normals::scaled;
-use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::gltf::{GltfSurface, LocatedGltf};
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Note, StorageConvention, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
+use svbrdf_core::error::Error;
 
 /// The refractive index of a material that declares none.
 const DEFAULT_IOR: f32 = 1.5;

@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use super::roles::MapsByRole;
-use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlTexture, NORMALS, names_picture};
 use crate::read::measure::{NORMAL_AT_LEAST, normal_score};
@@ -12,6 +11,7 @@ use crate::read::names::Label;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
 use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+use svbrdf_core::error::Error;
 
 /// The material `located`, whose textures are `pictures`.
 ///

@@ -3,7 +3,6 @@
 use super::field::{Field, reflectance, separated};
 use super::roles::MapsByRole;
 use super::scaled_normals::scaled;
-use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::mtlx::{Bound, BoundPicture, LocatedMtlx, Obstacle};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
@@ -13,6 +12,7 @@ use crate::read::record::{
     Assumption, Certainty, Note, Reason, SpaceKnown, StorageConvention, Subject, What,
 };
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+use svbrdf_core::error::Error;
 
 /// The reflectance of a dielectric of the default refractive index 1.5.
 const DEFAULT: f32 = 0.04;

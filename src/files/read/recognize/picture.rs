@@ -1,11 +1,11 @@
 //! One picture that holds a whole material.
 
 use super::{layers, packed};
-use crate::error::Error;
 use crate::read::decode::Decoded;
 use crate::read::located::WholePicture;
 use crate::read::options::ReadOptions;
 use crate::read::stored::StoredMaterial;
+use svbrdf_core::error::Error;
 
 /// The material within a decoded picture: in tiles, or in named layers.
 ///

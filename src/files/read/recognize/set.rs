@@ -2,7 +2,6 @@
 
 use super::hints;
 use super::roles::MapsByRole;
-use crate::error::Error;
 use crate::read::decode::{self, pictures::DecodedPicture};
 use crate::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
 use crate::read::measure::{Channels, NORMAL_AT_LEAST, is_flat, normal_score};
@@ -11,6 +10,7 @@ use crate::read::options::{ReadOptions, Reflectance, Role, Workflow};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, Subject, Unused, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
+use svbrdf_core::error::Error;
 
 /// An unlabelled picture is the normal map where this share of its pixels looks like normals.
 const NORMAL_ALL_OVER: f64 = 0.95;

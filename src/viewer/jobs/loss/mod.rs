@@ -7,16 +7,16 @@ pub mod study;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::loss::{Comparison, Estimate, Outcome, Request};
-use crate::material::Material;
-use crate::progress::Progress;
-use crate::report::LossReport;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::waker::Waker;
 use crate::viewer::model::material::list::MaterialList;
 use crate::viewer::model::material::loaded::ids;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::settings::loss_query::LossQuery;
+use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::report::LossReport;
 
 pub use phase::Losses;
 use phase::{LossKey, Phase, RunningLoss, Settled, Step, stopped};
@@ -69,7 +69,11 @@ impl LossJob {
     }
 
     /// The losses, if they are complete and hold for `query` and `materials`.
-    pub fn finished(&self, materials: &MaterialList, query: &LossQuery) -> Option<&[crate::loss::Loss]> {
+    pub fn finished(
+        &self,
+        materials: &MaterialList,
+        query: &LossQuery,
+    ) -> Option<&[svbrdf_core::loss::Loss]> {
         let losses =
             self.losses().filter(|losses| self.is_complete() && losses.key == key(materials, query))?;
         Some(losses.report.outcome.losses.as_slice())

@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use crate::loss::{Estimate, Request};
-use crate::report::LossReport;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::settings::loss_query::LossQuery;
+use svbrdf_core::loss::{Estimate, Request};
+use svbrdf_core::report::LossReport;
 
 /// What a loss depends on: the ids of the materials, the ground truth first, and the request.
 #[derive(Clone, Debug, PartialEq)]
@@ -139,12 +139,12 @@ pub fn stopped(phase: Phase, problem: Option<String>) -> Phase {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::loss::{Comparison, Outcome, Sampling};
-    use crate::material::Material;
-    use crate::progress::Progress;
     use crate::viewer::jobs::work::waker::Waker;
+    use svbrdf_core::loss::{Comparison, Outcome, Sampling};
+    use svbrdf_core::material::Material;
     use svbrdf_core::model::brdf::Texel;
     use svbrdf_core::model::convention::Convention;
+    use svbrdf_core::progress::Progress;
 
     /// What is wanted with this seed.
     fn key(seed: u64) -> LossKey {
@@ -167,7 +167,7 @@ mod tests {
         let update = |outcome: &Outcome| {
             report = Some(LossReport::new(&comparison, &key.query.request, outcome.clone()))
         };
-        comparison.stream(&key.query.request, &crate::progress::Progress::default(), update).unwrap();
+        comparison.stream(&key.query.request, &svbrdf_core::progress::Progress::default(), update).unwrap();
         Losses { key, report: report.unwrap(), differences: Vec::new(), elapsed: Duration::ZERO }
     }
 

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::error::Error;
-use crate::progress::Progress;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
@@ -11,11 +9,13 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::error::Error;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
+use svbrdf_core::progress::Progress;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]

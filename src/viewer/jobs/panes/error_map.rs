@@ -2,12 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::error::Error;
-use crate::gpu::{Gpu, Shaded};
-use crate::image::{Image, mean_of_channels};
-use crate::loss::{Comparison, Request};
-use crate::material::Material;
-use crate::progress::Progress;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
@@ -15,9 +9,15 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
-use crate::why::error_maps;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::{Image, mean_of_channels};
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::picture::statistics::Distributions;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::why::error_maps;
+use svbrdf_gpu::{Gpu, Shaded};
 
 /// What error maps depend on.
 #[derive(Clone, Debug, PartialEq)]

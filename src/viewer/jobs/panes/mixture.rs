@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::error::Error;
-use crate::material::Map;
 use crate::viewer::jobs::reading::upload::{Uploaded, Uploads};
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
@@ -12,6 +10,8 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Map;
 
 /// What a mixture depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,6 @@
 
 use rayon::prelude::*;
 
-use crate::error::Error;
-use crate::material::Material;
-use crate::render::render_texel;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
@@ -12,12 +9,15 @@ use crate::viewer::model::inspection::Region;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Statistics;
+use svbrdf_core::render::render_texel;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,9 +115,9 @@ fn numbers<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples;
     use crate::viewer::model::view::state::ViewState;
     use svbrdf_core::model::convention::PRINTED;
+    use svbrdf_files::samples;
 
     #[test]
     fn the_loss_of_the_whole_is_that_of_the_scene_and_that_of_a_part_the_mean_of_its_texels() {
@@ -125,7 +125,8 @@ mod tests {
         let materials = [samples.ground_truth.material, samples.predictions[0].material.clone()];
         let scene = ViewState::default().scene;
         let pictures = [0, 1].map(|i| {
-            crate::render::render(&materials[i].cast::<f64>(), &scene, &PRINTED, &Default::default()).unwrap()
+            svbrdf_core::render::render(&materials[i].cast::<f64>(), &scene, &PRINTED, &Default::default())
+                .unwrap()
         });
         let of = |region: Region| {
             let ln = |v: f64| (v + PRINTED.epsilon).ln();

@@ -2,21 +2,21 @@
 
 use std::sync::Arc;
 
-use crate::error::Error;
-use crate::gpu::{Gpu, Shaded};
-use crate::image::Image;
-use crate::photograph::{PhotographComparison, Rectified};
-use crate::progress::Progress;
 use crate::viewer::jobs::photograph::keys::RectifiedKey;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::photograph::{PhotographComparison, Rectified};
+use svbrdf_gpu::{Gpu, Shaded};
 
 /// What the comparisons depend on.
 #[derive(Clone, Debug, PartialEq)]

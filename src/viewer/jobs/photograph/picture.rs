@@ -1,9 +1,9 @@
 //! Picture of the photograph as it was taken.
 
-use crate::files::read::Photograph;
-use crate::image::Image;
 use crate::viewer::jobs::work::picture::Picture;
+use svbrdf_core::image::Image;
 use svbrdf_core::picture::tone::to_display;
+use svbrdf_files::read::Photograph;
 
 /// Longest side of the texture; larger photographs are reduced.
 const LONGEST: usize = 4096;

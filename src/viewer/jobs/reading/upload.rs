@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
-use crate::gpu::{Gpu, MaterialTextures};
-use crate::material::Material;
 use crate::viewer::model::material::read::MaterialId;
+use svbrdf_core::material::Material;
+use svbrdf_gpu::{Gpu, MaterialTextures};
 
 /// Texels that a slow adapter sends or shades within a frame.
 pub const BAND: usize = 1 << 19;
@@ -87,7 +87,7 @@ impl Uploads {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples;
+    use svbrdf_files::samples;
 
     #[test]
     #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]

@@ -3,8 +3,8 @@
 pub mod losses;
 pub mod scan;
 
-use crate::files::steps::{RunId, TrainingRun};
 use crate::viewer::model::material::loaded::LoadedMaterial;
+use svbrdf_files::steps::{RunId, TrainingRun};
 
 pub use losses::{RunLosses, RunLossesKey, StepLoss, WantedRun};
 pub use scan::{RunNews, RunScan};
@@ -65,8 +65,8 @@ impl TrainingJobs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::stamp::Stamp;
-    use crate::files::steps::{Counter, TrainingStep};
+    use svbrdf_files::stamp::Stamp;
+    use svbrdf_files::steps::{Counter, TrainingStep};
 
     #[test]
     fn a_step_that_is_gone_is_counted_as_the_one_before_it() {

@@ -7,11 +7,11 @@ pub mod scenes;
 pub mod search;
 pub mod thumbnails;
 
-use crate::error::Error;
-use crate::loss::Request;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::model::settings::why::{WhySection, WhySections};
-use crate::why::{Moved, Worst};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Request;
+use svbrdf_core::why::{Moved, Worst};
 
 pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
 pub use directions::{DirectionMap, DirectionsJob};

@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use crate::error::Error;
-use crate::loss::Comparison;
-use crate::material::Material;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Comparison;
+use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 
 /// Identity of a pair.

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use crate::error::Error;
-use crate::loss::Request;
 use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
 use crate::viewer::jobs::why::thumbnails::{self, Thumbnails};
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
 use crate::viewer::jobs::work::waker::Waker;
-use crate::why::{Distribution, RankedScene, worst_first};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::picture::statistics::Histogram;
+use svbrdf_core::why::{Distribution, RankedScene, worst_first};
 
 /// Bins of the histogram of the losses of scenes.
 const BINS: usize = 40;

@@ -1,17 +1,17 @@
 //! Thumbnails: small pictures of the log difference in the worst scenes, all in one picture.
 
-use crate::error::Error;
-use crate::material::{Material, Planes};
-use crate::progress::Progress;
-use crate::render;
 use crate::viewer::jobs::why::pair::ComparedPair;
 use std::sync::Arc;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render;
 
 use crate::viewer::jobs::work::picture::Picture;
-use crate::why::RankedScene;
+use svbrdf_core::why::RankedScene;
 
 /// Side of a thumbnail, in pixels.
 pub const SIDE: usize = 48;
@@ -129,7 +129,7 @@ fn atlas(pixels: &[Vec<f32>], range: f32) -> Picture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::samples;
+    use svbrdf_files::samples;
 
     #[test]
     fn a_thumbnail_has_the_mean_of_the_texels_and_every_texel_counts_once() {

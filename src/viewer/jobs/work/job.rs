@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use super::waker::Waker;
 use super::{panics, priority};
-use crate::error::Error;
-use crate::progress::Progress;
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 
 /// How often the progress of a running job is looked at.
 const LOOK_AGAIN: Duration = Duration::from_millis(250);

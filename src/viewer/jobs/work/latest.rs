@@ -1,7 +1,7 @@
 //! Latest result for a key: slow work that follows what is displayed.
 
 use super::job::Job;
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// The result for a key, and the job for a newer one. A job for an earlier key is completed, so that there are results while
 /// something moves.

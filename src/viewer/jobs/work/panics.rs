@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, Once, PoisonError};
 
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// The latest panic of any thread: one of a thread of a pool is passed on to the thread that waits for it.
 static LATEST: Mutex<Option<String>> = Mutex::new(None);

@@ -1,9 +1,9 @@
 //! Undo and redo.
 
-use crate::files::stamp::Stamp;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::effect::Effect;
 use crate::viewer::model::history::Moment;
+use svbrdf_files::stamp::Stamp;
 
 /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
 pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_settled: bool) {
@@ -69,7 +69,7 @@ mod tests {
 
     /// A model with the built-in materials.
     fn model() -> Model {
-        let samples = crate::samples::load::<f32>().unwrap();
+        let samples = svbrdf_files::samples::load::<f32>().unwrap();
         let all = std::iter::once(samples.ground_truth).chain(samples.predictions).enumerate();
         let loaded = |(number, read)| {
             let read = ReadMaterial::new(Source::built_in(number), read);
@@ -114,6 +114,6 @@ mod tests {
         let [Effect::Read(request)] = &effects[..] else { panic!("{effects:?}") };
         use crate::viewer::model::material::request::Item;
         let reads = request.items.iter().filter(|item| matches!(item, Item::Read(_))).count();
-        assert_eq!((request.items.len(), reads), (crate::samples::COUNT, 1));
+        assert_eq!((request.items.len(), reads), (svbrdf_files::samples::COUNT, 1));
     }
 }

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use super::PhotographLight;
-use crate::files::session::SessionPhotograph;
 use crate::viewer::model::material::request::ReadRequest;
 use crate::viewer::model::settings::save_kind::SaveKind;
+use svbrdf_files::session::SessionPhotograph;
 
 /// One effect of a command.
 #[derive(Clone, Debug)]

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::files::read::Transfer;
-use crate::files::session::SessionPhotograph;
-use crate::photograph::Corners;
+use svbrdf_files::photograph::Corners;
+use svbrdf_files::read::Transfer;
+use svbrdf_files::session::SessionPhotograph;
 
 /// The photograph that renderings are compared with.
 #[derive(Clone, Debug, PartialEq)]

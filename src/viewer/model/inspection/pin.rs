@@ -1,7 +1,7 @@
 //! Numbers of a pinned texel, computed in f64.
 
-use crate::material::Material;
-use crate::math::real::Vec3;
+use svbrdf_core::material::Material;
+use svbrdf_core::math::real::Vec3;
 use svbrdf_core::model::brdf::{Model, Texel};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
@@ -127,10 +127,11 @@ pub fn csv<'a>(all: impl IntoIterator<Item = ([usize; 2], Vec<(&'a str, Row)>)>)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::Progress;
-    use crate::{render, samples};
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_core::model::scene::Kind;
+    use svbrdf_core::progress::Progress;
+    use svbrdf_core::render;
+    use svbrdf_files::samples;
 
     #[test]
     fn the_numbers_of_a_pin_are_those_of_the_core_in_f64() {

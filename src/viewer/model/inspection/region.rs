@@ -1,6 +1,6 @@
 //! A rectangle of texels.
 
-use crate::material::Grid;
+use svbrdf_core::material::Grid;
 
 /// A rectangle of texels, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,8 +8,8 @@ use super::problem::MaterialProblem;
 use super::read::{MaterialId, ReadMaterial, Rules};
 use super::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use super::source::{Origin, Source};
-use crate::error::Error;
-use crate::files::read::{ReadOptions, Sidecar};
+use svbrdf_core::error::Error;
+use svbrdf_files::read::{ReadOptions, Sidecar};
 
 /// The materials in the window.
 #[derive(Debug, Default)]

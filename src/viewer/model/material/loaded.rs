@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::problem::SizeMismatch;
 use super::read::{MaterialId, ReadMaterial};
-use crate::material::{Grid, Material};
-use crate::report::distinct_names;
+use svbrdf_core::material::{Grid, Material};
+use svbrdf_core::report::distinct_names;
 
 /// A material in the window.
 #[derive(Clone, Debug)]

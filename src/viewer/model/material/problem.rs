@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::Path;
 
 use super::source::{Origin, Source};
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// Why a material is not in the window, or not any more.
 #[derive(Debug)]

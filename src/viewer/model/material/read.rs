@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::source::{Origin, Source};
-use crate::error::Error;
-use crate::files::read::{Assumption, MapReport, Note, Read, ReadOptions};
-use crate::files::stamp::Stamp;
-use crate::files::steps::RunId;
-use crate::material::Material;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_files::read::{Assumption, MapReport, Note, Read, ReadOptions};
+use svbrdf_files::stamp::Stamp;
+use svbrdf_files::steps::RunId;
 
 /// What identifies the maps of a material: the reading that brought them, and the stamp of the files that were read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::loaded::LoadedMaterial;
 use super::read::{MaterialId, ReadMaterial};
 use super::source::Source;
-use crate::error::Error;
-use crate::samples;
+use svbrdf_core::error::Error;
+use svbrdf_files::samples;
 
 /// Where materials go once they have been read.
 #[derive(Clone, Debug, PartialEq)]

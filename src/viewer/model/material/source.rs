@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::files::read::ReadOptions;
-use crate::files::steps::RunId;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::steps::RunId;
 
 /// Where a material came from.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::files::steps::RunId;
+use svbrdf_files::steps::RunId;
 
 /// What the model holds about training runs; their steps on disk are the job's.
 #[derive(Debug, Default)]

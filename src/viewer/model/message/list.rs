@@ -70,10 +70,10 @@ impl MessageList {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Error;
-    use crate::files::read::ReadOptions;
     use crate::viewer::model::material::problem::MaterialProblem;
     use crate::viewer::model::material::source::Source;
+    use svbrdf_core::error::Error;
+    use svbrdf_files::read::ReadOptions;
 
     fn not_read(path: &str) -> Message {
         let source = Box::new(Source::file(path.into(), ReadOptions::AUTO));

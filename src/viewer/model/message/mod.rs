@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use super::command::{Command, MaterialsCommand};
 use super::material::problem::MaterialProblem;
 use super::material::source::Source;
-use crate::error::Error;
+use svbrdf_core::error::Error;
 
 /// How much a message matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,8 +107,8 @@ impl fmt::Display for Message {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::read::ReadOptions;
     use crate::viewer::model::material::problem::SizeMismatch;
+    use svbrdf_files::read::ReadOptions;
 
     #[test]
     fn only_what_went_wrong_is_an_error() {

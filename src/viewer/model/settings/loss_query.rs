@@ -1,6 +1,6 @@
 //! Question of the loss: a request and the convention it is answered in.
 
-use crate::loss::Request;
+use svbrdf_core::loss::Request;
 use svbrdf_core::model::convention::Convention;
 
 /// A request and the convention.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::loss::LossSettings;
+use svbrdf_core::loss::LossSettings;
 use why::WhySections;
 
 /// Number of recent materials.

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use crate::files::read::ReadOptions;
-use crate::files::session::{Session, SessionPhotograph};
-use crate::loss::FileScenes;
+use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::{Session, SessionPhotograph};
 
 /// The materials that the window opens, and how it reads them.
 #[derive(Clone, Debug, Default)]

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::why::Moved;
+use svbrdf_core::why::Moved;
 
 /// Scenes in the panel until more are asked for.
 const FEW: usize = 10;

@@ -1,6 +1,6 @@
 //! Geometry of the window: what its last frame measured and commands depend on.
 
-use crate::material::Grid;
+use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
 
 /// Sizes and places of the last frame.

@@ -2,8 +2,8 @@
 
 use glam::Vec3;
 
-use crate::material::Grid;
 use crate::viewer::model::view::state::ViewState;
+use svbrdf_core::material::Grid;
 
 /// Least part of the material, or of the pane where the material is larger, that panning leaves visible along each axis:
 /// a fifth of the area along both.
@@ -49,8 +49,8 @@ fn extents(state: &ViewState, grid: Grid, aspect: f32) -> Option<[[f32; 2]; 2]> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::session_window::Display;
     use crate::viewer::model::view::state::Projection;
+    use svbrdf_files::session_window::Display;
 
     const GRID: Grid = Grid { width: 64, height: 48 };
 
@@ -59,8 +59,10 @@ mod tests {
         for projection in [Projection::Flat, Projection::Perspective] {
             for zoom in [0.1, 0.5, 1.0, 7.0, 400.0] {
                 for far in [[1e4, 0.0], [0.0, -1e4], [1e4, 1e4], [-1e4, 30.0]] {
-                    let mut state = ViewState::default();
-                    state.display = Display { projection, zoom, pan: far, ..Display::default() };
+                    let mut state = ViewState {
+                        display: Display { projection, zoom, pan: far, ..Display::default() },
+                        ..ViewState::default()
+                    };
                     assert!(visible_share(&state, GRID, 1.3) < NEARLY_LOST, "a planted fault");
                     state.display.pan = limited(&state, GRID, 1.3);
                     let share = visible_share(&state, GRID, 1.3);
@@ -73,8 +75,10 @@ mod tests {
     #[test]
     fn a_pan_that_leaves_enough_visible_stays() {
         for pan in [[0.0, 0.0], [0.9, -0.4], [-0.5, 0.9]] {
-            let mut state = ViewState::default();
-            state.display = Display { zoom: 3.0, pan, ..Display::default() };
+            let state = ViewState {
+                display: Display { zoom: 3.0, pan, ..Display::default() },
+                ..ViewState::default()
+            };
             assert_eq!(limited(&state, GRID, 1.0), pan);
         }
     }

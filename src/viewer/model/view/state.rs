@@ -1,12 +1,12 @@
 //! State of the view: light, view and display as one value, which undo covers.
 
-use crate::files::session_window::Display;
-pub use crate::files::session_window::{Layout, Projection};
-use crate::material::Grid;
+use svbrdf_core::material::Grid;
 use svbrdf_core::model::convention::{self, Convention};
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_files::session_window::Display;
+pub use svbrdf_files::session_window::{Layout, Projection};
 
 /// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq)]

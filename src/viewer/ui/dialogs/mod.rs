@@ -14,10 +14,10 @@ use photograph::PhotographDialog;
 use save::SaveDialog;
 
 use super::loss::study::StudyWindow;
-use crate::error::Error;
 use crate::viewer::jobs::browse::Browsed;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::Command;
+use svbrdf_core::error::Error;
 
 /// What to do without a file dialog.
 const NO_DIALOG: &str = "This system has no file dialog: install zenity or a desktop portal. Type a path here, or drop files \

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use eframe::egui::{self, RichText};
 
 use super::path_field::{PathField, dialog};
-use crate::files::read::ReadOptions;
-use crate::files::session::Session;
 use crate::viewer::model::command::{Command, MaterialsCommand, WindowCommand};
 use crate::viewer::model::material::source::file_name;
 use crate::viewer::ui::widgets::read_options::read_options;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::Session;
 
 /// The paths and choices so far.
 #[derive(Debug, Default)]

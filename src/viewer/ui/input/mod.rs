@@ -8,12 +8,12 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use super::dialogs::Dialogs;
-use crate::files::read::ReadOptions;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::{
     Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, PhotographCommand,
     SceneCommand, WhyCommand, WindowCommand,
 };
+use svbrdf_files::read::ReadOptions;
 
 /// The state of the keys between frames.
 #[derive(Debug, Default)]

@@ -1,6 +1,6 @@
 //! What was assumed about each map of a material, one line a map.
 
-use crate::files::read::{Assumption, Certainty, Reason, Role, What};
+use svbrdf_files::read::{Assumption, Certainty, Reason, Role, What};
 
 /// The parts of a material that assumptions are about, in the order of the lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +114,7 @@ fn words(part: Part, assumption: &Assumption) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::read::{SpecifiedBy, StorageConvention};
+    use svbrdf_files::read::{SpecifiedBy, StorageConvention};
 
     fn assumption(what: What, chosen: &str, why: impl Into<Reason>, certainty: Certainty) -> Assumption {
         Assumption::new(what, chosen, why, certainty)

@@ -4,7 +4,6 @@ use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, FontId, RichText};
 
 use super::assumptions::{self, AssumedLine};
-use crate::files::read::{Note, ReadOptions, Sidecar};
 use crate::viewer::jobs::reading::opening::Openings;
 use crate::viewer::model::command::{Command, MaterialsCommand};
 use crate::viewer::model::material::list::MaterialList;
@@ -12,6 +11,7 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::source::Origin;
 use crate::viewer::ui::widgets::read_options::read_options;
 use crate::viewer::ui::widgets::theme;
+use svbrdf_files::read::{Note, ReadOptions, Sidecar};
 
 /// What the section shows.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Rect, Vec2, vec2};
 
-use crate::material::Grid;
+use svbrdf_core::material::Grid;
 
 /// Height of the title above a pane.
 pub const TITLE: f32 = 24.0;

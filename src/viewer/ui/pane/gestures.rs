@@ -4,12 +4,12 @@
 
 use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
 
-use crate::material::Grid;
 use crate::viewer::model::command::{Command, DisplayCommand, InspectionCommand, SceneCommand};
 use crate::viewer::model::inspection::Region;
 use crate::viewer::model::view::endpoint::{self, Endpoint};
 use crate::viewer::model::view::state::{Layout, Projection, ViewState};
 use crate::viewer::ui::pane::handles::{self, REACH};
+use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;

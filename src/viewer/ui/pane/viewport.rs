@@ -12,8 +12,6 @@ use super::marks::Placed;
 use super::scenery::{Content, PhotographUse, Scenery};
 use super::texels::texels;
 use super::title::title_bar;
-use crate::gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
-use crate::material::Grid;
 use crate::viewer::jobs::reading::upload::{BAND, Uploads};
 use crate::viewer::model::command::Command;
 use crate::viewer::model::view::geometry::WindowGeometry;
@@ -27,8 +25,10 @@ use crate::viewer::ui::widgets::hint::{note, paint_hint};
 use crate::viewer::ui::widgets::readout::{self, Readout};
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
+use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 
 /// A view steeper than this above the plane (its sine) is one from straight above.
 const STEEP: f64 = 0.999;

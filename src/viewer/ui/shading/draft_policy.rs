@@ -1,6 +1,6 @@
 //! Draft policy: how much is shaded while something moves; less on a slow adapter, everything after a pause.
 
-use crate::gpu::ShadeParams;
+use svbrdf_gpu::ShadeParams;
 
 /// Seconds of a frame from which on an adapter counts as slow. Some screens show 30 frames a second.
 const SLOW: f32 = 0.036;

@@ -1,9 +1,9 @@
 //! Shaded texels of one material, and how much of them is shaded in a frame.
 
-use crate::error::Error;
-use crate::gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 use crate::viewer::jobs::reading::upload::BAND;
 use crate::viewer::model::inspection::Region;
+use svbrdf_core::error::Error;
+use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 
 /// How much of a material is shaded before it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -181,12 +181,11 @@ fn with_stride<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::Material;
-    use crate::samples;
     use crate::viewer::jobs::reading::upload::BAND;
     use crate::viewer::model::view::state::ViewState;
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_core::picture::quantity::Quantity;
+    use svbrdf_files::samples;
 
     /// More than two bands.
     const SIZE: [usize; 2] = [1024, 1030];

@@ -3,9 +3,9 @@
 use eframe::egui_wgpu::{RenderState, Renderer, RendererOptions, ScreenDescriptor};
 use eframe::{egui, wgpu};
 
-use crate::error::Error;
-use crate::gpu::{Gpu, read_rgba};
 use crate::viewer::ui::widgets::theme;
+use svbrdf_core::error::Error;
+use svbrdf_gpu::{Gpu, read_rgba};
 
 /// Frames until the layout is settled.
 const FRAMES: usize = 2;

@@ -1,9 +1,9 @@
 //! Visible part of a material: what is shaded while something moves on a slow adapter.
 
-use crate::material::Grid;
 use crate::viewer::model::inspection::Region;
 use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::shading::shaded::ShadedPart;
+use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
 
 /// Most texels along an axis that one stands for.
@@ -42,8 +42,8 @@ fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::files::session_window::Display;
     use crate::viewer::model::view::state::Projection;
+    use svbrdf_files::session_window::Display;
 
     const GRID: Grid = Grid { width: 256, height: 128 };
 
@@ -59,8 +59,10 @@ mod tests {
     fn all_that_is_visible_is_shaded_and_little_else() {
         for projection in [Projection::Flat, Projection::Perspective] {
             for (zoom, pan) in [(1.0, [0.0, 0.0]), (4.0, [0.3, -0.2]), (16.0, [-2.0, 1.5])] {
-                let mut state = ViewState::default();
-                state.display = Display { projection, zoom, pan, ..Display::default() };
+                let mut state = ViewState {
+                    display: Display { projection, zoom, pan, ..Display::default() },
+                    ..ViewState::default()
+                };
                 state.scene.view = [0.7, -0.4, 2.0];
                 let part = shaded_part(&state, GRID, 1.5, 2.0);
                 let texels = visible_texels(&state);

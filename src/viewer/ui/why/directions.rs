@@ -11,9 +11,9 @@ use crate::viewer::ui::pane::handles;
 use crate::viewer::ui::why::WhyPanel;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::texture::PanelTextures;
-use crate::why::Moved;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::colour_map::difference_to_display;
+use svbrdf_core::why::Moved;
 
 /// Largest side of the map, and width of what stands beside it, in points.
 const MOST: f32 = 230.0;

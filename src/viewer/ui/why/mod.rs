@@ -8,7 +8,6 @@ use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
 use maps::MapsSection;
 
-use crate::loss::LossSettings;
 use crate::viewer::jobs::why::{ComparedPair, WhyJobs};
 use crate::viewer::model::command::{Command, DisplayCommand, WhyCommand};
 use crate::viewer::model::settings::why::{WhySection, WhySections, WhyState};
@@ -16,6 +15,7 @@ use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
+use svbrdf_core::loss::LossSettings;
 use svbrdf_core::picture::quantity::Quantity;
 
 /// Characters of a name in a row.

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::loss::Estimate;
+use svbrdf_core::loss::Estimate;
 
 /// A number in four significant digits, at least down to 0.0001.
 pub fn digits(value: f64) -> String {

@@ -3,7 +3,7 @@
 use eframe::egui::{self, RichText};
 
 use super::number;
-use crate::files::read::{
+use svbrdf_files::read::{
     Albedo, Assumption, Certainty, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions,
     Reflectance, Roughness, TileGrid, What, Workflow,
 };

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Color32, Stroke, Theme, Visuals};
 
-use crate::gpu::AdapterReport;
+use svbrdf_gpu::AdapterReport;
 
 /// The accent colour: of the selection and of the ground truth.
 const ACCENT: Color32 = Color32::from_rgb(0xe0, 0x93, 0x2f);

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node};
 
-use crate::error::Error;
 use crate::open::NamedFile;
 use crate::read::located::mtlx::{Bound, LocatedMtlx};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
@@ -15,6 +14,7 @@ use crate::read::located::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, US
 use crate::read::options::{ReadOptions, Role};
 use crate::read::record::Subject;
 use graph::{bound, input};
+use svbrdf_core::error::Error;
 
 /// Locates surface number `exemplar` of the file `path`.
 ///

@@ -1,7 +1,7 @@
 //! The output formats of reports.
 
-use svbrdf::error::Error;
-use svbrdf::report::Report;
+use svbrdf_core::error::Error;
+use svbrdf_core::report::Report;
 
 /// The output format of a report.
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
