@@ -3,7 +3,6 @@
 mod extensions;
 mod materialx;
 pub mod mtl;
-mod real;
 
 use std::path::Path;
 
