@@ -183,6 +183,7 @@ mod tests {
     use super::*;
     use crate::viewer::jobs::reading::upload::BAND;
     use crate::viewer::model::view::state::ViewState;
+    use svbrdf_core::material::Material;
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_core::picture::quantity::Quantity;
     use svbrdf_files::samples;
