@@ -1,19 +1,19 @@
 //! Order statistics: the one definition of a quantile and of a median.
 
-use std::cmp::Ordering;
-
 use crate::math::real::Real;
 
 /// The quantile of `values` for a probability in [0, 1], with linear interpolation between the two nearest order statistics
-/// (type 7 of Hyndman and Fan 1996, the default of NumPy); `None` without values. Reorders the values, which are not NaN.
+/// (type 7 of Hyndman and Fan 1996, the default of NumPy); `None` without values. Reorders the values; NaN counts as
+/// larger than all others.
 pub fn quantile<T: Real>(values: &mut [T], probability: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let rank = probability.clamp(0.0, 1.0) * last as f64;
-    let order = |a: &T, b: &T| a.partial_cmp(b).unwrap_or(Ordering::Equal);
+    let order = T::total_cmp;
     let (_, low, above) = values.select_nth_unstable_by(rank.floor() as usize, order);
     let low = low.f64();
     let high = above.iter().copied().min_by(order).map_or(low, Real::f64);
-    Some(if rank.fract() > 0.0 { low + (high - low) * rank.fract() } else { low })
+    // Not between infinities, whose difference is NaN.
+    Some(if rank.fract() > 0.0 && high != low { low + (high - low) * rank.fract() } else { low })
 }
 
 /// The median of `values`: their [`quantile`] for the probability 1/2.
@@ -35,5 +35,7 @@ mod tests {
         }
         assert_eq!([median(&mut [0.25_f32]), median(&mut [2.0_f32, 1.0, 9.0])], [Some(0.25), Some(2.0)]);
         assert_eq!(quantile::<f32>(&mut [], 0.5), None);
+        assert_eq!(median(&mut [f64::INFINITY, f64::INFINITY]), Some(f64::INFINITY));
+        assert_eq!(median(&mut [f64::NAN, 1.0, 2.0]), Some(2.0));
     }
 }

@@ -46,7 +46,7 @@ fn angles(prediction: usize) -> Vec<f64> {
 fn are_those_of(got: &Statistics, mut values: Vec<f64>, tolerance: f64) -> bool {
     values.sort_by(f64::total_cmp);
     let mean = values.iter().sum::<f64>() / values.len() as f64;
-    let at = |share: f64| values[(share * values.len() as f64).ceil() as usize - 1];
+    let at = |share: f64| super::quantities::quantile(&values, share);
     let expected = [mean, at(0.5), at(0.95), at(1.0)];
     let got = [got.mean, got.median, got.p95, got.maximum];
     got.iter().zip(expected).all(|(got, expected)| (got - expected).abs() <= tolerance * (1.0 + expected))

@@ -63,9 +63,16 @@ fn is_close(measured: f64, expected: f64) -> bool {
     (measured - expected).abs() <= CLOSE * (1.0 + expected.abs())
 }
 
+/// The quantile of sorted values, interpolated between its two neighbours as NumPy does.
+pub fn quantile(sorted: &[f64], probability: f64) -> f64 {
+    let place = probability * (sorted.len() - 1) as f64;
+    let [low, high] = [place.floor(), place.ceil()].map(|place| sorted[place as usize]);
+    low * (1.0 - place.fract()) + high * place.fract()
+}
+
 /// Whether these are the statistics of `sorted`.
 fn are_statistics_of(measured: &Statistics, sorted: &[f64]) -> bool {
-    let at = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
+    let at = |share: f64| quantile(sorted, share);
     let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
     let expected = [mean, at(0.0), at(0.5), at(0.95), at(1.0)];
     let measured = [measured.mean, measured.minimum, measured.median, measured.p95, measured.maximum];
@@ -114,7 +121,7 @@ fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
                 let texels = values[0].iter().zip(&values[prediction]);
                 let expected = sorted(texels.map(|(g, p)| difference(kind, *g, *p)));
                 let magnitudes = sorted(expected.iter().map(|value| value.abs()));
-                largest = largest.max(magnitudes[(0.99 * magnitudes.len() as f64).ceil() as usize - 1]);
+                largest = largest.max(quantile(&magnitudes, 0.99));
                 let index = prediction - 1;
                 let statistics = measured.statistics[index].as_ref().unwrap();
                 assert!(are_statistics_of(statistics, &expected), "{what} of {prediction}: {statistics:?}");

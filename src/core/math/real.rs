@@ -3,12 +3,13 @@
 use std::fmt::{Debug, Display};
 use std::ops::{Add, Mul, Sub};
 
+use num_traits::float::TotalOrder;
 use num_traits::{Float, FloatConst};
 
 /// A floating-point type that the core computes in: `f32` or `f64`.
 ///
 /// `f64` is the reference; `f32` is what the GPU and the fast paths use.
-pub trait Real: Float + FloatConst + Default + Debug + Display + Send + Sync + 'static {
+pub trait Real: Float + FloatConst + TotalOrder + Default + Debug + Display + Send + Sync + 'static {
     /// How users call it: `f32` or `f64`.
     const NAME: &'static str;
 

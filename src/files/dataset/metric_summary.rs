@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use super::bootstrap::interval_of_mean;
 use super::record::{MaterialResult, PredictionResult};
-use super::summary::{Pick, median};
+use super::summary::Pick;
+use svbrdf_core::statistics::median;
 
 /// A metric of a method over the materials that it has a prediction of.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -27,7 +28,7 @@ pub fn summarize_metrics(
         let mut values: Vec<f64> = values.into_values().collect();
         let mean = mean(&values);
         let interval95_materials = interval_of_mean(&values);
-        let median = median(&mut values);
+        let median = median(&mut values).unwrap_or(f64::NAN);
         (name.to_owned(), MetricSummary { mean, median, interval95_materials })
     };
     values_of(method, results, pick).into_iter().map(summary).collect()

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use super::bootstrap::interval_of_mean;
 use super::record::{KnownLoss, MaterialResult};
 use svbrdf_core::error::Error;
+use svbrdf_core::statistics::median;
 
 /// The 97.5% quantile of the normal distribution.
 const Z: f64 = 1.959_964;
@@ -109,7 +110,7 @@ fn of_method(method: &str, values: &[Option<KnownLoss>]) -> MethodSummary {
     let mean = losses.iter().sum::<f64>() / count;
     let reach = Z * known.iter().map(|known| known.standard_error.powi(2)).sum::<f64>().sqrt() / count;
     let interval95_materials = interval_of_mean(&losses);
-    let median = median(&mut losses);
+    let median = median(&mut losses).unwrap_or(f64::NAN);
     MethodSummary {
         method: method.to_owned(),
         materials: losses.len(),
@@ -119,17 +120,6 @@ fn of_method(method: &str, values: &[Option<KnownLoss>]) -> MethodSummary {
         interval95_materials,
         interval95_scenes: [mean - reach, mean + reach],
         to_best: None,
-    }
-}
-
-/// The median, which sorts the values; NaN without any.
-pub(super) fn median(values: &mut [f64]) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    match values.len() {
-        0 => f64::NAN,
-        count if count % 2 == 1 => values[middle],
-        _ => 0.5 * (values[middle - 1] + values[middle]),
     }
 }
 

@@ -7,6 +7,7 @@ use crate::read::options::Albedo;
 use crate::read::options::transfer::linear;
 use crate::read::raster::Raster;
 use crate::read::record::Evidence;
+use svbrdf_core::statistics::median;
 
 /// Darker than this, stored or decoded, is black.
 const BLACK: f64 = 0.02;
@@ -56,10 +57,10 @@ fn dielectrics(specular: &Raster) -> Option<Evidence> {
 /// The evidence where the colour of texels without metal is so dark if encoded that it is rather linear.
 fn dark(colour: &Raster, is_metal: impl Fn(usize) -> bool) -> Option<Evidence> {
     let mean = |index| colour.rgb(index).iter().sum::<f64>() / 3.0;
-    let values: Vec<f64> =
+    let mut values: Vec<f64> =
         colour.sampled().filter(|i| !is_metal(*i)).map(mean).filter(|value| *value > BLACK).collect();
     let share = values.len() as f64 / colour.sampled().count().max(1) as f64;
-    let median = median(values).filter(|_| share > MOSTLY)?;
+    let median = median(&mut values).filter(|_| share > MOSTLY)?;
     (likelihood(median, ALBEDO) >= 1.0).then_some(Evidence::Dark(median))
 }
 
@@ -69,20 +70,15 @@ fn metals(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
         return None;
     }
     let is_metal = |i: &usize| most(diffuse.rgb(*i)) < BLACK && most(specular.rgb(*i)) > METAL_AT_LEAST;
-    let values: Vec<f64> =
+    let mut values: Vec<f64> =
         specular.sampled().filter(is_metal).map(|i| specular.rgb(i).iter().sum::<f64>() / 3.0).collect();
     let share = values.len() as f64 / specular.sampled().count().max(1) as f64;
-    let median = median(values).filter(|_| share > MOSTLY)?;
+    let median = median(&mut values).filter(|_| share > MOSTLY)?;
     Some(Evidence::Metals { median, log_odds: likelihood(median, METAL).clamp(-SURE, SURE) })
 }
 
 fn most(rgb: [f64; 3]) -> f64 {
     rgb.into_iter().fold(0.0, f64::max)
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    let middle = values.len() / 2;
-    (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// The evidence of texels that reflect more light than arrives if they are linear, and not if they are encoded.

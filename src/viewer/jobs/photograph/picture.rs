@@ -3,6 +3,7 @@
 use crate::viewer::jobs::work::picture::Picture;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::tone::to_display;
+use svbrdf_core::statistics::quantile;
 use svbrdf_files::read::Photograph;
 
 /// Longest side of the texture; larger photographs are reduced.
@@ -42,9 +43,8 @@ fn exposure(image: &Image<f32>) -> f32 {
     let step = image.pixels.len().div_ceil(SAMPLED).max(1);
     let brightest = |pixel: &[f32; 3]| pixel.iter().copied().fold(0.0, f32::max);
     let mut values: Vec<f32> = image.pixels.iter().step_by(step).map(brightest).collect();
-    values.sort_by(f32::total_cmp);
-    match values.get(values.len() * 99 / 100) {
-        Some(&white) if white > 0.0 && white.is_finite() => -white.log2(),
+    match quantile(&mut values, 0.99) {
+        Some(white) if white > 0.0 && white.is_finite() => -(white as f32).log2(),
         _ => 0.0,
     }
 }

@@ -11,6 +11,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 
 use crate::viewer::jobs::work::picture::Picture;
+use svbrdf_core::statistics::quantile;
 use svbrdf_core::why::RankedScene;
 
 /// Side of a thumbnail, in pixels.
@@ -60,9 +61,7 @@ pub fn make(pair: &ComparedPair, ranked: &[RankedScene], progress: &Progress) ->
         progress.step()?;
     }
     let mut all: Vec<f32> = pixels.iter().flatten().copied().collect();
-    all.sort_by(f32::total_cmp);
-    let range = all.get((RANGE * all.len() as f64) as usize).copied().filter(|range| *range > 0.0);
-    let range = range.unwrap_or(1.0);
+    let range = quantile(&mut all, RANGE).filter(|range| *range > 0.0).unwrap_or(1.0) as f32;
     let picture = Arc::new(atlas(&pixels, range));
     Ok(Thumbnails { picture, count: pixels.len(), range: f64::from(range), pixels })
 }

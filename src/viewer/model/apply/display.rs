@@ -9,6 +9,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Model as BrdfModel;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::render::render_texel;
+use svbrdf_core::statistics::quantile;
 
 /// Least and greatest magnification.
 const ZOOM: std::ops::RangeInclusive<f32> = 0.1..=400.0;
@@ -105,9 +106,8 @@ fn auto_exposure(material: &Material<f32>, state: &ViewState) -> f32 {
             rgb.into_iter().fold(0.0, f32::max)
         })
         .collect();
-    brightest.sort_by(f32::total_cmp);
-    match brightest.get(brightest.len() * 99 / 100) {
-        Some(&white) if white > 0.0 => -white.log2(),
+    match quantile(&mut brightest, 0.99) {
+        Some(white) if white > 0.0 => -(white as f32).log2(),
         _ => 0.0,
     }
 }
