@@ -10,6 +10,7 @@ mod support;
 
 use divan::counter::ItemsCount;
 use glam::Vec3;
+
 use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;

@@ -19,6 +19,7 @@ use exr::prelude::{
 };
 use image::{DynamicImage, GrayImage, ImageFormat, ImageReader, Limits, RgbImage};
 use rayon::prelude::*;
+
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{ReadOptions, read};
 use svbrdf_files::write::{self, FileKind, WriteOptions};

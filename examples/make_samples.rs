@@ -6,6 +6,7 @@ use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
+
 use svbrdf_core::material::Planes;
 use svbrdf_files::samples::generate::{SIDE, blurred_normals, ground_truth, pack, wrong_roughness};
 

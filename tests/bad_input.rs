@@ -6,10 +6,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use image::{GrayImage, RgbImage};
+use tempfile::tempdir;
+
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{ReadOptions, read, read_bytes};
-use tempfile::tempdir;
 
 use crate::support::fixtures::{bytes_at, flat, map, png_bytes, save, save_maps, strip};
 use crate::support::png::crc32;

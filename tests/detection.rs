@@ -5,9 +5,10 @@
 use std::path::{Path, PathBuf};
 
 use image::{Rgb, RgbImage};
+use tempfile::tempdir;
+
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{Assumption, Certainty, Read, ReadOptions, What, read};
-use tempfile::tempdir;
 
 use crate::support::pictures::{rgb_exr, srgb};
 

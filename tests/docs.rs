@@ -25,9 +25,13 @@ fn commands(block: &str) -> Vec<(&str, &str)> {
     parts.map(|part| part.split_once('\n').unwrap_or((part, ""))).collect()
 }
 
-/// Runs a line of a page in an empty folder, as a shell does, without a display.
+/// Runs a line of a page as a shell does, without a display, in a folder that has empty files for its patterns alone.
 fn run(line: &str) -> Output {
     let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("out")).unwrap();
+    for name in ["out/a.png", "part1.jsonl"] {
+        fs::write(folder.path().join(name), "").unwrap();
+    }
     let program = Path::new(env!("CARGO_BIN_EXE_svbrdf")).parent().unwrap();
     let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap_or_default());
     let mut command = Command::new("sh");

@@ -17,6 +17,8 @@ mod written;
 use std::path::Path;
 
 use image::{DynamicImage, GrayImage, ImageFormat};
+use tempfile::tempdir;
+
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
@@ -24,7 +26,6 @@ use svbrdf_files::read::{
     Albedo, Certainty, NonFinite, NormalY, Order, Preset, Read, ReadOptions, Roughness, What, read,
 };
 use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
-use tempfile::tempdir;
 
 use crate::support::pictures::{
     SIDE, gamma, layered, map_exr, multi_part, npy, npz, packed, picture, rgb_exr, srgb, stored, texel,

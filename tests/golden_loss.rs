@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
+
 use svbrdf_core::loss::{Compute, Plain};
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;

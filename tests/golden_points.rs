@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use serde::Deserialize;
+
 use svbrdf_core::math::real::{Real, Vec3, Vector};
 use svbrdf_core::model::brdf::{self, Model, Texel};
 use svbrdf_core::model::convention::{Convention, GUIDED_2020, MULTI_IMAGE_2019, PRINTED};

@@ -8,6 +8,7 @@ mod loss;
 
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
+
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::{self, Model, Texel};
 use svbrdf_core::model::convention::{self, Convention, PRINTED};

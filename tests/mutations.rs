@@ -13,10 +13,11 @@ use std::path::Path;
 use image::{DynamicImage, ImageFormat};
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
+use tempfile::tempdir;
+
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{NonFinite, Order, Read, ReadOptions, read, read_bytes};
-use tempfile::tempdir;
 
 use crate::support::pictures::packed;
 

@@ -8,6 +8,7 @@ use glam::DVec3;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
 use rayon::ThreadPoolBuilder;
+
 use svbrdf_core::loss::{Compute, Loss, Plain};
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::{Real, Vec3, Vector as _};

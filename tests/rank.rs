@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
+
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Map;
 use svbrdf_core::model::convention::Convention;

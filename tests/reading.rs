@@ -4,13 +4,14 @@ use std::path::Path;
 
 use glam::DVec3;
 use image::{DynamicImage, GrayAlphaImage, GrayImage, Rgb, RgbImage, RgbaImage};
+use tempfile::{TempDir, tempdir};
+
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{Albedo, NormalY, Read, ReadOptions, read, read_bytes};
 use svbrdf_files::samples;
 use svbrdf_files::samples::generate;
-use tempfile::{TempDir, tempdir};
 
 use crate::support::fixtures::{LINEAR, MAPS, SIDE, bytes_at, flat, map, png_bytes, save, save_maps, strip};
 

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 use statrs::distribution::{ContinuousCDF, Normal};
+
 use svbrdf_core::material::Grid;
 use svbrdf_core::model::convention::{self, Convention, PRINTED, SINGLE_IMAGE_2018};
 use svbrdf_core::model::scene::{Kind, Scene, sample};

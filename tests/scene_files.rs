@@ -7,9 +7,10 @@ pub mod mtl;
 use std::path::Path;
 
 use image::ImageFormat;
+use tempfile::{TempDir, tempdir};
+
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{Certainty, Read, ReadOptions, What, read};
-use tempfile::{TempDir, tempdir};
 
 use crate::support::pictures::{SIDE, picture, srgb, stored, texel, write as save};
 

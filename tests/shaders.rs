@@ -5,12 +5,13 @@ use std::collections::BTreeSet;
 use std::mem::offset_of;
 use std::path::Path;
 
+use wgpu::naga;
+use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
+
 use svbrdf_gpu::shaders::ALL;
 use svbrdf_gpu::uniforms::{
     Band, CameraUniforms, DisplayUniforms, LogSum, ModelUniforms, ProbePoint, SceneUniforms, ShadingUniforms,
 };
-use wgpu::naga;
-use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
 /// A struct as Rust lays it out: its name in WGSL, its size, its members with their offsets.
 #[derive(Debug)]

@@ -10,6 +10,7 @@ mod job;
 mod rows;
 
 use divan::counter::ItemsCount;
+
 use svbrdf_core::render::simd::Level;
 
 use bound::bound;

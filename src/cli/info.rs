@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use serde::Serialize;
+
 use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use crate::open::NamedFile;
-use crate::read::Sidecar;
-use crate::session::Session;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::{Kind, Scene, SceneFile};
+
+use crate::open::NamedFile;
+use crate::read::Sidecar;
+use crate::session::Session;
 
 /// Reads a scene file: JSON, `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`, or the
 /// `render.json` (later `parameters.json`) of a MaterialGAN capture.

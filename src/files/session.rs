@@ -5,11 +5,12 @@ use std::path::{Component, Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::model::scene::Scene;
+
 use super::read::{PhotographOptions, ReadOptions};
 use super::session_window::SessionWindow;
 use crate::open::NamedFile;
-use svbrdf_core::error::Error;
-use svbrdf_core::model::scene::Scene;
 
 /// What the names of session files end with.
 const ENDING: &str = ".svbrdf-session.json";
@@ -177,10 +178,9 @@ fn relative(path: &Path, folder: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
     use crate::read::{Albedo, Transfer};
+    use std::fs;
     use svbrdf_core::model::scene::Kind;
 
     fn session(paths: &[PathBuf]) -> Session {

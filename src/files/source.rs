@@ -14,12 +14,13 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::read::{self, Read, ReadOptions};
-use crate::samples;
-use crate::session::SessionMaterial;
 use svbrdf_core::error::Error;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
+
+use crate::read::{self, Read, ReadOptions};
+use crate::samples;
+use crate::session::SessionMaterial;
 
 /// Where a material is.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,9 +2,10 @@
 
 use wgpu::{Adapter, Backends, Device, DeviceDescriptor, InstanceDescriptor, Queue, Surface};
 
+use svbrdf_core::error::Error;
+
 use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY, select};
 use super::fault::Faults;
-use svbrdf_core::error::Error;
 
 /// A graphics device, its queue, and what is known about it. Clones share the device.
 #[derive(Clone, Debug)]

@@ -1,16 +1,16 @@
 //! The shader's BRDF at single points: what holds it against its Rust twin.
 
+use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
 use wgpu::{BufferBindingType, BufferUsages, ShaderStages};
 
-use wgpu::util::{BufferInitDescriptor, DeviceExt as _};
+use svbrdf_core::error::Error;
+use svbrdf_core::model::brdf::{Model, Texel};
 
 use super::fault::scoped;
 use super::pipeline::{bind, buffer_type, compute, layout, module, uniform_buffer};
 use super::read_back::{read, read_buffer};
 use super::uniforms::{ModelUniforms, ProbePoint};
 use super::{Gpu, shaders};
-use svbrdf_core::error::Error;
-use svbrdf_core::model::brdf::{Model, Texel};
 
 /// Points that one dispatch computes: within every adapter's limits.
 const CHUNK: usize = 1 << 18;

@@ -4,10 +4,11 @@ use std::sync::mpsc;
 
 use wgpu::{Buffer, BufferDescriptor, BufferUsages, Extent3d, Origin3d, PollType, TextureFormat};
 
-use super::fault::{failed, scoped};
-use super::{Gpu, Shaded};
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
+
+use super::fault::{failed, scoped};
+use super::{Gpu, Shaded};
 
 /// About how many bytes are read at once.
 const BAND_BYTES: usize = 16 << 20;

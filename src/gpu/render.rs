@@ -1,12 +1,13 @@
 //! One rendering on the device, read back.
 
-use super::{Gpu, MaterialTextures, ShadeParams, Shading};
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::quantity::Quantity;
+
+use super::{Gpu, MaterialTextures, ShadeParams, Shading};
 
 impl Gpu {
     /// Algorithm 3 over a whole material, as [`svbrdf_core::render::render`] computes it on the CPU.

@@ -5,10 +5,11 @@ use wgpu::{
     TextureDescriptor, TextureFormat, TextureUsages,
 };
 
+use svbrdf_core::error::Error;
+
 use super::fault::scoped;
 use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, texture_type};
 use super::{Gpu, Pane, shaders};
-use svbrdf_core::error::Error;
 
 /// The pipeline that copies kept pixels to the window.
 #[derive(Debug)]

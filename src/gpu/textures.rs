@@ -3,10 +3,11 @@
 use rayon::prelude::*;
 use wgpu::{Extent3d, Origin3d, Texture, TextureDescriptor, TextureFormat, TextureUsages, TextureView};
 
-use super::Gpu;
-use super::fault::scoped;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
+
+use super::Gpu;
+use super::fault::scoped;
 
 /// About how many bytes are sent at once: bounds the memory that an upload takes beside the textures.
 const BAND_BYTES: usize = 16 << 20;

@@ -5,10 +5,11 @@
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
-use super::params::{DisplayMode, DisplayParams, ShadeParams};
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
+
+use super::params::{DisplayMode, DisplayParams, ShadeParams};
 
 /// `Model` of brdf.wgsl.
 #[repr(C)]

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 
+use svbrdf_core::error::Error;
+use svbrdf_gpu::Gpu;
+
 use super::app::{App, CrashGuard, Stop, outcome};
 use super::jobs::work::{panics, priority};
 use super::model::settings::options::ViewerOptions;
-use svbrdf_core::error::Error;
-use svbrdf_gpu::Gpu;
 
 /// Opens the window and returns when it is closed.
 ///

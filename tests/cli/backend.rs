@@ -59,8 +59,8 @@ fn without_an_adapter_the_gpu_is_refused_and_auto_takes_the_cpu() {
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_gpu_computes_what_the_cpu_computes() {
-    let (on_gpu, _) = report(&loss("--backend gpu").output().unwrap());
-    let (on_cpu, _) = report(&loss("").output().unwrap());
+    let (on_gpu, _) = report(&loss("--near 6 --backend gpu").output().unwrap());
+    let (on_cpu, _) = report(&loss("--near 6").output().unwrap());
     assert_eq!(on_gpu["backend"], "gpu");
     for prediction in 0..2 {
         let loss = |report: &Value| report["results"][prediction]["loss"].as_f64().unwrap();

@@ -259,7 +259,7 @@ fn a_session_file_stands_for_its_materials() {
     });
     std::fs::write(folder.path().join(name), session.to_string()).unwrap();
     let losses = |args: &str| -> Vec<f64> {
-        let json = losses_as_json(folder.path(), args);
+        let json = losses_as_json(folder.path(), &format!("{args} --near 6"));
         json["results"].as_array().unwrap().iter().map(|result| result["loss"].as_f64().unwrap()).collect()
     };
     let [as_found, of_session] = ["gt.png a.png b.png", name].map(losses);

@@ -7,7 +7,7 @@ use super::{folder, losses_as_json, succeed};
 #[test]
 fn scenes_that_were_printed_can_be_read_again() {
     let folder = folder();
-    let drawn = losses_as_json(folder.path(), "gt.png a.png --seed 9 --precision f64");
+    let drawn = losses_as_json(folder.path(), "gt.png a.png --near 6 --distant 3 --seed 9 --precision f64");
     std::fs::write(folder.path().join("drawn.json"), drawn.to_string()).unwrap();
     let read = losses_as_json(folder.path(), "gt.png a.png --scenes drawn.json --precision f64");
     // Listed scenes name no distribution: their interval comes from themselves.

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use statrs::distribution::{Binomial, DiscreteCDF};
+
 use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request, Sampling, Texels};
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::PRINTED;

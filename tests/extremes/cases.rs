@@ -2,6 +2,7 @@
 
 use exr::prelude::f16;
 use glam::{DVec3, Vec3};
+
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::{self, Convention};

@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use glam::Vec3;
+
 use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::Convention;
 

@@ -4,6 +4,7 @@ use std::fmt::{Display, Write as _};
 
 use glam::DVec3;
 use rayon::prelude::*;
+
 use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::PRINTED;
 

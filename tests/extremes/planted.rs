@@ -1,6 +1,7 @@
 //! Defects that a rung might have, shown to its comparator.
 
 use glam::DVec3;
+
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::{GUIDED_2020, PRINTED};

@@ -1,6 +1,7 @@
 //! What a case should give, how well it is conditioned, and the region that it is reported in.
 
 use glam::DVec3;
+
 use svbrdf_core::model::brdf::{self, Model, Texel};
 
 use super::cases::Batch;

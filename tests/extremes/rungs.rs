@@ -1,6 +1,7 @@
 //! What computes the cases: the ladder of precision, and what it is compared with.
 
 use glam::Vec3;
+
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::{self, Model, Texel};
 use svbrdf_core::model::convention::{Convention, GUIDED_2020, PRINTED};

@@ -1,6 +1,7 @@
 //! Sets of files that people have: what their names and channels mean.
 
 use image::{Rgb, Rgba, RgbaImage};
+
 use svbrdf_files::read::Role;
 
 use super::*;

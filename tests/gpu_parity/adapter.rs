@@ -3,6 +3,7 @@
 use std::process::Command;
 
 use glam::Vec3;
+
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Texel;

@@ -3,6 +3,7 @@
 mod differences;
 
 use glam::Vec3;
+
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::PRINTED;

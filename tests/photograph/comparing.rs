@@ -1,6 +1,7 @@
 //! Known corners, factor, light and material.
 
 use glam::{DMat3, DVec3};
+
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;

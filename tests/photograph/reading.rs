@@ -5,13 +5,14 @@ use std::path::Path;
 
 use exr::prelude::{AnyChannel, FlatSamples};
 use image::{Rgb, RgbImage};
+use tempfile::tempdir;
+
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 use svbrdf_files::photograph::Corners;
 use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
-use tempfile::tempdir;
 
 use super::{SCENE, compared, rectified, small};
 use crate::support::pictures::{SIDE, exr as write_exr, npy, srgb};

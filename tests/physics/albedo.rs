@@ -7,6 +7,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use rayon::prelude::*;
+
 use svbrdf_core::model::brdf::{self, Model, Texel};
 use svbrdf_core::model::convention::{self, Convention, GUIDED_2020, PRINTED};
 

@@ -1,6 +1,7 @@
 //! The microfacet distribution D is normalized: the integral of D(n.h) (n.h) over the hemisphere of h is 1.
 
 use glam::DVec3;
+
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::{Real, Vec3, Vector as _};
 use svbrdf_core::model::brdf::{self, Model, Texel};

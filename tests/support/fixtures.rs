@@ -4,6 +4,7 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, RgbImage};
+
 use svbrdf_files::read::{Albedo, NormalY, ReadOptions, Roughness};
 
 /// Width and height of the maps of the fixtures.

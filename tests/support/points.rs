@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
+
 use svbrdf_core::model::brdf::{self, Model, Texel};
 
 /// Half the distance of 1 and the next f32.

@@ -1,6 +1,7 @@
 //! The loss over directions, and the worst scene.
 
 use glam::DVec3;
+
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use eframe::egui::accesskit::Role;
+
 use svbrdf_core::material::Material;
 use svbrdf_files::samples::generate;
 

@@ -1,6 +1,7 @@
 //! The tab that shows how each material was read.
 
 use eframe::egui::accesskit::Role;
+
 use svbrdf_files::samples::generate;
 
 use super::*;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+
 use svbrdf::viewer::model::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::tone::to_display;

@@ -6,6 +6,7 @@ use std::thread;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
+
 use svbrdf_core::progress::Progress;
 
 /// Operations that end sooner get no bar.

@@ -147,7 +147,8 @@ mod tests {
         let values = vec![image(1.0), image(1.5), image(0.75)];
         let pictures = difference(None).of_values(values.clone(), &convention);
         assert_eq!(pictures.images, [image(0.5), image(0.25)]);
-        assert_eq!(pictures.shown.difference.and_then(|d| d.range), Some(1.0));
+        // Interpolated between the two largest of the differences 0.5 and 1.
+        assert_eq!(pictures.shown.difference.and_then(|d| d.range), Some(0.995));
         let set = difference(Some(0.3)).of_values(values, &convention);
         assert_eq!(set.shown.difference.and_then(|d| d.range), Some(0.3));
     }

@@ -145,13 +145,13 @@ mod tests {
         let narrow: Vec<f32> = shuffled().iter().map(|v| v / 2000.0).collect();
         let wide: Vec<f32> = shuffled().iter().map(|v| -v / 1000.0).collect();
         let both = Distributions::of(&[narrow.clone(), wide], true);
-        assert!((both.auto_range - 0.989).abs() < 1e-6, "{}", both.auto_range);
+        assert!((both.auto_range - 0.989_01).abs() < 1e-6, "{}", both.auto_range);
         for histogram in &both.histograms {
             assert_eq!([histogram.low, histogram.high], [-1.5 * both.auto_range, 1.5 * both.auto_range]);
             assert_eq!(histogram.counts.iter().sum::<u64>(), 1000);
         }
         let alone = Distributions::of(&[narrow], false);
-        assert!((alone.auto_range - 0.4945).abs() < 1e-6 && alone.histograms[0].low == 0.0);
+        assert!((alone.auto_range - 0.494_505).abs() < 1e-6 && alone.histograms[0].low == 0.0);
         assert_eq!(Distributions::of(&[vec![0.0; 9]], false).auto_range, 1.0, "nothing differs");
     }
 }

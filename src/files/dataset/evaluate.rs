@@ -6,10 +6,6 @@ use std::time::SystemTime;
 
 use rayon::prelude::*;
 
-use super::record::{
-    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, MaterialResult, PredictionResult,
-};
-use crate::read::{self, ReadOptions};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Loss, Request, check_same_size};
 use svbrdf_core::material::Material;
@@ -17,6 +13,11 @@ use svbrdf_core::metrics::of_maps;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::rank::most_scenes;
+
+use super::record::{
+    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, MaterialResult, PredictionResult,
+};
+use crate::read::{self, ReadOptions};
 
 /// The result of a material, and the files that it was computed from.
 #[derive(Debug)]

@@ -50,8 +50,8 @@ impl MaterialFiles {
         }
         let is_known = |file: &PathBuf| self.files.iter().any(|known| Path::new(&known.path) == file);
         let added = expected(path).into_iter().find(|file| !is_known(file));
-        let differs = || self.files.iter().find(|file| !file.is_current()).map(|file| file.path.clone());
-        added.map(|file| file.display().to_string()).or_else(differs)
+        let differs = self.files.iter().find(|file| !file.is_current()).map(|file| file.path.clone());
+        differs.or_else(|| added.map(|file| file.display().to_string()))
     }
 }
 

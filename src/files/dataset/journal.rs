@@ -14,13 +14,14 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
+
 use super::evaluate::Evaluated;
 use super::fingerprint::MaterialFiles;
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
 use crate::atomic::write_text;
 use crate::open::NamedFile;
-use svbrdf_core::error::Error;
-use svbrdf_core::progress::Progress;
 
 /// The version of the format that is written and read.
 const FORMAT: u32 = 2;

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use svbrdf_core::error::Error;
+
 use super::record::{Candidate, Case};
 use crate::open::NamedFile;
-use svbrdf_core::error::Error;
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use svbrdf_core::report::{aligned, bold, escaped, latex};
+
 use super::metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
 use super::record::MaterialResult;
 use super::summary::{MethodSummary, Pick};
-use svbrdf_core::report::{aligned, bold, escaped, latex};
 
 /// The names of the metrics of the results.
 pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {

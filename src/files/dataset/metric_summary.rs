@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
+use svbrdf_core::statistics::median;
+
 use super::bootstrap::interval_of_mean;
 use super::record::{MaterialResult, PredictionResult};
 use super::summary::Pick;
-use svbrdf_core::statistics::median;
 
 /// A metric of a method over the materials that it has a prediction of.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

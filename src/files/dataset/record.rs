@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
-use crate::read::ReadOptions;
 use svbrdf_core::loss::Estimate;
+
+use crate::read::ReadOptions;
 
 /// A material: its ground truth, and the predictions of all methods.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use serde::{Serialize, Serializer};
 
+use svbrdf_core::error::Error;
+use svbrdf_core::report::{Cell, Report, Table, aligned, bold, escaped, latex, missed};
+
 use super::metric_report;
 use super::metric_summary::{MetricSummary, summarize_metrics};
 use super::record::{DatasetSettings, MaterialResult, PredictionResult};
 use super::summary::{MethodSummary, Pick, summarize};
-use svbrdf_core::error::Error;
-use svbrdf_core::report::{Cell, Report, Table, aligned, bold, escaped, latex, missed};
 
 const TITLES: [&str; 9] = [
     "method",

@@ -3,11 +3,12 @@
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
+
 use super::evaluate::{Evaluated, evaluate};
 use super::journal::{Head, Journal, Recomputed, remaining};
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
-use svbrdf_core::error::Error;
-use svbrdf_core::progress::Progress;
 
 /// The results of a run over a data set.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,10 +3,11 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::bootstrap::interval_of_mean;
-use super::record::{KnownLoss, MaterialResult};
 use svbrdf_core::error::Error;
 use svbrdf_core::statistics::median;
+
+use super::bootstrap::interval_of_mean;
+use super::record::{KnownLoss, MaterialResult};
 
 /// The 97.5% quantile of the normal distribution.
 const Z: f64 = 1.959_964;

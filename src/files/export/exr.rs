@@ -7,8 +7,9 @@ use exr::prelude::{
     Encoding, Image as ExrImage, Layer, LayerAttributes, SpecificChannels, Text, WritableImage,
 };
 
-use super::provenance::{Entries, Provenance};
 use svbrdf_core::image::Image;
+
+use super::provenance::{Entries, Provenance};
 
 /// Writes one layer of channels R, G and B.
 ///

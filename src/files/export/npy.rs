@@ -5,10 +5,11 @@ use std::path::Path;
 
 use npyz::WriterBuilder;
 
-use crate::atomic::{check_place, replace};
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::progress::Progress;
+
+use crate::atomic::{check_place, replace};
 
 /// Writes pictures of one size into a file of NumPy: number x height x width x 3, 32-bit floats. It appears when it is complete,
 /// or not at all.

@@ -2,8 +2,9 @@
 
 use std::io::{self, Write};
 
-use super::provenance::{Entries, Provenance};
 use svbrdf_core::image::Image;
+
+use super::provenance::{Entries, Provenance};
 
 pub(super) fn write(file: impl Write, image: &Image<u8>, entries: &Entries) -> io::Result<()> {
     let mut encoder = png::Encoder::new(file, side(image.width)?, side(image.height)?);

@@ -1,9 +1,10 @@
 //! Provenance of a picture: everything that makes it again.
 
-use crate::atomic;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::shown::Shown;
+
+use crate::atomic;
 
 /// The metadata of a picture: (keyword, text).
 pub type Entries = [(&'static str, String)];

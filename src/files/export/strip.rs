@@ -1,6 +1,5 @@
 //! A figure: materials in rows; maps, renderings and differences in columns.
 
-use super::text::{self, Anchor};
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
@@ -9,6 +8,8 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::shown::{Shown, ShownDifference};
 use svbrdf_core::progress::Progress;
+
+use super::text::{self, Anchor};
 
 /// Pixels between two cells.
 pub const GAP: usize = 4;

@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use crate::atomic;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::study::{Device, Point, Study};
+
+use crate::atomic;
 
 const CSV_HEADING: [&str; 15] = [
     "scenes",

@@ -11,11 +11,12 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 
-use crate::atomic::Destination;
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::study::{Family, Point, Study};
 use svbrdf_core::text::{percent, time};
+
+use crate::atomic::Destination;
 
 /// Width and height of the picture in pixels.
 const SIZE: (u32, u32) = (1200, 780);

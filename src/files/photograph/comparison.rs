@@ -1,7 +1,5 @@
 //! The rendering of a material against a photograph.
 
-use super::exposure;
-use super::rectified::Rectified;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
@@ -11,6 +9,9 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
+
+use super::exposure;
+use super::rectified::Rectified;
 
 /// A rendering and the photograph at its exposure.
 #[derive(Clone, Debug, PartialEq)]

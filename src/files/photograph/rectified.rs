@@ -2,13 +2,14 @@
 
 use rayon::prelude::*;
 
-use super::corners::{Corners, Homography};
-use crate::read::Photograph;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
+
+use super::corners::{Corners, Homography};
+use crate::read::Photograph;
 
 /// How much a length in pixels may exceed a whole number by rounding.
 const ROUNDING: f64 = 1e-6;

@@ -2,10 +2,6 @@
 
 use serde::{Serialize, Serializer};
 
-use super::comparison::PhotographComparison;
-use super::corners::Corners;
-use super::rectified::Rectified;
-use crate::read::Photograph;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
@@ -14,6 +10,11 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::{Cell, Report, Table, aligned, position};
+
+use super::comparison::PhotographComparison;
+use super::corners::Corners;
+use super::rectified::Rectified;
+use crate::read::Photograph;
 
 const TITLES: [&str; 13] = [
     "material",

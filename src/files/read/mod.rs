@@ -46,15 +46,17 @@ pub use record::{
     What,
 };
 
-use crate::open::NamedFile;
-use decode::pictures;
-use gather::map_report;
-use located::{Located, WholePicture};
-use stored::StoredMaterial;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
+
+use crate::open::NamedFile;
+
+use decode::pictures;
+use gather::map_report;
+use located::{Located, WholePicture};
+use stored::StoredMaterial;
 
 /// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them.
 ///

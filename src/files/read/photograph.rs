@@ -7,13 +7,14 @@ use std::str::FromStr;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+
 use super::decode;
 use crate::open::NamedFile;
 use crate::read::options::{Albedo, transfer};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject};
-use svbrdf_core::error::Error;
-use svbrdf_core::image::Image;
 
 /// How the samples of a photograph encode radiance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

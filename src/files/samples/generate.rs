@@ -2,9 +2,10 @@
 //!
 //! Uses only operations whose results IEEE 754 fixes, so that every platform makes the same pixels.
 
+use svbrdf_core::material::Planes;
+
 use super::noise::mix;
 use super::tiles::{Surface, surface};
-use svbrdf_core::material::Planes;
 
 /// Width and height of a sample, in texels.
 pub const SIDE: usize = 256;

@@ -13,11 +13,12 @@ pub mod generate;
 mod noise;
 mod tiles;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::math::real::Real;
+
 use crate::read::{
     Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes,
 };
-use svbrdf_core::error::Error;
-use svbrdf_core::math::real::Real;
 
 /// How the samples are stored, so that nothing is inferred.
 const STORED: ReadOptions = ReadOptions {

@@ -6,13 +6,14 @@ use exr::image::{AnyChannel, AnyChannels, FlatSamples};
 use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage, f16};
 use rayon::prelude::*;
 
-use crate::atomic::SOFTWARE;
-use crate::read::decode::exr::NATIVE;
 use svbrdf_core::material::{Material, Planes, half_normals};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
+
+use crate::atomic::SOFTWARE;
+use crate::read::decode::exr::NATIVE;
 
 /// The meaning of the values of such an EXR.
 const MEANING: &str = "svbrdf:workflow=specular, linear Rec. 709\nsvbrdf:normal=signed, +y\n\

@@ -9,11 +9,12 @@ use std::path::Path;
 
 pub use svbrdf_core::material::Depth;
 
-use super::read::Preset;
-use crate::atomic;
 use svbrdf_core::error::{Error, OutputProblem};
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
+
+use super::read::Preset;
+use crate::atomic;
 
 /// Kinds of files that materials are read from and not written into: as the name of a folder they are a mistake.
 const NOT_WRITTEN: [&str; 12] =

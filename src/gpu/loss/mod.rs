@@ -7,18 +7,19 @@
 mod pass;
 mod plan;
 
-use pass::{Buffers, Passes};
-use plan::{MOST_PREDICTIONS, Plan};
-
-use super::Gpu;
-use super::fault::failed;
-use super::uniforms::LogSum;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Backend, Comparison};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
+
+use super::Gpu;
+use super::fault::failed;
+use super::uniforms::LogSum;
+
+use pass::{Buffers, Passes};
+use plan::{MOST_PREDICTIONS, Plan};
 
 /// The loss on a graphics adapter. Worth keeping: a driver compiles its pipelines for some time.
 ///

@@ -5,8 +5,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::egui_wgpu::WgpuError;
 
-use crate::viewer::jobs::work::panics;
 use svbrdf_core::error::Error;
+
+use crate::viewer::jobs::work::panics;
 
 /// Whether a frame has been drawn, and the panic that ended the window.
 #[derive(Clone, Debug, Default)]

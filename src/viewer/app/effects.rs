@@ -4,6 +4,13 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_files::photograph::flash;
+use svbrdf_files::scene_file;
+use svbrdf_files::session::{Session, SessionPhotograph};
+use svbrdf_files::stamp::Stamp;
+
 use super::parts::Parts;
 use super::{saving, training};
 use crate::viewer::jobs::browse;
@@ -16,12 +23,6 @@ use crate::viewer::model::message::Message;
 use crate::viewer::ui::dialogs::open::OpenDialog;
 use crate::viewer::ui::dialogs::photograph::PhotographDialog;
 use crate::viewer::ui::dialogs::save::SaveDialog;
-use svbrdf_core::error::Error;
-use svbrdf_core::model::scene::Scene;
-use svbrdf_files::photograph::flash;
-use svbrdf_files::scene_file;
-use svbrdf_files::session::{Session, SessionPhotograph};
-use svbrdf_files::stamp::Stamp;
 
 /// Carries out what a command has done outside of the model: the only place that does.
 pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {

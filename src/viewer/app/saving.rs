@@ -4,15 +4,16 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_files::export::Provenance;
+
 use super::parts::Parts;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::saving;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::model::message::Message;
 use crate::viewer::model::settings::save_kind::SaveKind;
-use svbrdf_core::error::Error;
-use svbrdf_core::image::Image;
-use svbrdf_files::export::Provenance;
 
 /// Starts to save; `size` is the size of a picture of the view.
 pub(super) fn save_file(

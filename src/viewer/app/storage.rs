@@ -3,9 +3,10 @@
 use eframe::egui;
 use serde::Deserialize;
 
+use svbrdf_files::session::Session;
+
 use crate::viewer::model::Model;
 use crate::viewer::model::settings::Settings;
-use svbrdf_files::session::Session;
 
 /// The key of the settings in the storage.
 const SETTINGS: &str = "settings";
@@ -66,9 +67,8 @@ impl Stored {
 
 #[cfg(test)]
 mod tests {
-    use std::collections::HashMap;
-
     use super::*;
+    use std::collections::HashMap;
     use svbrdf_core::loss::{Ask, FileScenes, LossSettings};
 
     #[derive(Default)]

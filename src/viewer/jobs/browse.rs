@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use svbrdf_files::read::EXTENSIONS;
+
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::waker::Waker;
-use svbrdf_files::read::EXTENSIONS;
 
 /// Nobody cancels a dialog sooner than this.
 const AT_ONCE: Duration = Duration::from_millis(300);

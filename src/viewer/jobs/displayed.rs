@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
+use svbrdf_core::loss::{Request, Sampling};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::Distributions;
+
 use super::Jobs;
 use super::panes::error_map::{ErrorMapSummary, ErrorMaps};
 use super::photograph::{DisplayedPhotograph, Photographs};
 use crate::viewer::model::Model;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::view::state::ViewState;
-use svbrdf_core::loss::{Request, Sampling};
-use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::statistics::Distributions;
 
 /// What the panes display of the model, with the results of the jobs.
 #[derive(Clone, Copy, Debug)]

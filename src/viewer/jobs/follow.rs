@@ -1,5 +1,9 @@
 //! Jobs that follow the model: they compute what is displayed now, and only that.
 
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Request;
+use svbrdf_core::why::Worst;
+
 use super::Jobs;
 use super::displayed::Displayed;
 use super::why::WhyQuery;
@@ -7,9 +11,6 @@ use super::work::context::JobContext;
 use crate::viewer::model::Model;
 use crate::viewer::model::settings::Tab;
 use crate::viewer::model::settings::loss_query::LossQuery;
-use svbrdf_core::error::Error;
-use svbrdf_core::loss::Request;
-use svbrdf_core::why::Worst;
 
 /// What the window displays, as far as jobs depend on it.
 #[derive(Clone, Copy, Debug, Default)]

@@ -17,6 +17,14 @@ pub mod work;
 
 use std::path::PathBuf;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::FileScenes;
+use svbrdf_files::scene_file;
+use svbrdf_gpu::Gpu;
+
+use crate::viewer::model::Model;
+use crate::viewer::model::material::request::{ReadRequest, Target};
+
 use browse::Browsed;
 use loss::LossJob;
 use loss::scene::SceneLossJob;
@@ -31,13 +39,6 @@ use training::TrainingJobs;
 use why::WhyJobs;
 use work::job::Job;
 use work::waker::Waker;
-
-use crate::viewer::model::Model;
-use crate::viewer::model::material::request::{ReadRequest, Target};
-use svbrdf_core::error::Error;
-use svbrdf_core::loss::FileScenes;
-use svbrdf_files::scene_file;
-use svbrdf_gpu::Gpu;
 
 /// All background work of the window.
 #[derive(Debug, Default)]

@@ -4,12 +4,6 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::displayed::Displayed;
-use super::why::ComparedPair;
-use super::work::job::Job;
-use super::work::waker::Waker;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::ReadMaterial;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
@@ -19,6 +13,13 @@ use svbrdf_core::report::{Compared, Report as _, ScenesReport};
 use svbrdf_files::atomic::{self, Destination};
 use svbrdf_files::export::strip::{Column, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
+
+use super::displayed::Displayed;
+use super::why::ComparedPair;
+use super::work::job::Job;
+use super::work::waker::Waker;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::ReadMaterial;
 
 /// What a picture of the panes shows.
 pub fn shown(displayed: Displayed<'_>) -> Shown {

@@ -2,10 +2,11 @@
 
 use std::collections::VecDeque;
 
-use super::material::source::Source;
-use super::view::state::ViewState;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::session::SessionPhotograph;
+
+use super::material::source::Source;
+use super::view::state::ViewState;
 
 /// How long nothing changes, in seconds, before it becomes a moment to return to.
 const STABLE: f64 = 0.4;

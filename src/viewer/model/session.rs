@@ -3,6 +3,11 @@
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::{Session, SessionMaterial, SessionPhotograph};
+use svbrdf_files::session_window::SessionWindow;
+use svbrdf_files::stamp::Stamp;
+use svbrdf_files::steps::RunId;
 
 use super::Model;
 use super::command::effect::Effect;
@@ -11,11 +16,6 @@ use super::material::request::{ReadRequest, Target};
 use super::material::source::{Origin, Source, sources};
 use super::view::state::ViewState;
 use crate::viewer::model::settings::options::ViewerOptions;
-use svbrdf_files::read::ReadOptions;
-use svbrdf_files::session::{Session, SessionMaterial, SessionPhotograph};
-use svbrdf_files::session_window::SessionWindow;
-use svbrdf_files::stamp::Stamp;
-use svbrdf_files::steps::RunId;
 
 impl Model {
     /// Takes in what the window starts with; the request that reads its materials.

@@ -2,6 +2,8 @@
 
 use eframe::egui::{self, RichText};
 
+use svbrdf_files::read::Certainty;
+
 use super::loss::panel::LossPanel;
 use super::loss::training::TrainingPanel;
 use super::materials::panel::MaterialsPanel;
@@ -15,7 +17,6 @@ use crate::viewer::jobs::why::ComparedPair;
 use crate::viewer::model::command::{Command, WindowCommand};
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::settings::Tab;
-use svbrdf_files::read::Certainty;
 
 pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextures) -> Vec<Command> {
     let (model, jobs) = (displayed.model, displayed.jobs);

@@ -2,13 +2,14 @@
 
 use eframe::egui;
 
+use svbrdf_core::error::Error;
+
 use super::WindowUi;
 use super::content::Content;
 use super::pane::viewport::Viewport;
 use super::shading::gpu_view::GpuView;
 use super::shading::snapshot::{Size, snapshot};
 use crate::viewer::jobs::displayed::Displayed;
-use svbrdf_core::error::Error;
 
 impl WindowUi {
     /// The panes and the legend in a picture of this size, in pixels.

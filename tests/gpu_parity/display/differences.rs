@@ -1,6 +1,7 @@
 //! Differences as colours, against the numbers of the core.
 
 use glam::Vec3;
+
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::PRINTED;

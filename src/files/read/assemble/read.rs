@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+
 use crate::read::gather::map_report::MapReport;
 use crate::read::options::ReadOptions;
 use crate::read::record::{Assumption, Certainty, Note};
-use svbrdf_core::error::Error;
-use svbrdf_core::material::Material;
 
 /// A material, and how it was read.
 #[derive(Clone, Debug, PartialEq)]

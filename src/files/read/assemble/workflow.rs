@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
+use svbrdf_core::math::real::Real;
+
 use crate::read::interpret::LinearMaterial;
 use crate::read::options::{Energy, Preset, ReadOptions, Reflectance};
 use crate::read::record::{Assumption, Certainty, Reason, What};
 use crate::read::stored::Inferred;
-use svbrdf_core::math::real::Real;
 
 /// The reflectance of dielectrics where the map of its level is 1.
 const MOST_DIELECTRIC: f64 = 0.08;

@@ -4,10 +4,11 @@ use std::io::{BufRead, ErrorKind, Seek};
 
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
+use svbrdf_core::error::Error;
+
 use super::place::Place;
 use crate::panics::caught;
 use crate::read::raster::{Buffer, Raster, Samples};
-use svbrdf_core::error::Error;
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
     let contradiction = |_| place.invalid("DDS", "a contradiction in it");

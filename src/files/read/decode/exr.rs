@@ -8,12 +8,13 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
+use svbrdf_core::error::Error;
+
 use super::dwa;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
-use svbrdf_core::error::Error;
 
 /// The beginning of the comments of an EXR that this program wrote as a material.
 pub(crate) const NATIVE: &str = "svbrdf:version=1\n";

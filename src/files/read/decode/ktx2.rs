@@ -4,10 +4,11 @@ use std::io::{BufRead, Read};
 
 use basisu::{DecodeFlags, TargetFormat, Transcoder};
 
+use svbrdf_core::error::Error;
+
 use super::place::{MAX_BYTES, Place};
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
-use svbrdf_core::error::Error;
 
 /// How a KTX2 begins.
 pub(crate) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";

@@ -23,8 +23,9 @@ use crate::open::NamedFile;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
 pub(super) use place::{Decoded, Layer};
-use place::{Place, alone};
 use svbrdf_core::error::Error;
+
+use place::{Place, alone};
 
 /// Decodes `file`, which is expected to be `what`.
 ///

@@ -5,10 +5,11 @@ use std::io::{BufRead, ErrorKind, Read, Seek};
 use exr::prelude::f16;
 use npyz::{NpyFile, Order};
 
+use svbrdf_core::error::Error;
+
 use super::layout::{self, Axes};
 use super::place::{Decoded, Layer, MAX_BYTES, Place, alone};
 use crate::read::raster::{Buffer, Raster, Samples};
-use svbrdf_core::error::Error;
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;

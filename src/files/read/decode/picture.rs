@@ -12,13 +12,14 @@ use image::error::{ImageError, LimitErrorKind};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
+use svbrdf_core::error::Error;
+
 use super::head::{self, PngHead};
 use super::known;
 use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
-use svbrdf_core::error::Error;
 
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);

@@ -4,6 +4,9 @@ use std::io::Cursor;
 
 use rayon::prelude::*;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
+
 use super::{Decoded, Layer, from_reader, one, whole};
 use crate::read::located::binding::LocatedBinding;
 use crate::read::located::gltf::LocatedGltf;
@@ -15,8 +18,6 @@ use crate::read::located::{Candidate, WholePicture};
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
 use crate::read::stored::StoredMap;
-use svbrdf_core::error::Error;
-use svbrdf_core::progress::Progress;
 
 /// A picture of a material, and what its decoder noticed.
 #[derive(Clone, Debug)]

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use crate::read::options::Role;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
-use svbrdf_core::error::Error;
 
 /// Largest side of a map: the largest that material libraries publish.
 pub(crate) const MAX_SIDE: usize = 16_384;

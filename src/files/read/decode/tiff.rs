@@ -6,9 +6,10 @@ use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
+use svbrdf_core::error::Error;
+
 use super::place::{MAX_BYTES, Place};
 use crate::read::raster::{Buffer, Raster, Samples};
-use svbrdf_core::error::Error;
 
 pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
     let invalid = |error: tiff::TiffError| match error {

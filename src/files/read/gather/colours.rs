@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use svbrdf_core::statistics::median;
+
 use super::log_odds::{ALBEDO, BRIGHT_CHANCE, CHANCE, DARK, METAL, SURE, likelihood};
 use crate::read::options::Albedo;
 use crate::read::options::transfer::linear;
 use crate::read::raster::Raster;
 use crate::read::record::Evidence;
-use svbrdf_core::statistics::median;
 
 /// Darker than this, stored or decoded, is black.
 const BLACK: f64 = 0.02;

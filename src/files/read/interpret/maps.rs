@@ -2,6 +2,9 @@
 
 use rayon::prelude::*;
 
+use svbrdf_core::material::resize::{self, Filter};
+use svbrdf_core::math::real::Real;
+
 use super::decide::decide;
 use super::values::{Clamped, unit};
 use crate::read::options::transfer::{self, linear};
@@ -9,8 +12,6 @@ use crate::read::options::{Albedo, ReadOptions, Role, Roughness};
 use crate::read::raster::{OutOfRange, Samples, channel_spread};
 use crate::read::record::{Certainty, Gray, Note, StorageConvention, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
-use svbrdf_core::material::resize::{self, Filter};
-use svbrdf_core::math::real::Real;
 
 /// Channels of a gray map that differ by less were gray before they were rounded.
 const ROUNDING: f64 = 2.0 / 255.0;

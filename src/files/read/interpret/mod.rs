@@ -8,13 +8,15 @@ mod values;
 
 use std::path::PathBuf;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::math::real::Real;
+
 use crate::read::gather::ColourEvidence;
 use crate::read::options::{Energy, ReadOptions, Role};
 use crate::read::record::{Assumption, Certainty, Note, Reason, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+
 use maps::{colour_planes, gray_plane, roughness_encoding, roughness_plane};
-use svbrdf_core::error::Error;
-use svbrdf_core::math::real::Real;
 use values::Clamped;
 
 /// The maps of a material in linear values and one size, and the record of how they were read.

@@ -2,15 +2,16 @@
 
 use rayon::prelude::*;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::material::resize::{self, Filter};
+use svbrdf_core::math::real::Real;
+
 use super::decide::decide;
 use crate::read::measure::{self, NORMAL_AT_LEAST};
 use crate::read::options::{NormalEncoding, NormalY, ReadOptions};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Assumption, Certainty, Reason, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
-use svbrdf_core::material::resize::{self, Filter};
-use svbrdf_core::math::real::Real;
 
 /// Shorter vectors have no direction.
 const SHORTEST: f64 = 1e-3;

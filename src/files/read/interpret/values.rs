@@ -1,10 +1,11 @@
 //! Samples outside the range of a map: NaN, infinity, and values outside [0, 1].
 
+use svbrdf_core::error::Error;
+
 use crate::read::options::{NonFinite, ReadOptions, Role};
 use crate::read::raster::OutOfRange;
 use crate::read::record::{Assumption, Certainty, Reason, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.
 ///

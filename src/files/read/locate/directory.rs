@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::read::names::words;
 use svbrdf_core::error::Error;
+
+use crate::read::names::words;
 
 /// The names of the visible folders in `folder`, sorted.
 pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, Error> {

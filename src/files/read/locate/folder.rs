@@ -3,6 +3,8 @@
 use std::io;
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use super::directory::{self, folder_of, list, material_name};
 use super::grouping;
 use crate::open::NamedFile;
@@ -10,7 +12,6 @@ use crate::read::located::set::{LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located, WholePicture};
 use crate::read::names::{Label, listing};
 use crate::read::options::Role;
-use svbrdf_core::error::Error;
 
 /// Locates the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
 ///

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use crate::read::located::set::{LabelledFile, NUMBERED, SetFiles};
 use crate::read::names::{Label, is_named_as, listing, words};
 use crate::read::options::Role;
 use crate::read::options::extensions::{self, PICTURES};
 use crate::read::record::{Note, Unused};
-use svbrdf_core::error::Error;
 
 /// Extensions of pictures that cannot be read. Where nothing else is that map, opening one fails and names it: a map
 /// that is there is never replaced by a default.

@@ -11,14 +11,16 @@ pub(super) mod sidecar;
 
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use crate::open::NamedFile;
 use crate::read::located::binding::{Binding, LocatedBinding};
 use crate::read::located::{Candidate, Located, WholePicture};
 use crate::read::options::extensions::{self, LISTING};
 use crate::read::options::{ReadOptions, Role};
+
 use directory::folder_of;
 use sidecar::Sidecar;
-use svbrdf_core::error::Error;
 
 /// Locates the material at `path` with the options and bindings `used`, of which `saved` are those of its sidecar file.
 ///

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
+
 use crate::atomic;
 use crate::open::NamedFile;
 use crate::read::located::binding::Binding;
@@ -13,8 +16,6 @@ use crate::read::names::Label;
 use crate::read::options::ReadOptions;
 use crate::read::options::extensions::EXTENSIONS;
 use crate::read::record::{Assumption, Certainty, Note, SpecifiedBy, What};
-use svbrdf_core::error::Error;
-use svbrdf_core::progress::Progress;
 
 /// The name of the file in a folder.
 const IN_FOLDER: &str = "svbrdf.json";

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use svbrdf_core::error::Error;
+
 use crate::open::NamedFile;
 use crate::read::options::Role;
-use svbrdf_core::error::Error;
 
 /// A binding with its file.
 #[derive(Debug)]

@@ -10,13 +10,15 @@ pub(super) mod picture;
 pub(super) mod set;
 pub(super) mod surface_model;
 
+use svbrdf_core::error::Error;
+
 use crate::open::NamedFile;
+
 use binding::LocatedBinding;
 use gltf::LocatedGltf;
 use mtl::LocatedMtl;
 use mtlx::LocatedMtlx;
 use set::LocatedSet;
-use svbrdf_core::error::Error;
 
 /// All that may be at a path.
 #[derive(Debug)]

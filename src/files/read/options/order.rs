@@ -5,8 +5,9 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::role::Role;
 use svbrdf_core::error::Error;
+
+use super::role::Role;
 
 /// Most tiles of a material.
 const MOST: usize = 6;

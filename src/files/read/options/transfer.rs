@@ -1,7 +1,8 @@
 //! Transfer functions: from stored values of [0, 1] to reflectance and roughness, and back.
 
-use crate::read::options::{Albedo, Roughness};
 use svbrdf_core::math::srgb;
+
+use crate::read::options::{Albedo, Roughness};
 
 /// The dark end of the logarithmic encoding.
 const DARK: f64 = 0.01;

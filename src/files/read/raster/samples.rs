@@ -4,9 +4,10 @@
 
 use rayon::prelude::*;
 
+use svbrdf_core::math::real::Real;
+
 use super::buffer::{Buffer, View};
 use super::out_of_range::OutOfRange;
-use svbrdf_core::math::real::Real;
 
 /// Samples that one task converts.
 const CHUNK: usize = 1 << 16;

@@ -1,5 +1,7 @@
 //! Maps that are specified one by one: a picture, or one of its channels or layers.
 
+use svbrdf_core::error::Error;
+
 use super::layers;
 use crate::read::decode::Layer;
 use crate::read::decode::pictures::DecodedBinding;
@@ -8,7 +10,6 @@ use crate::read::names::listing;
 use crate::read::options::Role;
 use crate::read::record::Subject;
 use crate::read::stored::StoredMap;
-use svbrdf_core::error::Error;
 
 /// The map of a binding out of its decoded file.
 ///

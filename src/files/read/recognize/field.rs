@@ -5,12 +5,13 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::material::resize::{self, Filter};
+
 use crate::read::options::Albedo;
 use crate::read::options::transfer::linear;
 use crate::read::raster::{Raster, Samples};
 use crate::read::stored::StoredMap;
-use svbrdf_core::error::Error;
-use svbrdf_core::material::resize::{self, Filter};
 
 /// An input of a surface, linear: one value, or one for each texel. Of one channel or three.
 #[derive(Clone, Debug)]

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::error::Error;
+
 use super::field::{Field, reflectance, separated};
 use super::roles::MapsByRole;
 use super::scaled_normals::scaled;
@@ -11,7 +13,6 @@ use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Note, StorageConvention, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// The refractive index of a material that declares none.
 const DEFAULT_IOR: f32 = 1.5;

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use super::roles::MapsByRole;
 use crate::read::decode::Layer;
 use crate::read::names::{Label, listing};
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
 use crate::read::record::{Assumption, Certainty, Note, StorageConvention, Unused, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// Whether the name of a layer names a map.
 pub(crate) fn is_named(layer: &Layer) -> bool {

@@ -16,11 +16,12 @@ mod set;
 pub(super) use binding::recognized as binding;
 pub(super) use picture::material as picture;
 
+use svbrdf_core::error::Error;
+
 use crate::read::decode::pictures::DecodedCandidate;
 use crate::read::options::{ReadOptions, Role};
 use crate::read::record::{Note, SpecifiedBy};
 use crate::read::stored::{StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// The material of a candidate with the maps `bound`.
 ///

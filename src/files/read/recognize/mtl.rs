@@ -3,6 +3,8 @@
 
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use super::roles::MapsByRole;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlTexture, NORMALS, names_picture};
@@ -11,7 +13,6 @@ use crate::read::names::Label;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
 use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// The material `located`, whose textures are `pictures`.
 ///

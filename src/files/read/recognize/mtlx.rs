@@ -1,5 +1,7 @@
 //! Surfaces of MaterialX: maps out of the pictures and values of their inputs.
 
+use svbrdf_core::error::Error;
+
 use super::field::{Field, reflectance, separated};
 use super::roles::MapsByRole;
 use super::scaled_normals::scaled;
@@ -12,7 +14,6 @@ use crate::read::record::{
     Assumption, Certainty, Note, Reason, SpaceKnown, StorageConvention, Subject, What,
 };
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// The reflectance of a dielectric of the default refractive index 1.5.
 const DEFAULT: f32 = 0.04;

@@ -3,13 +3,14 @@
 use std::ops::Range;
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use super::roles::MapsByRole;
 use crate::read::measure::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
 use crate::read::options::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Role, Roughness, TileGrid};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// Of a picture of diffuse alone.
 const ROUGHNESS: f32 = 0.5;

@@ -1,11 +1,12 @@
 //! One picture that holds a whole material.
 
+use svbrdf_core::error::Error;
+
 use super::{layers, packed};
 use crate::read::decode::Decoded;
 use crate::read::located::WholePicture;
 use crate::read::options::ReadOptions;
 use crate::read::stored::StoredMaterial;
-use svbrdf_core::error::Error;
 
 /// The material within a decoded picture: in tiles, or in named layers.
 ///

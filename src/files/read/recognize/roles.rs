@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use crate::read::options::{Preset, ReadOptions, Role, Workflow};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};
 use crate::read::stored::{Inferences, StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// The maps of a material that have been recognized, by role.
 #[derive(Debug, Default)]

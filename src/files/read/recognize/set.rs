@@ -1,5 +1,7 @@
 //! Sets of pictures, one for each map: the maps that they hold, by names and pixels together.
 
+use svbrdf_core::error::Error;
+
 use super::hints;
 use super::roles::MapsByRole;
 use crate::read::decode::{self, pictures::DecodedPicture};
@@ -10,7 +12,6 @@ use crate::read::options::{ReadOptions, Reflectance, Role, Workflow};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, Subject, Unused, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
-use svbrdf_core::error::Error;
 
 /// An unlabelled picture is the normal map where this share of its pixels looks like normals.
 const NORMAL_ALL_OVER: f64 = 0.95;

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use svbrdf_core::error::Error;
+
 use super::map::StoredMap;
 use crate::read::options::{Albedo, Energy, NormalY, Role, Roughness};
 use crate::read::record::{Assumption, Certainty, Note, Reason, What};
-use svbrdf_core::error::Error;
 
 /// Inferences from the files about stored values. `None` where they tell nothing.
 #[derive(Clone, Debug, Default)]

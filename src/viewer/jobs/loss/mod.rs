@@ -7,16 +7,17 @@ pub mod study;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::report::LossReport;
+
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::waker::Waker;
 use crate::viewer::model::material::list::MaterialList;
 use crate::viewer::model::material::loaded::ids;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::settings::loss_query::LossQuery;
-use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
-use svbrdf_core::material::Material;
-use svbrdf_core::progress::Progress;
-use svbrdf_core::report::LossReport;
 
 pub use phase::Losses;
 use phase::{LossKey, Phase, RunningLoss, Settled, Step, stopped};

@@ -2,11 +2,12 @@
 
 use std::time::Duration;
 
+use svbrdf_core::loss::{Estimate, Request};
+use svbrdf_core::report::LossReport;
+
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::settings::loss_query::LossQuery;
-use svbrdf_core::loss::{Estimate, Request};
-use svbrdf_core::report::LossReport;
 
 /// What a loss depends on: the ids of the materials, the ground truth first, and the request.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,15 +1,16 @@
 //! Loss of the current scene alone.
 
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::scene::Scene;
+
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::view::state::ViewState;
-use svbrdf_core::error::Error;
-use svbrdf_core::loss::{Comparison, Request};
-use svbrdf_core::material::Material;
-use svbrdf_core::model::scene::Scene;
 
 /// What the losses depend on.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,13 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
 use svbrdf_core::error::Error;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
@@ -16,6 +9,14 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_core::progress::Progress;
+
+use crate::viewer::jobs::work::context::JobContext;
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::material::read::ReadMaterial;
+use crate::viewer::model::view::state::ViewState;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,13 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::{Image, mean_of_channels};
 use svbrdf_core::loss::{Comparison, Request};
@@ -18,6 +11,14 @@ use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::why::error_maps;
 use svbrdf_gpu::{Gpu, Shaded};
+
+use crate::viewer::jobs::work::context::JobContext;
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::material::read::ReadMaterial;
+use crate::viewer::model::view::state::ViewState;
 
 /// What error maps depend on.
 #[derive(Clone, Debug, PartialEq)]

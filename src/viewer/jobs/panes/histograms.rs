@@ -2,6 +2,13 @@
 
 use std::sync::Arc;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::{Histogram, Statistics};
+use svbrdf_core::progress::Progress;
+
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
@@ -9,12 +16,6 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
-use svbrdf_core::error::Error;
-use svbrdf_core::model::convention::Convention;
-use svbrdf_core::model::scene::Scene;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::statistics::{Histogram, Statistics};
-use svbrdf_core::progress::Progress;
 
 /// Bins of a histogram.
 const BINS: usize = 96;

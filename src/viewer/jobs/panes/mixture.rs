@@ -2,6 +2,9 @@
 
 use std::sync::Arc;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Map;
+
 use crate::viewer::jobs::reading::upload::{Uploaded, Uploads};
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
@@ -10,8 +13,6 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::read::ReadMaterial;
 use crate::viewer::model::view::state::ViewState;
-use svbrdf_core::error::Error;
-use svbrdf_core::material::Map;
 
 /// What a mixture depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]

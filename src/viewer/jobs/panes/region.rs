@@ -2,13 +2,6 @@
 
 use rayon::prelude::*;
 
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::model::inspection::Region;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::view::state::ViewState;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Model;
@@ -18,6 +11,14 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::render::render_texel;
+
+use crate::viewer::jobs::work::context::JobContext;
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::model::inspection::Region;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::view::state::ViewState;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,11 +2,6 @@
 
 use std::sync::Arc;
 
-use crate::viewer::jobs::photograph::keys::RectifiedKey;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::model::convention::Convention;
@@ -17,6 +12,12 @@ use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::photograph::{PhotographComparison, Rectified};
 use svbrdf_gpu::{Gpu, Shaded};
+
+use crate::viewer::jobs::photograph::keys::RectifiedKey;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::material::read::ReadMaterial;
+use crate::viewer::model::view::state::ViewState;
 
 /// What the comparisons depend on.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,8 +7,11 @@ pub mod picture;
 use std::sync::Arc;
 
 pub use compared::Photographs;
-use compared::{ComparedKey, compare, key};
-use keys::{ReadKey, RectifiedKey};
+use svbrdf_core::error::Error;
+use svbrdf_core::picture::statistics::Distributions;
+use svbrdf_files::photograph::{Corners, Rectified};
+use svbrdf_files::read::{Photograph, read_photograph};
+use svbrdf_files::session::SessionPhotograph;
 
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
@@ -18,11 +21,9 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::photograph::PhotographState;
 use crate::viewer::model::material::source::file_name;
 use crate::viewer::model::view::state::ViewState;
-use svbrdf_core::error::Error;
-use svbrdf_core::picture::statistics::Distributions;
-use svbrdf_files::photograph::{Corners, Rectified};
-use svbrdf_files::read::{Photograph, read_photograph};
-use svbrdf_files::session::SessionPhotograph;
+
+use compared::{ComparedKey, compare, key};
+use keys::{ReadKey, RectifiedKey};
 
 /// The jobs on the photograph that renderings are compared with.
 #[derive(Debug, Default)]

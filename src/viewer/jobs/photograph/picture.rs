@@ -1,10 +1,11 @@
 //! Picture of the photograph as it was taken.
 
-use crate::viewer::jobs::work::picture::Picture;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::statistics::quantile;
 use svbrdf_files::read::Photograph;
+
+use crate::viewer::jobs::work::picture::Picture;
 
 /// Longest side of the texture; larger photographs are reduced.
 const LONGEST: usize = 4096;

@@ -5,6 +5,11 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_gpu::Gpu;
+
 use super::read::{Reader, read_with_retries, runs_of};
 use super::upload::{Uploaded, Uploads};
 use crate::viewer::jobs::work::job::{Job, Worker};
@@ -12,10 +17,6 @@ use crate::viewer::jobs::work::waker::Waker;
 use crate::viewer::model::material::read::MaterialId;
 use crate::viewer::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use crate::viewer::model::material::source::Source;
-use svbrdf_core::error::Error;
-use svbrdf_core::material::Material;
-use svbrdf_core::progress::Progress;
-use svbrdf_gpu::Gpu;
 
 /// The openings that are going on.
 #[derive(Debug, Default)]

@@ -4,14 +4,15 @@ use std::io;
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
-use crate::viewer::model::material::read::{ReadMaterial, Rules};
-use crate::viewer::model::material::source::{Origin, Source};
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read;
 use svbrdf_files::samples;
 use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep, runs_in};
+
+use crate::viewer::model::material::read::{ReadMaterial, Rules};
+use crate::viewer::model::material::source::{Origin, Source};
 
 /// A file that was written less than this ago may be incomplete.
 const INCOMPLETE: Duration = Duration::from_secs(5);

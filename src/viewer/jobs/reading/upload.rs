@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
-use crate::viewer::model::material::read::MaterialId;
 use svbrdf_core::material::Material;
 use svbrdf_gpu::{Gpu, MaterialTextures};
+
+use crate::viewer::model::material::read::MaterialId;
 
 /// Texels that a slow adapter sends or shades within a frame.
 pub const BAND: usize = 1 << 19;

@@ -3,8 +3,9 @@
 pub mod losses;
 pub mod scan;
 
-use crate::viewer::model::material::loaded::LoadedMaterial;
 use svbrdf_files::steps::{RunId, TrainingRun};
+
+use crate::viewer::model::material::loaded::LoadedMaterial;
 
 pub use losses::{RunLosses, RunLossesKey, StepLoss, WantedRun};
 pub use scan::{RunNews, RunScan};

@@ -2,13 +2,14 @@
 
 use std::time::{Duration, Instant};
 
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Request;
+use svbrdf_core::why::{Attribution, attribute};
+
 use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
 use crate::viewer::jobs::work::waker::Waker;
-use svbrdf_core::error::Error;
-use svbrdf_core::loss::Request;
-use svbrdf_core::why::{Attribution, attribute};
 
 /// Half of the 95% interval of the loss, as a share of the loss.
 pub const ATTRIBUTION_TARGET: f64 = 0.01;

@@ -4,16 +4,17 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::jobs::work::picture::Picture;
-use crate::viewer::jobs::work::waker::Waker;
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::why::{Hemisphere, Moved, hemisphere};
+
+use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::jobs::work::picture::Picture;
+use crate::viewer::jobs::work::waker::Waker;
 
 /// Columns and rows of the finest map.
 pub const SIDE: usize = 64;

@@ -7,11 +7,12 @@ pub mod scenes;
 pub mod search;
 pub mod thumbnails;
 
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::model::settings::why::{WhySection, WhySections};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::why::{Moved, Worst};
+
+use crate::viewer::jobs::work::context::JobContext;
+use crate::viewer::model::settings::why::{WhySection, WhySections};
 
 pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
 pub use directions::{DirectionMap, DirectionsJob};

@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
+
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::material::read::ReadMaterial;
+use crate::viewer::model::view::state::ViewState;
 
 /// Identity of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]

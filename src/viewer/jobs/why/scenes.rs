@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
-use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
-use crate::viewer::jobs::why::thumbnails::{self, Thumbnails};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::jobs::work::waker::Waker;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::picture::statistics::Histogram;
 use svbrdf_core::why::{Distribution, RankedScene, worst_first};
+
+use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
+use crate::viewer::jobs::why::thumbnails::{self, Thumbnails};
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::jobs::work::waker::Waker;
 
 /// Bins of the histogram of the losses of scenes.
 const BINS: usize = 40;

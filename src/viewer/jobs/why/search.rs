@@ -2,11 +2,12 @@
 
 use std::time::Duration;
 
+use svbrdf_core::error::Error;
+use svbrdf_core::why::{Worst, worst};
+
 use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::waker::Waker;
-use svbrdf_core::error::Error;
-use svbrdf_core::why::{Worst, worst};
 
 /// The search that goes on, and the worst scene that was found.
 #[derive(Debug, Default)]

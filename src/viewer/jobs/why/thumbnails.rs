@@ -1,7 +1,7 @@
 //! Thumbnails: small pictures of the log difference in the worst scenes, all in one picture.
 
-use crate::viewer::jobs::why::pair::ComparedPair;
 use std::sync::Arc;
+
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::scene::Scene;
@@ -9,10 +9,11 @@ use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
-
-use crate::viewer::jobs::work::picture::Picture;
 use svbrdf_core::statistics::quantile;
 use svbrdf_core::why::RankedScene;
+
+use crate::viewer::jobs::why::pair::ComparedPair;
+use crate::viewer::jobs::work::picture::Picture;
 
 /// Side of a thumbnail, in pixels.
 pub const SIDE: usize = 48;

@@ -4,10 +4,11 @@ use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::waker::Waker;
-use super::{panics, priority};
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
+
+use super::waker::Waker;
+use super::{panics, priority};
 
 /// How often the progress of a running job is looked at.
 const LOOK_AGAIN: Duration = Duration::from_millis(250);

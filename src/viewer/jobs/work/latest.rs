@@ -1,7 +1,8 @@
 //! Latest result for a key: slow work that follows what is displayed.
 
-use super::job::Job;
 use svbrdf_core::error::Error;
+
+use super::job::Job;
 
 /// The result for a key, and the job for a newer one. A job for an earlier key is completed, so that there are results while
 /// something moves.

@@ -1,15 +1,16 @@
 //! Commands about what the panes show, and how.
 
-use super::undo;
-use crate::viewer::model::Model;
-use crate::viewer::model::command::DisplayCommand;
-use crate::viewer::model::command::effect::Effect;
-use crate::viewer::model::view::state::{Layout, ViewState};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Model as BrdfModel;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::render::render_texel;
 use svbrdf_core::statistics::quantile;
+
+use super::undo;
+use crate::viewer::model::Model;
+use crate::viewer::model::command::DisplayCommand;
+use crate::viewer::model::command::effect::Effect;
+use crate::viewer::model::view::state::{Layout, ViewState};
 
 /// Least and greatest magnification.
 const ZOOM: std::ops::RangeInclusive<f32> = 0.1..=400.0;

@@ -2,15 +2,16 @@
 
 use std::path::PathBuf;
 
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::scene_file;
+use svbrdf_files::session::Session;
+
 use crate::viewer::model::Model;
 use crate::viewer::model::command::MaterialsCommand;
 use crate::viewer::model::command::effect::{DialogEffect, Effect};
 use crate::viewer::model::material::request::{ReadRequest, Target};
 use crate::viewer::model::material::source::{Source, sources};
 use crate::viewer::model::message::Message;
-use svbrdf_files::read::ReadOptions;
-use svbrdf_files::scene_file;
-use svbrdf_files::session::Session;
 
 pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect> {
     let materials = &mut model.materials;

@@ -1,9 +1,10 @@
 //! Commands about the photograph that renderings are compared with.
 
+use svbrdf_files::session::SessionPhotograph;
+
 use crate::viewer::model::Model;
 use crate::viewer::model::command::PhotographCommand;
 use crate::viewer::model::command::effect::{DialogEffect, Effect};
-use svbrdf_files::session::SessionPhotograph;
 
 pub(super) fn apply(model: &mut Model, command: PhotographCommand) -> Vec<Effect> {
     match command {

@@ -1,12 +1,13 @@
 //! Commands about light, view and convention.
 
+use svbrdf_files::read::ReadOptions;
+
 use crate::viewer::model::Model;
 use crate::viewer::model::command::effect::Effect;
 use crate::viewer::model::command::{MaterialsCommand, SceneCommand};
 use crate::viewer::model::message::Message;
 use crate::viewer::model::message::pasted::{Pasted, pasted, scene_text};
 use crate::viewer::model::view::endpoint;
-use svbrdf_files::read::ReadOptions;
 
 pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
     let scene = &mut model.view.scene;

@@ -1,9 +1,10 @@
 //! Undo and redo.
 
+use svbrdf_files::stamp::Stamp;
+
 use crate::viewer::model::Model;
 use crate::viewer::model::command::effect::Effect;
 use crate::viewer::model::history::Moment;
-use svbrdf_files::stamp::Stamp;
 
 /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
 pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_settled: bool) {

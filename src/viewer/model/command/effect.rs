@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use svbrdf_files::session::SessionPhotograph;
+
 use super::PhotographLight;
 use crate::viewer::model::material::request::ReadRequest;
 use crate::viewer::model::settings::save_kind::SaveKind;
-use svbrdf_files::session::SessionPhotograph;
 
 /// One effect of a command.
 #[derive(Clone, Debug)]

@@ -9,6 +9,14 @@ pub mod photograph;
 
 pub use photograph::{PhotographCommand, PhotographLight};
 
+use svbrdf_core::loss::{LossSettings, Sampling};
+use svbrdf_core::material::Map;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::why::Moved;
+use svbrdf_files::read::ReadOptions;
+
 use super::inspection::Region;
 use super::material::source::Source;
 use super::settings::Tab;
@@ -17,13 +25,6 @@ use super::settings::why::WhySection;
 use super::view::animation::{Animation, Preset};
 use super::view::endpoint::Endpoint;
 use super::view::state::Layout;
-use svbrdf_core::loss::{LossSettings, Sampling};
-use svbrdf_core::material::Map;
-use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::why::Moved;
-use svbrdf_files::read::ReadOptions;
 
 /// One act. Nothing else changes the model.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use svbrdf_core::error::Error;
+use svbrdf_files::read::{ReadOptions, Sidecar};
+
 use super::loaded::{LoadedMaterial, mismatch, rename};
 use super::problem::MaterialProblem;
 use super::read::{MaterialId, ReadMaterial, Rules};
 use super::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use super::source::{Origin, Source};
-use svbrdf_core::error::Error;
-use svbrdf_files::read::{ReadOptions, Sidecar};
 
 /// The materials in the window.
 #[derive(Debug, Default)]

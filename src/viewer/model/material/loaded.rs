@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use super::problem::SizeMismatch;
-use super::read::{MaterialId, ReadMaterial};
 use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::report::distinct_names;
+
+use super::problem::SizeMismatch;
+use super::read::{MaterialId, ReadMaterial};
 
 /// A material in the window.
 #[derive(Clone, Debug)]

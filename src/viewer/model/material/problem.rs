@@ -3,8 +3,9 @@
 use std::fmt;
 use std::path::Path;
 
-use super::source::{Origin, Source};
 use svbrdf_core::error::Error;
+
+use super::source::{Origin, Source};
 
 /// Why a material is not in the window, or not any more.
 #[derive(Debug)]

@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use super::source::{Origin, Source};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_files::read::{Assumption, MapReport, Note, Read, ReadOptions};
 use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::RunId;
+
+use super::source::{Origin, Source};
 
 /// What identifies the maps of a material: the reading that brought them, and the stamp of the files that were read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

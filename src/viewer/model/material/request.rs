@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use svbrdf_core::error::Error;
+use svbrdf_files::samples;
+
 use super::loaded::LoadedMaterial;
 use super::read::{MaterialId, ReadMaterial};
 use super::source::Source;
-use svbrdf_core::error::Error;
-use svbrdf_files::samples;
 
 /// Where materials go once they have been read.
 #[derive(Clone, Debug, PartialEq)]

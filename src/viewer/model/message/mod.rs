@@ -6,10 +6,11 @@ pub mod pasted;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::error::Error;
+
 use super::command::{Command, MaterialsCommand};
 use super::material::problem::MaterialProblem;
 use super::material::source::Source;
-use svbrdf_core::error::Error;
 
 /// How much a message matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

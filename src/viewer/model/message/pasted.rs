@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use percent_encoding::percent_decode_str;
 
-use super::PasteProblem;
 use svbrdf_core::model::scene::{Scene, SceneFile};
+
+use super::PasteProblem;
 
 /// What a text on the clipboard means.
 #[derive(Clone, Debug, PartialEq)]

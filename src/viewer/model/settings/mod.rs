@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::loss::LossSettings;
+
 use why::WhySections;
 
 /// Number of recent materials.

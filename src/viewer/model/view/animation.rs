@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::viewer::model::view::endpoint::{self, Endpoint};
 use svbrdf_core::model::scene::{Kind, Scene};
+
+use crate::viewer::model::view::endpoint::{self, Endpoint};
 
 /// Radians per second at speed 1: a circle takes 6 seconds.
 const SPEED: f64 = std::f64::consts::TAU / 6.0;

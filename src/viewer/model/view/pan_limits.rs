@@ -2,8 +2,9 @@
 
 use glam::Vec3;
 
-use crate::viewer::model::view::state::ViewState;
 use svbrdf_core::material::Grid;
+
+use crate::viewer::model::view::state::ViewState;
 
 /// Least part of the material, or of the pane where the material is larger, that panning leaves visible along each axis:
 /// a fifth of the area along both.

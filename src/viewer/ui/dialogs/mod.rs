@@ -9,15 +9,16 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
-use open::OpenDialog;
-use photograph::PhotographDialog;
-use save::SaveDialog;
+use svbrdf_core::error::Error;
 
 use super::loss::study::StudyWindow;
 use crate::viewer::jobs::browse::Browsed;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::Command;
-use svbrdf_core::error::Error;
+
+use open::OpenDialog;
+use photograph::PhotographDialog;
+use save::SaveDialog;
 
 /// What to do without a file dialog.
 const NO_DIALOG: &str = "This system has no file dialog: install zenity or a desktop portal. Type a path here, or drop files \

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::Session;
+
 use super::path_field::{PathField, dialog};
 use crate::viewer::model::command::{Command, MaterialsCommand, WindowCommand};
 use crate::viewer::model::material::source::file_name;
 use crate::viewer::ui::widgets::read_options::read_options;
-use svbrdf_files::read::ReadOptions;
-use svbrdf_files::session::Session;
 
 /// The paths and choices so far.
 #[derive(Debug, Default)]

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
+use svbrdf_files::session::SessionPhotograph;
+
 use super::path_field::{PathField, dialog};
 use crate::viewer::model::command::{Command, PhotographCommand, PhotographLight, WindowCommand};
 use crate::viewer::ui::widgets::number;
-use svbrdf_files::session::SessionPhotograph;
 
 /// The choices so far.
 #[derive(Debug)]

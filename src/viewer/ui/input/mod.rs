@@ -7,13 +7,14 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
+use svbrdf_files::read::ReadOptions;
+
 use super::dialogs::Dialogs;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::{
     Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, PhotographCommand,
     SceneCommand, WhyCommand, WindowCommand,
 };
-use svbrdf_files::read::ReadOptions;
 
 /// The state of the keys between frames.
 #[derive(Debug, Default)]

@@ -2,13 +2,14 @@
 
 use eframe::egui::{self, Align2, Color32, FontId, Sense, Shape, Stroke, vec2};
 
+use svbrdf_core::picture::quantity::Quantity;
+
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::panes::histograms::{Channel, Values};
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::ui::legend::strip::outline;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::picture::quantity::Quantity;
 
 /// Height of a histogram, in points.
 const HEIGHT: f32 = 60.0;

@@ -2,14 +2,15 @@
 
 use eframe::egui::{self, RichText};
 
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::{Histogram, Statistics};
+
 use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
 use crate::viewer::ui::legend::strip::{BAR, HISTOGRAM, LegendStrip, STATISTICS};
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::statistics::{Histogram, Statistics};
 
 /// Width of a name, in points, and its characters.
 const NAME: f32 = 146.0;

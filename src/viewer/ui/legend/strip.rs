@@ -4,6 +4,11 @@ use eframe::egui::{
     self, Align2, Color32, FontId, Painter, Pos2, Rect, Response, RichText, Sense, Shape, Stroke, pos2, vec2,
 };
 
+use svbrdf_core::picture::colour_map::{diverging, heat};
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::{Distributions, Histogram};
+
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
 use crate::viewer::model::command::{Command, DisplayCommand};
@@ -11,10 +16,6 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::ui::widgets::number;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::picture::colour_map::{diverging, heat};
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::statistics::{Distributions, Histogram};
 
 /// The error map in the drop-down of differences.
 const ERROR_MAP: &str = "error map (all scenes)";

@@ -4,6 +4,10 @@ use std::time::Duration;
 
 use eframe::egui::{self, RichText, Slider};
 
+use svbrdf_core::loss::{Ask, LossSettings, Request, Texels};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::Kind;
+
 use crate::viewer::jobs::loss::{LossJob, Losses};
 use crate::viewer::model::command::{Command, LossCommand, WindowCommand};
 use crate::viewer::model::material::list::MaterialList;
@@ -11,9 +15,6 @@ use crate::viewer::ui::loss::results::Results;
 use crate::viewer::ui::widgets::number;
 use crate::viewer::ui::widgets::numbers::{self, seconds};
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::loss::{Ask, LossSettings, Request, Texels};
-use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::model::scene::Kind;
 
 /// Most scenes of one kind.
 const MOST: usize = 100_000;

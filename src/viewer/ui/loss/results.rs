@@ -2,14 +2,15 @@
 
 use eframe::egui::{self, Color32, Rect, RichText, Sense, Sides, Stroke, pos2, vec2};
 
+use svbrdf_core::loss::{Estimate, Loss};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::Kind;
+
 use crate::viewer::jobs::loss::Losses;
 use crate::viewer::model::command::{Command, DisplayCommand, LossCommand};
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::numbers::significant;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::loss::{Estimate, Loss};
-use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::model::scene::Kind;
 
 /// Number of predictions from which on there is a field that filters them.
 const MANY: usize = 12;

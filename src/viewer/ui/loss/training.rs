@@ -5,12 +5,13 @@ use egui_plot::{
     FilledArea, GridInput, GridMark, Line, MarkerShape, PlotPoint, PlotPoints, PlotResponse, Points, VLine,
 };
 
+use svbrdf_core::loss::Estimate;
+
 use crate::viewer::jobs::training::RunView;
 use crate::viewer::model::command::{Command, DisplayCommand, MaterialsCommand, TrainingCommand};
 use crate::viewer::ui::widgets::numbers::significant;
 use crate::viewer::ui::widgets::plot::still_plot;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::loss::Estimate;
 
 /// Height of the plot, in points.
 const HEIGHT: f32 = 170.0;

@@ -3,6 +3,8 @@
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, FontId, RichText};
 
+use svbrdf_files::read::{Note, ReadOptions, Sidecar};
+
 use super::assumptions::{self, AssumedLine};
 use crate::viewer::jobs::reading::opening::Openings;
 use crate::viewer::model::command::{Command, MaterialsCommand};
@@ -11,7 +13,6 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::source::Origin;
 use crate::viewer::ui::widgets::read_options::read_options;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_files::read::{Note, ReadOptions, Sidecar};
 
 /// What the section shows.
 #[derive(Debug)]

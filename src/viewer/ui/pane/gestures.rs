@@ -4,15 +4,16 @@
 
 use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
 
+use svbrdf_core::material::Grid;
+use svbrdf_core::model::scene::Kind;
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_core::picture::quantity::Quantity;
+
 use crate::viewer::model::command::{Command, DisplayCommand, InspectionCommand, SceneCommand};
 use crate::viewer::model::inspection::Region;
 use crate::viewer::model::view::endpoint::{self, Endpoint};
 use crate::viewer::model::view::state::{Layout, Projection, ViewState};
 use crate::viewer::ui::pane::handles::{self, REACH};
-use svbrdf_core::material::Grid;
-use svbrdf_core::model::scene::Kind;
-use svbrdf_core::picture::camera::Camera;
-use svbrdf_core::picture::quantity::Quantity;
 
 /// Radians of orbit per point that the pointer moves.
 const ORBIT_SPEED: f64 = 0.008;

@@ -3,10 +3,11 @@
 use eframe::egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2};
 use glam::Vec3;
 
+use svbrdf_core::picture::camera::Camera;
+
 use crate::viewer::model::view::endpoint::{self, Endpoint};
 use crate::viewer::model::view::state::{Projection, ViewState};
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::picture::camera::Camera;
 
 /// Distance, in points, within which a press grabs a handle or the wipe line.
 pub const REACH: f32 = 12.0;

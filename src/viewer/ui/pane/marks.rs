@@ -3,10 +3,11 @@
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use glam::Vec3;
 
-use crate::viewer::model::inspection::{Inspection, Region};
-use crate::viewer::ui::pane::handles::pos_from_ndc;
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
+
+use crate::viewer::model::inspection::{Inspection, Region};
+use crate::viewer::ui::pane::handles::pos_from_ndc;
 
 /// Side of a texel, in points, from which on its numbers are drawn on it.
 pub const READABLE: f32 = 48.0;

@@ -1,14 +1,15 @@
 //! Scenery: which panes there are, and what each displays.
 
+use svbrdf_core::material::Grid;
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_gpu::DisplayMode;
+
 use crate::viewer::jobs::panes::error_map::ErrorMaps;
 use crate::viewer::jobs::photograph::DisplayedPhotograph;
 use crate::viewer::model::inspection::Inspection;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::view::state::{Layout, ViewState};
 use crate::viewer::ui::photograph::corner_editor::CornerEditor;
-use svbrdf_core::material::Grid;
-use svbrdf_core::picture::camera::Camera;
-use svbrdf_gpu::DisplayMode;
 
 /// What the panes show, for one frame.
 #[derive(Debug)]

@@ -1,8 +1,9 @@
 //! Texels that a pane draws.
 
+use svbrdf_gpu::DisplayMode;
+
 use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
 use crate::viewer::ui::shading::gpu_view::{GpuView, PaneTexels};
-use svbrdf_gpu::DisplayMode;
 
 /// What a pane draws and what it compares that with; a hint in its place where that is not there yet.
 pub fn texels(

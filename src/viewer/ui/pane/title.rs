@@ -2,11 +2,12 @@
 
 use eframe::egui::{self, FontId, Rect, Sense, vec2};
 
+use svbrdf_gpu::DisplayMode;
+
 use crate::viewer::model::command::{Command, DisplayCommand};
 use crate::viewer::model::view::state::Layout;
 use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
 use crate::viewer::ui::widgets::theme;
-use svbrdf_gpu::DisplayMode;
 
 /// Width of the button that shows all maps again, in points.
 const BACK: f32 = 96.0;

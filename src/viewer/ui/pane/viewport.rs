@@ -4,6 +4,11 @@ use std::collections::BTreeSet;
 
 use eframe::egui::{self, Rect, Sense, Vec2};
 
+use svbrdf_core::material::Grid;
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
+
 use super::cells::{TITLE, cells, free_cell, picture_rect};
 use super::gestures::{self, Gesture, PaneTarget};
 use super::handles;
@@ -25,10 +30,6 @@ use crate::viewer::ui::widgets::hint::{note, paint_hint};
 use crate::viewer::ui::widgets::readout::{self, Readout};
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::material::Grid;
-use svbrdf_core::picture::camera::Camera;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 
 /// A view steeper than this above the plane (its sine) is one from straight above.
 const STEEP: f64 = 0.999;

@@ -4,6 +4,9 @@ use std::ops::Range;
 
 use eframe::egui::{self, FontId, RichText, TextStyle};
 
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::picture::statistics::Statistics;
+
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::panes::region::RegionNumbers;
 use crate::viewer::model::command::{Command, InspectionCommand};
@@ -12,8 +15,6 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::readout::{fixed, in_width};
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::statistics::Statistics;
 
 /// Width of a name, and between columns, in points.
 const NAME: f32 = 110.0;

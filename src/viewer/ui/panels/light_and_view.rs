@@ -2,14 +2,15 @@
 
 use eframe::egui;
 
+use svbrdf_core::model::convention;
+use svbrdf_core::model::scene::{Kind, Scene};
+
 use crate::viewer::model::command::{Command, SceneCommand};
 use crate::viewer::model::settings::Settings;
 use crate::viewer::model::view::animation::{Animation, Path, Preset};
 use crate::viewer::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
 use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::number;
-use svbrdf_core::model::convention;
-use svbrdf_core::model::scene::{Kind, Scene};
 
 /// What the section shows.
 #[derive(Debug)]

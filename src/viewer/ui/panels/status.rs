@@ -2,6 +2,8 @@
 
 use eframe::egui::{self, RichText};
 
+use svbrdf_gpu::AdapterReport;
+
 use crate::viewer::jobs::panes::error_map::ErrorMaps;
 use crate::viewer::jobs::photograph::Photographs;
 use crate::viewer::model::command::{Command, InspectionCommand};
@@ -9,7 +11,6 @@ use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::readout::{self, Readout};
 use crate::viewer::ui::widgets::theme;
-use svbrdf_gpu::AdapterReport;
 
 /// Least width of the line, in points, in which the adapter is named.
 const WIDE: f32 = 1000.0;

@@ -3,12 +3,13 @@
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{self, PopupCloseBehavior};
 
+use svbrdf_core::picture::quantity::Quantity;
+
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::{Command, DisplayCommand, LossCommand, PhotographCommand, WindowCommand};
 use crate::viewer::model::view::state::{Layout, Projection, ViewState};
 use crate::viewer::ui::panels::bar_item::{BarItem, Room};
 use crate::viewer::ui::widgets::number;
-use svbrdf_core::picture::quantity::Quantity;
 
 /// What the bar shows.
 #[derive(Debug)]

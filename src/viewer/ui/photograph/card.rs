@@ -2,13 +2,14 @@
 
 use eframe::egui::{self, RichText};
 
+use svbrdf_files::photograph::Corners;
+use svbrdf_files::read::Transfer;
+
 use crate::viewer::jobs::photograph::DisplayedPhotograph;
 use crate::viewer::model::command::{Command, PhotographCommand};
 use crate::viewer::ui::photograph::corner_editor::CORNER_NAMES;
 use crate::viewer::ui::widgets::number;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_files::photograph::Corners;
-use svbrdf_files::read::Transfer;
 
 /// Height of the list of factors, in points.
 const FACTORS: f32 = 76.0;

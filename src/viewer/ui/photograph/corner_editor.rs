@@ -4,12 +4,13 @@ use eframe::egui::{
     self, Color32, CursorIcon, Pos2, Rect, Sense, Shape, Stroke, TextureId, TextureOptions, Vec2, pos2, vec2,
 };
 
+use svbrdf_files::photograph::Corners;
+
 use crate::viewer::jobs::photograph::EditedCorners;
 use crate::viewer::model::command::{Command, PhotographCommand};
 use crate::viewer::ui::widgets::hint::paint_hint;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_files::photograph::Corners;
 
 /// Names of the corners, in their order.
 pub const CORNER_NAMES: [&str; 4] = ["Top left", "Top right", "Bottom right", "Bottom left"];

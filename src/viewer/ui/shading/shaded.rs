@@ -1,9 +1,10 @@
 //! Shaded texels of one material, and how much of them is shaded in a frame.
 
-use crate::viewer::jobs::reading::upload::BAND;
-use crate::viewer::model::inspection::Region;
 use svbrdf_core::error::Error;
 use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
+
+use crate::viewer::jobs::reading::upload::BAND;
+use crate::viewer::model::inspection::Region;
 
 /// How much of a material is shaded before it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]

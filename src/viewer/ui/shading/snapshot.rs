@@ -3,9 +3,10 @@
 use eframe::egui_wgpu::{RenderState, Renderer, RendererOptions, ScreenDescriptor};
 use eframe::{egui, wgpu};
 
-use crate::viewer::ui::widgets::theme;
 use svbrdf_core::error::Error;
 use svbrdf_gpu::{Gpu, read_rgba};
+
+use crate::viewer::ui::widgets::theme;
 
 /// Frames until the layout is settled.
 const FRAMES: usize = 2;

@@ -1,10 +1,11 @@
 //! Visible part of a material: what is shaded while something moves on a slow adapter.
 
+use svbrdf_core::material::Grid;
+use svbrdf_core::picture::camera::Camera;
+
 use crate::viewer::model::inspection::Region;
 use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::shading::shaded::ShadedPart;
-use svbrdf_core::material::Grid;
-use svbrdf_core::picture::camera::Camera;
 
 /// Most texels along an axis that one stands for.
 const MOST: usize = 64;

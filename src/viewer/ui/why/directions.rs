@@ -5,15 +5,16 @@ use eframe::egui::{
 };
 use glam::DVec3;
 
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::colour_map::difference_to_display;
+use svbrdf_core::why::Moved;
+
 use crate::viewer::jobs::why::{ComparedPair, DirectionMap};
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand};
 use crate::viewer::ui::pane::handles;
 use crate::viewer::ui::why::WhyPanel;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::texture::PanelTextures;
-use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::colour_map::difference_to_display;
-use svbrdf_core::why::Moved;
 
 /// Largest side of the map, and width of what stands beside it, in points.
 const MOST: f32 = 230.0;

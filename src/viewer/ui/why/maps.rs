@@ -2,15 +2,16 @@
 
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
+use svbrdf_core::loss::LossSettings;
+use svbrdf_core::material::Map;
+use svbrdf_core::model::scene::Kind;
+use svbrdf_core::why::MapShare;
+
 use crate::viewer::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair, WhyJobs};
 use crate::viewer::model::command::{Command, DisplayCommand};
 use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::numbers::{accuracy, seconds, significant};
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::loss::LossSettings;
-use svbrdf_core::material::Map;
-use svbrdf_core::model::scene::Kind;
-use svbrdf_core::why::MapShare;
 
 /// Height of a row, and widths of its name and of its numbers, in points.
 const ROW: f32 = 20.0;

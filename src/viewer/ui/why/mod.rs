@@ -6,7 +6,8 @@ pub mod scenes;
 
 use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
-use maps::MapsSection;
+use svbrdf_core::loss::LossSettings;
+use svbrdf_core::picture::quantity::Quantity;
 
 use crate::viewer::jobs::why::{ComparedPair, WhyJobs};
 use crate::viewer::model::command::{Command, DisplayCommand, WhyCommand};
@@ -15,8 +16,8 @@ use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::loss::LossSettings;
-use svbrdf_core::picture::quantity::Quantity;
+
+use maps::MapsSection;
 
 /// Characters of a name in a row.
 const NAME: usize = 30;

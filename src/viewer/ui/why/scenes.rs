@@ -2,16 +2,17 @@
 
 use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
+use svbrdf_core::loss::LossSettings;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::statistics::Histogram;
+use svbrdf_core::why::{RankedScene, Worst};
+
 use crate::viewer::jobs::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbnails};
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};
 use crate::viewer::ui::why::WhyPanel;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
-use svbrdf_core::loss::LossSettings;
-use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::statistics::Histogram;
-use svbrdf_core::why::{RankedScene, Worst};
 
 /// Side of a thumbnail and height of the number below it, in points.
 const SIDE: f32 = 52.0;

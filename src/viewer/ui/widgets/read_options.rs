@@ -2,11 +2,12 @@
 
 use eframe::egui::{self, RichText};
 
-use super::number;
 use svbrdf_files::read::{
     Albedo, Assumption, Certainty, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions,
     Reflectance, Roughness, TileGrid, What, Workflow,
 };
+
+use super::number;
 
 /// Drop-downs for the assumptions in reading a material; the first choice of each infers it from the files.
 ///

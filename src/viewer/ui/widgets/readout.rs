@@ -1,11 +1,12 @@
 //! Readout: numbers of texels as text, in columns of constant width.
 
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+
 use crate::viewer::jobs::panes::error_map::ErrorMaps;
 use crate::viewer::jobs::photograph::Photographs;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::view::state::ViewState;
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::picture::quantity::Quantity;
 
 /// Characters of a number.
 pub const WIDTH: usize = 8;

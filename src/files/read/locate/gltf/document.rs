@@ -5,8 +5,9 @@ use std::path::Path;
 use gltf::json::{Root, Value};
 use gltf::{Document, Glb};
 
-use crate::panics::caught;
 use svbrdf_core::error::Error;
+
+use crate::panics::caught;
 
 /// Parts of a glTF that materials need.
 const PARTS: [&str; 7] = ["asset", "buffers", "bufferViews", "images", "materials", "samplers", "textures"];

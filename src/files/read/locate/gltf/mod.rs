@@ -8,12 +8,14 @@ use std::path::Path;
 
 use gltf::{Material, Texture};
 
+use svbrdf_core::error::Error;
+
 use crate::open::NamedFile;
 use crate::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
 use crate::read::located::picture::LocatedPicture;
 use crate::read::options::{ReadOptions, Role};
 use crate::read::record::Subject;
-use svbrdf_core::error::Error;
+
 use textures::GltfFile;
 
 /// Locates material number `exemplar` of the file `path`; without one the first that has a texture, else the first.

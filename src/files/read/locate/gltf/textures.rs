@@ -9,11 +9,12 @@ use gltf::image::Source as Image;
 use gltf::{Document, Texture};
 use percent_encoding::percent_decode_str;
 
+use svbrdf_core::error::Error;
+
 use super::document::bad;
 use crate::open::NamedFile;
 use crate::read::located::picture::PictureSource;
 use crate::read::record::Subject;
-use svbrdf_core::error::Error;
 
 /// Extensions of a texture that name its picture, the one that is decoded to more exact values first.
 const SOURCES: [&str; 4] = ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];

@@ -4,14 +4,16 @@ mod statement;
 
 use std::path::Path;
 
+use svbrdf_core::error::Error;
+
 use crate::open::NamedFile;
 use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS, names_picture};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::names::Label;
 use crate::read::options::{ReadOptions, Role};
 use crate::read::record::Subject;
+
 use statement::{Texture, entries};
-use svbrdf_core::error::Error;
 
 /// Locates material number `exemplar` of the file `path`.
 ///

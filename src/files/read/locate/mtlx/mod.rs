@@ -7,14 +7,16 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node};
 
+use svbrdf_core::error::Error;
+
 use crate::open::NamedFile;
 use crate::read::located::mtlx::{Bound, LocatedMtlx};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::located::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
 use crate::read::options::{ReadOptions, Role};
 use crate::read::record::Subject;
+
 use graph::{bound, input};
-use svbrdf_core::error::Error;
 
 /// Locates surface number `exemplar` of the file `path`.
 ///
