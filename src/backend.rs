@@ -1,15 +1,11 @@
 //! Devices that compute a loss: the processor, a graphics adapter, or the faster of the two.
 //!
 //! ```no_run
-//! use svbrdf::backend;
-//! use svbrdf::loss::{Comparison, Request};
-//! use svbrdf::model::convention::Convention;
-//! use svbrdf::progress::Progress;
-//! use svbrdf::samples;
+//! use svbrdf::{Comparison, Convention, Progress, Request, backend, built_in};
 //!
-//! let built_in = samples::load::<f32>()?;
-//! let prediction = &built_in.predictions[0].material;
-//! let comparison = Comparison::new(&built_in.ground_truth.material, &[prediction], Convention::default())?;
+//! let materials = built_in::<f32>()?;
+//! let prediction = &materials.predictions[0].material;
+//! let comparison = Comparison::new(&materials.ground_truth.material, &[prediction], Convention::default())?;
 //! let request = Request::default();
 //! let fastest = backend::fastest(&comparison, &request)?;
 //! let comparison = match &fastest.adapter {
@@ -17,7 +13,7 @@
 //!     None => comparison,
 //! };
 //! let outcome = comparison.run(&request, &Progress::default())?;
-//! # Ok::<(), svbrdf::error::Error>(())
+//! # Ok::<(), svbrdf::Error>(())
 //! ```
 
 use std::fmt;

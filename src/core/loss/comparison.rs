@@ -22,7 +22,7 @@ use crate::progress::Progress;
 /// use svbrdf_core::model::convention::Convention;
 /// use svbrdf_core::progress::Progress;
 ///
-/// let texel = |roughness| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
+/// let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
 /// let truth = Material::uniform("truth", 64, 64, &texel(0.6))?;
 /// let [same, rough] = [("same", 0.6), ("too rough", 0.7)].map(|(name, r)| Material::uniform(name, 64, 64, &texel(r)));
 /// let (same, rough) = (same?, rough?);

@@ -10,7 +10,7 @@
 //! use svbrdf_core::progress::Progress;
 //! use svbrdf_core::report::{LossReport, Report};
 //!
-//! let texel = |roughness| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
+//! let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
 //! let truth = Material::uniform("truth", 64, 64, &texel(0.6))?;
 //! let prediction = Material::uniform("too rough", 64, 64, &texel(0.7))?;
 //! let comparison = Comparison::new(&truth, &[&prediction], Convention::default())?;

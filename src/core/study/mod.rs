@@ -7,7 +7,7 @@
 //! use svbrdf_core::progress::Progress;
 //! use svbrdf_core::study;
 //!
-//! let texel = |roughness| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
+//! let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
 //! let pair = study::Pair {
 //!     ground_truth: &Material::uniform("truth", 64, 64, &texel(0.6))?,
 //!     prediction: &Material::uniform("too rough", 64, 64, &texel(0.7))?,

@@ -8,7 +8,7 @@
 //! use svbrdf_core::progress::Progress;
 //! use svbrdf_core::why;
 //!
-//! let texel = |diffuse, roughness| Texel { normal: glam::Vec3::Z, diffuse: [diffuse; 3], specular: [0.04; 3], roughness };
+//! let texel = |diffuse: f32, roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [diffuse; 3], specular: [0.04; 3], roughness };
 //! let truth = Material::uniform("truth", 64, 64, &texel(0.5, 0.6))?;
 //! let prediction = Material::uniform("too dark and too rough", 64, 64, &texel(0.45, 0.9))?;
 //! let request = Request::Accuracy { target: 0.05, seed: 0 };

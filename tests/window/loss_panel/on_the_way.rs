@@ -73,7 +73,8 @@ fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
     let mut errors = Vec::new();
     for _ in 0..600 {
         errors.push(error(&window));
-        if errors.last() < Some(&5.0) {
+        // The first that is seen may be below 5% already.
+        if errors.last() < Some(&5.0) && errors.last() < errors.first() {
             break;
         }
         window.step();
