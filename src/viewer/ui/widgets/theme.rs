@@ -58,6 +58,8 @@ pub fn install(ctx: &egui::Context) {
         // Scroll bars beside the numbers, not over them.
         style.spacing.scroll.floating_allocated_width = style.spacing.scroll.bar_width;
         style.interaction.selectable_labels = true;
+        // A cursor that blinks draws the whole window twice a second.
+        style.visuals.text_cursor.blink = false;
         style.text_styles.insert(egui::TextStyle::Small, egui::FontId::proportional(11.0));
     });
 }
@@ -116,14 +118,13 @@ fn visuals(
 
 #[cfg(test)]
 mod tests {
+    use svbrdf_core::math::srgb;
+
     use super::*;
 
     /// The contrast of two opaque colours, after WCAG 2.
     fn contrast(a: Color32, b: Color32) -> f64 {
-        let linear = |byte: u8| {
-            let v = f64::from(byte) / 255.0;
-            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
-        };
+        let linear = |byte: u8| srgb::decode(f64::from(byte) / 255.0);
         let luminance =
             |c: Color32| 0.2126 * linear(c.r()) + 0.7152 * linear(c.g()) + 0.0722 * linear(c.b()) + 0.05;
         let [a, b] = [luminance(a), luminance(b)];
