@@ -68,11 +68,8 @@ mod tests {
     #[test]
     fn the_brightest_percent_clips() {
         let of = |pixels: Vec<[f32; 3]>| exposure(&Image { width: pixels.len(), height: 1, pixels });
-        let mut pixels = vec![[0.25, 0.1, 0.0]; 99];
-        pixels.push([100.0; 3]);
-        assert_eq!(of(pixels.clone()), -(100f32.log2()));
-        pixels.push([0.2; 3]);
-        assert_eq!(of(pixels), 2.0);
+        let pixels = |bright| [vec![[100.0; 3]; bright], vec![[0.25, 0.1, 0.0]; 101 - bright]].concat();
+        assert_eq!([2, 1].map(|bright| of(pixels(bright))), [-(100f32.log2()), 2.0]);
         assert_eq!(of(vec![[0.0; 3]; 4]), 0.0);
     }
 }
