@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf_files::dataset::{self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Pick};
 use svbrdf_core::model::convention::Convention;
+use svbrdf_files::dataset::{self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Pick};
 
 use crate::errors::exception;
 use crate::material::read_options;
@@ -45,8 +45,8 @@ pub fn rank_dataset(
         strict: asked.strict,
     };
     let cases = dataset::cases_of_folders(&asked.ground_truths, &asked.methods).map_err(exception)?;
-    let settings =
-        DatasetSettings::new(convention.name, asked.target_error, asked.seed, &cases).with_metrics(asked.metrics);
+    let settings = DatasetSettings::new(convention.name, asked.target_error, asked.seed, &cases)
+        .with_metrics(asked.metrics);
     let journal = asked.journal.as_deref();
     let DatasetResults { results, recomputed } =
         work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, journal, progress))?;

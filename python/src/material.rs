@@ -8,15 +8,15 @@ use numpy::Element;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use svbrdf_core::error::Error;
-use svbrdf_files::read::{self as reading, Certainty, Read, ReadOptions};
-use svbrdf_files::write::{self as writing, WriteOptions};
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::{render as renderer, report};
+use svbrdf_files::read::{self as reading, Certainty, Read, ReadOptions};
 use svbrdf_files::samples;
+use svbrdf_files::write::{self as writing, WriteOptions};
 
 use crate::arrays::{self, Bytes};
 use crate::errors::exception;

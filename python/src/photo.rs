@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_files::read::{PhotographOptions, read_photograph};
 use svbrdf_core::model::scene::Scene;
-use svbrdf_files::photograph::{self, Corners, PhotoReport, PhotoSetting};
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_files::photograph::{self, Corners, PhotoReport, PhotoSetting};
+use svbrdf_files::read::{PhotographOptions, read_photograph};
 
 use crate::arrays;
 use crate::errors::exception;

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use svbrdf_core::model::convention::Convention;
 use svbrdf_files::read::{ReadOptions, Sidecar};
 use svbrdf_files::session::{Session, SessionMaterial};
-use svbrdf_core::model::convention::Convention;
 
 use crate::errors::exception;
 use crate::material::read_options;
