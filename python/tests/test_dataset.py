@@ -117,15 +117,16 @@ def test_an_interrupted_run_continues_from_its_journal(program: str, dataset: Pa
     settings, *lines = complete.splitlines()
     loss = whole.results[2].loss
     assert loss is not None
-    changed = lines[1].replace(f'"loss":{loss!r}', '"loss":0.125')
+    planted = 1.01 * loss
+    changed = lines[1].replace(f'"loss":{loss!r}', f'"loss":{planted!r}')
     assert changed != lines[1]
     journal.write_text("\n".join([settings, lines[4], changed, lines[0][:40]]))
     seen: list[tuple[int, int]] = []
     resumed = ranked(dataset, journal=str(journal), progress=lambda *counts: seen.append(counts))
     assert seen[-1] == (6, 6)
-    assert resumed.results[2].loss == 0.125
-    assert [r for r in resumed.results if r.loss != 0.125] == [r for r in whole.results if r.loss != loss]
-    assert journal.read_text() == complete.replace(f'"loss":{loss!r}', '"loss":0.125')
+    assert resumed.results[2].loss == planted
+    assert [r for r in resumed.results if r.loss != planted] == [r for r in whole.results if r.loss != loss]
+    assert journal.read_text() == complete.replace(f'"loss":{loss!r}', f'"loss":{planted!r}')
 
     # The command line continues it, too.
     journal.write_text("\n".join([settings, lines[4], changed, ""]))
