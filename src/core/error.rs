@@ -1,4 +1,4 @@
-//! What can go wrong: one variant per cause. The text says where, what was expected, what was found and what to do.
+//! Errors of all operations: one variant per cause. The text says where, what was expected, what was found and what to do.
 //!
 //! No text names an option of the command line or a control of the window: each of them adds its own advice.
 

@@ -1,4 +1,4 @@
-//! Which graphics adapter is used, and why.
+//! Choice of the graphics adapter, with its reason.
 
 use std::cmp::Reverse;
 use std::fmt;

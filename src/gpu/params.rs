@@ -1,4 +1,4 @@
-//! What the two passes compute: plain values, no device.
+//! Parameters of the two passes: plain values, no device.
 
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;

@@ -1,4 +1,4 @@
-//! Which files make a shader: pieces of `shaders/`, joined in order.
+//! Shaders: pieces of `shaders/`, joined in order.
 
 /// A WGSL module made of pieces.
 #[derive(Clone, Copy, Debug)]

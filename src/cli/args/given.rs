@@ -1,4 +1,4 @@
-//! The options that a command line specifies, as opposed to those that have their defaults.
+//! Options that a command line specifies; all others have their defaults.
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command};

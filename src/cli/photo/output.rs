@@ -1,4 +1,4 @@
-//! What a picture of `svbrdf photo` records.
+//! Metadata of the pictures of `svbrdf photo`.
 
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;

@@ -1,4 +1,4 @@
-//! What is compared, and what computes it.
+//! Comparisons: the materials, the convention, and the backend that computes their losses.
 
 use std::fmt::Debug;
 

@@ -1,4 +1,4 @@
-//! What the mean of a few sampled scenes is worth, from many others on few texels.
+//! Pilots: many other scenes on few texels, which give the interval of the mean of a few sampled scenes.
 //!
 //! Losses of scenes are skewed: a few scenes see far more than the others, and a sample of nine tells nothing of them. So
 //! the interval of a mean does not come from its own scenes, but from those of a pilot, which are independent of it and

@@ -1,4 +1,4 @@
-//! What is asked of a comparison: which scenes, or how accurate, or how long.
+//! Requests: the scenes of a loss, its accuracy, or its time.
 
 use std::fmt;
 use std::str::FromStr;

@@ -1,4 +1,4 @@
-//! How a loss is asked for, as settings that are saved: the fields of the window's loss section.
+//! Saved settings of a loss: the fields of the window's loss section.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Where the texels of a material lie.
+//! Positions of the texels of a material.
 
 use crate::math::real::{Real as _, Vector};
 

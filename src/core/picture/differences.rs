@@ -1,4 +1,4 @@
-//! Which difference of each quantity is chosen, and the range of its colours.
+//! Chosen difference of each quantity, and the range of its colours.
 
 use serde::{Deserialize, Serialize};
 

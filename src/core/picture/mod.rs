@@ -1,4 +1,4 @@
-//! What a picture shows of materials, from where, and in which colours.
+//! Pictures of materials: quantities, differences, cameras, tone and colour maps.
 
 pub mod camera;
 pub mod colour_map;

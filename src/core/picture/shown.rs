@@ -1,4 +1,4 @@
-//! What a picture shows of materials: a quantity, or its difference from the ground truth.
+//! Contents of a picture: a quantity of each material, or its difference from the ground truth.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,4 @@
-//! How much of each loss comes from each map.
+//! Report of the share of each map in each loss.
 
 use serde::{Serialize, Serializer};
 

@@ -80,7 +80,7 @@ impl LossReport {
         Ok(report.beside(Self::new(comparison, &few, comparison.run(&few, progress)?)))
     }
 
-    /// The same report with that of the few scenes of the papers beside it.
+    /// The same report with the losses over the few scenes of the papers beside it.
     #[must_use]
     pub fn beside(self, few: Self) -> Self {
         let few_scenes = Some(FewScenes { backend: few.backend, outcome: few.outcome });

@@ -1,4 +1,4 @@
-//! How much of a loss comes from each map: Shapley values.
+//! Attribution of a loss to the maps: Shapley values.
 //!
 //! With v(S) the loss of the ground truth that takes the maps S from the prediction, v of no map is 0 and v of all four is
 //! the loss. What a map adds to v depends on which maps are wrong already: a wrong roughness hardly matters under a wrong

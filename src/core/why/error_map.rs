@@ -1,4 +1,4 @@
-//! Where on the material the loss comes from: the mean log difference of each texel over all scenes.
+//! Error map: the mean log difference of each texel over all scenes.
 
 use crate::error::Error;
 use crate::image::Image;

@@ -1,4 +1,4 @@
-//! Why a loss is what it is: which maps, scenes, directions and texels it comes from.
+//! Origins of a loss: maps, scenes, directions and texels.
 //!
 //! ```
 //! use svbrdf_core::loss::Request;

@@ -1,4 +1,4 @@
-//! Which scenes the loss comes from.
+//! Scenes of a loss, worst first, and the distribution of their losses.
 
 use crate::loss::Outcome;
 use crate::model::scene::Scene;

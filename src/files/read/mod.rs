@@ -9,7 +9,7 @@
 //! | `interpret` | stored maps and evidence | linear maps |
 //! | `assemble` | linear maps | a [`Material`], with the [record](Read) of its reading |
 //!
-//! What opens is listed in `docs/formats.md`. Colour chunks are ignored. [`ReadOptions`] specify how values are stored; the
+//! `docs/formats.md` lists every form that opens. Colour chunks are ignored. [`ReadOptions`] specify how values are stored; the
 //! rest is inferred from names and pixels, and recorded as an [`Assumption`].
 
 mod assemble;

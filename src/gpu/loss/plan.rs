@@ -1,4 +1,4 @@
-//! How a loss is cut into steps that are short enough for a driver's watchdog and small enough for its memory.
+//! Plan of a loss: steps that are short enough for a driver's watchdog and small enough for its memory.
 
 use std::ops::Range;
 

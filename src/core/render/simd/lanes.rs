@@ -1,4 +1,4 @@
-//! What the kernel needs beyond portable SIMD: reciprocal estimates, prefetching, and the choice of an instruction set.
+//! Operations of the kernel beyond portable SIMD: reciprocal estimates, prefetching, and the choice of an instruction set.
 
 use fearless_simd::{Fallback, Simd, prelude::*};
 

@@ -1,4 +1,4 @@
-//! How many texels the kernel works on at a time.
+//! Number of texels that the kernel works on at a time.
 
 /// Texels of a tile. Its planes (22 KiB for two materials) stay in the L1 cache. A multiple of two vectors of every
 /// instruction set.

@@ -1,4 +1,4 @@
-//! What was assumed about each map of a material, one line a map.
+//! Assumptions about each map of a material, one line a map.
 
 use svbrdf_files::read::{Assumption, Certainty, Reason, Role, What};
 

@@ -1,4 +1,4 @@
-//! How much of the loss of the chosen prediction comes from each map.
+//! Shares of the maps in the loss of the chosen prediction.
 
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 

@@ -1,4 +1,4 @@
-//! What the plots of the window share.
+//! Style of all plots of the window.
 
 use eframe::egui;
 use egui_plot::Plot;
