@@ -66,6 +66,15 @@ impl Projection {
     }
 }
 
+/// Magnified part of a material, the same in panes of every size.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Framing {
+    /// Physical pixels per texel; in perspective those of a texel in the middle of the material that faces the view.
+    pub pixels_per_texel: f32,
+    /// The point in the middle of the pane, in texels from the left and from the upper edge of the material.
+    pub centre: [f32; 2],
+}
+
 /// What the panes show of the materials, and how. Every field has a default, so that the sessions of older versions open.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -84,10 +93,8 @@ pub struct Display {
     pub false_colour: bool,
     /// Position of the wipe line: 0 at the left edge of the pane, 1 at the right.
     pub wipe: f32,
-    /// Magnification; at 1 the material fits its pane.
-    pub zoom: f32,
-    /// Where the centre of the picture is in its pane, x right and y up in [-1, 1].
-    pub pan: [f32; 2],
+    /// The magnified part of the material; where `None`, the material fits its pane.
+    pub framing: Option<Framing>,
     /// The chosen prediction: its index among the predictions.
     pub prediction: usize,
     /// The map that is shown as the only wrong one, or the only right one, of the chosen prediction.
@@ -108,8 +115,7 @@ impl Default for Display {
             tiled: false,
             false_colour: false,
             wipe: 0.5,
-            zoom: 1.0,
-            pan: [0.0, 0.0],
+            framing: None,
             prediction: 0,
             isolated: None,
             only_right: false,
@@ -169,7 +175,7 @@ mod tests {
     fn a_mistyped_field_is_named() {
         for (text, field) in [
             (r#"{"loss": {"seed": 3, "ask": "Acuracy"}}"#, "window.loss.ask"),
-            (r#"{"view": {"zoom": "large"}, "loss": {}}"#, "window.view.zoom"),
+            (r#"{"view": {"wipe": "large"}, "loss": {}}"#, "window.view.wipe"),
             (r#"{"view": 7}"#, "window.view"),
         ] {
             let problem = read(text).unwrap_err();
@@ -181,9 +187,9 @@ mod tests {
     fn what_is_absent_has_its_default_and_what_is_written_is_read() {
         assert_eq!(read("{}"), Ok(SessionWindow::default()));
         let window =
-            read(r#"{"view": {"zoom": 2.0}, "loss": {"seed": 7}, "of a newer version": 1}"#).unwrap();
+            read(r#"{"view": {"wipe": 0.25}, "loss": {"seed": 7}, "of a newer version": 1}"#).unwrap();
         let loss = LossSettings { seed: 7, ..LossSettings::default() };
-        let expected = Display { zoom: 2.0, ..Display::default() };
+        let expected = Display { wipe: 0.25, ..Display::default() };
         assert_eq!((window.display.clone(), window.loss.clone()), (Some(expected), Some(loss)));
         assert_eq!(read(&serde_json::to_string(&window).unwrap()), Ok(window));
     }

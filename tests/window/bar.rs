@@ -87,11 +87,7 @@ fn panes_stay_in_their_places_when_a_texel_is_pinned() {
     window.run_steps(6);
     window.get_by_label("Pinned texels");
     let after = corners(&window);
-    for (before, after) in before.iter().zip(after) {
-        assert_eq!(before.x, after.x);
-    }
-    assert_eq!((before[0], before[1]), (after[0], after[1]));
-    assert!(after[2].y < before[2].y && after[2].y > after[0].y + 100.0, "the lower row moves up");
+    assert_eq!(before, after);
     // The saved view has the same arrangement.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");

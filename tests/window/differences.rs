@@ -175,8 +175,7 @@ fn the_range_is_dragged_and_automatic_again() {
     window.run_steps(3);
     statistics(&mut window);
     assert_eq!(window.state().difference_range(), range);
-    let toggle = window.query_all_by_label("Auto").min_by_key(|node| node.rect().left() as i32).unwrap();
-    toggle.click();
+    window.get_by_label("Auto range").click();
     window.run_steps(3);
     assert_eq!(window.state().difference_range(), auto);
     assert!(pixels(&mut window, before) == automatic);

@@ -30,11 +30,7 @@ fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
     drag(&mut window, egui::PointerButton::Middle, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
     let panned = window.state().parts.model.view.clone();
     assert_eq!(panned.scene, moved.scene);
-    assert!(
-        (panned.display.pan[0] - 0.2).abs() < 0.02 && (panned.display.pan[1] - 0.2).abs() < 0.02,
-        "{:?}",
-        panned.display.pan
-    );
+    assert_panned(&window, rect, [0.1, -0.1]);
 }
 
 #[test]
@@ -54,7 +50,9 @@ fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
         window.run_steps(4);
     };
     turn(&mut window, egui::Modifiers::NONE);
-    assert!(window.state().parts.model.view.display.zoom > 1.1);
+    let fitted = fitted_scale(pane(&window, GROUND_TRUTH), [256, 256]);
+    let framing = window.state().parts.model.view.display.framing.unwrap();
+    assert!(framing.pixels_per_texel > 1.1 * fitted, "{framing:?}, fitted {fitted}");
     assert_eq!(window.state().parts.model.view.scene.light[2], 1.2);
     turn(&mut window, egui::Modifiers::SHIFT);
     assert!(

@@ -39,10 +39,10 @@ fn every_letter_does_what_the_help_says() {
     expect(&mut window, egui::Key::T, "repeated", &|a| a.parts.model.view.display.tiled);
     expect(&mut window, egui::Key::J, "histograms", &|a| a.parts.model.settings.histograms);
     expect(&mut window, egui::Key::V, "false colours", &|a| a.parts.model.view.display.false_colour);
-    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| a.parts.model.view.display.zoom != 1.0);
-    expect(&mut window, egui::Key::F, "fitted", &|a| {
-        a.parts.model.view.display.zoom == 1.0 && a.parts.model.view.display.pan == [0.0; 2]
+    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| {
+        a.parts.model.view.display.framing.is_some_and(|framing| framing.pixels_per_texel == 1.0)
     });
+    expect(&mut window, egui::Key::F, "fitted", &|a| a.parts.model.view.display.framing.is_none());
     // There are two predictions.
     for key in [egui::Key::Num3, egui::Key::Num5, egui::Key::Num8, egui::Key::Num9] {
         expect(&mut window, key, "no such prediction", &|a| a.parts.model.view.display.prediction == 1);

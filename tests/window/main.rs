@@ -21,6 +21,7 @@ mod reading;
 mod saving;
 mod scene_files;
 mod screenshots;
+mod stillness;
 mod study;
 mod texels;
 mod training;
@@ -106,6 +107,11 @@ fn press(window: &mut Window<'_>, key: egui::Key) {
     window.run_steps(3);
 }
 
+fn hover(window: &mut Window<'_>, at: Pos2) {
+    window.event(egui::Event::PointerMoved(at));
+    window.run_steps(2);
+}
+
 /// The text of the status line's column that begins with `start`.
 fn column(window: &Window<'_>, start: &str) -> String {
     let mut nodes = window.query_all_by_label_contains(start).filter_map(|node| node.value());
@@ -138,6 +144,20 @@ fn drag(window: &mut Window<'_>, button: egui::PointerButton, rect: egui::Rect, 
         window.event(event);
         window.run_steps(2);
     }
+}
+
+/// Pixels per texel at which a material of this size fits into a pane, but for its margin of 3%.
+fn fitted_scale(rect: egui::Rect, [width, height]: [usize; 2]) -> f32 {
+    (rect.width() / width as f32).min(rect.height() / height as f32) / 1.03
+}
+
+/// Asserts that a material of 256 x 256 texels, fitted before, has moved by `by`, in shares of the pane.
+fn assert_panned(window: &Window<'_>, rect: egui::Rect, by: [f32; 2]) {
+    let framing = window.state().parts.model.view.display.framing.unwrap();
+    let fitted = fitted_scale(rect, [256, 256]);
+    assert!((framing.pixels_per_texel / fitted - 1.0).abs() < 0.01, "{framing:?}, fitted {fitted}");
+    let moved = [0, 1].map(|axis| (128.0 - framing.centre[axis]) * fitted / rect.size()[axis]);
+    assert!((0..2).all(|axis| (moved[axis] - by[axis]).abs() < 0.01), "{moved:?} for {by:?}: {framing:?}");
 }
 
 fn pixels(window: &mut Window<'_>, rect: egui::Rect) -> image::RgbaImage {

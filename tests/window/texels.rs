@@ -4,6 +4,7 @@ use std::path::Path;
 
 use svbrdf::viewer::model::view::state::Projection;
 use svbrdf_files::read::{Albedo, ReadOptions};
+use svbrdf_files::session_window::Framing;
 
 use super::*;
 
@@ -37,11 +38,6 @@ fn texel_of([red, green, blue]: [u8; 3]) -> Option<[usize; 2]> {
     };
     let is_background = blue.abs_diff(shown(9)) > 1;
     if is_background { None } else { Some([find(SIZE[0], 5, red)?, find(SIZE[1], 12, green)?]) }
-}
-
-fn hover(window: &mut Window<'_>, at: Pos2) {
-    window.event(egui::Event::PointerMoved(at));
-    window.run_steps(2);
 }
 
 fn wheel(window: &mut Window<'_>, at: Pos2, notches: f32) {
@@ -153,10 +149,11 @@ fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
     let mut window = window(numbered(folder.path()));
     window.state_mut().parts.model.view.display.quantity = svbrdf_core::picture::quantity::Quantity::Diffuse;
     let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
-    let fitted = (rect.width() / SIZE[0] as f32).min(rect.height() / SIZE[1] as f32);
     hover(&mut window, Pos2::ZERO);
     for (side, has_numbers) in [(30.0, false), (44.0, false), (52.0, true), (90.0, true)] {
-        window.state_mut().parts.model.view.display.zoom = side / fitted;
+        let centre = SIZE.map(|side| side as f32 / 2.0);
+        window.state_mut().parts.model.view.display.framing =
+            Some(Framing { pixels_per_texel: side, centre });
         window.run_steps(3);
         // The middle of the pane is a corner of four texels: most of the one to the right of and below it.
         let texel =
@@ -254,7 +251,7 @@ fn a_click_within_one_frame_pins_and_moves_the_light_as_a_longer_one() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_table_of_a_pin_fits_into_the_window() {
     let mut window = built_in();
-    for (width, tables) in [(1360.0, 1), (1000.0, 2), (900.0, 2)] {
+    for (width, tables) in [(1700.0, 1), (1360.0, 2), (900.0, 2)] {
         window.set_size(vec2(width, 860.0));
         window.run_steps(6);
         let at = pane(&window, GROUND_TRUTH).center();
@@ -291,5 +288,5 @@ fn a_rectangle_is_drawn_by_q_anywhere_and_by_shift_on_maps_and_escape_removes_it
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.3, 0.3), vec2(0.6, 0.5));
     window.event(egui::Event::ModifiersChanged(egui::Modifiers::NONE));
     assert!(window.query_all_by_label_contains("texels, normal").next().is_some());
-    assert_eq!(window.state().parts.model.view.display.pan, [0.0; 2], "it does not pan");
+    assert_eq!(window.state().parts.model.view.display.framing, None, "it does not pan");
 }

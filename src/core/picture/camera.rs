@@ -106,6 +106,13 @@ impl Camera {
         }
     }
 
+    /// Of a camera that looks at the middle of the material: half the height of the pane in units of the plane, measured at
+    /// the middle of the material and at right angles to the view.
+    pub fn half_height(&self) -> f32 {
+        let distance = -self.origin.dot(self.direction) / self.direction.length_squared();
+        (self.origin_up + self.direction_up * distance).length()
+    }
+
     /// The point (x, y) of the plane z = 0 that is seen at (x, y) of the pane; `None` where the ray misses the plane.
     pub fn plane_from_ndc(&self, x: f32, y: f32) -> Option<[f32; 2]> {
         let origin = self.origin + self.origin_right * x + self.origin_up * y;

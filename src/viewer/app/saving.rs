@@ -7,6 +7,7 @@ use eframe::egui;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_files::export::Provenance;
+use svbrdf_files::session_window::Framing;
 
 use super::parts::Parts;
 use crate::viewer::jobs::displayed::Displayed;
@@ -78,10 +79,15 @@ fn picture(parts: &mut Parts, ctx: &egui::Context, pixels: [u32; 2]) -> Result<e
 /// How the view is displayed, as (keyword, text).
 fn view_entries(parts: &Parts) -> [(&'static str, String); 3] {
     let view = &parts.model.view;
-    let [x, y] = view.display.pan;
+    let framing = view.display.framing.map_or_else(
+        || "fitted".to_owned(),
+        |Framing { pixels_per_texel, centre: [x, y] }| {
+            format!("{pixels_per_texel} pixels per texel, texel {x}, {y} in the centre")
+        },
+    );
     [
         ("svbrdf:layout", view.display.layout.name().to_owned()),
         ("svbrdf:projection", format!("{:?}", view.display.projection).to_lowercase()),
-        ("svbrdf:zoom", format!("{}, pan {x}, {y}", view.display.zoom)),
+        ("svbrdf:zoom", framing),
     ]
 }

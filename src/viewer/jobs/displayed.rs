@@ -8,6 +8,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
 
 use super::Jobs;
+use super::panes::RangeKey;
 use super::panes::error_map::{ErrorMapSummary, ErrorMaps};
 use super::photograph::{DisplayedPhotograph, Photographs};
 use crate::viewer::model::Model;
@@ -82,9 +83,17 @@ impl<'a> Displayed<'a> {
 
     /// The difference that has the last colour: the range set, or the automatic one.
     pub fn range(self) -> f64 {
-        let auto = || self.distributions().map(|(distributions, _)| distributions.auto_range);
         let set = self.view().display.differences.range(self.view().display.quantity);
-        set.or_else(auto).unwrap_or_else(|| self.view().difference_kind().default_range())
+        set.unwrap_or_else(|| self.auto_range())
+    }
+
+    /// The automatic range of the difference. While a mixture is displayed it is that of the predictions themselves, so that
+    /// "only it wrong" and "only it right" have the same colours.
+    pub fn auto_range(self) -> f64 {
+        let held = self.jobs.panes.auto_range.as_ref().filter(|(key, _)| *key == RangeKey::of(self.model));
+        let held = held.filter(|_| self.view().display.isolated.is_some()).map(|(_, range)| *range);
+        let latest = || self.distributions().map(|(distributions, _)| distributions.auto_range);
+        held.or_else(latest).unwrap_or_else(|| self.view().difference_kind().default_range())
     }
 
     /// What the metadata of a picture say where it shows error maps.

@@ -6,6 +6,7 @@ use svbrdf_core::why::Worst;
 
 use super::Jobs;
 use super::displayed::Displayed;
+use super::panes::RangeKey;
 use super::why::WhyQuery;
 use super::work::context::JobContext;
 use crate::viewer::model::Model;
@@ -108,5 +109,10 @@ impl Jobs {
             panes.error_map.follow(&work, averages, settings.loss.listed_scenes()),
         ];
         findings.errors.extend(errors.into_iter().flatten());
+        if view.display.isolated.is_none()
+            && let Some((distributions, _)) = Displayed::of(model, self).distributions()
+        {
+            self.panes.auto_range = Some((RangeKey::of(model), distributions.auto_range));
+        }
     }
 }

@@ -26,6 +26,42 @@ pub struct Moment {
     pub photograph: Option<SessionPhotograph>,
 }
 
+/// A value of several parts: changes of different parts are different steps.
+pub trait Parts {
+    /// Which parts differ, a bit for each.
+    fn changed(&self, other: &Self) -> u32;
+}
+
+impl Parts for Moment {
+    fn changed(&self, other: &Self) -> u32 {
+        let (a, b) = (&self.view, &other.view);
+        let (c, d) = (&a.display, &b.display);
+        let parts = [
+            a.scene.light != b.scene.light,
+            a.scene.view != b.scene.view,
+            a.scene.kind != b.scene.kind,
+            a.convention != b.convention,
+            a.exposure_ev != b.exposure_ev,
+            c.quantity != d.quantity,
+            c.difference != d.difference,
+            c.differences != d.differences,
+            c.layout != d.layout,
+            c.projection != d.projection,
+            c.show_clipping != d.show_clipping,
+            c.tiled != d.tiled,
+            c.false_colour != d.false_colour,
+            c.wipe != d.wipe,
+            c.framing != d.framing,
+            c.prediction != d.prediction,
+            (c.isolated, c.only_right) != (d.isolated, d.only_right),
+            self.materials != other.materials,
+            self.scenes != other.scenes,
+            self.photograph != other.photograph,
+        ];
+        parts.iter().rev().fold(0, |bits, differs| bits << 1 | u32::from(*differs))
+    }
+}
+
 /// The earlier and the later moments.
 #[derive(Debug, Default)]
 pub struct History {
@@ -34,7 +70,8 @@ pub struct History {
     pub materials: Vec<Source>,
 }
 
-/// Values to return to. A value counts once it has stood still: all of a drag is one step.
+/// Values to return to. A value counts once it has stood still, or another part of it changes: all of a drag is one step, and
+/// two keys pressed in a row are two.
 #[derive(Debug)]
 pub struct UndoStack<T> {
     earlier: VecDeque<T>,
@@ -56,7 +93,7 @@ impl<T> Default for UndoStack<T> {
     }
 }
 
-impl<T: Clone + PartialEq> UndoStack<T> {
+impl<T: Clone + PartialEq + Parts> UndoStack<T> {
     /// Takes note of the value at this time, in seconds. Called in every frame.
     pub fn feed(&mut self, time: f64, value: &T) {
         let Some(last) = self.earlier.back() else { return self.keep(value) };
@@ -65,6 +102,12 @@ impl<T: Clone + PartialEq> UndoStack<T> {
             return;
         }
         self.later.clear();
+        if let Some(Change { value: before, .. }) = &self.change
+            && value.changed(before) & !before.changed(last) != 0
+        {
+            let before = before.clone();
+            self.keep(&before);
+        }
         match &mut self.change {
             None => self.change = Some(Change { began: time, latest: time, value: value.clone() }),
             Some(change) if change.value == *value => {
@@ -113,6 +156,28 @@ impl<T: Clone + PartialEq> UndoStack<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    impl Parts for i32 {
+        fn changed(&self, other: &Self) -> u32 {
+            u32::from(self != other)
+        }
+    }
+
+    impl Parts for (i32, bool) {
+        fn changed(&self, other: &Self) -> u32 {
+            u32::from(self.0 != other.0) | u32::from(self.1 != other.1) << 1
+        }
+    }
+
+    #[test]
+    fn unlike_changes_are_steps_of_their_own_however_quick() {
+        let mut stack = UndoStack::default();
+        let values = [(0, false), (1, false), (2, false), (2, true), (3, true)];
+        values.iter().enumerate().for_each(|(i, value)| stack.feed(i as f64 * 0.05, value));
+        assert_eq!(stack.undo(&(3, true)), Some(&(2, true)));
+        assert_eq!(stack.undo(&(2, true)), Some(&(2, false)), "two like changes in a row are one");
+        assert_eq!(stack.undo(&(2, false)), Some(&(0, false)));
+    }
 
     /// Shows each of the values for a second.
     fn stack(values: &[i32]) -> (UndoStack<i32>, f64) {

@@ -28,8 +28,8 @@ use settings::Settings;
 use settings::loss_query::LossQuery;
 use settings::why::WhyState;
 use view::animation::Animation;
+use view::framing;
 use view::geometry::WindowGeometry;
-use view::pan_limits;
 use view::state::ViewState;
 
 /// Everything that commands change.
@@ -98,7 +98,7 @@ impl Model {
     pub fn keep_visible(&mut self) {
         if let Some(ground_truth) = self.materials.ground_truth() {
             let grid = ground_truth.grid();
-            self.view.display.pan = pan_limits::limited(&self.view, grid, self.geometry.aspect());
+            self.view.display.framing = framing::limited(&self.view, grid, self.geometry.pane);
         }
     }
 }

@@ -11,6 +11,10 @@ use super::widgets::bare;
 use super::widgets::texture::PanelTextures;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::Command;
+use crate::viewer::model::view::state::ViewState;
+
+/// Height of the strip below the panes, in points.
+const STRIP: f32 = 92.0;
 
 /// The panes and what is below them.
 #[derive(Debug)]
@@ -18,30 +22,47 @@ pub struct Content<'a> {
     pub displayed: Displayed<'a>,
     pub viewport: &'a mut Viewport,
     pub textures: &'a mut PanelTextures,
-    /// Share of the window between its bars that the drawer takes.
-    pub drawer_share: f32,
+    /// What the panes show: the view of the model, magnified in larger pictures.
+    pub view: &'a ViewState,
 }
 
 impl Content<'_> {
     pub fn ui(&mut self, ui: &mut egui::Ui, gpu: Option<&mut GpuView>) -> Vec<Command> {
-        let (displayed, model) = (self.displayed, self.displayed.model);
+        let displayed = self.displayed;
         let mut commands = Vec::new();
-        // A saved picture has the arrangement of the window, also at another size.
-        let undivided = ui.available_height() / (1.0 - self.drawer_share).max(0.1);
-        let has_ground_truth = model.materials.ground_truth().is_some();
-        if model.view.display.difference && compares(displayed) {
-            bare(egui::Panel::bottom("legend"), ui)
-                .show(ui, |ui| commands.extend(LegendStrip::new(displayed).ui(ui)));
-        }
-        if model.settings.histograms && !model.view.display.difference && has_ground_truth {
-            bare(egui::Panel::bottom("values"), ui).show(ui, |ui| ValueStrip::new(displayed).ui(ui));
+        if let Some(strip) = Strip::of(displayed) {
+            let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
+            panel.show(ui, |ui| match strip {
+                Strip::Legend { enabled } => {
+                    ui.add_enabled_ui(enabled, |ui| commands.extend(LegendStrip::new(displayed).ui(ui)));
+                }
+                Strip::Values => ValueStrip::new(displayed).ui(ui),
+            });
         }
         egui::CentralPanel::no_frame().show(ui, |ui| {
-            let scenery = scenery(ui.ctx(), displayed, undivided);
+            let scenery = scenery(ui.ctx(), displayed, self.view);
             let drawing = PaneDrawing { gpu, uploads: &displayed.jobs.uploads, textures: self.textures };
             commands.extend(self.viewport.ui(ui, &scenery, drawing));
         });
         commands
+    }
+}
+
+/// What is below the panes. It has the same height in every mode: the panes stay where they are.
+enum Strip {
+    Legend { enabled: bool },
+    Values,
+}
+
+impl Strip {
+    fn of(displayed: Displayed<'_>) -> Option<Self> {
+        let model = displayed.model;
+        let difference = model.view.display.difference;
+        if model.settings.histograms && !difference && model.materials.ground_truth().is_some() {
+            Some(Self::Values)
+        } else {
+            compares(displayed).then_some(Self::Legend { enabled: difference })
+        }
     }
 }
 
@@ -50,12 +71,12 @@ fn compares(displayed: Displayed<'_>) -> bool {
     !displayed.model.materials.predictions().is_empty() || displayed.photograph().is_some()
 }
 
-/// What the panes display; `undivided` is the height of the panes with the drawer and the legend closed, in points.
-pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, undivided: f32) -> Scenery<'a> {
+/// What the panes display in this view.
+pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, view: &'a ViewState) -> Scenery<'a> {
     let model = displayed.model;
     Scenery {
         materials: displayed.materials(),
-        state: &model.view,
+        state: view,
         dark: model.settings.dark,
         highlight_follows: model.settings.highlight_follows,
         view_handle: model.settings.view_handle,
@@ -66,6 +87,5 @@ pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, undivided: f32
         error_maps: displayed.error_maps().map(AsRef::as_ref),
         photograph: displayed.photograph(),
         inspection: &model.inspection,
-        undivided,
     }
 }

@@ -27,14 +27,14 @@ use panels::inspection::Drawer;
 use panels::status::StatusBar;
 use panels::top::TopBar;
 use shading::gpu_view::GpuView;
-use widgets::bare;
 use widgets::texture::PanelTextures;
+use widgets::{bare, fixed};
 
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::{Command, WindowCommand};
 use crate::viewer::model::view::geometry::WindowGeometry;
 
-/// Least width of the side panel, in points: its contents do not fit into less.
+/// Width of the side panel, in points.
 const SIDE: f32 = 320.0;
 /// Width of a window, in points, below which the side panel is closed until it is asked for.
 const NARROW: f32 = 900.0;
@@ -48,8 +48,6 @@ pub struct WindowUi {
     textures: PanelTextures,
     /// Size of the panes and the legend, in pixels.
     picture_size: [u32; 2],
-    /// Share of the window between its bars that the drawer takes.
-    drawer_share: f32,
     /// Processor time of the last frame, in milliseconds.
     pub frame_ms: f32,
 }
@@ -73,8 +71,10 @@ impl WindowUi {
     /// The commands of keys, dropped files and gestures: all that is read before the window is drawn.
     pub fn input(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Vec<Command> {
         let mut commands = self.input.commands(ctx, displayed, &self.dialogs);
-        let scenery = content::scenery(ctx, displayed, 0.0);
-        commands.extend(self.viewport.gestures(ctx, &scenery));
+        if !self.dialogs.is_open() && !displayed.model.help {
+            let scenery = content::scenery(ctx, displayed, &displayed.model.view);
+            commands.extend(self.viewport.gestures(ctx, &scenery));
+        }
         commands
     }
 
@@ -89,34 +89,31 @@ impl WindowUi {
         bare(egui::Panel::top("top"), ui).show(ui, |ui| commands.extend(TopBar::new(displayed).ui(ui)));
         bare(egui::Panel::bottom("status"), ui)
             .show(ui, |ui| commands.extend(self.status(ui, displayed, gpu.as_deref())));
-        let below_bar = ui.available_height();
-        if !model.inspection.is_empty() && model.materials.ground_truth().is_some() {
-            bare(egui::Panel::bottom("drawer"), ui)
-                .resizable(false)
-                .show(ui, |ui| commands.extend(Drawer::new(displayed).ui(ui)));
-        }
         let was_open = model.side_panel();
         let mut is_open = was_open;
-        bare(egui::Panel::right("side"), ui)
-            .default_size(SIDE)
-            .size_range(SIDE..=(0.4 * ui.available_width()).max(SIDE))
-            .show_collapsible(ui, &mut is_open, |ui| {
-                commands.extend(side::ui(ui, displayed, &mut self.textures));
-            });
+        bare(egui::Panel::right("side"), ui).exact_size(SIDE).resizable(false).show_collapsible(
+            ui,
+            &mut is_open,
+            // Contents that are too wide are cut off: the panel does not grow.
+            |ui| commands.extend(fixed(ui, |ui| side::ui(ui, displayed, &mut self.textures))),
+        );
         if is_open != was_open {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
         let area = ui.available_rect_before_wrap();
-        self.drawer_share = 1.0 - area.height() / below_bar.max(1.0);
         self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
         let mut content = Content {
             displayed,
             viewport: &mut self.viewport,
             textures: &mut self.textures,
-            drawer_share: self.drawer_share,
+            view: &model.view,
         };
         commands.extend(content.ui(ui, gpu));
-        commands.extend(panels::messages::ui(ui.ctx(), area, &model.messages));
+        let panes = self.viewport.area;
+        if !model.inspection.is_empty() && model.materials.ground_truth().is_some() {
+            commands.extend(Drawer::new(displayed).over(ui.ctx(), panes));
+        }
+        commands.extend(panels::messages::ui(ui.ctx(), panes, &model.messages));
         if model.help {
             commands.extend(input::help::ui(ui.ctx()));
         }

@@ -39,10 +39,14 @@ impl WindowUi {
         // Gestures and corner handles stay in the window.
         let displayed = Displayed { hides_corners: true, ..displayed };
         let mut viewport = Viewport::exact();
-        let drawer_share = self.drawer_share;
+        // A larger picture shows the same part of the material.
+        let mut magnified = displayed.model.view.clone();
+        if let Some(framing) = &mut magnified.display.framing {
+            framing.pixels_per_texel *= grown;
+        }
         snapshot(&state, &gpu, Size { pixels, scale }, dark, |ui| {
             let (viewport, textures) = (&mut viewport, &mut self.textures);
-            let mut content = Content { displayed, viewport, textures, drawer_share };
+            let mut content = Content { displayed, viewport, textures, view: &magnified };
             drop(content.ui(ui, Some(view)));
         })
     }

@@ -12,7 +12,11 @@ use histograms::HistogramsJob;
 use mixture::MixtureJob;
 use region::RegionJob;
 
+use svbrdf_core::picture::quantity::Quantity;
+
+use crate::viewer::model::Model;
 use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::MaterialId;
 
 /// The jobs, and the materials in the panes.
 #[derive(Debug, Default)]
@@ -24,4 +28,24 @@ pub struct PaneJobs {
     pub region: RegionJob,
     pub difference: DifferenceJob,
     pub error_map: ErrorMapJob,
+    /// The automatic range of the predictions themselves: that of a mixture would change with what is mixed.
+    pub auto_range: Option<(RangeKey, f64)>,
+}
+
+/// What an automatic range holds for: the materials and the difference, under any scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RangeKey {
+    ids: Vec<MaterialId>,
+    quantity: Quantity,
+    difference: &'static str,
+}
+
+impl RangeKey {
+    pub fn of(model: &Model) -> Self {
+        Self {
+            ids: model.materials.all.iter().map(LoadedMaterial::id).collect(),
+            quantity: model.view.display.quantity,
+            difference: model.view.difference_name(),
+        }
+    }
 }

@@ -34,6 +34,7 @@ pub struct Thumbnails {
     /// The log difference that has the last colour, the same in all.
     pub range: f64,
     /// Of each scene, row by row: the means of the log differences under a pixel.
+    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "the tests of the window read it"))]
     pub pixels: Vec<Vec<f32>>,
 }
 

@@ -5,15 +5,16 @@ use svbrdf_core::model::brdf::Model as BrdfModel;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::render::render_texel;
 use svbrdf_core::statistics::quantile;
+use svbrdf_files::session_window::Framing;
 
 use super::undo;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::DisplayCommand;
 use crate::viewer::model::command::effect::Effect;
-use crate::viewer::model::view::state::{Layout, ViewState};
+use crate::viewer::model::view::endpoint::{self, Endpoint};
+use crate::viewer::model::view::framing::{self, Framed};
+use crate::viewer::model::view::state::{Layout, Projection, ViewState};
 
-/// Least and greatest magnification.
-const ZOOM: std::ops::RangeInclusive<f32> = 0.1..=400.0;
 /// Greatest exposure either way, in stops.
 const STOPS: f32 = 20.0;
 /// Most texels that are rendered to find the automatic exposure.
@@ -59,12 +60,10 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
             state.display.prediction = (state.display.prediction as isize + by).rem_euclid(count) as usize;
         }
         DisplayCommand::Swap => model.swapped ^= true,
-        DisplayCommand::Zoom { factor, at } => zoom(state, factor, at),
-        DisplayCommand::Pan([x, y]) => {
-            state.display.pan = [state.display.pan[0] + x, state.display.pan[1] + y]
-        }
-        DisplayCommand::Fit => (state.display.zoom, state.display.pan) = (1.0, [0.0; 2]),
-        DisplayCommand::OneToOne => one_to_one(model),
+        DisplayCommand::Zoom { factor, at } => frame(model, |framed| framed.zoomed(factor, at)),
+        DisplayCommand::Pan(by) => frame(model, |framed| framed.panned(by)),
+        DisplayCommand::Fit => fit(state),
+        DisplayCommand::OneToOne => frame(model, |framed| framed.at_scale(1.0)),
         DisplayCommand::Reset => *state = state.reset(),
         DisplayCommand::Undo => return undo::undo(model),
         DisplayCommand::Redo => return undo::redo(model),
@@ -72,10 +71,19 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
     Vec::new()
 }
 
-fn one_to_one(model: &mut Model) {
+/// Changes the part of the ground truth that the panes show.
+fn frame(model: &mut Model, change: impl FnOnce(&Framed<'_>) -> Framing) {
     if let Some(ground_truth) = model.materials.ground_truth() {
-        model.view.display.zoom = model.geometry.one_to_one_zoom(ground_truth.grid());
-        model.view.display.pan = [0.0; 2];
+        let framed = Framed { state: &model.view, grid: ground_truth.grid(), pane: model.geometry.pane };
+        model.view.display.framing = Some(change(&framed));
+    }
+}
+
+/// Fits the material into its pane. In perspective a view that sees it as a line is raised, too.
+fn fit(state: &mut ViewState) {
+    state.display.framing = None;
+    if state.display.projection == Projection::Perspective {
+        endpoint::raise(&mut state.scene, Endpoint::View, framing::LEAST);
     }
 }
 
@@ -83,16 +91,6 @@ fn one_to_one(model: &mut Model) {
 fn cycled<T: Copy + PartialEq>(all: &[T], value: T, by: isize) -> T {
     let index = all.iter().position(|x| *x == value).unwrap_or(0) as isize;
     all[(index + by).rem_euclid(all.len() as isize) as usize]
-}
-
-/// Magnifies so that the point of the material at `at` stays there.
-fn zoom(state: &mut ViewState, factor: f32, at: [f32; 2]) {
-    let zoom = (state.display.zoom * factor).clamp(*ZOOM.start(), *ZOOM.end());
-    let grown = zoom / state.display.zoom;
-    for (pan, at) in state.display.pan.iter_mut().zip(at) {
-        *pan = at - (at - *pan) * grown;
-    }
-    state.display.zoom = zoom;
 }
 
 /// The exposure at which the brightest 1% of the rendering's texels just clip.
@@ -116,23 +114,6 @@ fn auto_exposure(material: &Material<f32>, state: &ViewState) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn zooming_keeps_the_point_under_the_pointer() {
-        let mut state = ViewState::default();
-        state.display.pan = [0.2, -0.3];
-        let at = [0.5, 0.1];
-        let before = [
-            (at[0] - state.display.pan[0]) / state.display.zoom,
-            (at[1] - state.display.pan[1]) / state.display.zoom,
-        ];
-        zoom(&mut state, 2.5, at);
-        let after = [
-            (at[0] - state.display.pan[0]) / state.display.zoom,
-            (at[1] - state.display.pan[1]) / state.display.zoom,
-        ];
-        assert!((before[0] - after[0]).abs() < 1e-6 && (before[1] - after[1]).abs() < 1e-6);
-    }
 
     #[test]
     fn cycling_goes_around_both_ends() {

@@ -29,6 +29,7 @@ impl MessageList {
         self.posted.push(Posted { message, until });
     }
 
+    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "the tests of the window read it"))]
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Message> {
         self.posted.iter().map(|posted| &posted.message)
     }

@@ -8,6 +8,8 @@ use svbrdf_core::model::scene::{Kind, Scene};
 pub const LOWEST: f64 = 0.01;
 /// Largest coordinate of a light or a view in the window.
 pub const FARTHEST: f64 = 1000.0;
+/// Least height of an endpoint that is orbited, as a share of its distance: the cosine of 85 degrees.
+const ORBIT_LOWEST: f64 = 0.087_155_742_747_658_18;
 /// Least height of a position that a direction becomes, as a share of its distance: about 6 degrees above the plane.
 const LOWEST_SHARE: f64 = 0.1;
 
@@ -92,8 +94,19 @@ pub fn scale_distance(scene: &mut Scene, which: Endpoint, factor: f64) {
     set_endpoint(scene, which, p.map(|c| c * factor));
 }
 
+/// Raises an endpoint whose height is less than `share` of its distance to that height. Distance and azimuth stay.
+pub fn raise(scene: &mut Scene, which: Endpoint, share: f64) {
+    let [x, y, z] = endpoint(scene, which);
+    let length = DVec3::new(x, y, z).length();
+    if z < share * length {
+        let shrink = (1.0 - share * share).sqrt() * length / x.hypot(y);
+        set_endpoint(scene, which, [x * shrink, y * shrink, share * length]);
+    }
+}
+
 /// Turns an endpoint about the middle of the material: by `sideways` about the upright axis y of the screen, and by
-/// `upwards` towards it, both in radians. The distance stays.
+/// `upwards` towards it, both in radians. The distance stays. It stops 85 degrees off the normal; an endpoint that was put
+/// lower by a number may stay there.
 pub fn orbit(scene: &mut Scene, which: Endpoint, sideways: f64, upwards: f64) {
     const STEEPEST: f64 = std::f64::consts::FRAC_PI_2 - 1e-3;
     let p = DVec3::from(endpoint(scene, which));
@@ -101,7 +114,8 @@ pub fn orbit(scene: &mut Scene, which: Endpoint, sideways: f64, upwards: f64) {
     let longitude = (p.x.atan2(p.z) + sideways).clamp(-STEEPEST, STEEPEST);
     let latitude = ((p.y / length).asin() + upwards).clamp(-STEEPEST, STEEPEST);
     let (x, y) = (latitude.cos() * longitude.sin(), latitude.sin());
-    let z = (latitude.cos() * longitude.cos()).max(LOWEST / length).min(1.0);
+    let lowest = ORBIT_LOWEST.min(p.z / length).max(LOWEST / length);
+    let z = (latitude.cos() * longitude.cos()).max(lowest).min(1.0);
     let shrink = ((1.0 - z * z) / (x * x + y * y).max(f64::MIN_POSITIVE)).sqrt();
     set_endpoint(scene, which, [x * shrink, y * shrink, z].map(|c| c * length));
 }

@@ -2,6 +2,6 @@
 
 pub mod animation;
 pub mod endpoint;
+pub mod framing;
 pub mod geometry;
-pub mod pan_limits;
 pub mod state;

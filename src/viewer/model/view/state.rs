@@ -6,7 +6,10 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_files::session_window::Display;
+
 pub use svbrdf_files::session_window::{Layout, Projection};
+
+use super::framing;
 
 /// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +54,12 @@ impl ViewState {
         if self.is_error_map() { "error map" } else { self.difference_kind().name() }
     }
 
-    /// The camera that fits the material into a pane of `aspect` = width / height, before zoom and pan.
+    /// The camera of a pane of `pane` = [width, height] physical pixels.
+    pub fn camera(&self, grid: Grid, pane: [f32; 2]) -> Camera {
+        framing::camera(self, grid, pane)
+    }
+
+    /// The camera that fits the material into a pane of `aspect` = width / height.
     pub fn fitted_camera(&self, grid: Grid, aspect: f32) -> Camera {
         match self.display.projection {
             Projection::Flat => Camera::flat(grid, aspect),
@@ -67,8 +75,8 @@ impl ViewState {
     /// The default light, view and display, with the current prediction, layout and convention.
     #[must_use]
     pub fn reset(&self) -> Self {
-        let Display { wipe, zoom, pan, show_clipping, .. } = Display::default();
-        let display = Display { wipe, zoom, pan, show_clipping, ..self.display.clone() };
+        let Display { wipe, framing, show_clipping, .. } = Display::default();
+        let display = Display { wipe, framing, show_clipping, ..self.display.clone() };
         Self { convention: self.convention.clone(), display, ..Self::default() }
     }
 }

@@ -33,6 +33,11 @@ pub struct Dialogs {
 }
 
 impl Dialogs {
+    /// Whether a dialog is open: the panes behind it do not move.
+    pub fn is_open(&self) -> bool {
+        self.open.is_some() || self.save.is_some() || self.photograph.is_some()
+    }
+
     /// Draws the dialogs; `view_size` is the size of the view in the window, in pixels.
     pub fn ui(&mut self, ctx: &egui::Context, displayed: Displayed<'_>, view_size: [u32; 2]) -> Vec<Command> {
         let (model, mut commands) = (displayed.model, Vec::new());

@@ -25,7 +25,7 @@ pub const BAR: f32 = 12.0;
 /// Colours in the bar.
 const STEPS: usize = 128;
 /// Widths of the controls and of the statistics, in points.
-const CONTROLS: f32 = 170.0;
+const CONTROLS: f32 = 184.0;
 pub const STATISTICS: f32 = 396.0;
 /// How far from 0 the axis goes in units of the range, before there are histograms.
 const AXIS: f64 = 1.5;
@@ -39,8 +39,9 @@ pub struct LegendStrip<'a> {
     pub error_map: Option<ErrorMapSummary>,
     /// The range that is set; `None` where it is automatic.
     pub set_range: Option<f64>,
-    /// The difference that has the last colour.
+    /// The difference that has the last colour, and the one that has it automatically.
     pub range: f64,
+    pub auto_range: f64,
     pub distributions: Option<&'a Distributions>,
     /// Whether the distributions are up to date.
     pub current: bool,
@@ -64,6 +65,7 @@ impl<'a> LegendStrip<'a> {
             error_map: view.is_error_map().then(|| displayed.error_map_summary()),
             set_range: view.display.differences.range(view.display.quantity),
             range: displayed.range(),
+            auto_range: displayed.auto_range(),
             distributions: distributions.map(|(distributions, _)| distributions),
             current: distributions.is_some_and(|(_, current)| current),
             names: materials.iter().skip(first).map(LoadedMaterial::name).collect(),
@@ -117,7 +119,7 @@ impl<'a> LegendStrip<'a> {
         ui.horizontal(|ui| {
             ui.label("Range");
             let mut range = self.range;
-            let auto = self.distributions.map_or(self.kind.default_range(), |d| d.auto_range);
+            let auto = self.auto_range;
             number(ui, "Range", &mut range, auto, |drag| {
                 drag.speed(0.01 * self.range).range(1e-6..=1e6).max_decimals(4)
             })
@@ -126,11 +128,23 @@ impl<'a> LegendStrip<'a> {
                 let set = (range != auto).then_some(range);
                 commands.push(DisplayCommand::SetRange(set).into());
             }
-            let auto = ui.selectable_label(self.set_range.is_none(), "Auto");
-            let hover = "The 99th percentile, of the prediction where it is largest";
-            if auto.on_hover_text(hover).clicked() {
-                let set = self.set_range.is_none().then_some(self.range);
-                commands.push(DisplayCommand::SetRange(set).into());
+            let is_held = self.set_range.is_some();
+            let choices = [
+                (!is_held, "Auto", None, "The 99th percentile, of the prediction where it is largest"),
+                (
+                    is_held,
+                    "Held",
+                    Some(self.range),
+                    "This range under every light, for every prediction, also after Reset",
+                ),
+            ];
+            for (on, name, range, hover) in choices {
+                let label = ui.selectable_label(on, name).on_hover_text(hover);
+                let full = format!("{name} range");
+                label.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, on, &full));
+                if label.clicked() && !on {
+                    commands.push(DisplayCommand::SetRange(range).into());
+                }
             }
         });
         let unit = match &self.error_map {

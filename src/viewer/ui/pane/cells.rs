@@ -9,29 +9,22 @@ pub const TITLE: f32 = 24.0;
 /// Room between two panes.
 const GAP: f32 = 6.0;
 
-/// How many times larger another arrangement must show the material, for the panes to be rearranged while something below
-/// them is open.
-const WORTH_MOVING: f32 = 1.6;
+/// How many times smaller panes may be where a place stays free beside them: it shows the difference, too.
+const FREE: f32 = 1.1;
 
 /// Splits `area` into `count` cells. All have the same size in whole pixels (`scale` pixels per point): only then are
-/// equal pictures equal pixel by pixel.
-///
-/// The number of columns shows the material largest in an area of height `undivided`, with everything below the panes
-/// closed: panes do not change places when a drawer opens, unless they would become much smaller than they need be.
-pub fn cells(area: Rect, undivided: f32, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
+/// equal pictures equal pixel by pixel. The number of columns is that which shows the material largest,
+/// or nearly so with a place that stays free.
+pub fn cells(area: Rect, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
     let whole = |v: Vec2| (v * scale).floor() / scale;
     let area = Rect::from_min_max(((area.min.to_vec2() * scale).ceil() / scale).to_pos2(), area.max);
     let [half_width, half_height] = grid.half_extent();
-    let size = |room: Vec2, columns: usize| {
-        let cell = cell_size(room, columns, count.div_ceil(columns));
-        ((cell.x) / half_width).min((cell.y - TITLE) / half_height)
+    let size = |columns: usize| {
+        let cell = cell_size(area.size(), columns, count.div_ceil(columns));
+        (cell.x / half_width).min((cell.y - TITLE) / half_height)
     };
-    let best =
-        |room: Vec2| (1..=count.max(1)).max_by(|a, b| size(room, *a).total_cmp(&size(room, *b))).unwrap_or(1);
-    let open = vec2(area.width(), undivided.max(area.height()));
-    let (usual, now) = (best(open), best(area.size()));
-    let is_worth = size(area.size(), now) > WORTH_MOVING * size(area.size(), usual);
-    let columns = if is_worth { now } else { usual };
+    let worth = |columns: usize| size(columns) * if has_free_place(columns, count) { FREE } else { 1.0 };
+    let columns = (1..=count.max(1)).max_by(|a, b| worth(*a).total_cmp(&worth(*b))).unwrap_or(1);
     let cell = whole(cell_size(area.size(), columns, count.div_ceil(columns)));
     let step = cell + whole(Vec2::splat(GAP));
     (0..count)
@@ -48,6 +41,11 @@ pub fn free_cell(area: Rect, cells: &[Rect]) -> Option<Rect> {
     let step = second.left() - first.left();
     let free = last.translate(vec2(step, 0.0));
     (step > 0.0 && area.expand(0.5).contains_rect(free)).then_some(free)
+}
+
+/// Whether the last row of a grid is not full.
+fn has_free_place(columns: usize, count: usize) -> bool {
+    count > columns && columns > 1 && !count.is_multiple_of(columns)
 }
 
 fn cell_size(area: Vec2, columns: usize, rows: usize) -> Vec2 {
@@ -83,7 +81,7 @@ mod tests {
             [(1, (800.0, 600.0)), (3, (1000.0, 300.0)), (5, (700.0, 900.0)), (9, (640.0, 480.0))]
         {
             let area = area(size.0, size.1);
-            let cells = cells(area, 0.0, count, SQUARE, 1.5);
+            let cells = cells(area, count, SQUARE, 1.5);
             let off = |cell: &Rect| (cell.size() - cells[0].size()).length();
             assert!(cells.iter().all(|cell| off(cell) < 1e-3), "{cells:?}");
             let pixels = cells.iter().flat_map(|cell| [cell.min, cell.max]).map(|p| p.to_vec2() * 1.5);
@@ -99,31 +97,21 @@ mod tests {
     #[test]
     fn a_grid_of_three_has_a_free_cell_and_a_row_has_none() {
         let square = area(900.0, 900.0);
-        let three = cells(square, 0.0, 3, SQUARE, 1.0);
+        let three = cells(square, 3, SQUARE, 1.0);
         let free = free_cell(square, &three).unwrap();
         assert!(
             three.iter().all(|cell| !cell.shrink(0.1).intersects(free.shrink(0.1))),
             "{three:?}, {free:?}"
         );
         assert_eq!((free.left(), free.top()), (three[1].left(), three[2].top()));
-        assert_eq!(free_cell(square, &cells(square, 0.0, 4, SQUARE, 1.0)), None);
+        assert_eq!(free_cell(square, &cells(square, 4, SQUARE, 1.0)), None);
         let wide = area(1200.0, 400.0);
-        assert_eq!(free_cell(wide, &cells(wide, 0.0, 3, SQUARE, 1.0)), None);
+        assert_eq!(free_cell(wide, &cells(wide, 3, SQUARE, 1.0)), None);
     }
 
     #[test]
     fn a_wide_area_has_its_panes_in_a_row_and_a_high_one_in_a_column() {
-        assert!(cells(area(1200.0, 400.0), 0.0, 3, SQUARE, 1.0).iter().all(|c| c.top() == 20.0));
-        assert!(cells(area(300.0, 1200.0), 0.0, 3, SQUARE, 1.0).iter().all(|c| c.left() == 10.0));
-    }
-
-    #[test]
-    fn panes_keep_their_places_when_a_drawer_opens_unless_it_leaves_little() {
-        let columns = |cells: &[Rect]| cells.iter().filter(|cell| cell.top() == cells[0].top()).count();
-        let (full, left) = (780.0, 600.0);
-        assert_eq!(columns(&cells(area(1020.0, full), full, 3, SQUARE, 1.0)), 2);
-        assert_eq!(columns(&cells(area(1020.0, left), left, 3, SQUARE, 1.0)), 3, "without a drawer");
-        assert_eq!(columns(&cells(area(1020.0, left), full, 3, SQUARE, 1.0)), 2, "with one");
-        assert_eq!(columns(&cells(area(1020.0, 300.0), full, 3, SQUARE, 1.0)), 3, "too little is left");
+        assert!(cells(area(1200.0, 400.0), 3, SQUARE, 1.0).iter().all(|c| c.top() == 20.0));
+        assert!(cells(area(300.0, 1200.0), 3, SQUARE, 1.0).iter().all(|c| c.left() == 10.0));
     }
 }

@@ -128,17 +128,16 @@ impl PaneTarget<'_> {
     fn carry_on(&self, gesture: Gesture, pos: Pos2, delta: Vec2) -> Option<Command> {
         let plane = || self.point(pos).map(|p| p.map(f64::from));
         let over_plane = |endpoint| plane().map(|p| SceneCommand::MoveOverPlane(endpoint, p).into());
-        let (sideways, upwards) = (f64::from(delta.x) * ORBIT_SPEED, -f64::from(delta.y) * ORBIT_SPEED);
+        let (right, up) = (f64::from(delta.x) * ORBIT_SPEED, -f64::from(delta.y) * ORBIT_SPEED);
         match gesture {
             Gesture::Light if self.highlight_follows && self.state.scene.kind == Kind::Near => {
                 plane().map(|p| SceneCommand::PutHighlight(p).into())
             }
             Gesture::Light => over_plane(Endpoint::Light),
             Gesture::View => over_plane(Endpoint::View),
-            // As in the flat view, the view goes where the pointer goes. In perspective the points of the plane then move with
-            // the pointer on the screen.
-            Gesture::OrbitView => Some(orbit(Endpoint::View, sideways, upwards)),
-            Gesture::OrbitLight => Some(orbit(Endpoint::Light, sideways, upwards)),
+            // The hand turns the material: the view goes the other way around it.
+            Gesture::OrbitView => Some(orbit(Endpoint::View, -right, -up)),
+            Gesture::OrbitLight => Some(orbit(Endpoint::Light, right, up)),
             Gesture::LightDistance => {
                 let factor = SCALE_STEP.powf(-f64::from(delta.y) / 25.0);
                 Some(SceneCommand::ScaleDistance(Endpoint::Light, factor).into())

@@ -26,7 +26,8 @@ impl Hovered {
             return None;
         }
         let [x, y] = ndc_from_pos(rect, pos);
-        let camera = scenery.camera(scenery.materials[0].grid(), rect.width() / rect.height());
+        let pane = rect.size() * ui.pixels_per_point();
+        let camera = scenery.state.camera(scenery.materials[0].grid(), pane.into());
         let index = index_at(scenery, content, x);
         camera.plane_from_ndc(x, y).map(|point| Self { index, point })
     }

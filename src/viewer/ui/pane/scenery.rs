@@ -1,7 +1,5 @@
 //! Scenery: which panes there are, and what each displays.
 
-use svbrdf_core::material::Grid;
-use svbrdf_core::picture::camera::Camera;
 use svbrdf_gpu::DisplayMode;
 
 use crate::viewer::jobs::panes::error_map::ErrorMaps;
@@ -34,8 +32,6 @@ pub struct Scenery<'a> {
     pub photograph: Option<DisplayedPhotograph<'a>>,
     /// Pins and rectangle.
     pub inspection: &'a Inspection,
-    /// Height of the panes with the drawer and the legend closed, in points.
-    pub undivided: f32,
 }
 
 /// The content of a pane: the index of the material that it displays, that of the material it is compared with, and how.
@@ -137,7 +133,6 @@ impl Scenery<'_> {
     /// What fills an empty place beside the panes: of the chosen prediction, the difference where the others show values,
     /// and the value where they show differences.
     pub fn extra(&self) -> Option<Content> {
-        let is_plain = !self.peek && !self.swapped;
         let panes = self.materials.len() + usize::from(self.photograph.is_some());
         let grid = self.state.display.layout == Layout::SideBySide && panes > 2;
         let difference = !self.state.display.difference;
@@ -147,11 +142,7 @@ impl Scenery<'_> {
         };
         let mode = DisplayMode::Value;
         let content = Content { index: self.chosen(), reference: 0, mode, difference, photograph };
-        (is_plain && grid).then_some(content)
-    }
-
-    pub fn camera(&self, grid: Grid, aspect: f32) -> Camera {
-        self.state.fitted_camera(grid, aspect).zoomed(self.state.display.zoom, self.state.display.pan)
+        grid.then_some(content)
     }
 
     /// The name of what a pane shows, without its difference.

@@ -19,8 +19,7 @@ use super::texels::texels;
 use super::title::title_bar;
 use crate::viewer::jobs::reading::upload::{BAND, Uploads};
 use crate::viewer::model::command::Command;
-use crate::viewer::model::view::geometry::WindowGeometry;
-use crate::viewer::model::view::pan_limits;
+use crate::viewer::model::view::framing;
 use crate::viewer::model::view::state::{Projection, ViewState};
 use crate::viewer::ui::shading::draft_policy::{DraftPolicy, PAUSE, PaneView};
 use crate::viewer::ui::shading::gpu_view::GpuView;
@@ -44,7 +43,7 @@ pub struct PaneDrawing<'a> {
 }
 
 /// The state of the panes between frames.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Viewport {
     gesture: Option<Gesture>,
     /// Where the panes with materials were drawn, for the gestures of the next frame.
@@ -60,8 +59,27 @@ pub struct Viewport {
     is_exact: bool,
     /// Whether the difference or the value of the chosen prediction fills an empty place.
     pub has_extra: bool,
+    /// Where the panes are.
+    pub area: Rect,
     /// Size of a pane in physical pixels.
     pane_pixels: Vec2,
+}
+
+impl Default for Viewport {
+    fn default() -> Self {
+        Self {
+            gesture: None,
+            placed: Vec::new(),
+            hovered: None,
+            last_texel: None,
+            policy: DraftPolicy::default(),
+            is_draft: false,
+            is_exact: false,
+            has_extra: false,
+            area: Rect::ZERO,
+            pane_pixels: Vec2::ZERO,
+        }
+    }
 }
 
 /// A pane that was drawn.
@@ -84,7 +102,7 @@ impl Viewport {
         let mut commands = Vec::new();
         for PlacedPane { id, rect } in &self.placed {
             let Some(response) = ctx.read_response(*id) else { continue };
-            let camera = scenery.camera(grid, rect.width() / rect.height());
+            let camera = scenery.state.camera(grid, self.pane_pixels());
             let target = PaneTarget {
                 rect: *rect,
                 camera: &camera,
@@ -102,6 +120,7 @@ impl Viewport {
     /// Draws the panes and returns the commands of their titles and of the corner editor.
     pub fn ui(&mut self, ui: &mut egui::Ui, scenery: &Scenery<'_>, drawing: PaneDrawing<'_>) -> Vec<Command> {
         let area = ui.available_rect_before_wrap();
+        self.area = area;
         self.hovered = None;
         self.placed.clear();
         let PaneDrawing { gpu: Some(gpu), uploads, textures } = drawing else {
@@ -119,7 +138,7 @@ impl Viewport {
         }
         let contents = scenery.contents();
         let grid = scenery.materials[0].grid();
-        let cells = cells(area, scenery.undivided, contents.len(), grid, ui.pixels_per_point());
+        let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
         if let Some(cell) = cells.first() {
             self.pane_pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
         }
@@ -169,7 +188,7 @@ impl Viewport {
         };
         let label = format!("{kind} {}", scenery.name_of(content));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
-        let camera = scenery.camera(scenery.materials[0].grid(), rect.width() / rect.height());
+        let camera = scenery.state.camera(scenery.materials[0].grid(), self.pane_pixels());
         self.paint(ui, scenery, gpu, (number, content), rect, camera);
     }
 
@@ -217,7 +236,7 @@ impl Viewport {
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
         }
-        if let Some(text) = hint(scenery, rect.width() / rect.height()) {
+        if let Some(text) = hint(scenery, self.pane_pixels()) {
             paint_hint(&painter, rect, text);
         }
     }
@@ -241,7 +260,7 @@ impl Viewport {
         // Where the last frame did not ask for this one, the time between them is not that of a frame.
         let (now, seconds) = ui.input(|i| (i.time, i.stable_dt));
         let software = gpu.gpu.report.software;
-        let visible = PaneView { params, zoom: state.display.zoom, pan: state.display.pan };
+        let visible = PaneView { params, framing: state.display.framing };
         let moves = self.policy.frame(visible, now, seconds, software);
         if moves {
             ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
@@ -252,7 +271,7 @@ impl Viewport {
         let is_exact = self.is_exact || state.is_error_map() || scenery.photograph.is_some();
         self.is_draft = moves && !is_exact;
         let part = if self.is_draft || is_large && !is_exact {
-            shaded_part(state, grid, self.aspect(), self.magnification(grid, state))
+            shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state))
         } else {
             ShadedPart::Whole
         };
@@ -302,7 +321,7 @@ impl Viewport {
 
     /// Screen pixels per texel in the middle of a pane.
     pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
-        let camera = state.fitted_camera(grid, self.aspect()).zoomed(state.display.zoom, state.display.pan);
+        let camera = state.camera(grid, self.pane_pixels());
         let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
         let middle = camera.plane_from_ndc(0.0, 0.0).and_then(|point| grid.texel_at(point));
         let middle = middle.unwrap_or([grid.width / 2, grid.height / 2]);
@@ -313,17 +332,13 @@ impl Viewport {
     pub fn pane_pixels(&self) -> [f32; 2] {
         self.pane_pixels.into()
     }
-
-    fn aspect(&self) -> f32 {
-        WindowGeometry { pane: self.pane_pixels(), ..WindowGeometry::default() }.aspect()
-    }
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.
-fn hint(scenery: &Scenery<'_>, aspect: f32) -> Option<&'static str> {
+fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<&'static str> {
     let state = scenery.state;
     let grid = scenery.materials.first()?.grid();
-    if pan_limits::visible_share(state, grid, aspect) < pan_limits::NEARLY_LOST {
+    if framing::visible_share(state, grid, pane) < framing::NEARLY_LOST {
         return Some("F fits the material");
     }
     let [x, y, z] = state.scene.view;

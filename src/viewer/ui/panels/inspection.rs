@@ -19,6 +19,8 @@ use crate::viewer::ui::widgets::theme;
 /// Width of a name, and between columns, in points.
 const NAME: f32 = 110.0;
 const SPACING: f32 = 8.0;
+/// Between the edge of the drawer and its contents, in points.
+const MARGIN: f32 = 8.0;
 /// Size of the numbers, in points.
 const NUMBERS: f32 = 11.0;
 /// Characters of a number in the columns of [`HEADS`].
@@ -47,7 +49,23 @@ impl<'a> Drawer<'a> {
         Self { inspection, materials, state: view, region: inspection.region.and_then(numbers) }
     }
 
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    /// The drawer over the lower edge of the panes, which stay where they are.
+    pub fn over(&self, ctx: &egui::Context, panes: egui::Rect) -> Vec<Command> {
+        let area = egui::Area::new(egui::Id::unique("drawer"))
+            .order(egui::Order::Middle)
+            .pivot(egui::Align2::LEFT_BOTTOM)
+            .fixed_pos(panes.left_bottom());
+        let frame = |ui: &egui::Ui| egui::Frame::side_top_panel(ui.style());
+        let shown = area.show(ctx, |ui| {
+            frame(ui).show(ui, |ui| {
+                ui.set_width(panes.width() - 2.0 * MARGIN);
+                self.ui(ui)
+            })
+        });
+        shown.inner.inner
+    }
+
+    fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let tables = tables(ui);
         let height = self.height(tables.len());

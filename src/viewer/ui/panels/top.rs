@@ -109,7 +109,6 @@ impl<'a> TopBar<'a> {
     }
 
     fn item(&self, ui: &mut egui::Ui, item: BarItem, commands: &mut Vec<Command>) {
-        let state = self.state;
         let (text, hover, command): (&str, &str, Command) = match item {
             BarItem::Copy => {
                 ("Copy", "Copy the view as a picture (Ctrl+Shift+C)", WindowCommand::CopyPicture.into())
@@ -127,8 +126,6 @@ impl<'a> TopBar<'a> {
                 ("Auto EV", hover, DisplayCommand::AutoExposure.into())
             }
             BarItem::Exposure => return self.exposure(ui, commands),
-            BarItem::Histogram if state.display.difference => return,
-            BarItem::FalseColour if state.display.quantity != Quantity::Roughness => return,
             _ => return self.toggle(ui, item, commands),
         };
         button(ui, text, hover, commands, command);
@@ -165,7 +162,14 @@ impl<'a> TopBar<'a> {
             }
             _ => return,
         };
-        if ui.selectable_label(on, text).on_hover_text(hover).clicked() {
+        // Nothing comes and goes in the bar: what has no effect now is disabled.
+        let applies = match item {
+            BarItem::Histogram => !state.display.difference,
+            BarItem::FalseColour => state.display.quantity == Quantity::Roughness,
+            _ => true,
+        };
+        let button = ui.add_enabled(applies, egui::Button::selectable(on && applies, text));
+        if button.on_hover_text(hover).on_disabled_hover_text(hover).clicked() {
             commands.push(command);
         }
     }

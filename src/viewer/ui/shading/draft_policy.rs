@@ -1,5 +1,6 @@
 //! Draft policy: how much is shaded while something moves; less on a slow adapter, everything after a pause.
 
+use svbrdf_files::session_window::Framing;
 use svbrdf_gpu::ShadeParams;
 
 /// Seconds of a frame from which on an adapter counts as slow. Some screens show 30 frames a second.
@@ -15,8 +16,7 @@ pub const PAUSE: f64 = 0.15;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaneView {
     pub params: ShadeParams,
-    pub zoom: f32,
-    pub pan: [f32; 2],
+    pub framing: Option<Framing>,
 }
 
 /// Whether panes are shaded in full.
@@ -63,7 +63,7 @@ mod tests {
         let mut scene = ViewState::default().scene;
         scene.light[0] = x;
         let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering };
-        PaneView { params, zoom: 1.0, pan: [0.0; 2] }
+        PaneView { params, framing: None }
     }
 
     /// Frames in which the light moves, each of them as long: which of them may be shaded in part.
@@ -104,7 +104,9 @@ mod tests {
 
     #[test]
     fn the_section_that_is_seen_moves_as_the_scene_does() {
-        for next in [PaneView { zoom: 1.15, ..view(0.0) }, PaneView { pan: [0.1, 0.0], ..view(0.0) }] {
+        let framing = |pixels_per_texel, x| Some(Framing { pixels_per_texel, centre: [x, 2.0] });
+        for framing in [framing(1.15, 2.0), framing(1.15, 2.1)] {
+            let next = PaneView { framing, ..view(0.0) };
             let mut policy = DraftPolicy { is_slow: true, ..DraftPolicy::default() };
             assert!(!policy.frame(view(0.0), 0.0, 0.02, false));
             assert!(policy.frame(next, 1.0, 0.02, false), "{next:?}");

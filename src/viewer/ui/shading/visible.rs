@@ -13,13 +13,13 @@ const MOST: usize = 64;
 const AROUND: f32 = 0.04;
 
 /// About one texel a pixel where several fall into one, the visible texels otherwise. `pixels_per_texel` is the
-/// magnification in panes of `aspect` = width / height.
-pub fn shaded_part(state: &ViewState, grid: Grid, aspect: f32, pixels_per_texel: f32) -> ShadedPart {
+/// magnification in panes of `pane` = [width, height] physical pixels.
+pub fn shaded_part(state: &ViewState, grid: Grid, pane: [f32; 2], pixels_per_texel: f32) -> ShadedPart {
     let stride = (pixels_per_texel.recip().round() as usize).clamp(1, MOST);
     if stride > 1 {
         return ShadedPart::EveryNth(stride);
     }
-    let camera = state.fitted_camera(grid, aspect).zoomed(state.display.zoom, state.display.pan);
+    let camera = state.camera(grid, pane);
     let all = [grid.width, grid.height];
     let region = visible(&camera, grid).filter(|region| !state.display.tiled && region.size() != all);
     region.map_or(ShadedPart::Whole, ShadedPart::Visible)
@@ -44,13 +44,14 @@ fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
 mod tests {
     use super::*;
     use crate::viewer::model::view::state::Projection;
-    use svbrdf_files::session_window::Display;
+    use svbrdf_files::session_window::{Display, Framing};
 
     const GRID: Grid = Grid { width: 256, height: 128 };
+    const PANE: [f32; 2] = [600.0, 400.0];
 
     /// Every texel that a ray of a pane meets.
     fn visible_texels(state: &ViewState) -> Vec<[usize; 2]> {
-        let camera = state.fitted_camera(GRID, 1.5).zoomed(state.display.zoom, state.display.pan);
+        let camera = state.camera(GRID, PANE);
         let steps = || (0..=60).map(|i| i as f32 / 30.0 - 1.0);
         let rays = steps().flat_map(|x| steps().map(move |y| (x, y)));
         rays.filter_map(|(x, y)| GRID.texel_at(camera.plane_from_ndc(x, y)?)).collect()
@@ -59,13 +60,15 @@ mod tests {
     #[test]
     fn all_that_is_visible_is_shaded_and_little_else() {
         for projection in [Projection::Flat, Projection::Perspective] {
-            for (zoom, pan) in [(1.0, [0.0, 0.0]), (4.0, [0.3, -0.2]), (16.0, [-2.0, 1.5])] {
+            for (zoom, centre) in [(1.0, None), (4.0, Some([118.0, 58.0])), (16.0, Some([144.0, 74.0]))] {
+                // Fitted, a texel covers about 2.3 pixels.
+                let framing = centre.map(|centre| Framing { pixels_per_texel: 2.3 * zoom, centre });
                 let mut state = ViewState {
-                    display: Display { projection, zoom, pan, ..Display::default() },
+                    display: Display { projection, framing, ..Display::default() },
                     ..ViewState::default()
                 };
                 state.scene.view = [0.7, -0.4, 2.0];
-                let part = shaded_part(&state, GRID, 1.5, 2.0);
+                let part = shaded_part(&state, GRID, PANE, 2.0);
                 let texels = visible_texels(&state);
                 assert!(!texels.is_empty(), "{projection:?} {zoom}");
                 let whole = Region { first: [0; 2], last: [GRID.width - 1, GRID.height - 1] };
@@ -89,10 +92,10 @@ mod tests {
     #[test]
     fn minified_materials_have_about_a_texel_a_pixel_and_tiled_ones_are_shaded_whole() {
         let mut state = ViewState::default();
-        assert_eq!(shaded_part(&state, GRID, 1.0, 0.3), ShadedPart::EveryNth(3));
-        assert_eq!(shaded_part(&state, GRID, 1.0, 0.252), ShadedPart::EveryNth(4));
-        assert_eq!(shaded_part(&state, GRID, 1.0, 1e-9), ShadedPart::EveryNth(MOST));
+        assert_eq!(shaded_part(&state, GRID, PANE, 0.3), ShadedPart::EveryNth(3));
+        assert_eq!(shaded_part(&state, GRID, PANE, 0.252), ShadedPart::EveryNth(4));
+        assert_eq!(shaded_part(&state, GRID, PANE, 1e-9), ShadedPart::EveryNth(MOST));
         state.display.tiled = true;
-        assert_eq!(shaded_part(&state, GRID, 1.0, 2.0), ShadedPart::Whole);
+        assert_eq!(shaded_part(&state, GRID, PANE, 2.0), ShadedPart::Whole);
     }
 }

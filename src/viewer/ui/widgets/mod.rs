@@ -39,3 +39,12 @@ pub fn number<T: egui::emath::Numeric>(
 pub fn bare(panel: egui::Panel, ui: &egui::Ui) -> egui::Panel {
     panel.frame(egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT))
 }
+
+/// Draws contents into the room that `ui` has; they do not widen it, whatever they need.
+pub fn fixed<R>(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui) -> R) -> R {
+    let rect = ui.available_rect_before_wrap();
+    ui.allocate_rect(rect, egui::Sense::hover());
+    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(rect));
+    child.shrink_clip_rect(rect.expand(ui.spacing().item_spacing.x));
+    contents(&mut child)
+}

@@ -1,0 +1,213 @@
+//! Stillness: what is seen changes only by what the hand does.
+
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng as _, SeedableRng as _};
+use svbrdf_files::session_window::Framing;
+
+use super::*;
+
+/// Changes of the layout, the panels, the legend and the drawer, each its own inverse.
+const INVOLUTIONS: [egui::Key; 7] = [
+    egui::Key::D, // differences, and the legend with them
+    egui::Key::J, // histograms
+    egui::Key::B, // side panel
+    egui::Key::X, // ground truth and prediction change places
+    egui::Key::T, // repeated
+    egui::Key::V, // false colours
+    egui::Key::L, // clipping
+];
+
+fn texel_at_the_centre(window: &mut Window<'_>, title: &str) -> Option<[usize; 2]> {
+    // The side panel slides.
+    window.run_steps(12);
+    let rect = pane(window, title);
+    hover(window, rect.center() + vec2(0.3, 0.3));
+    texel_read(window)
+}
+
+fn magnify(window: &mut Window<'_>) {
+    let framing = Framing { pixels_per_texel: 12.0, centre: [62.5, 53.5] };
+    window.state_mut().parts.model.view.display.framing = Some(framing);
+    window.run_steps(3);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_magnified_texel_stays_at_the_centre_of_its_pane_whatever_opens_and_closes() {
+    let mut window = built_in();
+    magnify(&mut window);
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    for step in 0..24 {
+        let key = INVOLUTIONS[random.next_u32() as usize % 3];
+        press(&mut window, key);
+        assert_eq!(texel_at_the_centre(&mut window, GROUND_TRUTH), Some([62, 53]), "step {step}: {key:?}");
+    }
+    for size in [vec2(900.0, 700.0), vec2(1400.0, 620.0), vec2(1200.0, 800.0)] {
+        window.set_size(size);
+        window.run_steps(4);
+        for layout in ["wipe", "single", "side by side"] {
+            press(&mut window, egui::Key::C);
+            let framing = window.state().parts.model.view.display.framing.unwrap();
+            assert_eq!((framing.pixels_per_texel, framing.centre), (12.0, [62.5, 53.5]), "{size:?} {layout}");
+        }
+        assert_eq!(texel_at_the_centre(&mut window, GROUND_TRUTH), Some([62, 53]), "{size:?}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn what_is_its_own_inverse_ends_at_the_same_texel_under_the_pointer() {
+    let mut window = built_in();
+    magnify(&mut window);
+    let mut random = ChaCha8Rng::seed_from_u64(2);
+    for round in 0..8 {
+        let at = pane(&window, GROUND_TRUTH).center() + vec2(37.0, -21.0);
+        hover(&mut window, at);
+        let before = (texel_read(&window), window.state().parts.model.view.clone());
+        let keys: Vec<_> =
+            (0..4).map(|_| INVOLUTIONS[random.next_u32() as usize % INVOLUTIONS.len()]).collect();
+        keys.iter().chain(keys.iter().rev()).for_each(|key| press(&mut window, *key));
+        window.run_steps(12);
+        hover(&mut window, at);
+        let after = (texel_read(&window), window.state().parts.model.view.clone());
+        assert_eq!(before, after, "round {round}: {keys:?}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_key_of_a_pin_pressed_twice_leaves_no_pin() {
+    let mut window = built_in();
+    magnify(&mut window);
+    let at = pane(&window, GROUND_TRUTH).center() + vec2(-40.0, 60.0);
+    hover(&mut window, at);
+    let texel = texel_read(&window);
+    press(&mut window, egui::Key::I);
+    assert_eq!(texel_read(&window), texel, "the drawer that opens moves nothing");
+    assert_eq!(window.state().parts.model.inspection.pins.len(), 1);
+    press(&mut window, egui::Key::I);
+    assert_eq!(window.state().parts.model.inspection.pins.len(), 0);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
+    let mut window = built_in();
+    press(&mut window, egui::Key::P);
+    let rect = pane(&window, GROUND_TRUTH);
+    let view = |window: &Window<'_>| window.state().parts.model.view.scene.view;
+    drag(&mut window, egui::PointerButton::Secondary, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
+    let [x, y, z] = view(&window);
+    assert!(x < -0.1 && y < -0.1, "the view goes against the hand: {x}, {y}, {z}");
+    for _ in 0..4 {
+        drag(&mut window, egui::PointerButton::Secondary, rect, vec2(0.1, 0.9), vec2(0.9, 0.1));
+    }
+    let share = |[x, y, z]: [f64; 3]| z / (x * x + y * y + z * z).sqrt();
+    let degrees = share(view(&window)).acos().to_degrees();
+    assert!((degrees - 85.0).abs() < 1e-6, "it stops at {degrees} degrees");
+    press(&mut window, egui::Key::F);
+    assert!((share(view(&window)) - 0.2).abs() < 1e-9, "a fifth of its area: {:?}", view(&window));
+}
+
+/// The accessible rectangles of all controls of the bar, by name.
+fn bar(window: &Window<'_>) -> Vec<(String, egui::Rect)> {
+    let names = [
+        "Open",
+        "Save",
+        "Copy",
+        "Layout",
+        "Show",
+        "Value",
+        "Difference",
+        "Histogram",
+        "3D",
+        "Tile",
+        "False colour",
+        "Swap",
+        "Exposure",
+        "Auto EV",
+        "Clip",
+        "Fit",
+        "1:1",
+        "Reset",
+        "Undo",
+        "Redo",
+        "Menu",
+        "Panel",
+        "?",
+    ];
+    let rect = |name: &str| {
+        let nodes = window.query_all_by_label(name).map(|node| node.rect());
+        nodes.min_by(|a, b| a.top().total_cmp(&b.top())).unwrap_or_else(|| panic!("no {name}"))
+    };
+    names.iter().map(|name| ((*name).to_owned(), rect(name))).collect()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_controls_of_the_bar_stay_where_they_are_in_every_mode() {
+    let mut window = built_in();
+    window.set_size(vec2(1500.0, 860.0));
+    window.run_steps(12);
+    let before = bar(&window);
+    let panes = pane(&window, GROUND_TRUTH);
+    for key in
+        [egui::Key::D, egui::Key::M, egui::Key::D, egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::D]
+    {
+        press(&mut window, key);
+        assert_eq!(bar(&window), before, "{:?}", window.state().parts.model.view.display);
+        assert_eq!(pane(&window, GROUND_TRUTH), panes);
+    }
+    for key in [egui::Key::V, egui::Key::P, egui::Key::T, egui::Key::X, egui::Key::C] {
+        press(&mut window, key);
+        assert_eq!(bar(&window), before, "{key:?}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_side_panel_has_one_width_and_a_click_beside_a_dialog_moves_nothing() {
+    let mut window = built_in();
+    let scene = window.state().parts.model.view.scene;
+    let rect = pane(&window, GROUND_TRUTH);
+    press(&mut window, egui::Key::F1);
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.05, 0.9), vec2(0.1, 0.95));
+    assert_eq!(window.state().parts.model.view.scene, scene, "behind the help");
+    press(&mut window, egui::Key::Escape);
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.05, 0.9), vec2(0.1, 0.95));
+    assert_ne!(window.state().parts.model.view.scene, scene);
+    for name in ["Why", "Files", "Loss"] {
+        tab(&mut window, name);
+        window.run_steps(30);
+        assert_eq!(pane(&window, GROUND_TRUTH), rect, "{name}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_automatic_range_is_that_of_the_predictions_also_of_a_mixture() {
+    use svbrdf::viewer::model::command::DisplayCommand;
+    use svbrdf_core::material::Map as MaterialMap;
+    let mut window = built_in();
+    press(&mut window, egui::Key::D);
+    wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
+    let range = |window: &Window<'_>| window.state().parts.displayed().range();
+    let before = range(&window);
+    let mut mixed = Vec::new();
+    for only_right in [false, true] {
+        window.state_mut().parts.model.apply(DisplayCommand::Isolate(Some(MaterialMap::Normal)).into());
+        window.state_mut().parts.model.apply(DisplayCommand::SetOnlyRight(only_right).into());
+        wait(&mut window, "the mixture", |app| {
+            let displayed = app.parts.displayed();
+            let chosen = displayed.model.view.display.prediction + 1;
+            displayed.materials()[chosen].id() != displayed.model.materials.all[chosen].id()
+        });
+        wait(&mut window, "the statistics", |app| app.difference_distributions().is_some());
+        mixed.extend(window.state().difference_distributions().map(|one| one.auto_range));
+        assert_eq!(range(&window), before, "only right: {only_right}");
+    }
+    assert!(
+        mixed.iter().any(|range| *range != before),
+        "a planted fault: a mixture's own range is another one"
+    );
+}
