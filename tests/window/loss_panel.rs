@@ -46,11 +46,14 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     assert_eq!(window.state().losses().unwrap(), expected);
     for loss in &expected {
         let [low, high] = loss.estimate.interval95.unwrap();
-        // Intervals of about +-20% have one digit more than their means.
-        let (mean, interval) = (loss.estimate.mean, format!("[{low:.3}, {high:.3}]"));
-        window.get_by_label(&format!("{mean:.2}"));
-        window.get_by_label(&interval);
+        window.get_by_label(&format!("{:.2}", loss.estimate.mean));
+        let half = 0.5 * (high - low);
+        let half = if half < 0.1 { format!("±{half:.4}") } else { format!("±{half:.2}") };
+        assert!(window.query_all_by_label(&half).next().is_some(), "no {half}");
     }
+    // Intervals of about ±20% have one digit more than their means.
+    let [low, high] = expected[0].estimate.interval95.unwrap();
+    window.get_by_label(&format!("[{low:.3}, {high:.3}]"));
 }
 
 #[test]

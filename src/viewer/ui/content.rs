@@ -30,7 +30,7 @@ impl Content<'_> {
     pub fn ui(&mut self, ui: &mut egui::Ui, gpu: Option<&mut GpuView>) -> Vec<Command> {
         let displayed = self.displayed;
         let mut commands = Vec::new();
-        if let Some(strip) = Strip::of(displayed) {
+        if let Some(strip) = Strip::of(displayed, self.viewport.has_extra) {
             let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
             panel.show(ui, |ui| match strip {
                 Strip::Legend { enabled } => {
@@ -55,13 +55,13 @@ enum Strip {
 }
 
 impl Strip {
-    fn of(displayed: Displayed<'_>) -> Option<Self> {
+    fn of(displayed: Displayed<'_>, has_extra: bool) -> Option<Self> {
         let model = displayed.model;
         let difference = model.view.display.difference;
         if model.settings.histograms && !difference && model.materials.ground_truth().is_some() {
             Some(Self::Values)
         } else {
-            compares(displayed).then_some(Self::Legend { enabled: difference })
+            compares(displayed).then_some(Self::Legend { enabled: difference || has_extra })
         }
     }
 }
@@ -87,5 +87,6 @@ pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, view: &'a View
         error_maps: displayed.error_maps().map(AsRef::as_ref),
         photograph: displayed.photograph(),
         inspection: &model.inspection,
+        losses: displayed.jobs.loss.finished(&model.materials, &model.loss_query()),
     }
 }

@@ -17,10 +17,10 @@ fn gives(label: &str, expected: f64) -> bool {
     (label.parse::<f64>().unwrap() - expected).abs() <= 0.501 * 10_f64.powi(-digits)
 }
 
-/// The difference in the panel: the number with a sign.
-fn difference(window: &Window<'_>) -> String {
-    let signed = |text: &String| text.starts_with(['+', '-']) && text.parse::<f64>().is_ok();
-    window.query_all_by_label_contains("0.").filter_map(|node| node.value()).find(signed).unwrap()
+/// The difference in the panel, whose verdict is this: the number with a sign.
+fn difference(window: &Window<'_>, verdict: &str) -> String {
+    let text = window.get_by_label_contains(verdict).value().unwrap();
+    text.split(' ').next().unwrap().replace('\u{2212}', "-")
 }
 
 #[test]
@@ -29,16 +29,14 @@ fn the_difference_to_the_chosen_prediction_has_its_sign_and_its_verdict() {
     let mut window = by_scenes();
     wait(&mut window, "the loss", |app| app.losses().is_some());
     let mean = expected_difference();
-    window.get_by_label("2 - 1");
-    window.get_by_label("\u{2193} better");
-    let label = difference(&window);
+    window.get_by_label("vs 1");
+    let label = difference(&window, "\u{2193} better");
     assert!(gives(&label, mean), "{label}, expected {mean}");
     // Planted faults: the other sign, a mean that is off by more than half a digit.
     assert!(!gives(&label, -mean) && !gives(&label, mean * 1.2), "{label}");
     press(&mut window, egui::Key::Num2);
-    window.get_by_label("1 - 2");
-    window.get_by_label("\u{2191} worse");
-    let label = difference(&window);
+    window.get_by_label("vs 2");
+    let label = difference(&window, "\u{2191} worse");
     assert!(gives(&label, -mean), "{label}, expected {}", -mean);
 }
 
@@ -49,6 +47,6 @@ fn what_cannot_be_told_apart_is_said_so() {
     enter(&mut window, "Near-field scenes", "2");
     enter(&mut window, "Distant scenes", "2");
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    window.get_by_label("no significant difference");
-    assert!(window.query_by_label("\u{2193} better").is_none());
+    window.get_by_label_contains("no significant difference");
+    assert!(window.query_by_label_contains("\u{2193} better").is_none());
 }

@@ -73,10 +73,10 @@ fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of
         let [column, row] = map.cell([light_x, light_y, light_z]).unwrap();
         let cell = row * map.side + column;
         let (read, error) = (map.losses[0][cell], map.standard_errors[0][cell]);
-        window.get_by_label_contains(&format!(": {read:.4} +- {error:.4}"));
+        window.get_by_label_contains(&format!(": {read:.4} ± {error:.4}"));
         let here = wait_for_scene_losses(&mut window)[0];
         // The middle of the cell is up to 0.02 away; 4 standard errors.
-        assert!((here - read).abs() < 4.0 * error + 0.05 * read, "{here}, on the map {read} +- {error}");
+        assert!((here - read).abs() < 4.0 * error + 0.05 * read, "{here}, on the map {read} ± {error}");
     }
     // The map of the lights does not depend on the light.
     assert!(is_same(&wait_for_map(&mut window), &map));

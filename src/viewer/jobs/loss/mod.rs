@@ -70,7 +70,6 @@ impl LossJob {
     }
 
     /// The losses, if they are complete and hold for `query` and `materials`.
-    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "the tests of the window read it"))]
     pub fn finished(
         &self,
         materials: &MaterialList,

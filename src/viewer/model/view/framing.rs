@@ -210,7 +210,7 @@ mod tests {
         let framing = Framing { pixels_per_texel: 12.0, centre: [50.5, 9.5] };
         for projection in PROJECTIONS {
             let state = state(projection, Some(framing));
-            let at = |pane: [f32; 2], x, y| {
+            let at = |pane: [f32; 2], x: f32, y: f32| {
                 framed(&state, pane).texel([2.0 * x / pane[0], 2.0 * y / pane[1]]).unwrap()
             };
             for pane in [PANE, [300.0, 900.0], [1200.0, 200.0]] {

@@ -10,7 +10,7 @@ use crate::viewer::model::command::{
 /// Every gesture and key with its effect, for the help window and the README.
 pub const HELP: &[(&str, &str)] = &[
     ("left-drag", "move the light: its x and y follow the pointer; on maps, pan"),
-    ("right-drag", "move the view; in perspective, orbit it"),
+    ("right-drag", "move the view; in perspective, turn the material, up to 85 degrees off its normal"),
     ("Shift + wheel", "height of the light"),
     ("Alt + wheel", "height of the view"),
     ("Ctrl + Shift + left-drag", "orbit the light"),
@@ -21,7 +21,10 @@ pub const HELP: &[(&str, &str)] = &[
     ("middle-drag, Space + left-drag", "pan"),
     ("I, Alt + click", "pin the texel: all its numbers in a table below; again: remove the pin"),
     ("Q, then left-drag; on maps Shift + left-drag", "statistics of a rectangle; Esc removes it"),
-    ("F / 0 / R", "fit / one texel per pixel / reset light, view, zoom, exposure and clipping marks"),
+    (
+        "F / 0 / R",
+        "fit, in perspective also a material seen as a line / one texel per pixel / reset light, view, zoom, exposure and clipping marks",
+    ),
     ("G (hold)", "show the ground truth in every pane"),
     ("X", "swap prediction and ground truth"),
     ("1 .. 9", "choose the prediction"),

@@ -1,6 +1,6 @@
 //! The strip below the panes that show values: the histogram of each channel, of every material.
 
-use eframe::egui::{self, Align2, Color32, FontId, Sense, Shape, Stroke, vec2};
+use eframe::egui::{self, Align2, Color32, FontId, Sense, Stroke, vec2};
 
 use svbrdf_core::picture::quantity::Quantity;
 
@@ -70,7 +70,8 @@ impl<'a> ValueStrip<'a> {
         for (slot, one) in channel.iter().enumerate() {
             let width = if slot == self.chosen || slot == 0 { 1.8 } else { 1.0 };
             let line = outline(&one.histogram, area.shrink(2.0));
-            painter.add(Shape::line(line, Stroke::new(width, colour(slot, ui.visuals()))));
+            let stroke = Stroke::new(width, colour(slot, ui.visuals()));
+            painter.extend(theme::series_line(&line, slot.saturating_sub(1), stroke));
         }
         if let Some(first) = channel.first() {
             let font = FontId::monospace(11.0);
@@ -107,7 +108,7 @@ impl<'a> ValueStrip<'a> {
 /// The colour of a material's histogram: the ground truth's is that of text.
 fn colour(slot: usize, visuals: &egui::Visuals) -> Color32 {
     match slot.checked_sub(1) {
-        None => visuals.text_color(),
+        None => theme::ground_truth(visuals),
         Some(prediction) => theme::series(prediction, visuals.dark_mode),
     }
 }

@@ -1,7 +1,7 @@
 //! The strip below the panes that show a difference: its colours, its range, its histogram and its statistics.
 
 use eframe::egui::{
-    self, Align2, Color32, FontId, Painter, Pos2, Rect, Response, RichText, Sense, Shape, Stroke, pos2, vec2,
+    self, Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Response, RichText, Sense, Stroke, pos2, vec2,
 };
 
 use svbrdf_core::picture::colour_map::{diverging, heat};
@@ -182,7 +182,8 @@ impl<'a> LegendStrip<'a> {
         for (index, histogram) in histograms.iter().enumerate() {
             let colour = theme::series(self.series(index), ui.visuals().dark_mode).gamma_multiply(fade);
             let stroke = Stroke::new(if index == self.chosen { 2.0 } else { 1.0 }, colour);
-            painter.add(Shape::line(outline(histogram, area.with_max_y(bar.top())), stroke));
+            let line = outline(histogram, area.with_max_y(bar.top()));
+            painter.extend(theme::series_line(&line, self.series(index), stroke));
         }
         let handles = if self.kind.is_signed() { vec![-self.range, self.range] } else { vec![self.range] };
         for value in handles {
@@ -206,14 +207,21 @@ impl<'a> LegendStrip<'a> {
 
     fn paint_bar(&self, painter: &Painter, bar: Rect, [low, high]: [f64; 2]) {
         let map = if self.kind.is_signed() { diverging } else { heat };
-        let step = bar.width() / STEPS as f32;
-        for i in 0..STEPS {
-            let value = low + (high - low) * (i as f64 + 0.5) / STEPS as f64;
+        let mut mesh = Mesh::default();
+        for i in 0..=STEPS {
+            let share = i as f32 / STEPS as f32;
+            let value = low + (high - low) * f64::from(share);
             let [r, g, b] = map((value / self.range) as f32).map(|c| (c * 255.0).round() as u8);
-            let left = bar.left() + step * i as f32;
-            let part = Rect::from_x_y_ranges(left..=left + step + 0.5, bar.y_range());
-            painter.rect_filled(part.intersect(bar), 0.0, Color32::from_rgb(r, g, b));
+            let x = bar.left() + share * bar.width();
+            for y in [bar.top(), bar.bottom()] {
+                mesh.colored_vertex(pos2(x, y), Color32::from_rgb(r, g, b));
+            }
+            if let Some(last) = (2 * i as u32).checked_sub(2) {
+                mesh.add_triangle(last, last + 1, last + 2);
+                mesh.add_triangle(last + 1, last + 2, last + 3);
+            }
         }
+        painter.add(mesh);
     }
 
     fn paint_numbers(&self, painter: &Painter, area: Rect, [low, high]: [f64; 2], ink: Color32) {

@@ -262,7 +262,7 @@ fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
     ui.horizontal_wrapped(|ui| {
         slider(ui, "Accuracy slider", Slider::new(target, PERCENT).max_decimals(2));
         number(ui, "Accuracy", target, default, |d| {
-            d.speed(0.01).range(PERCENT).max_decimals(2).prefix("+-").suffix("%")
+            d.speed(0.01).range(PERCENT).max_decimals(2).prefix("±").suffix("%")
         });
         ui.label("at 95%")
             .on_hover_text("Half the width of the 95% interval of every loss, relative to the loss");
@@ -293,7 +293,7 @@ mod tests {
         let of = |request| missed(&request, 0.02, Duration::from_millis(50));
         let accuracy = |target| Request::Accuracy { target, seed: 0 };
         let time = |ms| Request::Time { budget: Duration::from_millis(ms), seed: 0 };
-        assert_eq!(of(accuracy(0.01)), Some("Not within +-1.00%".to_owned()));
+        assert_eq!(of(accuracy(0.01)), Some("Not within ±1.00%".to_owned()));
         assert_eq!(of(time(16)), Some("Not within 16 ms".to_owned()));
         assert_eq!(of(accuracy(0.03)), None);
         assert_eq!(of(time(60)), None);

@@ -1,6 +1,6 @@
 //! The losses with their intervals, and their differences.
 
-use eframe::egui::{self, Color32, Rect, RichText, Sense, Sides, Stroke, pos2, vec2};
+use eframe::egui::{self, Color32, RichText, Sense, Stroke, pos2, vec2};
 
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::model::sampler::Sampler;
@@ -9,15 +9,24 @@ use svbrdf_core::model::scene::Kind;
 use crate::viewer::jobs::loss::Losses;
 use crate::viewer::model::command::{Command, DisplayCommand, LossCommand};
 use crate::viewer::ui::widgets::names::shortened;
-use crate::viewer::ui::widgets::numbers::significant;
+use crate::viewer::ui::widgets::numbers::{half_width, signed, significant};
 use crate::viewer::ui::widgets::theme;
 
 /// Number of predictions from which on there is a field that filters them.
 const MANY: usize = 12;
 /// Characters of a name in a row.
 const NAME: usize = 30;
-/// Height of a bar, in points.
-const BAR: f32 = 6.0;
+/// Heights of a line and of the bar below it, in points.
+const LINE: f32 = 17.0;
+const BAR: f32 = 3.0;
+/// Widths of the columns, in points: the loss, half the width of its interval, the difference from the chosen prediction.
+const MEAN: f32 = 48.0;
+const HALF: f32 = 52.0;
+const DIFFERENCE: f32 = 68.0;
+/// Between two columns, in points.
+const GAP: f32 = 4.0;
+/// Size of the small numbers, in points.
+const NUMBERS: f32 = 11.5;
 
 /// What follows the number of a prediction whose loss is stale.
 const STALE_MARK: &str = " (stale)";
@@ -45,6 +54,11 @@ impl Results<'_> {
         let filter = self.controls(ui, losses.len(), &mut commands);
         let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
         let short = shortened(&names, NAME);
+        // 15 predictions are seen at once in a window of 860 points.
+        ui.spacing_mut().item_spacing.y = 2.0;
+        ui.spacing_mut().button_padding.y = 1.0;
+        ui.spacing_mut().interact_size.y = LINE;
+        self.heads(ui);
         for index in order(losses, self.sorted) {
             if !names[index].to_lowercase().contains(&filter) {
                 continue;
@@ -55,10 +69,30 @@ impl Results<'_> {
             if self.row(ui, index, &losses[index], name).clicked() {
                 commands.push(DisplayCommand::ChoosePrediction(index).into());
             }
+            if index == self.chosen {
+                self.details(ui, index, &losses[index]);
+            }
         }
         ui.add_space(4.0);
         ui.label(RichText::new(summary(self.latest)).weak().small());
         commands
+    }
+
+    fn heads(&self, ui: &mut egui::Ui) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            ui.add_space(name_width(ui));
+            let small = |text: String| RichText::new(text).small().weak();
+            cell(ui, MEAN, small("loss".to_owned()));
+            cell(ui, HALF, small("±".to_owned())).on_hover_text("Half the width of the 95% interval");
+            let versus = if self.latest.differences.len() > 1 {
+                format!("vs {}", self.chosen + 1)
+            } else {
+                String::new()
+            };
+            cell(ui, DIFFERENCE, small(versus))
+                .on_hover_text("The loss - the loss of the chosen prediction, on the same scenes");
+        });
     }
 
     /// The order, and the text that names must contain.
@@ -84,26 +118,27 @@ impl Results<'_> {
         filter.to_lowercase()
     }
 
+    /// One line: name, loss, half the width of its interval, and the difference from the chosen prediction; its bar below.
     fn row(&self, ui: &mut egui::Ui, index: usize, loss: &Loss, name: String) -> egui::Response {
-        let chosen = index == self.chosen;
-        let [mean, interval] = significant(&loss.estimate);
-        let left = |ui: &mut egui::Ui| {
-            let hover = format!("{}\nClick to choose this prediction", loss.prediction);
-            ui.selectable_label(chosen, name).on_hover_text(hover)
-        };
-        let right = |ui: &mut egui::Ui| {
-            ui.label(RichText::new(mean).monospace().strong()).on_hover_text(self.in_full(&loss.estimate));
-        };
-        let (response, ()) = Sides::new().shrink_left().truncate().show(ui, left, right);
-        ui.horizontal(|ui| {
-            ui.add_space(10.0);
-            self.bar(ui, index, &loss.estimate);
-            ui.label(RichText::new(interval).monospace().size(11.5))
+        let [mean, _] = significant(&loss.estimate);
+        let line = ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            let size = vec2(name_width(ui), ui.spacing().interact_size.y);
+            let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_justify(true);
+            let chosen = index == self.chosen;
+            let left = ui.allocate_ui_with_layout(size, layout.with_main_align(egui::Align::Min), |ui| {
+                ui.add(egui::Button::selectable(chosen, name).truncate())
+            });
+            cell(ui, MEAN, RichText::new(mean).monospace().strong())
                 .on_hover_text(self.in_full(&loss.estimate));
+            let half = format!("±{}", half_width(&loss.estimate));
+            cell(ui, HALF, RichText::new(half).monospace().size(NUMBERS).weak())
+                .on_hover_text(self.in_full(&loss.estimate));
+            self.difference(ui, index);
+            left.inner.on_hover_text(format!("{}\nClick to choose this prediction", loss.prediction))
         });
-        self.difference(ui, index);
-        self.few_scenes(ui, index);
-        response
+        self.bar(ui, index, &loss.estimate);
+        line.inner
     }
 
     /// The loss as a share of the largest one, with its interval as a line.
@@ -111,54 +146,51 @@ impl Results<'_> {
         let end = |estimate: &Estimate| estimate.interval95.map_or(estimate.mean, |[_, high]| high);
         let losses = &self.latest.report.outcome.losses;
         let most = losses.iter().map(|loss| end(&loss.estimate)).fold(f64::MIN_POSITIVE, f64::max);
-        let width = (ui.available_width() - 150.0).max(30.0);
-        let (area, _) = ui.allocate_exact_size(vec2(width, BAR + 6.0), Sense::hover());
+        // Close below its line.
+        ui.add_space(1.0 - ui.spacing().item_spacing.y);
+        let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), BAR), Sense::hover());
         let x = |value: f64| area.left() + area.width() * (value / most).clamp(0.0, 1.0) as f32;
-        let bar = Rect::from_center_size(area.center(), vec2(width, BAR)).with_max_x(x(estimate.mean));
         let colour = theme::series(index, ui.visuals().dark_mode);
-        ui.painter().rect_filled(bar, 1.0, colour);
+        ui.painter().rect_filled(area.with_max_x(x(estimate.mean)), 0.0, colour);
         if let Some([low, high]) = estimate.interval95 {
-            let y = area.center().y;
-            let stroke = Stroke::new(1.5, ui.visuals().text_color());
-            ui.painter().line_segment([pos2(x(low), y), pos2(x(high), y)], stroke);
-            for at in [low, high] {
-                ui.painter().line_segment([pos2(x(at), y - 4.0), pos2(x(at), y + 4.0)], stroke);
-            }
+            let line = [pos2(x(low), area.center().y), pos2(x(high).max(x(low) + 1.0), area.center().y)];
+            ui.painter().line_segment(line, Stroke::new(1.0, theme::ground_truth(ui.visuals())));
         }
     }
 
     /// The loss - the loss of the chosen prediction, and whether the difference is significant.
     fn difference(&self, ui: &mut egui::Ui, index: usize) {
-        let of_chosen = self.latest.differences.get(self.chosen);
-        let Some(estimate) = of_chosen.and_then(|all| all.get(index)).filter(|_| index != self.chosen) else {
+        if index == self.chosen {
+            let text = if self.latest.differences.len() > 1 { "chosen" } else { "" };
+            cell(ui, DIFFERENCE, RichText::new(text).small().weak());
             return;
-        };
+        }
+        let of_chosen = self.latest.differences.get(self.chosen);
+        let Some(estimate) = of_chosen.and_then(|all| all.get(index)) else { return };
         let verdict = Verdict::of(estimate);
-        let colour = verdict.colour(ui.visuals());
-        let name = format!("{} - {}", index + 1, self.chosen + 1);
         let [mean, interval] = significant(estimate);
+        let text = format!("{} {}", signed(&mean), verdict.arrow());
+        let text = RichText::new(text).monospace().size(NUMBERS).color(verdict.colour(ui.visuals()));
+        let response = cell(ui, DIFFERENCE, text);
         let meaning = verdict.meaning(index + 1, self.chosen + 1);
-        ui.horizontal_wrapped(|ui| {
-            ui.add_space(10.0);
-            ui.spacing_mut().item_spacing.x = 6.0;
-            ui.label(RichText::new(name).small().weak());
-            let sign = if estimate.mean > 0.0 { "+" } else { "" };
-            ui.label(RichText::new(format!("{sign}{mean}")).monospace().size(11.5))
-                .on_hover_text(format!("{interval}\n{}", self.in_full(estimate)));
-            ui.label(RichText::new(verdict.text()).monospace().size(11.5).color(colour))
-                .on_hover_text(meaning);
-        });
+        let full = format!("{} {interval} {}", signed(&mean), verdict.text());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &full));
+        response.on_hover_text(format!("95% interval {interval}\n{meaning}\n{}", self.in_full(estimate)));
     }
 
-    fn few_scenes(&self, ui: &mut egui::Ui, index: usize) {
+    /// Below the chosen prediction: its interval, and its loss over the few scenes of the papers.
+    fn details(&self, ui: &mut egui::Ui, index: usize, loss: &Loss) {
+        let [_, interval] = significant(&loss.estimate);
         let known = |few: &Losses| {
             let [mean, interval] = significant(&few.report.outcome.losses.get(index)?.estimate);
             Some(format!("6 + 3 scenes: {mean} {interval}"))
         };
         let coming = || self.few_are_coming.then(|| "6 + 3 scenes: ...".to_owned());
-        let Some(text) = self.few.map_or_else(coming, known) else { return };
         ui.horizontal(|ui| {
             ui.add_space(10.0);
+            ui.label(RichText::new(interval).monospace().size(NUMBERS))
+                .on_hover_text(self.in_full(&loss.estimate));
+            let Some(text) = self.few.map_or_else(coming, known) else { return };
             ui.label(RichText::new(text).small().weak()).on_hover_text(
                 "The loss over the 6 near-field and 3 distant random scenes of the papers, for this seed: other seeds \
                  give other numbers within about this interval",
@@ -171,9 +203,25 @@ impl Results<'_> {
         let [mean, error, interval] = estimate.texts();
         let [near, distant] = [Kind::Near, Kind::Distant].map(|kind| self.latest.report.count(kind));
         format!(
-            "{mean} +- {error} (standard error)\n95% interval {interval}\n{near} near-field and {distant} distant scenes"
+            "{mean} ± {error} (standard error)\n95% interval {interval}\n{near} near-field and {distant} distant scenes"
         )
     }
+}
+
+/// The room that the columns of numbers leave for a name, in points.
+fn name_width(ui: &egui::Ui) -> f32 {
+    (ui.available_width() - MEAN - HALF - DIFFERENCE - 3.0 * GAP).max(60.0)
+}
+
+/// A text at the right end of a column.
+fn cell(ui: &mut egui::Ui, width: f32, text: RichText) -> egui::Response {
+    let size = vec2(width, ui.spacing().interact_size.y);
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_width(width);
+        ui.label(text)
+    })
+    .inner
 }
 
 /// The indices of the losses as rows show them.
@@ -208,6 +256,14 @@ impl Verdict {
             Self::Better => "\u{2193} better",
             Self::Worse => "\u{2191} worse",
             Self::NotSignificant => "no significant difference",
+        }
+    }
+
+    fn arrow(self) -> &'static str {
+        match self {
+            Self::Better => "\u{2193}",
+            Self::Worse => "\u{2191}",
+            Self::NotSignificant => "~",
         }
     }
 

@@ -124,7 +124,7 @@ fn line(ui: &mut egui::Ui, line: &AssumedLine) {
 fn section(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands: &mut Vec<Command>) {
     let loaded = &material.read;
     let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
-    let colour = if index == 0 { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
+    let colour = if index == 0 { theme::ground_truth(ui.visuals()) } else { ui.visuals().text_color() };
     ui.horizontal(|ui| {
         ui.label(RichText::new(role).color(colour).small());
         if index > 0 {

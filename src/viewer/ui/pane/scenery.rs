@@ -1,5 +1,6 @@
 //! Scenery: which panes there are, and what each displays.
 
+use svbrdf_core::loss::Loss;
 use svbrdf_gpu::DisplayMode;
 
 use crate::viewer::jobs::panes::error_map::ErrorMaps;
@@ -32,6 +33,8 @@ pub struct Scenery<'a> {
     pub photograph: Option<DisplayedPhotograph<'a>>,
     /// Pins and rectangle.
     pub inspection: &'a Inspection,
+    /// The losses of the predictions, where they are complete and up to date.
+    pub losses: Option<&'a [Loss]>,
 }
 
 /// The content of a pane: the index of the material that it displays, that of the material it is compared with, and how.

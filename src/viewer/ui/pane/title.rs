@@ -1,16 +1,20 @@
 //! Title above a pane.
 
-use eframe::egui::{self, FontId, Rect, Sense, vec2};
+use eframe::egui::{self, Align2, FontId, Rect, Sense, vec2};
 
 use svbrdf_gpu::DisplayMode;
 
 use crate::viewer::model::command::{Command, DisplayCommand};
 use crate::viewer::model::view::state::Layout;
 use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::viewer::ui::widgets::numbers::significant;
 use crate::viewer::ui::widgets::theme;
 
 /// Width of the button that shows all maps again, in points.
 const BACK: f32 = 96.0;
+/// Widths of the colour of a prediction and of its loss, in points.
+const SWATCH: f32 = 14.0;
+const LOSS: f32 = 64.0;
 
 /// The title of a pane. A click on the title of a prediction chooses the prediction.
 pub fn title_bar(
@@ -42,16 +46,30 @@ pub fn title_bar(
     let back = Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()).shrink(2.0);
     let painter = ui.painter_at(rect);
     let colour = if content.index == 0 || !is_material {
-        theme::accent(ui.visuals())
+        theme::ground_truth(ui.visuals())
     } else {
         ui.visuals().text_color()
     };
-    let width = rect.width() - 16.0 - if mixed { BACK } else { 0.0 };
+    let loss = prediction.and_then(|index| scenery.losses?.get(index)).filter(|_| !mixed);
+    let loss = loss.map(|loss| significant(&loss.estimate)[0].clone());
+    let room = if mixed { BACK } else { loss.as_ref().map_or(0.0, |_| LOSS) };
+    let swatch = prediction.map(|index| theme::series(index, ui.visuals().dark_mode));
+    let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
+    if let Some(colour) = swatch {
+        let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
+        painter.rect_filled(Rect::from_center_size(middle, vec2(8.0, 8.0)), 0.0, colour);
+    }
+    if let Some(loss) = &loss {
+        let font = FontId::monospace(12.0);
+        let at = rect.right_center() - vec2(8.0, 0.0);
+        painter.text(at, Align2::RIGHT_CENTER, loss, font, ui.visuals().weak_text_color());
+    }
+    let width = rect.width() - left - 8.0 - room;
     let font = FontId::proportional(13.5);
     let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
         .into_galley(ui, Some(egui::TextWrapMode::Truncate), width, font);
     let elided = galley.elided;
-    let at = rect.left_center() + vec2(8.0, -galley.size().y * 0.5);
+    let at = rect.left_center() + vec2(left, -galley.size().y * 0.5);
     painter.galley(at, galley, colour);
     if chosen && scenery.state.display.layout == Layout::SideBySide && scenery.materials.len() > 2 {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());

@@ -152,7 +152,7 @@ impl<'a> Drawer<'a> {
 
     fn name(&self, ui: &mut egui::Ui, index: usize) {
         let (text, colour) = match index {
-            0 => (format!("gt {}", self.materials[0].name()), theme::accent(ui.visuals())),
+            0 => (format!("gt {}", self.materials[0].name()), theme::ground_truth(ui.visuals())),
             _ => (format!("{index}  {}", self.materials[index].name()), ui.visuals().text_color()),
         };
         ui.scope(|ui| {

@@ -104,7 +104,8 @@ impl StatusBar<'_> {
                 break;
             }
             ui.separator();
-            let text = if index == 0 { mono(text).color(theme::accent(ui.visuals())) } else { mono(text) };
+            let text =
+                if index == 0 { mono(text).color(theme::ground_truth(ui.visuals())) } else { mono(text) };
             let text = if self.hovered == Some(index) { text.strong() } else { text };
             ui.label(text).on_hover_text(self.materials[index].name());
         }
@@ -120,7 +121,7 @@ impl StatusBar<'_> {
             None => vec![format!("{:>1$}", "-", readout::WIDTH); 3],
         };
         ui.separator();
-        let text = mono(format!("photo {}", numbers.join(" "))).color(theme::accent(ui.visuals()));
+        let text = mono(format!("photo {}", numbers.join(" "))).color(theme::ground_truth(ui.visuals()));
         let hover = format!("The photograph at the exposure of {}", self.materials[chosen].name());
         ui.label(text).on_hover_text(hover);
     }
@@ -158,9 +159,9 @@ impl StatusBar<'_> {
 /// Screen pixels per texel, in 6 characters.
 fn magnification(pixels: f32) -> String {
     match pixels {
-        p if p >= 9.95 => format!("x{p:<5.0}"),
-        p if p >= 0.995 => format!("x{p:<5.1}"),
-        p => format!("x{p:<5.2}"),
+        p if p >= 9.95 => format!("×{p:<5.0}"),
+        p if p >= 0.995 => format!("×{p:<5.1}"),
+        p => format!("×{p:<5.2}"),
     }
 }
 
@@ -182,6 +183,6 @@ mod tests {
 
     #[test]
     fn the_magnification_keeps_its_width() {
-        assert_eq!([0.254, 1.0, 12.3, 400.0].map(magnification), ["x0.25 ", "x1.0  ", "x12   ", "x400  "]);
+        assert_eq!([0.254, 1.0, 12.3, 400.0].map(magnification), ["×0.25 ", "×1.0  ", "×12   ", "×400  "]);
     }
 }

@@ -160,7 +160,7 @@ fn reading(moved: Moved, direction: [f64; 3], found: Option<&DirectionMap>) -> S
     let read = |map: &DirectionMap| {
         let index = map.map.nearest_cell(direction)?;
         let [loss, error] = [map.map.losses[0][index], map.map.standard_errors[0][index]];
-        Some(format!("{place}: {loss:.4} +- {error:.4}"))
+        Some(format!("{place}: {loss:.4} ± {error:.4}"))
     };
     found.and_then(read).unwrap_or_else(|| format!("{place}: -"))
 }

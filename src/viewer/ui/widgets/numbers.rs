@@ -4,9 +4,14 @@ use std::time::Duration;
 
 use svbrdf_core::loss::Estimate;
 
-/// A number in four significant digits, at least down to 0.0001.
+/// Numbers below this have an exponent.
+const TINY: f64 = 1e-3;
+
+/// A number in about four significant digits and at most seven characters after its sign: with an exponent below 0.001 and
+/// from 10,000 on.
 pub fn digits(value: f64) -> String {
     match value.abs() {
+        v if v > 0.0 && v < TINY => format!("{value:.1e}"),
         v if v >= 1e4 => format!("{value:.2e}"),
         v if v >= 100.0 => format!("{value:.1}"),
         v if v >= 10.0 => format!("{value:.2}"),
@@ -15,22 +20,44 @@ pub fn digits(value: f64) -> String {
     }
 }
 
-/// An estimate as text: its mean in significant digits only, and its 95% interval with one digit more.
+/// An estimate as text: its mean in significant digits only, and its 95% interval with one digit more; at most five decimals,
+/// and exponents below 0.001.
 pub fn significant(estimate: &Estimate) -> [String; 2] {
     let Estimate { mean, interval95, .. } = *estimate;
-    let Some([low, high]) = interval95 else { return [format!("{mean:.4}"), "[unknown]".to_owned()] };
+    let Some([low, high]) = interval95 else { return [digits(mean), "[unknown]".to_owned()] };
+    if mean != 0.0 && mean.abs() < TINY {
+        return [format!("{mean:.1e}"), format!("[{low:.2e}, {high:.2e}]")];
+    }
     let half = 0.5 * (high - low);
-    let decimals = if half > 0.0 { (-half.log10().floor()).clamp(0.0, 12.0) as usize } else { 6 };
+    let decimals = if half > 0.0 { (-half.log10().floor()).clamp(0.0, 4.0) as usize } else { 4 };
     let more = decimals + usize::from(half > 0.0);
     [format!("{mean:.decimals$}"), format!("[{low:.more$}, {high:.more$}]")]
+}
+
+/// Half the width of an interval, in two significant digits: what follows the sign ±.
+pub fn half_width(estimate: &Estimate) -> String {
+    let Some([low, high]) = estimate.interval95 else { return "?".to_owned() };
+    match 0.5 * (high - low) {
+        half if half > 0.0 && half < TINY => format!("{half:.1e}"),
+        half if half < 0.1 => format!("{half:.4}"),
+        half => format!("{half:.2}"),
+    }
+}
+
+/// A number with a real minus sign, and a plus sign where it is positive.
+pub fn signed(text: &str) -> String {
+    match text.strip_prefix('-') {
+        Some(digits) => format!("\u{2212}{digits}"),
+        None => format!("+{text}"),
+    }
 }
 
 /// Half the width of an interval relative to its mean, in percent with about three digits.
 pub fn accuracy(share: f64) -> String {
     match 100.0 * share {
         percent if percent.is_infinite() => "error unknown".to_owned(),
-        percent if percent >= 10.0 => format!("+-{percent:.1}%"),
-        percent => format!("+-{percent:.2}%"),
+        percent if percent >= 10.0 => format!("±{percent:.1}%"),
+        percent => format!("±{percent:.2}%"),
     }
 }
 
@@ -59,14 +86,28 @@ mod tests {
         assert_eq!(of(0.321_814, Some([0.319_551, 0.324_195])), ["0.322", "[0.3196, 0.3242]"]);
         assert_eq!(of(0.371_2, Some([0.284, 0.473])), ["0.37", "[0.284, 0.473]"]);
         assert_eq!(of(-0.117, Some([-0.119_365, -0.114_891])), ["-0.117", "[-0.1194, -0.1149]"]);
-        assert_eq!(of(0.0, Some([0.0, 0.0])), ["0.000000", "[0.000000, 0.000000]"]);
+        assert_eq!(of(0.0, Some([0.0, 0.0])), ["0.0000", "[0.0000, 0.0000]"]);
         assert_eq!(of(0.5, None), ["0.5000", "[unknown]"]);
+        assert_eq!(of(2.52e-5, Some([2.5123e-5, 2.5411e-5])), ["2.5e-5", "[2.51e-5, 2.54e-5]"]);
+        assert_eq!(of(0.204_712_3, Some([0.204_712_2, 0.204_712_4])), ["0.2047", "[0.20471, 0.20471]"]);
+    }
+
+    #[test]
+    fn half_widths_have_few_digits_and_signs_are_real() {
+        let of = |half: f64| {
+            half_width(&Estimate { mean: 0.0, standard_error: None, interval95: Some([-half, half]) })
+        };
+        assert_eq!(
+            [0.0, 2.5e-5, 0.0013, 0.0312, 0.25].map(of),
+            ["0.0000", "2.5e-5", "0.0013", "0.0312", "0.25"]
+        );
+        assert_eq!(["-0.117", "0.2"].map(signed), ["\u{2212}0.117", "+0.2"]);
     }
 
     #[test]
     fn shares_and_times_keep_about_three_digits() {
         let all = [0.2061, 0.0231, 0.00054, f64::INFINITY].map(accuracy);
-        assert_eq!(all, ["+-20.6%", "+-2.31%", "+-0.05%", "error unknown"]);
+        assert_eq!(all, ["±20.6%", "±2.31%", "±0.05%", "error unknown"]);
         let all = [0.00131, 0.0463, 0.9, 12.34].map(|s| seconds(Duration::from_secs_f64(s)));
         assert_eq!(all, ["1.3 ms", "46 ms", "900 ms", "12.3 s"]);
     }

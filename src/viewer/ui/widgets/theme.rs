@@ -4,7 +4,7 @@ use eframe::egui::{self, Color32, Stroke, Theme, Visuals};
 
 use svbrdf_gpu::AdapterReport;
 
-/// The accent colour: of the selection and of the ground truth.
+/// The accent colour: of the selection.
 const ACCENT: Color32 = Color32::from_rgb(0xe0, 0x93, 0x2f);
 /// The accent colour as text on light gray.
 const DARK_ACCENT: Color32 = Color32::from_rgb(0x9a, 0x52, 0x00);
@@ -30,12 +30,31 @@ pub fn better(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { BETTER } else { DARK_BETTER }
 }
 
-/// The colour of prediction `index` in histograms and bars: the palette of Okabe and Ito, distinct with colour-vision deficiencies.
+/// Number of colours of predictions; further ones have the same colours in dashes.
+pub const SERIES: usize = COLOURS.len();
+/// The colours of predictions: apart from each other for people with deuteranopia and protanopia, too, and neither the
+/// ground truth's nor the accent's.
+const COLOURS: [[u8; 3]; 6] =
+    [[80, 190, 255], [240, 228, 66], [130, 90, 255], [40, 150, 110], [205, 255, 190], [110, 140, 0]];
+
+/// The colour of prediction `index` in histograms, bars and titles.
 pub fn series(index: usize, dark: bool) -> Color32 {
-    const COLOURS: [[u8; 3]; 6] =
-        [[86, 180, 233], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0], [0, 114, 178]];
-    let [r, g, b] = COLOURS[index % COLOURS.len()];
-    Color32::from_rgb(r, g, b).lerp_to_gamma(Color32::BLACK, if dark { 0.0 } else { 0.35 })
+    let [r, g, b] = COLOURS[index % SERIES];
+    Color32::from_rgb(r, g, b).lerp_to_gamma(Color32::BLACK, if dark { 0.0 } else { 0.45 })
+}
+
+/// The line of prediction `index` in histograms: dashed from the seventh on.
+pub fn series_line(points: &[egui::Pos2], index: usize, stroke: Stroke) -> Vec<egui::Shape> {
+    if index < SERIES {
+        vec![egui::Shape::line(points.to_vec(), stroke)]
+    } else {
+        egui::Shape::dashed_line(points, stroke, 5.0, 3.0)
+    }
+}
+
+/// The colour of the ground truth: neutral, and stronger than text.
+pub fn ground_truth(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::WHITE } else { Color32::BLACK }
 }
 
 /// The colour of errors, readable on the theme's grays.
@@ -129,6 +148,72 @@ mod tests {
             |c: Color32| 0.2126 * linear(c.r()) + 0.7152 * linear(c.g()) + 0.0722 * linear(c.b()) + 0.05;
         let [a, b] = [luminance(a), luminance(b)];
         a.max(b) / a.min(b)
+    }
+
+    /// CIE Lab (D65) of a colour as people with a colour-vision deficiency see it: `matrix` acts on linear sRGB.
+    fn lab(colour: Color32, matrix: [[f64; 3]; 3]) -> [f64; 3] {
+        let linear = [colour.r(), colour.g(), colour.b()].map(|byte| srgb::decode(f64::from(byte) / 255.0));
+        let product = |matrix: [[f64; 3]; 3], v: [f64; 3]| {
+            matrix.map(|row| row.iter().zip(v).map(|(m, c)| m * c).sum::<f64>())
+        };
+        let seen = product(matrix, linear).map(|c| c.clamp(0.0, 1.0));
+        let [x, y, z] = product(
+            [
+                [0.412_456, 0.357_576, 0.180_438],
+                [0.212_673, 0.715_152, 0.072_175],
+                [0.019_334, 0.119_192, 0.950_304],
+            ],
+            seen,
+        );
+        let root = |t: f64| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
+        let [x, y, z] = [x / 0.950_47, y, z / 1.088_83].map(root);
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    /// Normal vision, and full protanopia and deuteranopia (Machado, Oliveira and Fernandes 2009, table 1).
+    const VISIONS: [[[f64; 3]; 3]; 3] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [
+            [0.152_286, 1.052_583, -0.204_868],
+            [0.114_503, 0.786_281, 0.099_216],
+            [-0.003_882, -0.048_116, 1.051_998],
+        ],
+        [
+            [0.367_322, 0.860_646, -0.227_968],
+            [0.280_085, 0.672_501, 0.047_413],
+            [-0.011_820, 0.042_940, 0.968_881],
+        ],
+    ];
+
+    /// The least distance of two of the colours in any vision (CIE 1976); 2.3 is just noticeable.
+    fn nearest(colours: &[Color32]) -> f64 {
+        let mut least = f64::INFINITY;
+        for vision in VISIONS {
+            for (i, a) in colours.iter().enumerate() {
+                for b in &colours[..i] {
+                    let apart =
+                        lab(*a, vision).into_iter().zip(lab(*b, vision)).map(|(a, b)| (a - b).powi(2));
+                    least = least.min(apart.sum::<f64>().sqrt());
+                }
+            }
+        }
+        least
+    }
+
+    #[test]
+    fn predictions_are_told_apart_with_colour_vision_deficiencies_and_from_the_ground_truth() {
+        for visuals in [dark(), light()] {
+            let mut all: Vec<Color32> = (0..SERIES).map(|i| series(i, visuals.dark_mode)).collect();
+            all.push(ground_truth(&visuals));
+            let found = nearest(&all);
+            assert!(found > 20.0, "{found:.1} in the {} theme", theme(&visuals));
+            for colour in all {
+                let found = contrast(colour, visuals.panel_fill);
+                assert!(found >= 3.0, "{colour:?} in the {} theme: {found:.2}", theme(&visuals));
+            }
+        }
+        let confused = [Color32::from_rgb(230, 159, 0), Color32::from_rgb(160, 180, 40)];
+        assert!(nearest(&confused) < 20.0, "a planted fault: {:.1}", nearest(&confused));
     }
 
     #[test]
