@@ -51,8 +51,7 @@ pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextu
 fn tabs(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
     let model = displayed.model;
     let mut commands = Vec::new();
-    let unsure = model.materials.all.iter().flat_map(|one| &one.read.assumptions);
-    let unsure = unsure.filter(|assumption| assumption.certainty == Certainty::Unsure).count();
+    let unsure = unsure_guesses(displayed);
     ui.horizontal(|ui| {
         for (tab, name, question) in Tab::ALL {
             let text = match tab {
@@ -88,6 +87,7 @@ fn loss_tab(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
         chosen: model.view.display.prediction,
     };
     let mut commands = loss.ui(ui);
+    commands.extend(unsure_reading(ui, displayed));
     let training = TrainingPanel {
         runs: jobs.training.views(&model.materials.all, model.training.requested.as_ref()),
         chosen: model.view.display.prediction,
@@ -96,6 +96,24 @@ fn loss_tab(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
     };
     commands.extend(training.ui(ui));
     commands
+}
+
+/// Below the losses: that some may be of files that were read wrongly. A click opens *Files*.
+fn unsure_reading(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Option<Command> {
+    let unsure = unsure_guesses(displayed);
+    let text = match unsure {
+        0 => return None,
+        1 => "A guess in reading is unsure".to_owned(),
+        _ => format!("{unsure} guesses in reading are unsure"),
+    };
+    let label = ui.link(RichText::new(text).small().color(ui.visuals().warn_fg_color));
+    let hover = "The losses depend on how files were read: see Files";
+    label.on_hover_text(hover).clicked().then(|| WindowCommand::ChooseTab(Tab::Files).into())
+}
+
+fn unsure_guesses(displayed: Displayed<'_>) -> usize {
+    let all = displayed.model.materials.all.iter().flat_map(|one| &one.read.assumptions);
+    all.filter(|assumption| assumption.certainty == Certainty::Unsure).count()
 }
 
 fn why_tab(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextures) -> Vec<Command> {

@@ -7,53 +7,100 @@ use crate::viewer::model::command::{
     WindowCommand,
 };
 
-/// Every gesture and key with its effect, for the help window and the README.
-pub const HELP: &[(&str, &str)] = &[
-    ("left-drag", "move the light: its x and y follow the pointer; on maps, pan"),
-    ("right-drag", "move the view; in perspective, turn the material, up to 85 degrees off its normal"),
-    ("Shift + wheel", "height of the light"),
-    ("Alt + wheel", "height of the view"),
-    ("Ctrl + Shift + left-drag", "orbit the light"),
-    ("Ctrl + Shift + right-drag", "distance of the light"),
-    ("Space", "pause or resume the light and the turntable that move by themselves"),
-    ("H", "highlight follows the pointer, on / off"),
-    ("wheel", "zoom at the pointer"),
-    ("middle-drag, Space + left-drag", "pan"),
-    ("I, Alt + click", "pin the texel: all its numbers in a table below; again: remove the pin"),
-    ("Q, then left-drag; on maps Shift + left-drag", "statistics of a rectangle; Esc removes it"),
+/// A gesture or keys, and what they do.
+pub type HelpLine = (&'static str, &'static str);
+
+/// Every gesture and key with its effect, in groups, for the help window and docs/window.md.
+pub const HELP: &[(&str, &[HelpLine])] = &[
     (
-        "F / 0 / R",
-        "fit, in perspective also a material seen as a line / one texel per pixel / reset light, view, zoom, exposure and clipping marks",
+        "Light",
+        &[
+            ("left-drag", "move the light: its x and y follow the pointer; on maps, pan"),
+            ("Shift + wheel", "height of the light"),
+            ("Ctrl + Shift + left-drag", "orbit the light"),
+            ("Ctrl + Shift + right-drag", "distance of the light"),
+            ("H", "highlight follows the pointer, on / off"),
+            ("Space", "pause or resume the light and the turntable that move by themselves"),
+        ],
     ),
-    ("G (hold)", "show the ground truth in every pane"),
-    ("X", "swap prediction and ground truth"),
-    ("1 .. 9", "choose the prediction"),
-    ("Ctrl + Up / Down", "previous / next prediction"),
-    (", / .", "previous / next step of a training run"),
-    ("C", "layout: side by side, wipe, single"),
-    ("D", "value / difference from the ground truth"),
-    ("P", "flat / perspective"),
-    ("M / Shift + M", "next / previous of rendering and maps"),
-    ("E / Shift + E", "exposure up / down by 0.5 EV"),
-    ("N", "automatic exposure: the brightest 1% of the ground truth clips"),
-    ("T", "repeat the material 2 x 2 times to show its seams, on / off"),
-    ("J", "histograms of the values, on / off"),
-    ("V", "false colours for roughness, on / off"),
-    ("L", "mark clipped pixels, on / off"),
-    ("Enter", "compute the loss"),
-    ("Esc", "close a dialog or the corners, cancel a search or the loss, or show the whole prediction again"),
-    ("B", "side panel, on / off"),
-    ("Ctrl + O / Ctrl + Shift + O", "open materials or a session / reopen the last materials"),
-    ("Ctrl + S / Ctrl + Shift + C", "save view, renderings, strip or session / copy the view as a picture"),
-    ("Ctrl + R", "read all files again"),
     (
-        "Ctrl + Z / Ctrl + Shift + Z",
-        "undo / redo light, view, display, materials and photograph (redo also: Ctrl + Y)",
+        "View",
+        &[
+            (
+                "right-drag",
+                "move the view; in perspective, turn the material, up to 85 degrees off its normal",
+            ),
+            ("Alt + wheel", "height of the view"),
+            ("P", "flat / perspective"),
+        ],
     ),
-    ("Ctrl + plus / minus / 0", "size of text and controls"),
-    ("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene, or paths of materials"),
-    ("double-click a number", "reset it to its default"),
-    ("?, F1", "this help"),
+    (
+        "Zoom",
+        &[
+            ("wheel", "zoom at the pointer"),
+            ("middle-drag, Space + left-drag", "pan"),
+            (
+                "F / 0 / R",
+                "fit, in perspective also a material seen as a line / one texel per pixel / reset light, view, zoom, exposure and clipping marks",
+            ),
+        ],
+    ),
+    (
+        "Compare",
+        &[
+            ("1 .. 9", "choose the prediction"),
+            ("Ctrl + Up / Down", "previous / next prediction"),
+            (", / .", "previous / next step of a training run"),
+            ("G (hold)", "show the ground truth in every pane"),
+            ("X", "swap prediction and ground truth"),
+            ("C", "layout: side by side, wipe, single"),
+            ("D", "value / difference from the ground truth"),
+            ("Enter", "compute the loss"),
+        ],
+    ),
+    (
+        "Show",
+        &[
+            ("M / Shift + M", "next / previous of rendering and maps"),
+            ("E / Shift + E", "exposure up / down by 0.5 EV"),
+            ("N", "automatic exposure: the brightest 1% of the ground truth clips"),
+            ("T", "repeat the material 2 x 2 times to show its seams, on / off"),
+            ("J", "histograms of the values, on / off"),
+            ("V", "false colours for roughness, on / off"),
+            ("L", "mark clipped pixels, on / off"),
+            ("I, Alt + click", "pin the texel: all its numbers in a table below; again: remove the pin"),
+            ("Q, then left-drag; on maps Shift + left-drag", "statistics of a rectangle; Esc removes it"),
+        ],
+    ),
+    (
+        "Files",
+        &[
+            ("Ctrl + O / Ctrl + Shift + O", "open materials or a session / reopen the last materials"),
+            (
+                "Ctrl + S / Ctrl + Shift + C",
+                "save view, renderings, strip or session / copy the view as a picture",
+            ),
+            ("Ctrl + R", "read all files again"),
+            ("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene, or paths of materials"),
+        ],
+    ),
+    (
+        "Window",
+        &[
+            (
+                "Ctrl + Z / Ctrl + Shift + Z",
+                "undo / redo light, view, display, materials and photograph (redo also: Ctrl + Y)",
+            ),
+            (
+                "Esc",
+                "close a dialog or the corners, cancel a search or the loss, or show the whole prediction again",
+            ),
+            ("B", "side panel, on / off"),
+            ("Ctrl + plus / minus / 0", "size of text and controls"),
+            ("double-click a number", "reset it to its default"),
+            ("?, F1", "this help"),
+        ],
+    ),
 ];
 
 /// What the commands of the keys depend on.

@@ -21,6 +21,9 @@ impl LegendStrip<'_> {
     pub fn statistics(&self, ui: &mut egui::Ui) {
         let Some(distributions) = self.distributions else {
             match &self.error_map {
+                _ if !ui.is_enabled() => {
+                    ui.weak("Difference (D) has this scale");
+                }
                 Some(ErrorMapSummary { progress: Some(fraction), scenes }) => {
                     let text = format!("{:.0}% of {scenes} scenes", 100.0 * fraction);
                     ui.add(egui::ProgressBar::new(*fraction).text(text).desired_width(STATISTICS * 0.6));

@@ -15,7 +15,7 @@ use crate::viewer::ui::widgets::theme;
 /// Number of predictions from which on there is a field that filters them.
 const MANY: usize = 12;
 /// Characters of a name in a row.
-const NAME: usize = 30;
+const NAME: usize = 15;
 /// Heights of a line and of the bar below it, in points.
 const LINE: f32 = 17.0;
 const BAR: f32 = 3.0;

@@ -9,6 +9,7 @@ use crate::viewer::model::inspection::Inspection;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::view::state::{Layout, ViewState};
 use crate::viewer::ui::photograph::corner_editor::CornerEditor;
+use crate::viewer::ui::widgets::names::shortened;
 
 /// What the panes show, for one frame.
 #[derive(Debug)]
@@ -148,25 +149,36 @@ impl Scenery<'_> {
         grid.then_some(content)
     }
 
-    /// The name of what a pane shows, without its difference.
-    pub fn name_of(&self, content: Content) -> String {
+    /// The name of what a pane shows, without its difference, in about `most` characters.
+    pub fn name_of(&self, content: Content, most: usize) -> String {
         match (self.photograph, content.photograph) {
             (Some(photograph), PhotographUse::Shown) => photograph.title(content.index),
-            _ => self.title(content.index),
+            _ => self.title(content.index, most),
         }
     }
 
-    /// The name of what a pane compares with.
-    pub fn name_of_reference(&self, content: Content) -> String {
+    /// The name of what a pane compares with, in about `most` characters.
+    pub fn name_of_reference(&self, content: Content, most: usize) -> String {
         match (self.photograph, content.photograph) {
             (Some(photograph), PhotographUse::Reference) => photograph.title(content.index),
-            _ => self.title(content.reference),
+            _ => self.title(content.reference, most),
         }
     }
 
-    /// The name of material `index` in titles.
-    pub fn title(&self, index: usize) -> String {
-        let name = self.materials[index].label();
+    /// How many names of materials a title has, and their characters.
+    pub fn name_lengths(&self, content: Content) -> (usize, usize) {
+        let length = |index: usize| self.materials[index].label().chars().count();
+        match content.mode {
+            DisplayMode::Wipe(_) => (2, length(content.index) + length(content.reference)),
+            DisplayMode::Value => (1, length(content.index)),
+        }
+    }
+
+    /// The name of material `index` in titles. Of names that are too long, what all have in common is left out.
+    fn title(&self, index: usize, most: usize) -> String {
+        let labels: Vec<String> = self.materials.iter().map(LoadedMaterial::label).collect();
+        let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
+        let name = &shortened(&labels, most)[index];
         if index == 0 { format!("GROUND TRUTH  {name}") } else { format!("{index}  {name}") }
     }
 }

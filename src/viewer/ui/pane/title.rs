@@ -12,6 +12,8 @@ use crate::viewer::ui::widgets::theme;
 
 /// Width of the button that shows all maps again, in points.
 const BACK: f32 = 96.0;
+/// Mean width of a character, in points.
+const CHARACTER: f32 = 7.0;
 /// Widths of the colour of a prediction and of its loss, in points.
 const SWATCH: f32 = 14.0;
 const LOSS: f32 = 64.0;
@@ -27,19 +29,7 @@ pub fn title_bar(
     let is_material = content.photograph != PhotographUse::Shown;
     let prediction = content.index.checked_sub(1).filter(|_| is_material);
     let chosen = is_material && content.index == scenery.chosen() && content.index != 0;
-    let difference = scenery.state.difference_name();
-    let text = match content.mode {
-        DisplayMode::Value if content.difference => {
-            format!("{}: {difference}", scenery.name_of(content))
-        }
-        DisplayMode::Wipe(_) if content.difference => {
-            format!("{}   |   {}: {difference}", scenery.name_of_reference(content), scenery.name_of(content))
-        }
-        DisplayMode::Value => scenery.name_of(content),
-        DisplayMode::Wipe(_) => {
-            format!("{}   |   {}", scenery.name_of_reference(content), scenery.name_of(content))
-        }
-    };
+    let text = text(scenery, content, usize::MAX);
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let mixed = chosen && scenery.state.display.isolated.is_some();
@@ -66,9 +56,13 @@ pub fn title_bar(
     }
     let width = rect.width() - left - 8.0 - room;
     let font = FontId::proportional(13.5);
-    let galley = egui::WidgetText::from(egui::RichText::new(&text).font(font.clone()).color(colour))
+    // The quantity stays; names lose what they have in common, and then their middles.
+    let (names, length) = scenery.name_lengths(content);
+    let room = ((width / CHARACTER) as usize + length).saturating_sub(text.chars().count());
+    let short = self::text(scenery, content, (room / names).max(8));
+    let galley = egui::WidgetText::from(egui::RichText::new(&short).font(font.clone()).color(colour))
         .into_galley(ui, Some(egui::TextWrapMode::Truncate), width, font);
-    let elided = galley.elided;
+    let elided = galley.elided || short != text;
     let at = rect.left_center() + vec2(left, -galley.size().y * 0.5);
     painter.galley(at, galley, colour);
     if chosen && scenery.state.display.layout == Layout::SideBySide && scenery.materials.len() > 2 {
@@ -83,4 +77,16 @@ pub fn title_bar(
     }
     let response = if elided { response.on_hover_text(text) } else { response };
     prediction.filter(|_| response.clicked()).map(|index| DisplayCommand::ChoosePrediction(index).into())
+}
+
+/// The names, of at most `most` characters each, and the quantity.
+fn text(scenery: &Scenery<'_>, content: Content, most: usize) -> String {
+    let (name, reference) = (scenery.name_of(content, most), scenery.name_of_reference(content, most));
+    let difference = scenery.state.difference_name();
+    match content.mode {
+        DisplayMode::Value if content.difference => format!("{name}: {difference}"),
+        DisplayMode::Wipe(_) if content.difference => format!("{reference}   |   {name}: {difference}"),
+        DisplayMode::Value => name,
+        DisplayMode::Wipe(_) => format!("{reference}   |   {name}"),
+    }
 }

@@ -186,7 +186,7 @@ impl Viewport {
             (false, true) => "Difference pane",
             (false, false) => "Value pane",
         };
-        let label = format!("{kind} {}", scenery.name_of(content));
+        let label = format!("{kind} {}", scenery.name_of(content, usize::MAX));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let camera = scenery.state.camera(scenery.materials[0].grid(), self.pane_pixels());
         self.paint(ui, scenery, gpu, (number, content), rect, camera);
