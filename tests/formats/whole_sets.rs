@@ -136,6 +136,11 @@ fn heights_in_the_alpha_of_a_colour_decide_y_too() {
     let read = open(folder.path());
     assert_eq!(chosen(&read, What::NormalY), "down");
     assert_eq!(read.unsure().count(), 0, "{:#?}", read.assumptions);
+    assert!(!notes(&read).contains("alpha"), "{}", notes(&read));
+    // Where a name states y, nothing asks for the heights.
+    std::fs::rename(folder.path().join("soil_normal.png"), folder.path().join("soil_normal_dx.png")).unwrap();
+    let named = open(folder.path());
+    assert!(notes(&named).contains("The alpha of soil_albedo_height.png is not used"), "{}", notes(&named));
 }
 
 /// A texture set of Minecraft of these pairs.
@@ -281,4 +286,21 @@ fn presets_of_networks_read_what_their_codes_write() {
     let expected = 0.5_f64.powf(2.2) / 0.96;
     assert!((read.material.texel(9).diffuse[0] - expected).abs() < 0.005, "{:?}", read.material.texel(9));
     assert_eq!(read.maps.iter().filter(|map| map.map == Role::Roughness).count(), 1);
+}
+
+#[test]
+fn a_document_beside_the_pictures_is_named_and_its_format_defines_y() {
+    let folder = tempdir().unwrap();
+    colour_and_roughness(folder.path(), "lid");
+    let slight = picture(BUMPS, BUMPS, |x, _| [0.5 + 0.05 * (x % 2) as f64, 0.5, 1.0]);
+    put(folder.path(), "lid_normal.png", &slight);
+    let text = r#"{"images": [{"uri": "lid_normal.png"}]}"#;
+    std::fs::write(folder.path().join("scene.gltf"), text).unwrap();
+    std::fs::write(folder.path().join("other.mtlx"), "<materialx/>").unwrap();
+    let read = open(folder.path());
+    assert!(notes(&read).contains("scene.gltf lists these pictures"), "{}", notes(&read));
+    assert!(!notes(&read).contains("other.mtlx"), "{}", notes(&read));
+    let y = read.assumptions.iter().find(|a| a.what == What::NormalY).unwrap();
+    assert_eq!((y.chosen.as_str(), y.certainty), ("up", Certainty::Likely), "{y}");
+    assert!(y.to_string().contains("scene.gltf"), "{y}");
 }

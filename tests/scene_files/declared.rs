@@ -146,6 +146,25 @@ fn colours_of_other_primaries_are_brought_to_rec_709() {
 }
 
 #[test]
+fn a_colour_space_does_not_concern_roughness() {
+    let nodes =
+        r#"<image name="rough" type="float"><input name="file" type="filename" value="gray.png"/></image>"#;
+    let inputs = r#"<input name="specular_roughness" type="float" nodename="rough"/>
+        <input name="base_weight" type="float" nodename="rough"/>"#;
+    let folder = textures();
+    save(folder.path(), "gray.png", &picture(SIDE, SIDE, |_, _| [0.4; 3]), ImageFormat::Png);
+    let path = folder.path().join("a.mtlx");
+    let text = format!(
+        r#"<materialx version="1.39" colorspace="adobergb">{nodes}
+          <open_pbr_surface name="wall" type="surfaceshader">{inputs}</open_pbr_surface></materialx>"#
+    );
+    std::fs::write(&path, text).unwrap();
+    let texel = open(&path).material.texel(77);
+    assert!((texel.roughness - 0.4).abs() < 1e-6, "{texel:?}");
+    assert_near(texel.diffuse, [0.32; 3], 1e-5);
+}
+
+#[test]
 fn colours_that_rec_709_does_not_have_are_clipped_and_a_space_that_is_not_known_is_doubted() {
     let inputs = r#"<input name="base_color" type="color3" value="0.1, 0.9, 0.1"/><input name="specular_ior" type="float" value="1.6"/>"#;
     let wide = mtlx("acescg", "", "open_pbr_surface", inputs).unwrap();

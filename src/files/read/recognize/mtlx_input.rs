@@ -126,7 +126,12 @@ impl MtlxInputs<'_> {
     fn map(&self, picture: &BoundPicture, role: Role) -> Result<LoadedInput, Error> {
         let whole = self.picture(&picture.file, role)?;
         let raster = picture.channel.map_or(whole.raster.clone(), |c| whole.raster.channel(c));
-        let stored = in_rec709(StoredMap { raster, ..whole.clone() }, picture.space.as_deref());
+        let (source, space) = (StoredMap { raster, ..whole.clone() }, picture.space.as_deref());
+        let stored = match picture.is_colour && matches!(role, Role::Base | Role::Specular) {
+            true => in_rec709(source, space),
+            // A colour space does not concern numbers.
+            false => LoadedInput::linear(source, space.and_then(encoding)),
+        };
         let Affine { scale, offset } = picture.affine;
         if picture.affine == Affine::default() {
             return Ok(stored);

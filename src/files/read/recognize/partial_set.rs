@@ -84,6 +84,7 @@ impl<'a> PartialSet<'a> {
         if label.is_over_heights()
             && let Some(heights) = raster.alpha.take()
         {
+            self.notes.push(Note::Unused { what: format!("The alpha of {file}"), why: Unused::NotAMap });
             let raster = raster.of(heights);
             self.height = Some(StoredHeight::Picture { raster, file: self.set.path_of(file) });
         }

@@ -58,7 +58,8 @@ impl StoredMaterial {
     /// Records that the heights of `file` tell the direction of y: it is read, and not left unused.
     pub(crate) fn use_heights(&mut self, file: &Path) {
         let name = file.file_name().unwrap_or_default().to_string_lossy();
-        self.notes.retain(|note| !matches!(note, Note::Unused { what, .. } if *what == name));
+        let is_it = |what: &str| what.strip_prefix("The alpha of ").unwrap_or(what) == name;
+        self.notes.retain(|note| !matches!(note, Note::Unused { what, .. } if is_it(what)));
         self.add_file(file.to_owned());
     }
 

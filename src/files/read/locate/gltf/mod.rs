@@ -58,7 +58,7 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
         return Err(Error::BadImage {
             path: path.to_owned(),
             problem: format!(
-                "{}: expected extensions that are read, found {extension}, without which the file declares it meaningless",
+                "{}: expected extensions that are read, found {extension}, which the file requires",
                 name(material, index)
             ),
             remedy: "export the material as metallic and roughness".to_owned(),
