@@ -85,9 +85,10 @@ fn in_memory(bytes: &[u8]) -> Result<Read<f32>, Error> {
 /// material. An error of the picture has to name the file.
 fn of_picture(error: &Error) -> bool {
     match error {
-        Error::BadImage { path, .. } | Error::NotPacked { path, .. } | Error::NotAMaterial { path, .. } => {
-            path == Path::new("damaged")
-        }
+        Error::BadImage { path, .. }
+        | Error::NotPacked { path, .. }
+        | Error::NotAMaterial { path, .. }
+        | Error::MissingMap { path, .. } => path == Path::new("damaged"),
         // A float that is too large for the material.
         Error::OutOfRange { whose, .. } => whose == "damaged",
         Error::MapSizesDiffer { .. } => true,
@@ -100,10 +101,9 @@ fn of_picture(error: &Error) -> bool {
 fn of_listing(error: &Error) -> bool {
     match error {
         Error::BadImage { .. } | Error::Unreadable { .. } | Error::MapSizesDiffer { .. } => true,
-        Error::NotAMaterial { path, .. } => {
+        Error::NotAMaterial { path, .. } | Error::MissingMap { path, .. } => {
             named_damaged(path) || path.extension().is_some_and(|e| e == "png")
         }
-        Error::NoTextures { path, .. } => named_damaged(path),
         _ => false,
     }
 }
@@ -114,7 +114,10 @@ fn of_sidecar(error: &Error) -> bool {
         Error::BadSidecar { path, .. }
         | Error::NotPacked { path, .. }
         | Error::NoSuchExemplar { path, .. } => named_damaged(path),
-        Error::BadImage { .. } | Error::NotAMaterial { .. } | Error::MapSizesDiffer { .. } => true,
+        Error::BadImage { .. }
+        | Error::NotAMaterial { .. }
+        | Error::MissingMap { .. }
+        | Error::MapSizesDiffer { .. } => true,
         _ => false,
     }
 }

@@ -1,5 +1,6 @@
 //! Materials of files that name their textures: glTF, MTL and MaterialX.
 
+mod declared;
 mod extensions;
 mod materialx;
 pub mod mtl;

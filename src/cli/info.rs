@@ -26,7 +26,8 @@ pub struct InfoArgs {
 
     /// Takes a map from another file, or from a channel or layer of it; may be given several times
     ///
-    /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer. The map
+    /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer; a
+    /// number or three, as in roughness=0.5, is a constant. The map
     /// replaces that of MATERIAL.
     #[arg(long = "map", value_name = "MAP=FILE[:PART]")]
     bindings: Vec<Binding>,

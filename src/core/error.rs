@@ -23,6 +23,11 @@ pub enum Error {
     #[error("{} is not a material: expected {expected}, found {found}; {remedy}", path.display())]
     NotAMaterial { path: PathBuf, expected: String, found: String, remedy: String },
 
+    /// A map that a material needs is not among what was read.
+    #[error("{} is not a material: expected one picture for the {map} map (named after one of {examples}), found {found}; \
+        add or rename the file, specify the map, or open a packed picture by itself", path.display())]
+    MissingMap { path: PathBuf, map: &'static str, examples: String, found: String },
+
     /// A packed image was expected, and the picture cannot be divided into one.
     #[error("{} is not a material: expected {}, found {} x {} pixels; give a packed image, or a folder or prefix of one \
         file per map", path.display(), expected_tiles(*grid), size[0], size[1])]
@@ -37,11 +42,6 @@ pub enum Error {
     #[error("{} holds {count} materials: expected an exemplar from 0 to {}, found {exemplar}; count from 0",
         path.display(), count.saturating_sub(1))]
     NoSuchExemplar { path: PathBuf, count: usize, exemplar: usize },
-
-    /// One of the materials of a file has no textures.
-    #[error("{} is not a material: expected textures, found none in {name} (number {exemplar} of {count}, from 0); \
-        choose another of its materials", path.display())]
-    NoTextures { path: PathBuf, name: String, exemplar: usize, count: usize },
 
     /// A sidecar file cannot be understood.
     #[error("{} does not specify how a material is read: {problem}; expected an object such as \

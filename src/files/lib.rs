@@ -20,6 +20,7 @@
 pub mod atomic;
 pub mod dataset;
 pub mod export;
+mod lfs;
 pub mod open;
 mod panics;
 pub mod photograph;

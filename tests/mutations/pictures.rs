@@ -86,7 +86,13 @@ fn damaged_tga_never_panics() {
     let strip = packed("NDRS", 4, |_, v| v);
     let of_tga = |error: &Error| match error {
         Error::BadImage { path, .. } => named_damaged(path),
-        other => of_picture(other) || matches!(other, Error::NotPacked { .. } | Error::NotAMaterial { .. }),
+        other => {
+            of_picture(other)
+                || matches!(
+                    other,
+                    Error::NotPacked { .. } | Error::NotAMaterial { .. } | Error::MissingMap { .. }
+                )
+        }
     };
     for (what, tga) in
         [("TGA", encoded(&strip, ImageFormat::Tga)), ("TGA of runs", tga_of_runs(strip.to_rgb8().as_raw()))]

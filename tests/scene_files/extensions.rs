@@ -4,7 +4,7 @@ use super::*;
 use crate::formats::decoders::blocks;
 
 /// A glTF of `materials` over the files `images`; `textures` as they stand in the file, and what else there is.
-fn document(images: &[&str], textures: &str, materials: &str, more: &str) -> String {
+pub fn document(images: &[&str], textures: &str, materials: &str, more: &str) -> String {
     let images: Vec<_> = images.iter().map(|uri| format!(r#"{{"uri": "{uri}"}}"#)).collect();
     format!(
         r#"{{"asset": {{"version": "2.0"}}, "images": [{}], "textures": [{textures}],
@@ -13,15 +13,15 @@ fn document(images: &[&str], textures: &str, materials: &str, more: &str) -> Str
     )
 }
 
-fn put(folder: &TempDir, text: &str) -> std::path::PathBuf {
+pub fn put(folder: &TempDir, text: &str) -> std::path::PathBuf {
     let path = folder.path().join("a.gltf");
     std::fs::write(&path, text).unwrap();
     path
 }
 
-const PLAIN: &str = r#"{"name": "wall", "normalTexture": {"index": 1}, "pbrMetallicRoughness": {
+pub const PLAIN: &str = r#"{"name": "wall", "normalTexture": {"index": 1}, "pbrMetallicRoughness": {
     "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 2}}}"#;
-const THREE: &str = r#"{"source": 0}, {"source": 1}, {"source": 2}"#;
+pub const THREE: &str = r#"{"source": 0}, {"source": 1}, {"source": 2}"#;
 
 #[test]
 fn textures_of_webp_open_and_extensions_of_meshes_do_not_refuse_the_file() {

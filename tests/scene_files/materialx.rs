@@ -8,7 +8,7 @@ fn document(surface: &str, inputs: &str) -> String {
     format!(
         r#"<materialx version="1.39" colorspace="lin_rec709">
           <noise2d name="noise" type="color3"/>
-          <multiply name="product" type="color3"><input name="in1" nodename="base"/></multiply>
+          <multiply name="product" type="color3"><input name="in1" nodename="base"/><input name="in2" nodename="base"/></multiply>
           <image name="base" type="color3" colorspace="srgb_texture"><input name="file" value="base colour.png"/></image>
           <{surface} name="wall" type="surfaceshader">{inputs}</{surface}>
         </materialx>"#

@@ -129,7 +129,7 @@ fn an_exponent_stands_for_roughness_and_heights_for_nothing_in_mtl() {
 fn an_mtl_without_what_is_needed_is_refused() {
     for (text, expected) in [
         ("Kd 1 1 1\n", "expected a material (newmtl NAME), found none"),
-        ("newmtl plain\nKd 1 1 1\nPr 0.5\n", "found none in plain (number 0 of 1, from 0)"),
+        ("newmtl plain\nKd 1 1 1\n", "expected one picture for the roughness map"),
         ("newmtl wall\nmap_Kd none.png\nPr 0.5\n", "none.png"),
         (
             "newmtl wall\nmap_Pr old rough.png\nKd red\n",

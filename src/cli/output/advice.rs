@@ -13,7 +13,10 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
         Error::SizesDiffer { .. } => "--resize-to gt, pred or a width brings materials to one size",
         Error::TooLarge { .. } => "give a smaller width to --resize-to",
         Error::NotFinite { .. } => "--non-finite replace puts other numbers in their place",
-        Error::NoSuchExemplar { .. } | Error::NoTextures { .. } => "--exemplar K chooses a material",
+        Error::NoSuchExemplar { .. } => "--exemplar K chooses a material",
+        Error::MissingMap { .. } => {
+            "info and convert: --map MAP=FILE, FILE:CHANNEL or a constant (roughness=0.5)"
+        }
         Error::NotPacked { grid: Some(_), .. } => "specify another --grid, or leave it out",
         Error::NotPacked { grid: None, .. } => {
             "--order and --grid specify the tiles; --order d reads the whole picture as diffuse"

@@ -66,8 +66,8 @@ use stored::StoredMaterial;
 /// [`Error::Unreadable`] where there is no such file or folder, [`Error::BadImage`] where a file is no image, is
 /// broken or too large, [`Error::NotAMaterial`] where a map is missing, claimed twice or gray though it is the
 /// normal map, [`Error::NotPacked`] where a picture is no packed image, [`Error::MapSizesDiffer`] where maps differ in
-/// shape, [`Error::NotFinite`] at NaN and infinity, [`Error::NoSuchExemplar`], [`Error::NoTextures`],
-/// [`Error::BadSidecar`], [`Error::Cancelled`].
+/// shape, [`Error::NotFinite`] at NaN and infinity, [`Error::NoSuchExemplar`], [`Error::BadSidecar`],
+/// [`Error::Cancelled`].
 pub fn read<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
     read_bound(path, &[], options, progress)
 }
@@ -110,7 +110,7 @@ pub fn read_unnormalized<T: Real>(
     let used = saved.clone().overridden_by(options, &[]);
     let options = &used.options.with_preset();
     let stored = stored(locate::locate(path, &saved, &used)?, options, progress)?;
-    let evidence = gather::colours(&stored, options);
+    let evidence = gather::evidences(&stored, options);
     let mut linear = interpret::interpret(stored, evidence, options)?;
     Ok((assemble::planes(&mut linear, options), linear.size))
 }
@@ -159,15 +159,15 @@ fn stored(located: Located, options: &ReadOptions, progress: &Progress) -> Resul
         let found = decoded.and_then(|decoded| recognize::candidate(decoded, &bound, options));
         match found {
             Ok(found) => return Ok(recognize::within(found, &folders, name)),
-            Err(error @ (Error::NotAMaterial { .. } | Error::NotPacked { .. }))
-                if candidates.peek().is_some() =>
-            {
+            Err(
+                error @ (Error::NotAMaterial { .. } | Error::MissingMap { .. } | Error::NotPacked { .. }),
+            ) if candidates.peek().is_some() => {
                 refusal = Some(error);
             }
+            // An incomplete set tells what it lacks.
+            Err(error @ (Error::Cancelled | Error::MissingMap { .. })) => return Err(error),
             // Of several candidates the first is the one that the user named.
-            Err(error) => {
-                return Err(refusal.filter(|_| !matches!(error, Error::Cancelled)).unwrap_or(error));
-            }
+            Err(error) => return Err(refusal.unwrap_or(error)),
         }
     }
     Err(refusal.unwrap_or_else(|| Error::Internal("no candidate was located".to_owned())))
@@ -175,7 +175,7 @@ fn stored(located: Located, options: &ReadOptions, progress: &Progress) -> Resul
 
 fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read<T>, Error> {
     let maps = map_report::reports(&stored);
-    let evidence = gather::colours(&stored, options);
+    let evidence = gather::evidences(&stored, options);
     let mut linear = interpret::interpret(stored, evidence, options)?;
     let planes = assemble::planes(&mut linear, options);
     let [width, height] = linear.size;

@@ -19,6 +19,7 @@ mod tiff;
 use std::io::{BufRead, Seek};
 use std::path::Path;
 
+use crate::lfs;
 use crate::open::NamedFile;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
@@ -43,6 +44,7 @@ pub(super) fn from_reader(
 ) -> Result<Decoded, Error> {
     let place = Place { path, what };
     let head = reader.fill_buf().map_err(|source| Error::unreadable(path, source))?;
+    lfs::refuse_pointer(path, head)?;
     let begins = |magic: &[u8]| head.starts_with(magic);
     if begins(&[0x76, 0x2f, 0x31, 0x01]) {
         exr::decode(reader, place)

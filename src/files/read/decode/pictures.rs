@@ -8,7 +8,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 
 use super::{Decoded, Layer, from_reader, one, whole};
-use crate::read::located::binding::LocatedBinding;
+use crate::read::located::binding::{BoundSource, LocatedBinding};
 use crate::read::located::gltf::LocatedGltf;
 use crate::read::located::mtl::LocatedMtl;
 use crate::read::located::mtlx::LocatedMtlx;
@@ -110,6 +110,7 @@ fn decoded(LocatedPicture { source, subject }: &LocatedPicture) -> Result<Decode
 /// The picture of a binding, or all layers of its file where it names a part.
 #[derive(Debug)]
 pub(crate) enum DecodedBinding {
+    Constant(Vec<f32>),
     Whole(Raster),
     Parts(Vec<Layer>, String),
 }
@@ -120,8 +121,11 @@ pub(crate) enum DecodedBinding {
 /// [`Error::Unreadable`], [`Error::BadImage`].
 pub(in crate::read) fn binding(binding: &LocatedBinding) -> Result<DecodedBinding, Error> {
     let subject = Subject::Map(binding.role);
-    match &binding.part {
-        None => Ok(DecodedBinding::Whole(one(&binding.file, subject)?.0)),
-        Some(part) => Ok(DecodedBinding::Parts(whole(&binding.file, subject)?.layers, part.clone())),
+    match &binding.source {
+        BoundSource::Constant(values) => Ok(DecodedBinding::Constant(values.clone())),
+        BoundSource::File { file, part: None } => Ok(DecodedBinding::Whole(one(file, subject)?.0)),
+        BoundSource::File { file, part: Some(part) } => {
+            Ok(DecodedBinding::Parts(whole(file, subject)?.layers, part.clone()))
+        }
     }
 }

@@ -63,7 +63,8 @@ impl Place<'_> {
     pub(super) fn is_data(self) -> bool {
         match self.what {
             Subject::Map(role) => {
-                role.packing().is_some() || matches!(role, Role::Normal | Role::Roughness | Role::Metallic)
+                role.packing().is_some()
+                    || matches!(role, Role::Normal | Role::NormalRoughness | Role::Roughness | Role::Metallic)
             }
             _ => false,
         }

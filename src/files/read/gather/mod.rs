@@ -2,6 +2,7 @@
 //! them is interpreted.
 
 mod colours;
+mod heights;
 mod log_odds;
 pub(super) mod map_report;
 mod neighbours;
@@ -9,6 +10,7 @@ mod neighbours;
 use crate::read::options::{ReadOptions, Roughness};
 use crate::read::record::Evidence;
 use crate::read::stored::{StoredMap, StoredMaterial};
+pub(super) use heights::HeightEvidence;
 pub(super) use log_odds::{PRIOR, SURE};
 
 /// The evidence about how colours are stored.
@@ -24,8 +26,20 @@ pub(super) enum ColourEvidence {
     },
 }
 
+/// The evidence about the values of a material.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Evidences {
+    pub colours: ColourEvidence,
+    pub heights: Option<HeightEvidence>,
+}
+
+/// The evidence about a material that is to be read with `options`.
+pub(super) fn evidences(found: &StoredMaterial, options: &ReadOptions) -> Evidences {
+    Evidences { colours: colours(found, options), heights: heights::evidence(found, options) }
+}
+
 /// The evidence about the colours of a material that is to be read with `options`.
-pub(super) fn colours(found: &StoredMaterial, options: &ReadOptions) -> ColourEvidence {
+fn colours(found: &StoredMaterial, options: &ReadOptions) -> ColourEvidence {
     let inferred = &found.inferred;
     let is_known = inferred.albedo.is_some() && inferred.specular.is_some();
     match &found.specular {

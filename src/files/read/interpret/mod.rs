@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use svbrdf_core::error::Error;
 use svbrdf_core::math::real::Real;
 
-use crate::read::gather::ColourEvidence;
+use crate::read::gather::Evidences;
 use crate::read::options::{Energy, ReadOptions, Role};
 use crate::read::record::{Assumption, Certainty, Note, Reason, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
@@ -49,16 +49,17 @@ pub(super) struct LinearMaterial<T> {
 /// [`Error::NotAMaterial`] where the normal map is gray.
 pub(super) fn interpret<T: Real>(
     mut found: StoredMaterial,
-    evidence: ColourEvidence,
+    evidence: Evidences,
     options: &ReadOptions,
 ) -> Result<LinearMaterial<T>, Error> {
+    let Evidences { colours, heights } = evidence;
     note_alpha(&mut found);
     let size = found.common_size()?;
     values::check(&mut found, options)?;
-    let [colour_encoding, specular_encoding] = colours::encodings(&mut found, evidence, options);
+    let [colour_encoding, specular_encoding] = colours::encodings(&mut found, colours, options);
     let roughness_encoding = roughness_encoding(&mut found, options);
     let normal = match found.normal.take() {
-        Some(source) => normals::planes(source, &mut found, options, size)?,
+        Some(source) => normals::planes(source, &mut found, heights, options, size)?,
         None => normals::flat(&mut found, size),
     };
     let mut clamped = Clamped::default();
@@ -93,9 +94,14 @@ pub(super) fn interpret<T: Real>(
     })
 }
 
-/// Notes the maps whose alpha is not used.
+/// Notes the maps whose alpha is not used, also not by another map.
 fn note_alpha(found: &mut StoredMaterial) {
-    let is_noted = |(map, source): &(Role, &StoredMap)| source.raster.alpha.is_some() && *map != Role::Normal;
+    let holds_alpha = |file: &PathBuf| {
+        found.sources().iter().any(|(_, source)| source.file == *file && source.part.ends_with("alpha"))
+    };
+    let is_noted = |(map, source): &(Role, &StoredMap)| {
+        source.raster.alpha.is_some() && *map != Role::Normal && !holds_alpha(&source.file)
+    };
     let sources = found.sources().into_iter().filter(is_noted);
     let notes: Vec<_> = sources.map(|(map, _)| Note::AlphaIgnored { map }).collect();
     found.notes.extend(notes);

@@ -7,11 +7,12 @@ use svbrdf_core::material::resize::{self, Filter};
 use svbrdf_core::math::real::Real;
 
 use super::decide::decide;
+use crate::read::gather::HeightEvidence;
 use crate::read::measure::{self, NORMAL_AT_LEAST};
 use crate::read::options::{NormalEncoding, NormalY, ReadOptions};
 use crate::read::raster::{Raster, Samples};
-use crate::read::record::{Assumption, Certainty, Reason, What};
-use crate::read::stored::{StoredMap, StoredMaterial};
+use crate::read::record::{Assumption, Certainty, Reason, StorageConvention, What};
+use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// Shorter vectors have no direction.
 const SHORTEST: f64 = 1e-3;
@@ -20,6 +21,8 @@ const SHORTEST: f64 = 1e-3;
 const DOWN: f64 = -0.05;
 /// Beyond this correlation the curl test contradicts a name or a convention.
 const CONTRADICTS: f64 = 0.3;
+/// Heights whose slopes correlate better with the normals outweigh the curl test.
+const CLEAR: f64 = 0.5;
 /// Above this correlation it is taken to be y up.
 const UP: f64 = 0.1;
 
@@ -36,6 +39,7 @@ const STEEP: f64 = 0.05;
 pub(crate) fn planes<T: Real>(
     source: StoredMap,
     found: &mut StoredMaterial,
+    heights: Option<HeightEvidence>,
     options: &ReadOptions,
     size: [usize; 2],
 ) -> Result<[Vec<T>; 3], Error> {
@@ -58,7 +62,7 @@ pub(crate) fn planes<T: Real>(
         decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, None, || {
             (encoding, why, certainty)
         });
-    let y = normal_y(raster, encoding, found, options);
+    let y = normal_y(raster, encoding, found, heights, options);
     let (mut planes, missing) = decoded::<T>(raster, encoding, y);
     if missing > 0 {
         let why = Reason::NoDirection { count: missing };
@@ -74,7 +78,13 @@ pub(crate) fn planes<T: Real>(
 
 /// Normals of a material without a normal map.
 pub(crate) fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
-    let missing = Assumption::new(What::Missing, "normal (0, 0, 1)", Reason::NoNormalMap, Certainty::Unsure);
+    let is_listed = |one: &Assumption| one.why == StorageConvention::ListedTextures.into();
+    // A file that lists its textures has no other ones.
+    let (why, certainty) = match found.assumptions.iter().any(is_listed) {
+        true => (StorageConvention::NoListedNormals.into(), Certainty::Sure),
+        false => (Reason::NoNormalMap, Certainty::Unsure),
+    };
+    let missing = Assumption::new(What::Missing, "normal (0, 0, 1)", why, certainty);
     found.assumptions.push(missing);
     [T::zero(), T::zero(), T::one()].map(|value| vec![value; size[0] * size[1]])
 }
@@ -155,6 +165,7 @@ fn normal_y(
     raster: &Raster,
     encoding: NormalEncoding,
     found: &mut StoredMaterial,
+    heights: Option<HeightEvidence>,
     options: &ReadOptions,
 ) -> NormalY {
     let curl = measure::curl(raster.width, raster.height, |index| vector(raster, encoding, index));
@@ -162,19 +173,51 @@ fn normal_y(
     let named = hint.as_ref().is_some_and(|(.., certainty)| *certainty == Certainty::Sure);
     let of_preset = options.preset.and_then(|preset| preset.options().normal_y).filter(|_| !named);
     let given = options.normal_y.or(of_preset);
-    if let (None, Some((y, why, _)), Some(curl)) = (given, &hint, curl)
-        && ((*y == NormalY::Up && curl < -CONTRADICTS) || (*y == NormalY::Down && curl > CONTRADICTS))
-    {
-        let why = Reason::ContradictedBy(Box::new(why.clone()), Box::new(Reason::Curl(Some(curl))));
-        found.assumptions.push(Assumption::new(What::NormalY, *y, why, Certainty::Unsure));
-        return *y;
-    }
+    let hint = match (heights, given) {
+        (Some(heights), None) => Some(by_heights(hint, heights, curl, found)),
+        _ => contradicted(hint, curl.filter(|_| given.is_none())),
+    };
     decide(&mut found.assumptions, What::NormalY, given, hint, || match curl {
         Some(c) if c <= DOWN => (NormalY::Down, Reason::CurlDown(c), Certainty::Unsure),
         Some(c) if c >= UP => (NormalY::Up, Reason::Curl(curl), Certainty::Likely),
         None => (NormalY::Up, Reason::Curl(None), Certainty::Likely),
         Some(c) => (NormalY::Up, Reason::MostMapsUp(c), Certainty::Unsure),
     })
+}
+
+/// A direction that a name or a specification states, unsure where the curl test contradicts it.
+fn contradicted(hint: Inferred<NormalY>, curl: Option<f64>) -> Inferred<NormalY> {
+    let opposes = |y, curl| if y == NormalY::Up { curl < -CONTRADICTS } else { curl > CONTRADICTS };
+    hint.map(|(y, why, certainty)| match curl {
+        Some(curl) if opposes(y, curl) => {
+            let why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::Curl(Some(curl))));
+            (y, why, Certainty::Unsure)
+        }
+        _ => (y, why, certainty),
+    })
+}
+
+/// The direction that the heights show; that of a name or a specification, where there is one.
+fn by_heights(
+    hint: Inferred<NormalY>,
+    heights: HeightEvidence,
+    curl: Option<f64>,
+    found: &mut StoredMaterial,
+) -> (NormalY, Reason, Certainty) {
+    let (y, weakest) = (heights.y(), heights.correlations.map(f64::abs).into_iter().fold(1.0, f64::min));
+    let opposes = |curl: f64| if y == NormalY::Up { curl < -CONTRADICTS } else { curl > CONTRADICTS };
+    found.use_heights(&heights.file);
+    let why = Reason::Heights { file: heights.file, correlations: heights.correlations };
+    match hint {
+        Some((named, reason, Certainty::Sure)) if named == y => (y, reason, Certainty::Sure),
+        Some((named, reason, Certainty::Sure)) => {
+            (named, Reason::ContradictedBy(Box::new(reason), Box::new(why)), Certainty::Unsure)
+        }
+        _ if weakest < CLEAR && curl.is_some_and(opposes) => {
+            (y, Reason::ContradictedBy(Box::new(why), Box::new(Reason::Curl(curl))), Certainty::Unsure)
+        }
+        _ => (y, why, Certainty::Likely),
+    }
 }
 
 /// x, y up, z; and how many had no direction.

@@ -6,11 +6,12 @@ use std::path::Path;
 use svbrdf_core::error::Error;
 
 use super::directory::{self, folder_of, list, material_name};
-use super::grouping;
+use super::documents;
+use super::grouping::{self, Wanted};
 use crate::open::NamedFile;
 use crate::read::located::set::{LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located, WholePicture};
-use crate::read::names::{Label, listing};
+use crate::read::names::listing;
 use crate::read::options::Role;
 
 /// Locates the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
@@ -36,7 +37,8 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
         names.sort();
         names.dedup();
     }
-    let files = grouping::choose(path, &names, None, bound)?;
+    let (mut files, _) = grouping::choose(path, &names, Wanted::All, bound)?;
+    files.documents = documents::beside(folder, &names, &files);
     if prefix.is_empty() && files.files.is_empty() && bound.is_empty() && !files.unlabelled.is_empty() {
         let picture = lone_picture(path, folder, &names, &files.unlabelled)?;
         return Ok(Located::new([Candidate::Picture(picture)]));
@@ -53,6 +55,7 @@ fn set(path: &Path, folder: &Path, name: String, files: SetFiles, names: &[Strin
         files,
         listing: listing(names),
         has_renderings: folder.join("render").is_dir(),
+        listed_by: None,
     }
 }
 
@@ -108,18 +111,16 @@ fn within(path: &Path, folder: &Path, folders: &[String], bound: &[Role]) -> Res
     Ok(Located { name: Some(material_name(path, "")), ..found })
 }
 
-/// Locates the set of maps that the file `path` belongs to by its name; `None` where its name names no map.
+/// Locates the set of maps that the file `path` belongs to by its name.
 ///
 /// # Errors
 /// As [`locate`].
-pub(super) fn around(path: &Path, bound: &[Role]) -> Option<Result<LocatedSet, Error>> {
-    let label = Label::of(&path.file_stem()?.to_string_lossy())?;
+pub(super) fn around(path: &Path, bound: &[Role]) -> Result<LocatedSet, Error> {
     let folder = &folder_of(path);
-    let located = || {
-        let names = list(path, folder, "")?;
-        let files = grouping::choose(path, &names, Some(&label.stem), bound)?;
-        let name = if label.stem.is_empty() { material_name(folder, "") } else { label.stem.join(" ") };
-        Ok(set(path, folder, name, files, &names))
-    };
-    Some(located())
+    let names = list(path, folder, "")?;
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    let (mut files, stem) = grouping::choose(path, &names, Wanted::SetOf(&file), bound)?;
+    files.documents = documents::beside(folder, &names, &files);
+    let name = if stem.is_empty() { material_name(folder, "") } else { stem.join(" ") };
+    Ok(set(path, folder, name, files, &names))
 }

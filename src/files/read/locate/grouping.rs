@@ -6,7 +6,7 @@ use std::path::Path;
 use svbrdf_core::error::Error;
 
 use crate::read::located::set::{LabelledFile, NUMBERED, SetFiles};
-use crate::read::names::{Label, is_named_as, listing, words};
+use crate::read::names::{Label, is_named_as, listing, set_labels, words};
 use crate::read::options::Role;
 use crate::read::options::extensions::{self, PICTURES};
 use crate::read::record::{Note, Unused};
@@ -16,22 +16,30 @@ use crate::read::record::{Note, Unused};
 const UNREAD: [&str; 10] = ["psd", "avif", "jxl", "heic", "gif", "jp2", "ktx", "basis", "astc", "xcf"];
 type Groups = BTreeMap<Vec<String>, Vec<LabelledFile>>;
 
-/// The files of the one material among `names`: of the stem `wanted`, or of the only stem that is complete with what
-/// is `bound` already.
+/// The file or all files of a material that are wanted of a folder.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Wanted<'a> {
+    /// The one material whose files these are.
+    All,
+    /// The material that this file belongs to.
+    SetOf(&'a str),
+}
+
+/// The files of the one material among `names` that is `wanted`: of all of them the only one that is complete with what is
+/// `bound` already. With the words that the names of its files have in common.
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where there are several materials, or two files for a map.
 pub(crate) fn choose(
     path: &Path,
     names: &[String],
-    wanted: Option<&[String]>,
+    wanted: Wanted<'_>,
     bound: &[Role],
-) -> Result<SetFiles, Error> {
+) -> Result<(SetFiles, Vec<String>), Error> {
     let mut set = SetFiles::default();
     let mut groups = Groups::new();
-    for name in names {
-        let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
-        match Label::of(&stem) {
+    for (name, label) in names.iter().zip(set_labels(names)) {
+        match label {
             Some(label) if is_picture(name) || (is_unread(name) && label.role != Role::Ignored) => {
                 groups.entry(label.stem.clone()).or_default().push(LabelledFile { file: name.clone(), label })
             }
@@ -42,21 +50,25 @@ pub(crate) fn choose(
     share(&mut groups);
     // A short word counts beside other maps, or beside a picture that has the name of the set.
     let has_colour = |stem: &[String]| set.unlabelled.iter().any(|name| is_named_as(name, stem));
-    groups.retain(|stem, files| files.len() > 1 || !files[0].label.is_short() || has_colour(stem));
-    let is_whole = |files: &[LabelledFile]| is_complete(files, bound);
-    let mut complete: Vec<_> =
-        groups.iter().filter(|(_, files)| is_whole(files)).map(|(s, _)| s.clone()).collect();
+    let counts = |stem: &[String], files: &[LabelledFile]| {
+        files.len() > 1 || !files[0].label.is_short() || has_colour(stem)
+    };
+    let (mut groups, lone): (Groups, Groups) = groups.into_iter().partition(|(s, files)| counts(s, files));
+    let mut complete = complete(&groups, bound);
     if complete.is_empty() {
         let numbered = numbered(&set.unlabelled);
         complete = numbered.keys().cloned().collect();
         set.unlabelled.retain(|name| !numbered.values().flatten().any(|n| n.file == *name));
         groups.extend(numbered);
     }
-    let files = match (wanted, complete.as_slice()) {
-        (Some(stem), _) => groups.remove(stem).unwrap_or_default(),
-        (None, [only]) => groups.remove(only).unwrap_or_default(),
-        (None, []) => groups.into_values().flatten().collect(),
-        (None, several) => {
+    let (stem, files) = match (wanted, complete.as_slice()) {
+        (Wanted::SetOf(file), _) => {
+            let stem = stem_of(file, &groups, &lone);
+            (stem.clone(), groups.remove(&stem).unwrap_or_default())
+        }
+        (Wanted::All, [only]) => (only.clone(), groups.remove(only).unwrap_or_default()),
+        (Wanted::All, []) => (Vec::new(), std::mem::take(&mut groups).into_values().flatten().collect()),
+        (Wanted::All, several) => {
             let found = several.iter().map(|stem| stem.join("_")).collect::<Vec<_>>();
             return Err(Error::NotAMaterial {
                 path: path.to_owned(),
@@ -66,9 +78,28 @@ pub(crate) fn choose(
             });
         }
     };
+    set.heights = files.iter().filter(|file| file.label.is_height()).map(|file| file.file.clone()).collect();
     let (files, normals) = best(path, files, bound, &mut set.notes)?;
     (set.files, set.other_normals) = (files, normals);
-    Ok(set)
+    let others = groups.into_iter().filter(|(stem, _)| !complete.contains(stem)).chain(lone);
+    set.leave(others.flat_map(|(_, files)| files).collect(), &stem, matches!(wanted, Wanted::All));
+    Ok((set, stem))
+}
+
+/// The stems of the groups that are a material with what is `bound` already.
+fn complete(groups: &Groups, bound: &[Role]) -> Vec<Vec<String>> {
+    groups.iter().filter(|(_, files)| is_complete(files, bound)).map(|(stem, _)| stem.clone()).collect()
+}
+
+/// The stem of the set that a file belongs to: that of its label, else the longest that its name begins with.
+fn stem_of(file: &str, groups: &Groups, lone: &Groups) -> Vec<String> {
+    let is_of = |(_, files): &(&Vec<String>, &Vec<LabelledFile>)| files.iter().any(|one| one.file == file);
+    if let Some((stem, _)) = groups.iter().chain(lone).find(is_of) {
+        return stem.clone();
+    }
+    let words = words(&Path::new(file).file_stem().unwrap_or_default().to_string_lossy());
+    let stems = groups.keys().filter(|stem| !stem.is_empty() && words.starts_with(stem));
+    stems.max_by_key(|stem| stem.len()).cloned().unwrap_or_default()
 }
 
 /// Whether a file of this name counts as a picture.
@@ -83,8 +114,7 @@ fn is_unread(name: &str) -> bool {
 
 fn is_complete(files: &[LabelledFile], bound: &[Role]) -> bool {
     let has = |is: fn(Role) -> bool| files.iter().map(|f| f.label.role).chain(bound.iter().copied()).any(is);
-    has(|role| matches!(role, Role::Base | Role::Diffuse))
-        && has(|role| matches!(role, Role::Roughness | Role::SpecularGlossiness) || role.packing().is_some())
+    has(|role| matches!(role, Role::Base | Role::Diffuse)) && has(Role::has_roughness)
 }
 
 /// The stem of what the file shares with others, as in `bishop_shared_metallic`; `None` for others.

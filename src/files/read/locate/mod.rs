@@ -1,21 +1,25 @@
 //! Locating: which files and pictures may hold the maps of a material, by names, folder listings and documents alone.
 
 mod directory;
+mod documents;
 mod folder;
+mod foreign;
 mod gltf;
 mod grouping;
 mod mtl;
 mod mtlx;
 pub(super) mod neighbours;
 pub(super) mod sidecar;
+mod texture_set;
 
 use std::path::Path;
 
 use svbrdf_core::error::Error;
 
 use crate::open::NamedFile;
-use crate::read::located::binding::{Binding, LocatedBinding};
+use crate::read::located::binding::Binding;
 use crate::read::located::{Candidate, Located, WholePicture};
+use crate::read::names::Label;
 use crate::read::options::extensions::{self, LISTING};
 use crate::read::options::{ReadOptions, Role};
 
@@ -26,23 +30,21 @@ use sidecar::Sidecar;
 ///
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`] where a document is broken, [`Error::NotAMaterial`] where maps are missing
-/// or claimed twice by their names, [`Error::NoSuchExemplar`], [`Error::NoTextures`], [`Error::BadSidecar`].
+/// or claimed twice by their names, [`Error::NoSuchExemplar`], [`Error::BadSidecar`].
 pub(super) fn locate(path: &Path, saved: &Sidecar, used: &Sidecar) -> Result<Located, Error> {
     let (of_sidecar, of_caller): (Vec<_>, Vec<_>) =
         used.bindings.iter().cloned().partition(|binding| saved.bindings.contains(binding));
     Sidecar { bindings: of_sidecar, ..Sidecar::default() }.check_maps(path)?;
-    let bound = |binding: &Binding| {
-        let file = if of_caller.contains(binding) {
-            NamedFile::by_user(binding.file())
-        } else {
-            NamedFile::by_file(binding.file(), &Sidecar::path_for(path))
-        };
-        LocatedBinding { role: binding.role(), file, part: binding.part().map(str::to_owned) }
+    let bound = |binding: &Binding| match of_caller.contains(binding) {
+        true => binding.located(|file| NamedFile::by_user(file)),
+        false => binding.located(|file| NamedFile::by_file(file, &Sidecar::path_for(path))),
     };
     let bound: Vec<_> = used.bindings.iter().map(bound).collect();
     let roles: Vec<_> = bound.iter().map(|binding| binding.role).collect();
-    let found = candidates(&sidecar::material_of(path)?, &roles, &used.options.with_preset())?;
-    Ok(Located { bound, ..found })
+    let mut found = candidates(&sidecar::material_of(path)?, &roles, &used.options.with_preset())?;
+    found.bound.retain(|one| !roles.contains(&one.role));
+    found.bound.extend(bound);
+    Ok(found)
 }
 
 /// What may be at `path` beside the maps of the roles `bound`.
@@ -55,18 +57,36 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
     {
         return folder::locate(path, &folder_of(path), &prefix.to_string_lossy(), bound);
     }
+    if texture_set::is_named(path) {
+        return texture_set::locate(path);
+    }
+    if let Some(refusal) = foreign::refusal(path) {
+        return Err(refusal);
+    }
     let extension = extensions::of_name(path);
     let first = match extension.as_str() {
-        "gltf" | "glb" => Candidate::Gltf(gltf::locate(path, options)?),
+        // An avatar of VRM is a glb.
+        "gltf" | "glb" | "vrm" => Candidate::Gltf(gltf::locate(path, options)?),
         "mtl" => Candidate::Mtl(mtl::locate(path, options)?),
         "mtlx" => Candidate::Mtlx(mtlx::locate(path, options)?),
         _ => Candidate::Picture(WholePicture { file: NamedFile::by_user(path), refusal: None }),
     };
     let may_be_one_map = options.order.is_none() && !LISTING.contains(&extension.as_str());
-    let around = if may_be_one_map { folder::around(path, bound) } else { None };
-    // A set that cannot be located leaves the refusal of the picture as the error.
-    let around = around.and_then(Result::ok).map(Candidate::Set);
-    Ok(Located::new([first].into_iter().chain(around)))
+    if !may_be_one_map {
+        return Ok(Located::new([first]));
+    }
+    let of_map = Label::of(&path.file_stem().unwrap_or_default().to_string_lossy()).is_some();
+    match folder::around(path, bound) {
+        Ok(set) if !set.files.files.is_empty() => Ok(Located::new([first, Candidate::Set(set)])),
+        // A set that cannot be located is the refusal of a picture that is named after a map.
+        Err(error @ Error::NotAMaterial { .. }) if of_map => {
+            Ok(Located::new([Candidate::Picture(WholePicture {
+                file: NamedFile::by_user(path),
+                refusal: Some(error),
+            })]))
+        }
+        _ => Ok(Located::new([first])),
+    }
 }
 
 #[cfg(test)]
@@ -149,7 +169,7 @@ mod tests {
         let caller: Binding = "metallic=m.png".parse().unwrap();
         let used = Sidecar { bindings: vec![saved.bindings[0].clone(), caller], ..Sidecar::default() };
         let found = locate(path, &saved, &used).unwrap();
-        let by: Vec<_> = found.bound.iter().map(|bound| bound.file.named_by().clone()).collect();
+        let by: Vec<_> = found.bound.iter().map(|bound| bound.file().unwrap().named_by().clone()).collect();
         assert_eq!(by, [NamedBy::File(path.join("svbrdf.json")), NamedBy::User]);
         let Candidate::Set(set) = &found.candidates[0] else { panic!("{found:?}") };
         assert_eq!(set.file("a_diffuse.png").named_by(), &NamedBy::File(path.to_owned()));

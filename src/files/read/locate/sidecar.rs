@@ -105,14 +105,11 @@ impl Sidecar {
     /// # Errors
     /// [`Error::BadSidecar`].
     pub(crate) fn check_maps(&self, path: &Path) -> Result<(), Error> {
-        match self.bindings.iter().find(|binding| !binding.file().exists()) {
-            Some(missing) => Err(Error::BadSidecar {
+        let files = self.bindings.iter().filter_map(|binding| Some((binding.role(), binding.file()?)));
+        match files.into_iter().find(|(_, file)| !file.exists()) {
+            Some((role, file)) => Err(Error::BadSidecar {
                 path: Self::path_for(path),
-                problem: format!(
-                    "the {} map {} does not exist",
-                    missing.role().name(),
-                    missing.file().display()
-                ),
+                problem: format!("the {} map {} does not exist", role.name(), file.display()),
                 keys: keys().join(", "),
             }),
             None => Ok(()),
@@ -175,7 +172,7 @@ impl Sidecar {
         for note in notes.iter_mut() {
             let is_saved = match note {
                 Note::MapSpecified { map, file, .. } => {
-                    self.bindings.iter().any(|b| b.role() == *map && b.file() == file)
+                    self.bindings.iter().any(|b| b.role() == *map && b.file().is_none_or(|own| own == file))
                 }
                 Note::RowsFlipped { .. } => is_saved("flip-v"),
                 Note::SpecularMedian { .. } => is_any_saved(What::Specular),

@@ -12,18 +12,46 @@ use crate::read::options::Role;
 #[derive(Debug)]
 pub(crate) struct LocatedBinding {
     pub role: Role,
-    pub file: NamedFile,
-    /// r, g, b, a, or the name of a layer; `None` for the only picture of the file.
-    pub part: Option<String>,
+    pub source: BoundSource,
 }
 
-/// `normal=FILE`, or `roughness=FILE:g` for one channel or layer of the file.
+/// Where the values of a binding are.
+#[derive(Debug)]
+pub(crate) enum BoundSource {
+    File {
+        file: NamedFile,
+        /// r, g, b, a, or the name of a layer; `None` for the only picture of the file.
+        part: Option<String>,
+    },
+    /// One value, or red, green and blue, as a picture would store them.
+    Constant(Vec<f32>),
+}
+
+impl LocatedBinding {
+    /// A map that is a constant.
+    pub(crate) fn constant(role: Role, values: &[f32]) -> Self {
+        Self { role, source: BoundSource::Constant(values.to_vec()) }
+    }
+
+    /// Its file, where it has one.
+    #[cfg(test)]
+    pub(crate) fn file(&self) -> Option<&NamedFile> {
+        match &self.source {
+            BoundSource::File { file, .. } => Some(file),
+            BoundSource::Constant(_) => None,
+        }
+    }
+}
+
+/// `normal=FILE`, `roughness=FILE:g` for one channel or layer of the file, or `roughness=0.5` for a constant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Binding {
     role: Role,
     file: PathBuf,
     /// r, g, b, a, or the name of a layer.
     part: Option<String>,
+    /// The value, or red, green and blue; then there is no file.
+    constant: Option<Vec<f32>>,
 }
 
 /// The maps that can be specified.
@@ -47,19 +75,33 @@ impl FromStr for Binding {
                 what: "map",
                 found: text.to_owned(),
                 known: format!(
-                    "{}, each as in normal=FILE or roughness=FILE:g",
+                    "{}, each as in normal=FILE, roughness=FILE:g or roughness=0.5",
                     ROLES.map(|(n, _)| n).join(", ")
                 ),
             });
         };
+        if let Some(values) = constant(file).filter(|values| values.len() == 1 || is_colour(role)) {
+            return Ok(Self { role, file: PathBuf::new(), part: None, constant: Some(values) });
+        }
         let (file, part) = match file.rsplit_once(':') {
             Some((file, part)) if !file.is_empty() && !part.contains(['/', '\\']) => {
                 (file, Some(part.to_owned()))
             }
             _ => (file, None),
         };
-        Ok(Self { role, file: file.into(), part: part.filter(|part| part != "rgb") })
+        Ok(Self { role, file: file.into(), part: part.filter(|part| part != "rgb"), constant: None })
     }
+}
+
+/// Numbers of [0, 1]: one, or three for red, green and blue.
+fn constant(text: &str) -> Option<Vec<f32>> {
+    let number = |text: &str| text.trim().parse().ok().filter(|value| (0.0..=1.0).contains(value));
+    let values: Vec<f32> = text.split(',').map(number).collect::<Option<_>>()?;
+    matches!(values.len(), 1 | 3).then_some(values)
+}
+
+fn is_colour(role: Role) -> bool {
+    matches!(role, Role::Diffuse | Role::Base | Role::Specular)
 }
 
 impl Binding {
@@ -67,28 +109,39 @@ impl Binding {
         self.role
     }
 
-    /// r, g, b, a, or the name of a layer.
-    pub(crate) fn part(&self) -> Option<&str> {
-        self.part.as_deref()
+    /// The file; `None` of a constant.
+    pub(crate) fn file(&self) -> Option<&Path> {
+        self.constant.is_none().then_some(&self.file)
     }
 
-    pub(crate) fn file(&self) -> &Path {
-        &self.file
+    /// The binding, its file opened as `named` has it.
+    pub(crate) fn located(&self, named: impl Fn(&Path) -> NamedFile) -> LocatedBinding {
+        let source = match &self.constant {
+            Some(values) => BoundSource::Constant(values.clone()),
+            None => BoundSource::File { file: named(&self.file), part: self.part.clone() },
+        };
+        LocatedBinding { role: self.role, source }
     }
 
     /// The same, with a relative path of the file taken from `folder`.
     pub(crate) fn within(self, folder: &Path) -> Self {
-        Self { file: folder.join(self.file), ..self }
+        match self.constant {
+            Some(_) => self,
+            None => Self { file: folder.join(self.file), ..self },
+        }
     }
 
-    /// The name of the map, and `FILE` or `FILE:PART` relative to `folder`.
+    /// The name of the map, and `FILE` or `FILE:PART` relative to `folder`, or the constant.
     pub(crate) fn relative_to(&self, folder: &Path) -> (&'static str, String) {
+        let name = ROLES.iter().find(|(_, role)| *role == self.role).map_or("", |(name, _)| name);
+        if let Some(values) = &self.constant {
+            return (name, values.iter().map(f32::to_string).collect::<Vec<_>>().join(","));
+        }
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         // The folder of a file that was named without one.
         let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
         let file = absolute(&self.file);
         let file = file.strip_prefix(absolute(folder)).unwrap_or(&file).display();
-        let name = ROLES.iter().find(|(_, role)| *role == self.role).map_or("", |(name, _)| name);
         let part = self.part.as_ref().map(|part| format!(":{part}")).unwrap_or_default();
         (name, format!("{file}{part}"))
     }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::picture::LocatedPicture;
+use crate::read::options::NormalY;
 
 /// A material of a glTF, its textures located.
 #[derive(Debug)]
@@ -15,6 +16,8 @@ pub(crate) struct LocatedGltf {
     pub textures: GltfTextures,
     /// The scale of x and y of the normals.
     pub normal_scale: f32,
+    /// Where y of the normals points.
+    pub normal_y: NormalY,
     /// Features that change the look and are not modelled.
     pub not_modelled: Vec<String>,
     /// The names of all materials of the file, and which of them this is.

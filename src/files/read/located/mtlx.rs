@@ -39,10 +39,47 @@ pub(crate) struct BoundPicture {
     pub file: String,
     /// The colour space where the file declares it.
     pub space: Option<String>,
+    /// Whether its node is one of colours, so that the colour space counts.
+    pub is_colour: bool,
     /// The one channel that is taken of it.
     pub channel: Option<usize>,
+    /// What is computed of its linear numbers.
+    pub affine: Affine,
     /// The scale of x and y of a normal.
     pub scale: f32,
+}
+
+/// Products with `scale` plus `offset`, for red, green and blue.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Affine {
+    pub scale: [f32; 3],
+    pub offset: [f32; 3],
+}
+
+impl Default for Affine {
+    fn default() -> Self {
+        Self { scale: [1.0; 3], offset: [0.0; 3] }
+    }
+}
+
+impl Bound {
+    /// Channel number `channel` alone.
+    #[must_use]
+    pub(crate) fn channel(self, channel: usize) -> Self {
+        match self {
+            Self::Values { values, .. } if values.len() > 1 => {
+                let value = values.get(channel).or(values.last()).copied().unwrap_or_default();
+                Self::Values { values: vec![value], space: None }
+            }
+            Self::Picture(picture) if picture.channel.is_none() => {
+                let Affine { scale, offset } = picture.affine;
+                let one = |three: [f32; 3]| [three.get(channel).copied().unwrap_or(three[2]); 3];
+                let affine = Affine { scale: one(scale), offset: one(offset) };
+                Self::Picture(BoundPicture { channel: Some(channel), affine, ..picture })
+            }
+            other => other,
+        }
+    }
 }
 
 /// What stands in the way from an input to a picture or a value.
@@ -52,6 +89,8 @@ pub(crate) enum Obstacle {
     Procedural(String),
     /// A name that leads nowhere, or round.
     Nowhere(String),
+    /// Normals of another space than that of the tangents, by its name.
+    Space(String),
 }
 
 impl LocatedMtlx {

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use super::picture::{LocatedPicture, PictureSource};
 use crate::open::NamedFile;
-use crate::read::names::Label;
-use crate::read::options::extensions;
-use crate::read::record::{Note, Subject};
+use crate::read::names::{Label, is_named_within};
+use crate::read::options::{NormalY, Role, extensions};
+use crate::read::record::{Note, Subject, Unused};
 
 /// The word of files that are maps by their numbers alone.
 pub(crate) const NUMBERED: &str = "0 to 3";
@@ -26,6 +26,16 @@ impl LabelledFile {
     }
 }
 
+/// A document beside a set that lists pictures of it.
+#[derive(Clone, Debug)]
+pub(crate) struct ListingDocument {
+    pub name: String,
+    /// The files of the set that it names.
+    pub files: Vec<String>,
+    /// Where y of normals points by its format.
+    pub normal_y: Option<NormalY>,
+}
+
 /// One file for each map.
 #[derive(Debug, Default)]
 pub(crate) struct SetFiles {
@@ -34,7 +44,34 @@ pub(crate) struct SetFiles {
     pub other_normals: Vec<LabelledFile>,
     /// Pictures whose names name no map.
     pub unlabelled: Vec<String>,
+    /// Pictures of maps whose names are not those of the set, but nearly so.
+    pub misnamed: Vec<String>,
+    /// Documents beside them that list them, too.
+    pub documents: Vec<ListingDocument>,
+    /// Pictures of heights, which tell the direction of y.
+    pub heights: Vec<String>,
     pub notes: Vec<Note>,
+}
+
+impl SetFiles {
+    /// Sorts out the pictures of the folder that are not those of the set of this `stem`: some may be maps of it all the same.
+    /// The others are reported where the `whole` folder was wanted.
+    pub(crate) fn leave(&mut self, others: Vec<LabelledFile>, stem: &[String], whole: bool) {
+        for LabelledFile { file, label } in others {
+            let is_akin = label.stem.starts_with(stem) || stem.starts_with(&label.stem);
+            let is_near = is_akin && (whole || !stem.is_empty());
+            if label.role == Role::Ignored && (whole || is_near) {
+                self.notes.push(Note::Unused { what: file, why: Unused::NotAMap });
+            } else if is_near {
+                self.misnamed.push(file);
+            } else if whole {
+                self.notes.push(Note::Unused { what: file, why: Unused::OtherStem });
+            }
+        }
+        if !whole {
+            self.unlabelled.retain(|name| stem.is_empty() || is_named_within(name, stem));
+        }
+    }
 }
 
 /// The set of a material, in one folder.
@@ -50,6 +87,8 @@ pub(crate) struct LocatedSet {
     pub listing: String,
     /// Whether a folder of renderings is beside the files, as in the data sets of SurfaceNet.
     pub has_renderings: bool,
+    /// The document that lists the files.
+    pub listed_by: Option<PathBuf>,
 }
 
 impl LocatedSet {

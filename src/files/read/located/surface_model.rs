@@ -18,6 +18,10 @@ pub(crate) struct SurfaceModel {
     /// Factors on the reflectance of the dielectric.
     pub specular: &'static [Input],
     pub ior: Input,
+    /// The share of light that the dielectric transmits, which leaves the rest to diffuse.
+    pub transmission: Option<Input>,
+    /// Weight and colour of subsurface scattering, which counts as diffuse.
+    pub subsurface: Option<[Input; 2]>,
     /// Inputs that change the look and are not modelled, with the value that turns each off.
     pub not_modelled: &'static [Input],
 }
@@ -32,6 +36,8 @@ pub(crate) static MODELS: [SurfaceModel; 4] = [
         normal: "normal",
         specular: &[("specular", 1.0), ("specular_color", 1.0)],
         ior: ("specular_IOR", 1.5),
+        transmission: Some(("transmission", 0.0)),
+        subsurface: Some([("subsurface", 0.0), ("subsurface_color", 1.0)]),
         not_modelled: &[
             ("coat", 0.0),
             ("transmission", 0.0),
@@ -53,6 +59,8 @@ pub(crate) static MODELS: [SurfaceModel; 4] = [
         normal: "normal",
         specular: &[("specular", 1.0), ("specular_color", 1.0)],
         ior: ("ior", 1.5),
+        transmission: Some(("transmission", 0.0)),
+        subsurface: None,
         not_modelled: &[
             ("clearcoat", 0.0),
             ("transmission", 0.0),
@@ -72,6 +80,8 @@ pub(crate) static MODELS: [SurfaceModel; 4] = [
         normal: "geometry_normal",
         specular: &[("specular_weight", 1.0), ("specular_color", 1.0)],
         ior: ("specular_ior", 1.5),
+        transmission: Some(("transmission_weight", 0.0)),
+        subsurface: Some([("subsurface_weight", 0.0), ("subsurface_color", 0.8)]),
         not_modelled: &[
             ("coat_weight", 0.0),
             ("transmission_weight", 0.0),
@@ -93,6 +103,8 @@ pub(crate) static MODELS: [SurfaceModel; 4] = [
         normal: "normal",
         specular: &[],
         ior: ("ior", 1.5),
+        transmission: None,
+        subsurface: None,
         not_modelled: &[("clearcoat", 0.0), ("emissiveColor", 0.0), ("opacity", 1.0)],
     },
 ];
@@ -118,6 +130,8 @@ impl SurfaceModel {
         ];
         let weight = self.weight.map(|(name, _)| (name, Role::Base));
         let specular = self.specular.iter().chain([&USD_SPECULAR]).map(|(name, _)| (*name, Role::Specular));
-        always.into_iter().chain(weight).chain(specular).collect()
+        let transmission = self.transmission.map(|(name, _)| (name, Role::Base));
+        let subsurface = self.subsurface.into_iter().flatten().map(|(name, _)| (name, Role::Base));
+        always.into_iter().chain(weight).chain(specular).chain(transmission).chain(subsurface).collect()
     }
 }

@@ -17,8 +17,11 @@ pub(crate) struct Label {
 impl Label {
     /// The last telling word of a name wins: `metal_spec_rough` is a roughness map.
     pub(crate) fn of(name: &str) -> Option<Self> {
-        let mut words: Vec<String> =
-            words(name).into_iter().filter(|word| !is_size_or_format(word)).collect();
+        Self::of_words(telling_words(name), 0)
+    }
+
+    /// The label of a name of these words, of which the first `common` ones are those of its set and tell no map.
+    pub(super) fn of_words(mut words: Vec<String>, common: usize) -> Option<Self> {
         if let Some(label) = both_of_blender(&words) {
             return Some(label);
         }
@@ -27,17 +30,9 @@ impl Label {
             words.pop();
             words.push("bc".to_owned());
         }
-        (1..=words.len()).rev().find_map(|end| {
-            (1..=end.min(4)).rev().find_map(|count| {
-                let start = end - count;
-                let word = words[start..end].concat();
-                // A letter alone names a map only at the end.
-                let short = word.len() <= 2 && word != "ao" && end < words.len();
-                let (role, normal_y) = if short { None } else { meaning(&word) }?;
-                let stem = words[..start].iter().chain(&words[end..]).cloned().collect();
-                Some(Self { role, word, stem, normal_y })
-            })
-        })
+        let last = last_label(&words, words.len(), common)?;
+        let before = last_label(&words[..last.start], last.start, common).filter(|one| one.end == last.start);
+        Some(before.and_then(|first| packed_pair(&first, &last)).unwrap_or(last).label(&words))
     }
 
     /// Whether the word is so short that it needs company.
@@ -48,11 +43,23 @@ impl Label {
     /// The meaning of roughness that the word stands for.
     pub(crate) fn roughness(&self) -> Option<Roughness> {
         match self.word.as_str() {
-            "glossiness" | "gloss" | "glossy" | "smoothness" | "metallicsmoothness" | "maskmap"
-            | "specularglossiness" | "specgloss" | "specularsmoothness" => Some(Roughness::Gloss),
             "axay" => Some(Roughness::Anisotropic),
+            "maskmap" | "specgloss" => Some(Roughness::Gloss),
+            word if ["glossiness", "gloss", "glossy", "smoothness"].iter().any(|end| word.ends_with(end)) => {
+                Some(Roughness::Gloss)
+            }
             _ => None,
         }
+    }
+
+    /// Whether heights are in the alpha of its picture.
+    pub(crate) fn is_over_heights(&self) -> bool {
+        self.role != Role::Ignored && HEIGHTS.iter().any(|end| end.len() > 1 && self.word.ends_with(end))
+    }
+
+    /// Whether the map holds heights.
+    pub(crate) fn is_height(&self) -> bool {
+        HEIGHTS.contains(&self.word.as_str())
     }
 
     /// Which of several files for one map is the better one: the higher. Y up before y down, gamma before linear.
@@ -64,6 +71,59 @@ impl Label {
             None => 1,
         }
     }
+}
+
+/// Words of maps of heights.
+const HEIGHTS: [&str; 11] =
+    ["displacement", "displace", "disp", "dsp", "height", "heightmap", "heights", "ht", "h", "bump", "bmp"];
+
+/// The words of a name without those of sizes and formats.
+pub(super) fn telling_words(name: &str) -> Vec<String> {
+    words(name).into_iter().filter(|word| !is_size_or_format(word)).collect()
+}
+
+/// The words of a name that stand for a map.
+struct Telling {
+    start: usize,
+    end: usize,
+    word: String,
+    role: Role,
+    normal_y: Option<NormalY>,
+}
+
+impl Telling {
+    fn label(self, words: &[String]) -> Label {
+        let Self { start, end, word, role, normal_y } = self;
+        Label { role, word, stem: words[..start].iter().chain(&words[end..]).cloned().collect(), normal_y }
+    }
+}
+
+/// The last of `words` that stand for a map, of which the first `common` do not count; `count` is how many the whole
+/// name has.
+fn last_label(words: &[String], count: usize, common: usize) -> Option<Telling> {
+    (common + 1..=words.len()).rev().find_map(|end| {
+        (1..=(end - common).min(4)).rev().find_map(|many| {
+            let start = end - many;
+            let word = words[start..end].concat();
+            // A letter alone names a map only at the end.
+            let short = word.len() <= 2 && !["ao", "ht"].contains(&word.as_str()) && end < count;
+            let (role, normal_y) = if short { None } else { meaning(&word) }?;
+            Some(Telling { start, end, word, role, normal_y })
+        })
+    })
+}
+
+/// Two maps whose names stand side by side are in one picture: normals with roughness in alpha, or normals or colours
+/// with heights in alpha.
+fn packed_pair(first: &Telling, last: &Telling) -> Option<Telling> {
+    let is_height = HEIGHTS.contains(&last.word.as_str());
+    let role = match (first.role, last.role) {
+        (Role::Normal, Role::Roughness) => Role::NormalRoughness,
+        (Role::Normal | Role::Base | Role::Diffuse, Role::Ignored) if is_height => first.role,
+        _ => return None,
+    };
+    let word = format!("{}{}", first.word, last.word);
+    Some(Telling { start: first.start, end: last.end, word, role, normal_y: first.normal_y })
 }
 
 /// The picture that Blender's export to glTF packs of two and names after both: `X_Metallic-X_Roughness`.
@@ -152,6 +212,14 @@ mod tests {
             ("metal_plate_rough", Role::Roughness),
             ("T_Rock_B", Role::Base),
             ("Rock_BaseMap", Role::Base),
+            ("plank_base", Role::Base),
+            ("Door_AlbedoTransparency", Role::Base),
+            ("Door_MetalRoughness", Role::OcclusionRoughnessMetallic),
+            ("ore_mer", Role::MetallicEmissiveRoughness),
+            ("moss_nrm_rgh", Role::NormalRoughness),
+            ("moss_normal_gl_roughness", Role::NormalRoughness),
+            ("moss_alb_ht", Role::Base),
+            ("moss_normal_height", Role::Normal),
         ] {
             assert_eq!(role(name), Some(expected), "{name}");
         }

@@ -2,8 +2,10 @@
 
 mod label;
 mod listing;
+mod set_labels;
 mod words;
 
 pub(crate) use label::Label;
 pub(crate) use listing::listing;
-pub(crate) use words::{is_named_as, words};
+pub(crate) use set_labels::set_labels;
+pub(crate) use words::{is_named_as, is_named_within, words};

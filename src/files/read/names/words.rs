@@ -30,6 +30,12 @@ pub(crate) fn is_named_as(name: &str, stem: &[String]) -> bool {
     !stem.is_empty() && words(&own) == stem
 }
 
+/// Whether the name of a file begins with that of a set.
+pub(crate) fn is_named_within(name: &str, stem: &[String]) -> bool {
+    let own = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    words(&own).starts_with(stem)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

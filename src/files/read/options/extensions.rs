@@ -3,12 +3,12 @@
 use std::path::Path;
 
 /// Extensions of the files that open as a material or as a map of one.
-pub const EXTENSIONS: [&str; 19] = [
+pub const EXTENSIONS: [&str; 20] = [
     "png", "tif", "tiff", "jpg", "jpeg", "tga", "bmp", "webp", "dds", "ktx2", "hdr", "exr", "npy", "npz",
-    "gltf", "glb", "mtl", "mtlx", "json",
+    "gltf", "glb", "vrm", "mtl", "mtlx", "json",
 ];
 /// Extensions of files that list their textures.
-pub(crate) const LISTING: [&str; 4] = ["gltf", "glb", "mtl", "mtlx"];
+pub(crate) const LISTING: [&str; 5] = ["gltf", "glb", "vrm", "mtl", "mtlx"];
 /// Extensions of the pictures that count among the files of a folder, the better one of two last.
 pub(crate) const PICTURES: [&str; 13] =
     ["dds", "ktx2", "webp", "jpg", "jpeg", "bmp", "tga", "hdr", "png", "tif", "tiff", "npy", "exr"];

@@ -1,6 +1,7 @@
 //! Options of reading: how stored values are to be read. Options that are not specified are inferred, and reported.
 
 mod choices;
+pub(crate) mod colour_space;
 pub(super) mod extensions;
 mod grid;
 mod layered;

@@ -32,6 +32,14 @@ choices! {
     PolyHaven = "polyhaven",
     /// ambientCG: as glTF.
     AmbientCg = "ambientcg",
+    /// Ubisoft CHORD: metallic, base colour sRGB, y up.
+    Chord = "chord",
+    /// MaterialPalette: diffuse with gamma 2.2, roughness as it is, y up.
+    MaterialPalette = "materialpalette",
+    /// StableMaterials: as glTF, with heights.
+    StableMaterials = "stablematerials",
+    /// MatE: as glTF, with heights.
+    MatE = "mate",
     /// Substance, specular and glossiness: colours sRGB.
     SubstanceSg = "substance-sg",
 }

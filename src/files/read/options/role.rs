@@ -20,11 +20,91 @@ pub enum Role {
     MetallicRoughnessOcclusion,
     /// Red metallic, alpha smoothness: Unity.
     MetallicSmoothness,
+    /// Red metallic, green emission, blue roughness: Minecraft.
+    MetallicEmissiveRoughness,
+    /// Red, green and blue normals, alpha roughness.
+    NormalRoughness,
     /// Red, green and blue specular, alpha glossiness: the extension of glTF.
     SpecularGlossiness,
     /// A map that a material does not need, such as occlusion or height.
     Ignored,
 }
+
+/// Words of maps of base colour.
+const BASE: &[&str] = &[
+    "basecolor",
+    "basecolour",
+    "basemap",
+    "base",
+    "albedo",
+    "color",
+    "colour",
+    "col",
+    "alb",
+    "bc",
+    "kd",
+    "albedotransparency",
+    "albedoopacity",
+    "albedoalpha",
+    "basecolortransparency",
+    "basecoloropacity",
+    "basecoloralpha",
+];
+
+/// Words of pictures of roughness in green and metallic in blue.
+const PACKED: &[&str] = &[
+    "occlusionroughnessmetallic",
+    "occlusionroughmetal",
+    "metallicroughness",
+    "roughnessmetallic",
+    "occlusionroughnessmetalness",
+    "metalroughness",
+    "metalrough",
+    "metallicrough",
+    "metalnessroughness",
+    "roughnessmetalness",
+    "roughnessmetal",
+    "roughmetal",
+    "orm",
+    "arm",
+    "ks",
+];
+
+/// Words of maps that a material does not need.
+const IGNORED: &[&str] = &[
+    "ao",
+    "ambientocclusion",
+    "occlusion",
+    "occ",
+    "displacement",
+    "displace",
+    "disp",
+    "dsp",
+    "height",
+    "heightmap",
+    "heights",
+    "ht",
+    "h",
+    "bump",
+    "bmp",
+    "opacity",
+    "alpha",
+    "mask",
+    "emission",
+    "emissive",
+    "emit",
+    "tangent",
+    "pos",
+    "render",
+    "rendering",
+    "rendered",
+    "input",
+    "inputs",
+    "preview",
+    "thumb",
+    "flow",
+    "depth",
+];
 
 impl Role {
     /// The name for users.
@@ -40,7 +120,9 @@ impl Role {
             Self::OcclusionRoughnessMetallic
             | Self::RoughnessMetallicOcclusion
             | Self::MetallicRoughnessOcclusion
-            | Self::MetallicSmoothness => "packed roughness and metallic",
+            | Self::MetallicSmoothness
+            | Self::MetallicEmissiveRoughness => "packed roughness and metallic",
+            Self::NormalRoughness => "normal and roughness",
             Self::SpecularGlossiness => "specular and glossiness",
             Self::Ignored => "unused",
         }
@@ -50,9 +132,7 @@ impl Role {
     pub fn words(self) -> &'static [&'static str] {
         match self {
             Self::Normal => &["normal", "normals", "nor", "nrm", "nrml", "norm", "nom", "nmap", "n"],
-            Self::Base => {
-                &["basecolor", "basecolour", "basemap", "albedo", "color", "colour", "col", "alb", "bc", "kd"]
-            }
+            Self::Base => BASE,
             Self::Diffuse => &["diffuse", "diff", "dif", "d", "pd"],
             Self::Specular => &["specular", "spec", "spe", "spc", "specularity", "s", "ps"],
             Self::SpecularLevel => &["specularlevel"],
@@ -60,55 +140,18 @@ impl Role {
                 &["roughness", "rough", "rgh", "r", "glossiness", "gloss", "glossy", "smoothness", "axay"]
             }
             Self::Metallic => &["metallic", "metalness", "metal", "met", "mtl", "m"],
-            Self::OcclusionRoughnessMetallic => &[
-                "occlusionroughnessmetallic",
-                "occlusionroughmetal",
-                "metallicroughness",
-                "roughnessmetallic",
-                "orm",
-                "arm",
-                "ks",
-            ],
+            Self::OcclusionRoughnessMetallic => PACKED,
             Self::RoughnessMetallicOcclusion => &["rmo", "rma", "roughnessmetallicocclusion"],
             Self::MetallicRoughnessOcclusion => &["mra"],
             Self::MetallicSmoothness => &["metallicsmoothness", "maskmap"],
+            Self::MetallicEmissiveRoughness => &["mer", "mers", "metalnessemissiveroughness"],
+            Self::NormalRoughness => &["normalroughness", "normalsmoothness", "normalgloss"],
             Self::SpecularGlossiness => &["specularglossiness", "specgloss", "specularsmoothness"],
-            Self::Ignored => &[
-                "ao",
-                "ambientocclusion",
-                "occlusion",
-                "occ",
-                "displacement",
-                "displace",
-                "disp",
-                "dsp",
-                "height",
-                "heightmap",
-                "h",
-                "bump",
-                "bmp",
-                "opacity",
-                "alpha",
-                "mask",
-                "emission",
-                "emissive",
-                "emit",
-                "tangent",
-                "pos",
-                "render",
-                "rendering",
-                "rendered",
-                "input",
-                "inputs",
-                "preview",
-                "thumb",
-                "flow",
-                "depth",
-            ],
+            Self::Ignored => IGNORED,
         }
     }
 
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Normal,
         Self::Base,
         Self::Diffuse,
@@ -120,6 +163,8 @@ impl Role {
         Self::RoughnessMetallicOcclusion,
         Self::MetallicRoughnessOcclusion,
         Self::MetallicSmoothness,
+        Self::MetallicEmissiveRoughness,
+        Self::NormalRoughness,
         Self::SpecularGlossiness,
         Self::Ignored,
     ];
@@ -131,13 +176,21 @@ impl Role {
             Self::RoughnessMetallicOcclusion => Some([0, 1]),
             Self::MetallicRoughnessOcclusion => Some([1, 0]),
             Self::MetallicSmoothness => Some([3, 0]),
+            Self::MetallicEmissiveRoughness => Some([2, 0]),
             _ => None,
         }
     }
 
-    /// The names that a file of this map can have, for messages: the words that need no others beside them.
+    /// Whether its picture holds roughness or glossiness.
+    pub(crate) fn has_roughness(self) -> bool {
+        matches!(self, Self::Roughness | Self::SpecularGlossiness | Self::NormalRoughness)
+            || self.packing().is_some()
+    }
+
+    /// The names that a file of this map can have, for messages: the plainest words that need no others beside them.
     pub fn examples(self) -> String {
-        let words = self.words().iter().filter(|word| word.len() > 2);
+        const MOST: usize = 8;
+        let words = self.words().iter().filter(|word| word.len() > 2).take(MOST);
         words.copied().collect::<Vec<_>>().join(", ")
     }
 

@@ -1,11 +1,13 @@
 //! Maps that are specified one by one: a picture, or one of its channels or layers.
 
+use std::path::PathBuf;
+
 use svbrdf_core::error::Error;
 
 use super::layers;
 use crate::read::decode::Layer;
 use crate::read::decode::pictures::DecodedBinding;
-use crate::read::located::binding::LocatedBinding;
+use crate::read::located::binding::{BoundSource, LocatedBinding};
 use crate::read::names::listing;
 use crate::read::options::Role;
 use crate::read::record::Subject;
@@ -19,8 +21,12 @@ pub(crate) fn recognized(
     binding: &LocatedBinding,
     decoded: DecodedBinding,
 ) -> Result<(Role, StoredMap), Error> {
-    let file = binding.file.path().to_owned();
+    let file = match &binding.source {
+        BoundSource::File { file, .. } => file.path().to_owned(),
+        BoundSource::Constant(_) => PathBuf::new(),
+    };
     let (mut all, part) = match decoded {
+        DecodedBinding::Constant(values) => return Ok((binding.role, StoredMap::specified(&values))),
         DecodedBinding::Whole(raster) => {
             return Ok((binding.role, StoredMap { raster, file, part: String::new() }));
         }

@@ -2,57 +2,100 @@
 //! the default one.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::resize::{self, Filter};
 
 use crate::read::options::Albedo;
+use crate::read::options::colour_space::ColourSpace;
 use crate::read::options::transfer::linear;
 use crate::read::raster::{Raster, Samples};
 use crate::read::stored::StoredMap;
+
+/// Colours that lie outside Rec. 709 by less do so by rounding.
+const ROUNDING: f64 = 1e-4;
 
 /// An input of a surface, linear: one value, or one for each texel. Of one channel or three.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     size: [usize; 2],
     planes: Vec<Vec<f32>>,
-    /// The file that it comes from.
-    whose: String,
 }
 
 impl Field {
     pub(super) fn constant(values: &[f32]) -> Self {
-        Self { size: [1, 1], planes: values.iter().map(|&v| vec![v]).collect(), whose: String::new() }
+        Self { size: [1, 1], planes: values.iter().map(|&v| vec![v]).collect() }
     }
 
     /// The channels of a map, as colours stored as `space`.
     pub(super) fn of(source: &StoredMap, space: Albedo) -> Self {
         let value = |v: f64| linear(if v.is_finite() { v.clamp(0.0, 1.0) } else { 0.0 }, space);
         let planes = source.raster.channels.iter().map(|plane| plane.decoded(value)).collect();
-        Self { size: source.raster.size(), planes, whose: source.file.display().to_string() }
+        Self { size: source.raster.size(), planes }
+    }
+
+    /// The colours of a map, stored in `space`, and whether some lie outside those of Rec. 709.
+    pub(super) fn converted(source: &StoredMap, space: ColourSpace) -> (Self, bool) {
+        let (raster, outside) = (&source.raster, AtomicBool::new(false));
+        let texel = |index: usize| {
+            let linear = space.to_linear(raster.rgb(index).map(|v| if v.is_finite() { v } else { 0.0 }));
+            if linear.iter().any(|value| !(-ROUNDING..=1.0 + ROUNDING).contains(value)) {
+                outside.store(true, Ordering::Relaxed);
+            }
+            linear.map(|value| value.clamp(0.0, 1.0) as f32)
+        };
+        let texels: Vec<[f32; 3]> = (0..raster.width * raster.height).into_par_iter().map(texel).collect();
+        let planes = [0, 1, 2].map(|c| texels.iter().map(|texel| texel[c]).collect()).into();
+        let field = Self { size: raster.size(), planes };
+        (field, outside.into_inner())
+    }
+
+    /// Each channel times its `scale` plus its `offset`, in [0, 1].
+    #[must_use]
+    pub(super) fn affine(self, scale: [f32; 3], offset: [f32; 3]) -> Self {
+        let is_gray = [scale, offset].iter().all(|of| of[0] == of[1] && of[1] == of[2]);
+        let count = if is_gray { self.planes.len() } else { 3 };
+        let plane = |c: usize| {
+            let values = self.plane(c).par_iter();
+            values.map(|value| (value * scale[c.min(2)] + offset[c.min(2)]).clamp(0.0, 1.0)).collect()
+        };
+        Self { planes: (0..count).map(plane).collect(), size: self.size }
+    }
+
+    /// 1 less each number.
+    #[must_use]
+    pub(super) fn complement(self) -> Self {
+        self.affine([-1.0; 3], [1.0; 3])
     }
 
     /// Times `other`, texel by texel.
-    ///
-    /// # Errors
-    /// [`Error::MapSizesDiffer`] where the two have different shapes.
-    pub(super) fn times(self, other: Self) -> Result<Self, Error> {
+    #[must_use]
+    pub(super) fn times(self, other: Self) -> Self {
+        self.with(other, |a, b| a * b)
+    }
+
+    /// Plus `other`, texel by texel, at most 1.
+    #[must_use]
+    pub(super) fn plus(self, other: Self) -> Self {
+        self.with(other, |a, b| (a + b).min(1.0))
+    }
+
+    fn with(self, other: Self, of: impl Fn(f32, f32) -> f32 + Sync) -> Self {
         let mut both = [self, other];
-        let size = common_size(&mut both)?;
+        let size = common_size(&mut both);
         let [a, b] = &both;
         let count = a.planes.len().max(b.planes.len());
         let plane = |c: usize| {
             let (x, y) = (a.plane(c), b.plane(c));
             (0..size[0] * size[1])
                 .into_par_iter()
-                .map(|i| x[i.min(x.len() - 1)] * y[i.min(y.len() - 1)])
+                .map(|i| of(x[i.min(x.len() - 1)], y[i.min(y.len() - 1)]))
                 .collect()
         };
         let planes = (0..count).map(plane).collect();
-        let whose = if a.whose.is_empty() { b.whose.clone() } else { a.whose.clone() };
-        Ok(Self { size, planes, whose })
+        Self { size, planes }
     }
 
     /// With every number at most 1.
@@ -80,26 +123,16 @@ impl Field {
     }
 }
 
-/// Brings all that are larger than a texel to the size of the largest, which it returns.
-fn common_size(fields: &mut [Field]) -> Result<[usize; 2], Error> {
-    let Some(largest) = fields.iter().max_by_key(|field| field.size[0] * field.size[1]) else {
-        return Ok([1, 1]);
-    };
-    let (size, whose) = (largest.size, largest.whose.clone());
+/// Brings all that are larger than a texel to the size of the largest, which it returns; coordinates relate maps of
+/// different shapes.
+fn common_size(fields: &mut [Field]) -> [usize; 2] {
+    let size = fields.iter().map(|field| field.size).max_by_key(|size| size[0] * size[1]).unwrap_or([1, 1]);
     for field in fields.iter_mut().filter(|field| field.size != [1, 1] && field.size != size) {
-        if field.size[0] * size[1] != size[0] * field.size[1] {
-            return Err(Error::MapSizesDiffer {
-                first: whose,
-                first_size: size,
-                second: field.whose.clone(),
-                second_size: field.size,
-            });
-        }
         let resized = |plane| resize::plane(plane, field.size, size, Filter::Value);
         field.planes = std::mem::take(&mut field.planes).into_iter().map(resized).collect();
         field.size = size;
     }
-    Ok(size)
+    size
 }
 
 /// Reflectance at normal incidence of a dielectric of the refractive index `ior`; 1 for an index of 0, as glTF has it.
@@ -109,12 +142,9 @@ pub(super) fn reflectance(ior: f32) -> f32 {
 
 /// Diffuse b (1 - m) and specular f (1 - m) + b m of the base colour b, the metallic m and the reflectance f of the
 /// dielectric, each at most 1.
-///
-/// # Errors
-/// [`Error::MapSizesDiffer`].
-pub(super) fn separated(base: Field, metallic: Field, dielectric: Field) -> Result<[Field; 2], Error> {
+pub(super) fn separated(base: Field, metallic: Field, dielectric: Field) -> [Field; 2] {
     let mut all = [base, metallic, dielectric];
-    let size = common_size(&mut all)?;
+    let size = common_size(&mut all);
     let [base, metallic, dielectric] = &all;
     let of = |value: &(dyn Fn(f32, f32, f32) -> f32 + Sync)| {
         let plane = |c: usize| {
@@ -123,9 +153,9 @@ pub(super) fn separated(base: Field, metallic: Field, dielectric: Field) -> Resu
             let texels = (0..size[0] * size[1]).into_par_iter();
             texels.map(|i| value(at(b, i), at(m, i), at(f, i).min(1.0)).clamp(0.0, 1.0)).collect()
         };
-        Field { size, planes: (0..3).map(plane).collect(), whose: base.whose.clone() }
+        Field { size, planes: (0..3).map(plane).collect() }
     };
-    Ok([of(&|b, m, _| b * (1.0 - m)), of(&|b, m, f| f * (1.0 - m) + b * m)])
+    [of(&|b, m, _| b * (1.0 - m)), of(&|b, m, f| f * (1.0 - m) + b * m)]
 }
 
 #[cfg(test)]
@@ -142,7 +172,7 @@ mod tests {
     fn metals_reflect_their_base_colour_and_dielectrics_their_reflectance() {
         let parts = |metallic: f32| {
             let base = Field::constant(&[0.5, 0.4, 0.3]);
-            separated(base, Field::constant(&[metallic]), Field::constant(&[0.02, 0.04, 0.08])).unwrap()
+            separated(base, Field::constant(&[metallic]), Field::constant(&[0.02, 0.04, 0.08]))
         };
         let values = |field: &Field| [0, 1, 2].map(|c| field.planes[c][0]);
         let [[diffuse, specular], [none, metal]] = [parts(0.0), parts(1.0)];
@@ -152,14 +182,20 @@ mod tests {
     }
 
     #[test]
-    fn a_small_map_is_brought_to_the_size_of_a_large_one_and_another_shape_is_refused() {
-        let field = |size: [usize; 2]| Field {
-            size,
-            planes: vec![vec![0.5; size[0] * size[1]]],
-            whose: "map".to_owned(),
-        };
-        let product = field([2, 2]).times(field([4, 4])).unwrap();
-        assert_eq!((product.size, product.planes[0][15]), ([4, 4], 0.25));
-        assert!(matches!(field([2, 4]).times(field([4, 4])), Err(Error::MapSizesDiffer { .. })));
+    fn maps_of_all_sizes_and_shapes_are_brought_to_the_largest() {
+        let field = |size: [usize; 2]| Field { size, planes: vec![vec![0.5; size[0] * size[1]]] };
+        for small in [[2, 2], [2, 4], [1, 8]] {
+            let product = field(small).times(field([4, 4]));
+            assert_eq!((product.size, product.planes[0][15]), ([4, 4], 0.25));
+        }
+    }
+
+    #[test]
+    fn an_affine_function_of_a_gray_field_has_as_many_channels_as_its_factors() {
+        let mask = || Field::constant(&[0.25]);
+        assert_eq!(mask().affine([2.0; 3], [0.1; 3]).planes, [[0.6]]);
+        let colours = mask().affine([0.4, 0.0, -1.0], [0.1, 0.2, 0.5]);
+        assert_eq!(colours.planes, [[0.2], [0.2], [0.25]]);
+        assert_eq!(mask().complement().plus(Field::constant(&[0.5])).planes, [[1.0]]);
     }
 }

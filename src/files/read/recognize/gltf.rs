@@ -20,13 +20,15 @@ const DEFAULT_IOR: f32 = 1.5;
 /// The material `located`, whose textures are `pictures`.
 ///
 /// # Errors
-/// [`Error::MapSizesDiffer`] where maps that are multiplied have another shape.
+/// [`Error::NotAMaterial`] without a map that is needed.
 pub(super) fn material(
     located: LocatedGltf,
     pictures: Vec<DecodedPicture>,
     options: &ReadOptions,
 ) -> Result<StoredMaterial, Error> {
-    let LocatedGltf { path, name, surface, textures, normal_scale, not_modelled, materials, .. } = located;
+    let LocatedGltf {
+        path, name, surface, textures, normal_scale, not_modelled, materials, normal_y, ..
+    } = located;
     let mut maps = MapsByRole::default();
     pictures.iter().for_each(|picture| maps.record_size(picture.map.raster.size()));
     let map = |texture: Option<usize>| Some(pictures.get(texture?)?.map.clone());
@@ -40,14 +42,19 @@ pub(super) fn material(
         specular: map(textures.specular),
         specular_colour: map(textures.specular_colour),
     };
-    let is_linear = textures.add_to(&mut maps, surface)?;
+    let is_linear = textures.add_to(&mut maps, surface);
     let mut found = maps.material(&path, name, "", options)?;
     found.add_file(path);
     let roughness = match surface {
         GltfSurface::SpecularGlossiness { .. } => Roughness::Gloss,
         GltfSurface::MetallicRoughness { .. } => Roughness::R,
     };
+    found.is_mapped = true;
     specify(&mut found, roughness, is_linear);
+    if normal_y == NormalY::Down {
+        let why = StorageConvention::AsoboNormals.into();
+        found.inferred.normal_y = Some((normal_y, why, Certainty::Sure));
+    }
     if !not_modelled.is_empty() {
         found.notes.push(Note::NotModelled { features: not_modelled });
     }
@@ -84,16 +91,16 @@ struct Textures<'a> {
 
 impl Textures<'_> {
     /// Adds the maps of the surface to `maps`; returns whether their colours are linear.
-    fn add_to(&self, maps: &mut MapsByRole, surface: GltfSurface) -> Result<bool, Error> {
+    fn add_to(&self, maps: &mut MapsByRole, surface: GltfSurface) -> bool {
         match surface {
             GltfSurface::SpecularGlossiness { diffuse, specular, glossiness } => {
                 maps.add(Role::Diffuse, self.colour(self.colour.clone(), diffuse));
                 maps.add(Role::Specular, self.colour(self.packed.clone(), specular));
                 maps.add(Role::Roughness, self.glossiness(glossiness));
-                Ok(false)
+                false
             }
             GltfSurface::MetallicRoughness { base, roughness, metallic, ior, specular } => {
-                let dielectric = self.dielectric(ior, specular)?;
+                let dielectric = self.dielectric(ior, specular);
                 maps.add(Role::Roughness, self.channel(1, roughness));
                 self.add_reflectance(maps, base, self.channel(2, metallic), dielectric)
             }
@@ -107,20 +114,20 @@ impl Textures<'_> {
         base: [f32; 3],
         metallic: StoredMap,
         dielectric: Field,
-    ) -> Result<bool, Error> {
+    ) -> bool {
         if dielectric.is(reflectance(DEFAULT_IOR)) {
             maps.add(Role::Metallic, metallic);
             maps.add(Role::Base, self.colour(self.colour.clone(), base));
-            return Ok(false);
+            return false;
         }
         let base = match &self.colour {
-            Some(map) => Field::of(map, Albedo::Srgb).times(Field::constant(&base))?,
+            Some(map) => Field::of(map, Albedo::Srgb).times(Field::constant(&base)),
             None => Field::constant(&base),
         };
-        let [diffuse, specular] = separated(base, Field::of(&metallic, Albedo::Linear), dielectric)?;
+        let [diffuse, specular] = separated(base, Field::of(&metallic, Albedo::Linear), dielectric);
         maps.add(Role::Diffuse, diffuse.into_map(self.path, "base colour and metallic"));
         maps.add(Role::Specular, specular.into_map(self.path, "KHR_materials_specular and _ior"));
-        Ok(true)
+        true
     }
 
     /// A channel of roughness and metallic times its factor.
@@ -135,18 +142,18 @@ impl Textures<'_> {
 
     /// The reflectance of the dielectric at normal incidence: min(reflectance(ior) * colour, 1) * strength, by
     /// KHR_materials_ior and KHR_materials_specular.
-    fn dielectric(&self, ior: Option<f32>, specular: Option<(f32, [f32; 3])>) -> Result<Field, Error> {
+    fn dielectric(&self, ior: Option<f32>, specular: Option<(f32, [f32; 3])>) -> Field {
         let plain = Field::constant(&[reflectance(ior.unwrap_or(DEFAULT_IOR))]);
-        let Some((strength, colour)) = specular else { return Ok(plain) };
-        let mut colour = plain.times(Field::constant(&colour))?;
+        let Some((strength, colour)) = specular else { return plain };
+        let mut colour = plain.times(Field::constant(&colour));
         if let Some(map) = &self.specular_colour {
-            colour = colour.times(Field::of(map, Albedo::Srgb))?;
+            colour = colour.times(Field::of(map, Albedo::Srgb));
         }
         let mut strength = Field::constant(&[strength]);
         // Alpha that is 1 everywhere is not stored.
         if let Some((map, alpha)) = self.specular.as_ref().and_then(|s| Some((s, s.raster.alpha.clone()?))) {
             let raster = map.raster.of(alpha);
-            strength = strength.times(Field::of(&StoredMap { raster, ..map.clone() }, Albedo::Linear))?;
+            strength = strength.times(Field::of(&StoredMap { raster, ..map.clone() }, Albedo::Linear));
         }
         colour.at_most_one().times(strength)
     }

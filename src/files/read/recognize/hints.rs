@@ -3,7 +3,7 @@
 use crate::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
 use crate::read::options::{Albedo, NormalY, Role, Roughness};
 use crate::read::record::{Certainty, Reason, StorageConvention};
-use crate::read::stored::{Inferences, StoredMap, StoredMaterial};
+use crate::read::stored::{Inferences, Inferred, StoredMap, StoredMaterial};
 
 /// Adds the hints of the names of `set` to its material, whose colours `are_floats` and whose specular `is_glossy` in
 /// alpha.
@@ -20,6 +20,14 @@ pub(super) fn add(found: &mut StoredMaterial, set: &LocatedSet, are_floats: bool
         found.inferred.specular = found.inferred.albedo.clone();
         found.inferred.roughness = Some((Roughness::Gloss, why(), Certainty::Sure));
     }
+}
+
+/// The direction of y by the format of a document beside the set that lists its normal map.
+fn listed_y(set: &LocatedSet) -> Inferred<NormalY> {
+    let normal = set.files.files.iter().find(|file| file.label.role == Role::Normal)?;
+    let document = set.files.documents.iter().find(|one| one.files.contains(&normal.file))?;
+    let why = Reason::ListedNormals { document: document.name.clone() };
+    Some((document.normal_y?, why, Certainty::Likely))
 }
 
 /// Whether the files look as DiffMat writes them: whole names, colour in 8 bits, gray in 16.
@@ -43,6 +51,7 @@ fn inferred(set: &LocatedSet, are_floats: bool) -> Inferences {
     let normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y)));
     let normal_y =
         normal_y.map(|(f, y)| (y, Reason::NormalName { file: f.file.clone(), y }, Certainty::Sure));
+    let normal_y = normal_y.or_else(|| listed_y(set));
     let mut inferred = Inferences { roughness, normal_y, ..Inferences::default() };
     if are_floats {
         inferred.albedo = Some((Albedo::Linear, StorageConvention::Floats.into(), Certainty::Likely));

@@ -3,16 +3,13 @@
 use svbrdf_core::error::Error;
 
 use super::field::{Field, reflectance, separated};
+use super::mtlx_input::{LoadedInput, MtlxInputs};
 use super::roles::MapsByRole;
-use super::scaled_normals::scaled;
 use crate::read::decode::pictures::DecodedPicture;
-use crate::read::located::mtlx::{Bound, BoundPicture, LocatedMtlx, Obstacle};
-use crate::read::located::picture::{LocatedPicture, PictureSource};
-use crate::read::located::surface_model::{Input, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
+use crate::read::located::mtlx::{Bound, LocatedMtlx};
+use crate::read::located::surface_model::{SurfaceModel, USD_SPECULAR, USE_SPECULAR};
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
-use crate::read::record::{
-    Assumption, Certainty, Note, Reason, SpaceKnown, StorageConvention, Subject, What,
-};
+use crate::read::record::{Assumption, Certainty, Note, StorageConvention, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// The reflectance of a dielectric of the default refractive index 1.5.
@@ -21,17 +18,18 @@ const DEFAULT: f32 = 0.04;
 /// The surface `located`, whose inputs lead to `pictures`.
 ///
 /// # Errors
-/// [`Error::NotAMaterial`] where an input is computed by other nodes, [`Error::MapSizesDiffer`] where maps that are
-/// multiplied have another shape.
+/// [`Error::NotAMaterial`] where an input is computed by other nodes.
 pub(super) fn material(
     located: &LocatedMtlx,
     pictures: Vec<DecodedPicture>,
     options: &ReadOptions,
 ) -> Result<StoredMaterial, Error> {
     let mut maps = MapsByRole::default();
-    let albedo = MtlxMaps { located, pictures }.add_to(&mut maps)?;
+    let mut surface = MtlxSurface { inputs: MtlxInputs { located, pictures }, colours: Vec::new() };
+    let albedo = surface.add_to(&mut maps)?;
     let mut found = maps.material(&located.path, located.name.clone(), "", options)?;
     found.add_file(located.path.clone());
+    found.is_mapped = true;
     found.inferred.specular = albedo.clone();
     found.inferred.albedo = albedo;
     let why = StorageConvention::MaterialXNormals.into();
@@ -39,6 +37,7 @@ pub(super) fn material(
     let layout =
         Assumption::new(What::Layout, "MaterialX", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);
+    found.notes.extend(surface.clipped());
     if !located.not_modelled.is_empty() {
         found.notes.push(Note::NotModelled { features: located.not_modelled.clone() });
     }
@@ -50,171 +49,104 @@ pub(super) fn material(
 }
 
 /// A surface while its maps are recognized.
-struct MtlxMaps<'a> {
-    located: &'a LocatedMtlx,
-    pictures: Vec<DecodedPicture>,
+struct MtlxSurface<'a> {
+    inputs: MtlxInputs<'a>,
+    /// Its colours that have been read.
+    colours: Vec<LoadedInput>,
 }
 
-/// An input that has been read.
-struct LoadedInput {
-    source: StoredMap,
-    /// The colour space that the file declares.
-    space: Option<String>,
-}
-
-impl LoadedInput {
-    /// The colour space; where the file declares none, the usual one of its samples.
-    fn albedo(&self) -> Albedo {
-        match &self.space {
-            Some(space) => colour_space(space).0,
-            None if self.source.raster.is_float() => Albedo::Linear,
-            None => Albedo::Srgb,
-        }
-    }
-
-    fn colours(&self) -> Field {
-        Field::of(&self.source, self.albedo())
-    }
-
-    fn numbers(&self) -> Field {
-        Field::of(&self.source, Albedo::Linear)
-    }
-}
-
-impl MtlxMaps<'_> {
+impl MtlxSurface<'_> {
     /// Adds the maps of the inputs to `maps`; returns the encoding of their colours, where the document declares it.
-    fn add_to(&self, maps: &mut MapsByRole) -> Result<Inferred<Albedo>, Error> {
-        let SurfaceModel { base, metallic, roughness, normal, .. } = *self.located.model;
-        if let Some(normal) = self.load((normal, 0.0), Role::Normal)? {
+    fn add_to(&mut self, maps: &mut MapsByRole) -> Result<Inferred<Albedo>, Error> {
+        let model = self.inputs.located.model;
+        let SurfaceModel { base, metallic, roughness, normal, .. } = *model;
+        if let Some(normal) = self.inputs.load(normal, Role::Normal)? {
             maps.add(Role::Normal, normal.source);
         }
-        maps.add(Role::Roughness, self.input_or_default(roughness, Role::Roughness)?.source);
-        let metallic = self.input_or_default(metallic, Role::Metallic)?;
-        let base = self.input_or_default(base, Role::Base)?;
-        self.bound(USE_SPECULAR)?;
-        if self.located.is_specular_usd() {
-            let specular = self.input_or_default(USD_SPECULAR, Role::Specular)?;
+        maps.add(Role::Roughness, self.inputs.input_or_default(roughness, Role::Roughness)?.source);
+        let metallic = self.inputs.input_or_default(metallic, Role::Metallic)?;
+        let base = self.inputs.input_or_default(base, Role::Base)?;
+        self.inputs.bound(USE_SPECULAR)?;
+        if self.inputs.located.is_specular_usd() {
+            let specular = self.inputs.input_or_default(USD_SPECULAR, Role::Specular)?;
             maps.add(Role::Diffuse, self.computed(base.colours(), "diffuseColor"));
             maps.add(Role::Specular, self.computed(specular.colours(), "specularColor"));
+            self.colours.extend([base, specular]);
             return Ok(self.linear());
         }
         let dielectric = self.dielectric()?;
-        let weight =
-            self.located.model.weight.map(|weight| self.input_or_default(weight, Role::Base)).transpose()?;
-        let weight = weight.map_or(Field::constant(&[1.0]), |weight| weight.numbers());
-        if dielectric.is(DEFAULT) && weight.is(1.0) {
-            let space = base.space.as_deref().map(colour_space);
+        let weight = self.weight(model.weight, 1.0)?;
+        let transmission = self.weight(model.transmission, 0.0)?;
+        let subsurface = self.weight(model.subsurface.map(|[weight, _]| weight), 0.0)?;
+        if dielectric.is(DEFAULT) && weight.is(1.0) && transmission.is(0.0) && subsurface.is(0.0) {
+            let encoding = base.encoding.clone();
             maps.add(Role::Metallic, metallic.source);
-            maps.add(Role::Base, base.source);
-            return Ok(space);
+            maps.add(Role::Base, base.source.clone());
+            self.colours.push(base);
+            return Ok(encoding);
         }
-        let base = base.colours().times(weight)?;
-        let [diffuse, specular] = separated(base, metallic.numbers(), dielectric)?;
+        let dielectric_share = metallic.numbers().complement();
+        let [diffuse, specular] = separated(base.colours().times(weight), metallic.numbers(), dielectric);
+        self.colours.push(base);
+        let diffuse = self.with_subsurface(diffuse, subsurface, dielectric_share)?;
+        let diffuse = if transmission.is(0.0) { diffuse } else { diffuse.times(transmission.complement()) };
         maps.add(Role::Diffuse, self.computed(diffuse, "base colour and metallic"));
         maps.add(Role::Specular, self.computed(specular, "specular, its colour and index of refraction"));
         Ok(self.linear())
     }
 
-    fn computed(&self, field: Field, part: &str) -> StoredMap {
-        field.into_map(&self.located.path, part)
+    /// A number of the surface; `usual` of a model without it.
+    fn weight(&self, input: Option<(&'static str, f32)>, usual: f32) -> Result<Field, Error> {
+        let Some(input) = input else { return Ok(Field::constant(&[usual])) };
+        Ok(self.inputs.input_or_default(input, Role::Base)?.numbers())
     }
 
-    /// The encoding of colours that are computed.
+    /// Diffuse with the share `weight` of it replaced by the colour of subsurface scattering.
+    fn with_subsurface(&mut self, diffuse: Field, weight: Field, dielectric: Field) -> Result<Field, Error> {
+        let Some([_, colour]) = self.inputs.located.model.subsurface.filter(|_| !weight.is(0.0)) else {
+            return Ok(diffuse);
+        };
+        let colour = self.inputs.input_or_default(colour, Role::Base)?;
+        let scattered = colour.colours().times(dielectric).times(weight.clone());
+        self.colours.push(colour);
+        Ok(diffuse.times(weight.complement()).plus(scattered))
+    }
+
+    fn computed(&self, field: Field, part: &str) -> StoredMap {
+        field.into_map(&self.inputs.located.path, part)
+    }
+
+    /// The encoding of colours that are computed; unsure where that of one of them is.
     fn linear(&self) -> Inferred<Albedo> {
-        Some((Albedo::Linear, StorageConvention::MaterialXSurface.into(), Certainty::Sure))
+        let doubtful = self.colours.iter().find(|colour| colour.is_doubtful());
+        let known = || Some((Albedo::Linear, StorageConvention::MaterialXSurface.into(), Certainty::Sure));
+        doubtful.and_then(|colour| colour.encoding.clone()).or_else(known)
+    }
+
+    /// The colour spaces some of whose colours Rec. 709 does not have.
+    fn clipped(&self) -> Option<Note> {
+        let mut spaces: Vec<_> = self.colours.iter().filter_map(|colour| colour.clipped.clone()).collect();
+        spaces.sort();
+        spaces.dedup();
+        (!spaces.is_empty()).then_some(Note::Gamut { spaces })
     }
 
     /// The reflectance of the dielectric at normal incidence.
-    fn dielectric(&self) -> Result<Field, Error> {
-        let ior = match self.bound(self.located.model.ior.0)? {
-            Some(Bound::Values { values, .. }) => values.first().copied().unwrap_or(self.located.model.ior.1),
+    fn dielectric(&mut self) -> Result<Field, Error> {
+        let (name, usual) = self.inputs.located.model.ior;
+        let ior = match self.inputs.bound(name)? {
+            Some(Bound::Values { values, .. }) => values.first().copied().unwrap_or(usual),
             Some(Bound::Picture(_)) => {
-                return Err(self.refused(self.located.model.ior.0, "a value", "a picture".to_owned()));
+                return Err(self.inputs.refused(name, "a value", "a picture".to_owned()));
             }
-            None => self.located.model.ior.1,
+            None => usual,
         };
-        self.located.model.specular.iter().try_fold(
-            Field::constant(&[reflectance(ior)]),
-            |product, &factor| {
-                let factor = self.input_or_default(factor, Role::Specular)?;
-                // A colour has a colour space, a weight has none.
-                let field =
-                    if factor.source.raster.channels.len() > 1 { factor.colours() } else { factor.numbers() };
-                product.times(field)
-            },
-        )
-    }
-
-    fn refused(&self, name: &str, expected: &str, found: String) -> Error {
-        Error::NotAMaterial {
-            path: self.located.path.clone(),
-            expected: format!("{expected} for {name}"),
-            found,
-            remedy: "bake it into a picture".to_owned(),
+        let mut product = Field::constant(&[reflectance(ior)]);
+        for &factor in self.inputs.located.model.specular {
+            let factor = self.inputs.input_or_default(factor, Role::Specular)?;
+            product = product.times(factor.factor());
+            self.colours.push(factor);
         }
+        Ok(product)
     }
-
-    fn bound(&self, name: &str) -> Result<Option<&Bound>, Error> {
-        self.located.bound(name).map(Result::as_ref).transpose().map_err(|obstacle| {
-            let found = match obstacle {
-                Obstacle::Procedural(node) => format!("the procedural node {node}"),
-                Obstacle::Nowhere(input) => format!("a connection of {input} that leads nowhere"),
-            };
-            self.refused(name, "a picture or a value", found)
-        })
-    }
-
-    /// The input, or its default by the specification.
-    fn input_or_default(&self, input: Input, role: Role) -> Result<LoadedInput, Error> {
-        let usual = || LoadedInput {
-            source: StoredMap::constant(&self.located.path, &[input.1]),
-            space: Some("lin_rec709".to_owned()),
-        };
-        Ok(self.load(input, role)?.unwrap_or_else(usual))
-    }
-
-    fn load(&self, (name, _): Input, role: Role) -> Result<Option<LoadedInput>, Error> {
-        Ok(match self.bound(name)? {
-            None => None,
-            Some(Bound::Values { .. }) if role == Role::Normal => None,
-            Some(Bound::Values { values, space }) => {
-                let space = space.clone().or_else(|| Some("lin_rec709".to_owned()));
-                Some(LoadedInput { source: StoredMap::constant(&self.located.path, values), space })
-            }
-            Some(Bound::Picture(BoundPicture { file, space, channel, scale })) => {
-                let whole = self.picture(file, role)?;
-                let raster = channel.map_or(whole.raster.clone(), |c| whole.raster.channel(c));
-                let source = StoredMap { raster, ..whole.clone() };
-                let source = if role == Role::Normal { scaled(source, (*scale).into()) } else { source };
-                Some(LoadedInput { source, space: space.clone() })
-            }
-        })
-    }
-
-    /// The decoded picture of a file that is read as this map.
-    fn picture(&self, file: &str, role: Role) -> Result<&StoredMap, Error> {
-        let path = self.located.path_of(file);
-        let is_it = |(one, _): &(&LocatedPicture, _)| {
-            matches!(&one.source, PictureSource::File(file) if file.path() == path)
-                && one.subject == Subject::Map(role)
-        };
-        let found = self.located.pictures.iter().zip(&self.pictures).find(is_it);
-        let missing = || Error::Internal(format!("{} was not located", path.display()));
-        found.map(|(_, picture)| &picture.map).ok_or_else(missing)
-    }
-}
-
-fn colour_space(space: &str) -> (Albedo, Reason, Certainty) {
-    let (albedo, known, certainty) = match space {
-        "srgb_texture" | "srgb" | "srgb_rec709_scene" => (Albedo::Srgb, SpaceKnown::Exactly, Certainty::Sure),
-        "lin_rec709" | "lin_rec709_scene" | "none" | "raw" => {
-            (Albedo::Linear, SpaceKnown::Exactly, Certainty::Sure)
-        }
-        "gamma22" | "g22_rec709" | "g22_rec709_scene" => {
-            (Albedo::Gamma22, SpaceKnown::Exactly, Certainty::Sure)
-        }
-        "gamma18" | "gamma24" => (Albedo::Gamma22, SpaceKnown::Nearly, Certainty::Unsure),
-        _ => (Albedo::Linear, SpaceKnown::Unknown, Certainty::Unsure),
-    };
-    (albedo, Reason::ColourSpace { space: space.to_owned(), known }, certainty)
 }

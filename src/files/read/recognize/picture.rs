@@ -26,7 +26,9 @@ pub(crate) fn material(
         last => layers::material(file.path(), layers.into_iter().chain(last).collect(), native, options),
     };
     let mut found = found.map_err(|error| match (error, refusal) {
-        (Error::NotAMaterial { .. } | Error::NotPacked { .. }, Some(refusal)) => refusal,
+        (Error::NotAMaterial { .. } | Error::MissingMap { .. } | Error::NotPacked { .. }, Some(refusal)) => {
+            refusal
+        }
         (error, _) => error,
     })?;
     notes.append(&mut found.notes);

@@ -105,18 +105,20 @@ impl MapsByRole {
         listed: &str,
         options: &ReadOptions,
     ) -> Result<StoredMaterial, Error> {
-        let missing = |role: Role| Error::NotAMaterial {
+        let missing = |role: Role| Error::MissingMap {
             path: path.to_owned(),
-            expected: format!(
-                "one picture for the {} map (named after one of {})",
-                role.name(),
-                role.examples()
-            ),
-            found: listed.to_owned(),
-            remedy: "add or rename the file, or open a packed one by itself".to_owned(),
+            map: role.name(),
+            examples: role.examples(),
+            found: if listed.is_empty() { "none".to_owned() } else { listed.to_owned() },
         };
         let mut assumptions = self.doubts_of_packing();
-        let mut files: Vec<_> = self.all.iter().map(|(_, source)| source.file.clone()).collect();
+        let mut files: Vec<_> = self
+            .all
+            .iter()
+            .map(|(_, source)| source)
+            .filter(|map| !map.is_specified())
+            .map(|map| map.file.clone())
+            .collect();
         files.sort();
         files.dedup();
         let normal = self.take(Role::Normal);
@@ -154,6 +156,8 @@ impl MapsByRole {
             level,
             roughness,
             metallic,
+            height: None,
+            is_mapped: false,
             inferred: Inferences::default(),
             assumptions,
             notes: unused.into_iter().flatten().map(|source| source.unused(chosen)).collect(),

@@ -20,6 +20,8 @@ pub enum Unused {
     NotAMap,
     /// Its name does not name a map.
     Unlabelled,
+    /// It is named after a map, but not as the other maps of the material are.
+    OtherStem,
     /// Another file holds the same map in a better form.
     Inferior { to: String },
     /// It is constant, and another picture of its map is not.
@@ -77,6 +79,10 @@ pub enum Note {
     Materials { names: Vec<String>, index: usize },
     /// The file has features that change the look, which are not modelled and ignored.
     NotModelled { features: Vec<String> },
+    /// A document beside the files of a set lists some of them, too.
+    ListedBy { file: String },
+    /// Colours of these colour spaces that Rec. 709 does not have are clipped.
+    Gamut { spaces: Vec<String> },
     /// The alpha channel of a map is not used.
     AlphaIgnored { map: Role },
     /// The channels of a gray map differ by up to `spread`, in [0, 1].
@@ -128,7 +134,7 @@ impl Note {
     pub fn changes_look(&self) -> bool {
         match self {
             Self::ChannelsDiffer { .. } | Self::Anisotropic { .. } | Self::SpecularMedian { .. } => true,
-            Self::LinearGamma(_) | Self::Profile(_) | Self::Primaries => true,
+            Self::LinearGamma(_) | Self::Profile(_) | Self::Primaries | Self::Gamut { .. } => true,
             Self::DataWindow { .. } | Self::PartialData { .. } | Self::OptionsUnused { .. } => true,
             Self::Unused { why, .. } => matches!(why, Unused::FactorZero { .. } | Unused::Heights),
             _ => false,

@@ -68,6 +68,14 @@ impl fmt::Display for Note {
             Self::NotModelled { features } => {
                 write!(f, "These change the look and are not modelled: {}.", features.join(", "))
             }
+            Self::ListedBy { file } => {
+                write!(f, "{file} lists these pictures: open it to read them as it specifies.")
+            }
+            Self::Gamut { spaces } => write!(
+                f,
+                "Rec. 709 does not have some of the colours in {}; they are clipped to [0, 1].",
+                spaces.join(", ")
+            ),
             Self::SpecularFactor { file } => {
                 write!(f, "{file} is read as a factor on 0.04, as OpenSVBRDF writes it.")
             }
@@ -137,6 +145,8 @@ impl Note {
             | Self::Rows { .. }
             | Self::Materials { .. }
             | Self::NotModelled { .. }
+            | Self::Gamut { .. }
+            | Self::ListedBy { .. }
             | Self::SpecularFactor { .. }
             | Self::Preview
             | Self::Substituted { .. }
@@ -193,6 +203,7 @@ impl fmt::Display for Unused {
         match self {
             Self::NotAMap => Ok(()),
             Self::Unlabelled => f.write_str(": its name does not name a map"),
+            Self::OtherStem => f.write_str(": it is not named as the other maps are"),
             Self::Inferior { to } => write!(f, ": {to} is preferred"),
             Self::Constant { other } => write!(f, ": it is constant, and {other} is not"),
             Self::Workflow(workflow) => write!(f, ": the workflow is {workflow}"),

@@ -91,6 +91,15 @@ pub enum Reason {
     Curl(Option<f64>),
     CurlDown(f64),
     MostMapsUp(f64),
+    /// A document beside the normal map lists it, and its format defines y.
+    ListedNormals {
+        document: String,
+    },
+    /// Correlations of the slopes of heights with x and with y of the normals.
+    Heights {
+        file: PathBuf,
+        correlations: [f64; 2],
+    },
     // The maps that are there.
     MetallicMap {
         matfusion: bool,
@@ -132,8 +141,6 @@ pub enum Reason {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpaceKnown {
     Exactly,
-    /// Gamma 2.2 is the nearest encoding that is known.
-    Nearly,
     Unknown,
 }
 
@@ -161,6 +168,7 @@ impl Reason {
                 C::Native
                     | C::NativeText
                     | C::Gltf
+                    | C::AsoboNormals
                     | C::MaterialXNormals
                     | C::MaterialXSurface
                     | C::ListedTextures

@@ -42,9 +42,9 @@ impl Reason {
                     None => f.write_str("which is inconclusive; colours are sRGB by convention"),
                 }
             }
-            Self::NormalPixels => {
-                f.write_str("nearly all of its pixels look like normals, though its name does not name a map")
-            }
+            Self::NormalPixels => f.write_str(
+                "nearly all of its pixels look like normals, and no other file is named as the normal map",
+            ),
             Self::NormalTile { number, share, next } => write!(
                 f,
                 "tile {number} looks like normals ({:.0} % of its pixels), the next best {:.0} %",
@@ -75,6 +75,14 @@ impl Reason {
             Self::MostMapsUp(curl) => {
                 write!(f, "most maps point up; the curl correlation is {curl:+.2}")
             }
+            Self::ListedNormals { document } => {
+                write!(f, "{document} lists the map, and its format defines it")
+            }
+            Self::Heights { file, correlations: [x, y] } => write!(
+                f,
+                "the slopes of {} correlate by {x:+.2} with x of the normals and by {y:+.2} with y",
+                file.display()
+            ),
             _ => self.of_values(f),
         }
     }
@@ -130,6 +138,8 @@ impl Reason {
             | Self::Curl(..)
             | Self::CurlDown(..)
             | Self::MostMapsUp(..)
+            | Self::Heights { .. }
+            | Self::ListedNormals { .. }
             | Self::MetallicMap { .. }
             | Self::SpecularMap
             | Self::NeitherMap
@@ -159,7 +169,6 @@ impl fmt::Display for Reason {
                 write!(f, "the file declares {space}")?;
                 f.write_str(match known {
                     SpaceKnown::Exactly => "",
-                    SpaceKnown::Nearly => "; 2.2 is the nearest that is known",
                     SpaceKnown::Unknown => ", which is not known here",
                 })
             }

@@ -24,10 +24,16 @@ pub enum StorageConvention {
     DeschaintreNames,
     SurfaceNetFolder,
     Gltf,
+    /// The exporter of Microsoft Flight Simulator.
+    AsoboNormals,
     MaterialXNormals,
     MaterialXSurface,
     /// The file lists its textures.
     ListedTextures,
+    /// Minecraft does not define where y of its normals points.
+    TextureSetNormals,
+    /// The file lists its textures, and none of normals.
+    NoListedNormals,
     LayerNames,
     RoughnessName,
     NvdiffrecPacking,
@@ -56,10 +62,13 @@ impl fmt::Display for StorageConvention {
             Self::GammadNames => "the names contain gammad",
             Self::DeschaintreNames => "the networks of Deschaintre et al. write these names, linear",
             Self::SurfaceNetFolder => "the data sets of SurfaceNet look like this, and are linear",
+            Self::AsoboNormals => "the file declares DirectX by ASOBO_normal_map_convention",
             Self::Gltf => "the specification of glTF 2.0 defines it",
             Self::MaterialXSurface => "computed as the specification of the surface defines it",
             Self::MaterialXNormals => "MaterialX defines normals in this way",
             Self::ListedTextures => "the file lists its textures",
+            Self::TextureSetNormals => "Minecraft does not define it, and most maps point up",
+            Self::NoListedNormals => "the file lists its textures, and none of normals; the surface is flat",
             Self::LayerNames => "the names of the layers name the maps",
             Self::RoughnessName => "the map is named roughness",
             Self::NvdiffrecPacking => "nvdiffrec writes it beside map_Kd",

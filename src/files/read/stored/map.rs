@@ -2,10 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::open::NamedFile;
 use crate::read::options::transfer::{encoded, linear};
 use crate::read::options::{Albedo, Workflow};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Unused};
+
+/// The part of a map that is specified as a value.
+const SPECIFIED: &str = "a constant";
+
+/// The heights of a material, which tell the direction of y in its normals.
+#[derive(Clone, Debug)]
+pub(crate) enum StoredHeight {
+    /// A file, decoded only where names leave the direction open.
+    File(NamedFile),
+    Picture {
+        raster: Raster,
+        file: PathBuf,
+    },
+}
 
 /// A map as stored.
 #[derive(Clone, Debug)]
@@ -21,6 +36,17 @@ impl StoredMap {
     pub(crate) fn unused(&self, workflow: Workflow) -> Note {
         let part = if self.part.is_empty() { String::new() } else { format!(", {}", self.part) };
         Note::Unused { what: format!("{}{part}", self.file.display()), why: Unused::Workflow(workflow) }
+    }
+
+    /// A map that is specified as these values; they stand where other maps have a file.
+    pub(crate) fn specified(values: &[f32]) -> Self {
+        let text = values.iter().map(f32::to_string).collect::<Vec<_>>().join(",");
+        Self { raster: Raster::constant("value", values), file: text.into(), part: SPECIFIED.to_owned() }
+    }
+
+    /// Whether it is specified as a value, and in no file.
+    pub(crate) fn is_specified(&self) -> bool {
+        self.part == SPECIFIED
     }
 
     /// A map of one value that stands in the file `path`.

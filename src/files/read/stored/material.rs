@@ -1,10 +1,10 @@
 //! A material as stored: its maps by role, and what the files tell about their values.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
 
-use super::map::StoredMap;
+use super::map::{StoredHeight, StoredMap};
 use crate::read::options::{Albedo, Energy, NormalY, Role, Roughness};
 use crate::read::record::{Assumption, Certainty, Note, Reason, What};
 
@@ -35,6 +35,10 @@ pub(crate) struct StoredMaterial {
     pub level: Option<StoredMap>,
     pub roughness: StoredMap,
     pub metallic: Option<StoredMap>,
+    /// Heights that belong to it.
+    pub height: Option<StoredHeight>,
+    /// Whether coordinates relate its maps, so that they may have different shapes.
+    pub is_mapped: bool,
     pub inferred: Inferences,
     pub assumptions: Vec<Assumption>,
     /// What else was noticed.
@@ -51,9 +55,19 @@ impl StoredMaterial {
         self.files.dedup();
     }
 
+    /// Records that the heights of `file` tell the direction of y: it is read, and not left unused.
+    pub(crate) fn use_heights(&mut self, file: &Path) {
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        let is_it = |what: &str| what.strip_prefix("The alpha of ").unwrap_or(what) == name;
+        self.notes.retain(|note| !matches!(note, Note::Unused { what, .. } if is_it(what)));
+        self.add_file(file.to_owned());
+    }
+
     /// Replaces the map of a role.
     pub(crate) fn replace(&mut self, role: Role, source: StoredMap) {
-        self.add_file(source.file.clone());
+        if !source.is_specified() {
+            self.add_file(source.file.clone());
+        }
         match role {
             Role::Normal => self.normal = Some(source),
             Role::Specular => (self.specular, self.metallic) = (Some(source), None),
@@ -80,7 +94,7 @@ impl StoredMaterial {
     /// The size of the largest map; records where others are smaller.
     ///
     /// # Errors
-    /// [`Error::MapSizesDiffer`] where maps have another shape.
+    /// [`Error::MapSizesDiffer`] where maps have another shape, and no coordinates relate them.
     pub(crate) fn common_size(&mut self) -> Result<[usize; 2], Error> {
         let all: Vec<_> = self
             .sources()
@@ -97,7 +111,7 @@ impl StoredMaterial {
             if *size == [1, 1] {
                 continue;
             }
-            if size[0] * height != size[1] * width {
+            if size[0] * height != size[1] * width && !self.is_mapped {
                 return Err(Error::MapSizesDiffer {
                     first: largest_whose.clone(),
                     first_size: *largest,

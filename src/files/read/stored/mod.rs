@@ -3,5 +3,5 @@
 mod map;
 mod material;
 
-pub(super) use map::StoredMap;
+pub(super) use map::{StoredHeight, StoredMap};
 pub(super) use material::{Inferences, Inferred, StoredMaterial};

@@ -1,6 +1,6 @@
 //! Assumptions about each map of a material, one line a map.
 
-use svbrdf_files::read::{Assumption, Certainty, Reason, Role, What};
+use svbrdf_files::read::{Assumption, Certainty, Reason, Role, StorageConvention, What};
 
 /// The parts of a material that assumptions are about, in the order of the lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +43,7 @@ impl Part {
             (What::Roughness, _) => Self::Roughness,
             (What::Missing | What::Values, why) => match why {
                 Reason::NoNormalMap | Reason::NoDirection { .. } => Self::Normal,
+                Reason::StorageConvention(StorageConvention::NoListedNormals) => Self::Normal,
                 // The specified reflectance of dielectrics stands for a specular map.
                 Reason::NoSpecularMap | Reason::Specified(_) => Self::Specular,
                 Reason::Exponent(_) | Reason::DiffuseAlone => Self::Roughness,

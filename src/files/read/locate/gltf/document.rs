@@ -7,16 +7,27 @@ use gltf::{Document, Glb};
 
 use svbrdf_core::error::Error;
 
+use crate::lfs;
 use crate::panics::caught;
 
 /// Parts of a glTF that materials need.
 const PARTS: [&str; 7] = ["asset", "buffers", "bufferViews", "images", "materials", "samplers", "textures"];
 
-/// The document of the file `path`, whose bytes these are, and its binary part.
+/// The document of a glTF.
+pub(super) struct GltfDocument {
+    pub parsed: Document,
+    /// All of it but pictures and buffers, as the file declares it.
+    pub declared: Value,
+    /// The binary part.
+    pub blob: Option<Vec<u8>>,
+}
+
+/// The document of the file `path`, whose bytes these are.
 ///
 /// # Errors
 /// [`Error::BadImage`].
-pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u8>>), Error> {
+pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<GltfDocument, Error> {
+    lfs::refuse_pointer(path, bytes)?;
     let invalid = |found: &str| bad(path, format!("expected valid glTF, found: {found}"));
     let contradiction = |_| invalid("a contradiction in its lengths");
     let (json, blob) = if bytes.starts_with(b"glTF") {
@@ -30,6 +41,8 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u
     let mut value: Value = serde_json::from_slice(&json).map_err(|e| invalid(&e.to_string()))?;
     let parts = value.as_object_mut().ok_or_else(|| invalid("no object"))?;
     // Extensions that a file requires mostly concern its meshes; extensions of a texture show in the texture.
+    let mut declared = parts.clone();
+    declared.retain(|name, _| !["images", "buffers"].contains(&name.as_str()));
     parts.retain(|name, _| PARTS.contains(&name.as_str()));
     let root: Root = serde_json::from_value(value).map_err(|e| invalid(&e.to_string()))?;
     // The library panics at images that lead nowhere.
@@ -38,7 +51,13 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<(Document, Option<Vec<u
         return Err(bad(path, "expected images with a uri, or a bufferView and a mimeType".to_owned()));
     }
     let document = caught(|| Document::from_json(root)).map_err(contradiction)?;
-    Ok((document.map_err(|e| invalid(&e.to_string()))?, blob))
+    let parsed = document.map_err(|e| invalid(&e.to_string()))?;
+    Ok(GltfDocument { parsed, declared: declared.into(), blob })
+}
+
+/// The array of this name in the document; empty where there is none.
+pub(super) fn array<'a>(document: &'a Value, name: &str) -> &'a [Value] {
+    document.get(name).and_then(Value::as_array).map_or(&[], Vec::as_slice)
 }
 
 pub(super) fn bad(path: &Path, problem: String) -> Error {

@@ -1,6 +1,8 @@
 //! Features of a glTF material: its textures, how they are placed, and extensions that are not modelled.
 
-use gltf::json::{Material, Value};
+use gltf::json::Value;
+
+use super::textures::SOURCES;
 
 /// Extensions that change the look and are not modelled. Each has a factor whose 0 turns it off, where it has one.
 const NOT_MODELLED: [(&str, &str, Option<&str>); 11] = [
@@ -13,19 +15,22 @@ const NOT_MODELLED: [(&str, &str, Option<&str>); 11] = [
     ("KHR_materials_volume", "a volume", Some("thicknessFactor")),
     ("KHR_materials_dispersion", "dispersion", Some("dispersion")),
     ("KHR_materials_subsurface", "subsurface scattering", None),
-    ("KHR_materials_emissive_strength", "emission", None),
     ("KHR_materials_unlit", "an unlit look", None),
+    ("KHR_texture_procedurals", "a procedural texture, of which the fallback is read", None),
 ];
 
-/// The material as the file declares it.
-fn json(material: &Material) -> Value {
-    serde_json::to_value(material).unwrap_or_default()
-}
+/// Extensions that are read, or that emission shows.
+const READ: [&str; 5] = [
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_emissive_strength",
+    "KHR_texture_transform",
+];
 
 /// The textures that are read of a material, with where they are.
-pub(super) fn textures(material: &Material) -> Vec<(String, Value)> {
-    let json = json(material);
-    let at = |path: &[&str]| path.iter().try_fold(&json, |value, key| value.get(key)).cloned();
+pub(super) fn textures(json: &Value) -> Vec<(String, Value)> {
+    let at = |path: &[&str]| path.iter().try_fold(json, |value, key| value.get(key)).cloned();
     let gloss = ["extensions", "KHR_materials_pbrSpecularGlossiness"];
     let specular = ["extensions", "KHR_materials_specular"];
     let rough = ["pbrMetallicRoughness", ""];
@@ -45,7 +50,7 @@ pub(super) fn textures(material: &Material) -> Vec<(String, Value)> {
 }
 
 /// The problem where textures are placed differently: then the maps do not lie over one another.
-pub(super) fn transforms_differ(material: &Material) -> Option<String> {
+pub(super) fn transforms_differ(material: &Value) -> Option<String> {
     let textures = textures(material);
     let (first, others) = textures.split_first()?;
     let other = others.iter().find(|other| transform(&other.1) != transform(&first.1))?;
@@ -66,13 +71,50 @@ fn transform(texture: &Value) -> [f32; 5] {
     [u, v, rotation, across, down]
 }
 
-/// The features of the material that change its look and are not modelled, by name.
-pub(super) fn ignored(material: &Material) -> impl Iterator<Item = String> + use<> {
-    let json = json(material);
-    NOT_MODELLED.into_iter().filter_map(move |(extension, name, factor)| {
-        let declared = json.get("extensions")?.get(extension)?;
+/// The features of the material that change its look and are not modelled, by name; `all` are the textures of the file.
+pub(super) fn ignored(material: &Value, all: &[Value]) -> Vec<String> {
+    let modelled = |(extension, declared): &(String, Value)| {
+        let known = NOT_MODELLED.iter().find(|(name, ..)| name == extension);
+        let Some((_, name, factor)) = known else {
+            return is_unknown(extension).then(|| format!("an extension that is not known ({extension})"));
+        };
         let is_off =
             factor.is_some_and(|factor| declared.get(factor).and_then(Value::as_f64).unwrap_or(0.0) == 0.0);
         (!is_off).then(|| format!("{name} ({extension})"))
-    })
+    };
+    let factor = material.get("emissiveFactor").and_then(Value::as_array);
+    let is_emissive = factor.is_some_and(|rgb| rgb.iter().any(|value| value.as_f64() != Some(0.0)));
+    let emission = is_emissive.then(|| "emission (emissiveFactor)".to_owned());
+    let occlusion = material.get("occlusionTexture").map(|_| "occlusion (occlusionTexture)".to_owned());
+    let mut names: Vec<_> = extensions(material, all).iter().filter_map(modelled).collect();
+    names.extend(emission.into_iter().chain(occlusion));
+    names.dedup();
+    names
+}
+
+/// The first extension that is `required`, used by the material, and not known.
+pub(super) fn unknown_required(material: &Value, all: &[Value], required: &[String]) -> Option<String> {
+    let mut used = extensions(material, all).into_iter().map(|(name, _)| name);
+    used.find(|name| required.contains(name) && (is_unknown(name) || name == "KHR_texture_procedurals"))
+}
+
+fn is_unknown(extension: &str) -> bool {
+    let is_modelled = NOT_MODELLED.iter().any(|(name, ..)| *name == extension);
+    !is_modelled && !READ.contains(&extension) && !SOURCES.contains(&extension)
+}
+
+/// The extensions of a material and of its textures, with what they declare, each once.
+fn extensions(material: &Value, all: &[Value]) -> Vec<(String, Value)> {
+    let infos = textures(material);
+    let index = |info: &Value| usize::try_from(info.get("index")?.as_u64()?).ok();
+    let sources = infos.iter().filter_map(|(_, info)| all.get(index(info)?));
+    let places = [material].into_iter().chain(infos.iter().map(|(_, info)| info)).chain(sources);
+    let declared = places.filter_map(|place| place.get("extensions")?.as_object()).flatten();
+    let mut found: Vec<(String, Value)> = Vec::new();
+    for (name, value) in declared {
+        if found.iter().all(|(other, _)| other != name) {
+            found.push((name.clone(), value.clone()));
+        }
+    }
+    found
 }

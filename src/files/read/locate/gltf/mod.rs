@@ -3,9 +3,11 @@
 mod document;
 mod features;
 mod textures;
+mod vertex_colours;
 
 use std::path::Path;
 
+use gltf::json::Value;
 use gltf::{Material, Texture};
 
 use svbrdf_core::error::Error;
@@ -13,20 +15,22 @@ use svbrdf_core::error::Error;
 use crate::open::NamedFile;
 use crate::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
 use crate::read::located::picture::LocatedPicture;
-use crate::read::options::{ReadOptions, Role};
+use crate::read::options::{NormalY, ReadOptions, Role};
 use crate::read::record::Subject;
 
+use document::{GltfDocument, array};
 use textures::GltfFile;
 
 /// Locates material number `exemplar` of the file `path`; without one the first that has a texture, else the first.
 ///
 /// # Errors
-/// [`Error::Unreadable`], [`Error::BadImage`], [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
+/// [`Error::Unreadable`], [`Error::BadImage`], also of a material with a required extension that is not known,
+/// [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, Error> {
-    let (document, blob) = document::parse(path, &NamedFile::by_user(path).bytes()?)?;
-    let file = GltfFile { path: path.to_owned(), document, blob };
+    let GltfDocument { parsed, declared, blob } = document::parse(path, &NamedFile::by_user(path).bytes()?)?;
+    let file = GltfFile { path: path.to_owned(), document: parsed, declared, blob };
     let materials: Vec<_> = file.document.materials().collect();
-    let declared = &file.document.as_json().materials;
+    let declared = array(&file.declared, "materials");
     let index = match options.exemplar {
         Some(_) => options.exemplar_of(materials.len(), path)?,
         None => declared.iter().position(|one| !features::textures(one).is_empty()).unwrap_or(0),
@@ -45,6 +49,25 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
             remedy: "bake the maps into one arrangement".to_owned(),
         });
     }
+    let all_textures = array(&file.declared, "textures");
+    let required: Vec<String> = array(&file.declared, "extensionsRequired")
+        .iter()
+        .filter_map(|name| name.as_str().map(str::to_owned))
+        .collect();
+    if let Some(extension) = features::unknown_required(declared, all_textures, &required) {
+        return Err(Error::BadImage {
+            path: path.to_owned(),
+            problem: format!(
+                "{}: expected extensions that are read, found {extension}, which the file requires",
+                name(material, index)
+            ),
+            remedy: "export the material as metallic and roughness".to_owned(),
+        });
+    }
+    let mut not_modelled = features::ignored(declared, all_textures);
+    if vertex_colours::has(&file, index) {
+        not_modelled.push("vertex colours (COLOR_0), which multiply the base colour".to_owned());
+    }
     let (pictures, textures) = pictures(&file, material)?;
     let names = materials.iter().enumerate().map(|(i, material)| name(material, i)).collect();
     Ok(LocatedGltf {
@@ -54,9 +77,18 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
         pictures,
         textures,
         normal_scale: material.normal_texture().map_or(1.0, |texture| texture.scale()),
-        not_modelled: features::ignored(declared).collect(),
+        normal_y: normal_y(&file.declared),
+        not_modelled,
         materials: (names, index),
     })
+}
+
+/// Where y of the normals points: up, unless the exporter of Microsoft Flight Simulator declares otherwise.
+fn normal_y(document: &Value) -> NormalY {
+    let pointer = "/asset/extensions/ASOBO_normal_map_convention/tangent_space_convention";
+    let convention = document.pointer(pointer).and_then(Value::as_str);
+    let is_down = convention.is_some_and(|name| name.eq_ignore_ascii_case("DirectX"));
+    if is_down { NormalY::Down } else { NormalY::Up }
 }
 
 fn name(material: &Material<'_>, index: usize) -> String {

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use gltf::image::Source as Image;
+use gltf::json::Value;
 use gltf::{Document, Texture};
 use percent_encoding::percent_decode_str;
 
@@ -17,12 +18,15 @@ use crate::read::located::picture::PictureSource;
 use crate::read::record::Subject;
 
 /// Extensions of a texture that name its picture, the one that is decoded to more exact values first.
-const SOURCES: [&str; 4] = ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];
+pub(super) const SOURCES: [&str; 4] =
+    ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];
 
 /// A glTF and its binary part.
 pub(super) struct GltfFile {
     pub path: PathBuf,
     pub document: Document,
+    /// The document but for pictures and buffers, as the file declares it.
+    pub declared: Value,
     pub blob: Option<Vec<u8>>,
 }
 
@@ -36,11 +40,8 @@ impl GltfFile {
             Image::Uri { uri, .. } if uri.starts_with("data:") => self.data(uri)?,
             Image::Uri { uri, .. } => return Ok(PictureSource::File(self.beside(uri))),
             Image::View { view, .. } => {
-                let buffer = self.buffer(&view.buffer())?;
-                let end = view.offset().checked_add(view.length());
-                let bytes = end.and_then(|end| buffer.get(view.offset()..end));
                 let outside = || bad(&self.path, format!("{what}: expected it within its buffer"));
-                bytes.ok_or_else(outside)?.to_owned()
+                self.view(&view)?.ok_or_else(outside)?
             }
         };
         Ok(PictureSource::Embedded { within: self.path.clone(), bytes })
@@ -57,6 +58,16 @@ impl GltfFile {
             let found = if names.is_empty() { "none".to_owned() } else { format!("only {names}") };
             bad(&self.path, format!("{what}: expected a picture in its texture, found {found}"))
         })
+    }
+
+    /// The bytes of a view of a buffer; `None` where the buffer is shorter.
+    ///
+    /// # Errors
+    /// [`Error::BadImage`], [`Error::Unreadable`] where the buffer cannot be read.
+    pub(super) fn view(&self, view: &gltf::buffer::View<'_>) -> Result<Option<Vec<u8>>, Error> {
+        let buffer = self.buffer(&view.buffer())?;
+        let end = view.offset().checked_add(view.length());
+        Ok(end.and_then(|end| buffer.get(view.offset()..end)).map(<[u8]>::to_owned))
     }
 
     fn buffer(&self, buffer: &gltf::Buffer<'_>) -> Result<Cow<'_, [u8]>, Error> {

@@ -6,8 +6,9 @@ use std::path::Path;
 
 use svbrdf_core::error::Error;
 
+use crate::lfs;
 use crate::open::NamedFile;
-use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS, names_picture};
+use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::names::Label;
 use crate::read::options::{ReadOptions, Role};
@@ -18,10 +19,10 @@ use statement::{Texture, entries};
 /// Locates material number `exemplar` of the file `path`.
 ///
 /// # Errors
-/// [`Error::Unreadable`], [`Error::NotAMaterial`] without a material, [`Error::NoTextures`] of one without pictures,
-/// [`Error::NoSuchExemplar`].
+/// [`Error::Unreadable`], [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtl, Error> {
     let bytes = NamedFile::by_user(path).bytes()?;
+    lfs::refuse_pointer(path, &bytes)?;
     let text = String::from_utf8_lossy(&bytes);
     let mut all = entries(&text);
     let index = options.exemplar_of(all.len(), path)?;
@@ -35,14 +36,6 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtl, E
         });
     }
     let entry = all.swap_remove(index);
-    if !entry.lines.iter().any(|(key, _)| names_picture(key)) {
-        return Err(Error::NoTextures {
-            path: path.to_owned(),
-            name: entry.name,
-            exemplar: index,
-            count: names.len(),
-        });
-    }
     let is_packed = is_packed(&entry);
     Ok(LocatedMtl {
         path: path.to_owned(),

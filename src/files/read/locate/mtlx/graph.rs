@@ -2,10 +2,11 @@
 
 use roxmltree::Node;
 
-use crate::read::located::mtlx::{Bound, BoundPicture, Obstacle};
+use super::arithmetic::{self, OPERANDS};
+use crate::read::located::mtlx::{Affine, Bound, BoundPicture, Obstacle};
 
-/// Deeper than any chain of nodes from an input to its picture.
-const DEEPEST: usize = 32;
+/// More nodes than any chain from an input to its picture has.
+const DEEPEST: usize = 256;
 /// Nodes that pass on what they get, or one channel of it.
 const PASSING: [&str; 9] =
     ["normalmap", "extract", "separate2", "separate3", "separate4", "swizzle", "convert", "dot", "output"];
@@ -21,9 +22,7 @@ pub(super) fn input<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, '
 /// # Errors
 /// [`Obstacle`].
 pub(super) fn bound(node: Node<'_, '_>, name: &str) -> Result<Option<Bound>, Obstacle> {
-    input(node, name)
-        .map(|input| follow(input, Way { channel: None, scale: 1.0, depth: DEEPEST }))
-        .transpose()
+    input(node, name).map(|input| follow(input, DEEPEST)).transpose()
 }
 
 /// The attribute `name` of a node or of what it is in.
@@ -31,33 +30,31 @@ fn inherited(node: Node<'_, '_>, name: &str) -> Option<String> {
     node.ancestors().find_map(|n| n.attribute(name)).map(str::to_owned)
 }
 
-/// What has been found on the way from an input.
-#[derive(Clone, Copy)]
-struct Way {
-    channel: Option<usize>,
-    scale: f32,
-    /// How many nodes there may still be.
-    depth: usize,
+/// Whether a node or an input is one of colours: then its colour space counts.
+fn is_colour(node: Node<'_, '_>) -> bool {
+    node.attribute("type").is_none_or(|kind| kind.starts_with("color"))
 }
 
-fn follow(input: Node<'_, '_>, way: Way) -> Result<Bound, Obstacle> {
+/// What `input` leads to, through at most `depth` nodes.
+fn follow(input: Node<'_, '_>, depth: usize) -> Result<Bound, Obstacle> {
     let name = input.attribute("name").unwrap_or_default();
     let nowhere = || Obstacle::Nowhere(name.to_owned());
-    if way.depth == 0 {
-        return Err(nowhere());
-    }
+    let depth = depth.checked_sub(1).ok_or_else(nowhere)?;
     if let Some(values) = input.attribute("value").and_then(numbers) {
-        return Ok(Bound::Values { values, space: inherited(input, "colorspace") });
+        let space = inherited(input, "colorspace").filter(|_| is_colour(input));
+        return Ok(Bound::Values { values, space });
     }
-    let way = Way { depth: way.depth - 1, ..way };
     if let Some(face) = input.attribute("interfacename") {
         let mut graphs = input.ancestors().filter(|n| n.has_tag_name("nodegraph"));
         let outer = graphs.find_map(|graph| self::input(graph, face)).ok_or_else(nowhere)?;
-        return follow(outer, way);
+        return follow(outer, depth);
     }
+    let found = through(target(input).ok_or_else(nowhere)?, depth)?;
     let of_output = input.attribute("output").or(input.attribute("channels"));
-    let way = Way { channel: way.channel.or_else(|| channel_of(of_output?)), ..way };
-    through(target(input).ok_or_else(nowhere)?, way)
+    Ok(match of_output.and_then(channel_of) {
+        Some(channel) => found.channel(channel),
+        None => found,
+    })
 }
 
 /// The node that an input is connected to.
@@ -77,39 +74,60 @@ fn target<'a, 'd>(input: Node<'a, 'd>) -> Option<Node<'a, 'd>> {
     }
     let wanted = input.attribute("output");
     let mut outputs = node.children().filter(|n| n.has_tag_name("output"));
-    let output = outputs.find(|n| wanted.is_none() || n.attribute("name") == wanted)?;
-    named(node, output.attribute("nodename")?)
+    // The output of a graph is connected as an input is.
+    outputs.find(|n| wanted.is_none() || n.attribute("name") == wanted)
 }
 
-/// The picture that a node reads, or the picture of the input that it passes on.
-fn through(node: Node<'_, '_>, way: Way) -> Result<Bound, Obstacle> {
+/// What a node gives: the picture that it reads, what it passes on, or the values that it computes.
+fn through(node: Node<'_, '_>, depth: usize) -> Result<Bound, Obstacle> {
     let kind = node.tag_name().name();
     let value = |name: &str| input(node, name).and_then(|n| n.attribute("value"));
+    if kind == "output" {
+        return follow(node, depth);
+    }
     if let Some(file) = input(node, "file") {
-        if file.attribute("value").is_none() && file.attribute("interfacename").is_none() {
-            return Err(Obstacle::Nowhere("file".to_owned()));
-        }
-        let file = of_interface(file, way.depth);
-        let name = file.attribute("value").ok_or_else(|| Obstacle::Nowhere("file".to_owned()))?;
-        let name = inherited(file, "fileprefix").unwrap_or_default() + name;
-        let space = inherited(file, "colorspace");
-        let picture = BoundPicture { file: name, space, channel: way.channel, scale: way.scale };
-        return Ok(Bound::Picture(picture));
+        return picture(node, file, depth).map(Bound::Picture);
     }
     if kind == "constant" {
         let value = input(node, "value").ok_or_else(|| Obstacle::Nowhere("value".to_owned()))?;
-        return follow(value, way);
+        return follow(value, depth);
     }
     if !PASSING.contains(&kind) {
         let name = node.attribute("name").unwrap_or_default();
-        return Err(Obstacle::Procedural(format!("{name} ({kind})")));
+        // Each operand leads through its share of the nodes that are left, so that no graph takes long.
+        let operand = |name: &str| input(node, name).map(|one| follow(one, depth / OPERANDS)).transpose();
+        let computed = arithmetic::value(kind, operand)?;
+        return computed.ok_or_else(|| Obstacle::Procedural(format!("{name} ({kind})")));
     }
+    if kind == "normalmap" && value("space").is_some_and(|space| space.trim() != "tangent") {
+        return Err(Obstacle::Space(value("space").unwrap_or_default().trim().to_owned()));
+    }
+    let next = input(node, "in").ok_or_else(|| Obstacle::Nowhere("in".to_owned()))?;
+    let mut found = follow(next, depth)?;
     let index = value("index").and_then(|index| index.trim().parse().ok());
     let swizzled = value("channels").filter(|channels| channels.len() == 1).and_then(channel_of);
-    let channel = way.channel.or(index).or(swizzled);
-    let scale = value("scale").and_then(|scale| numbers(scale)?.first().copied()).unwrap_or(1.0);
-    let next = input(node, "in").ok_or_else(|| Obstacle::Nowhere("in".to_owned()))?;
-    follow(next, Way { channel, scale: scale * way.scale, ..way })
+    if let Some(channel) = index.or(swizzled) {
+        found = found.channel(channel);
+    }
+    if let (Bound::Picture(picture), Some(scale)) = (&mut found, value("scale").and_then(numbers)) {
+        picture.scale *= scale.first().copied().unwrap_or(1.0);
+    }
+    Ok(found)
+}
+
+/// The picture that `node` reads from `file`.
+fn picture(node: Node<'_, '_>, file: Node<'_, '_>, depth: usize) -> Result<BoundPicture, Obstacle> {
+    let nowhere = || Obstacle::Nowhere("file".to_owned());
+    let file = of_interface(file, depth);
+    let name = file.attribute("value").ok_or_else(nowhere)?;
+    Ok(BoundPicture {
+        file: inherited(file, "fileprefix").unwrap_or_default() + name,
+        space: inherited(file, "colorspace"),
+        is_colour: is_colour(node),
+        channel: None,
+        affine: Affine::default(),
+        scale: 1.0,
+    })
 }
 
 /// The input of the graph that `file` stands for.

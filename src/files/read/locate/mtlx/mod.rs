@@ -1,6 +1,7 @@
 //! Surfaces of MaterialX (`standard_surface`, `gltf_pbr`, `open_pbr_surface` and `UsdPreviewSurface`): the pictures and
 //! values of their inputs.
 
+mod arithmetic;
 mod graph;
 
 use std::path::{Path, PathBuf};
@@ -9,6 +10,7 @@ use roxmltree::{Document, Node};
 
 use svbrdf_core::error::Error;
 
+use crate::lfs;
 use crate::open::NamedFile;
 use crate::read::located::mtlx::{Bound, LocatedMtlx};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
@@ -25,6 +27,7 @@ use graph::{bound, input};
 /// [`Error::NoSuchExemplar`].
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtlx, Error> {
     let text = NamedFile::by_user(path).text()?;
+    lfs::refuse_pointer(path, text.as_bytes())?;
     let document = Document::parse(&text).map_err(|e| Error::BadImage {
         path: path.to_owned(),
         problem: format!("expected MaterialX, found: {e}"),

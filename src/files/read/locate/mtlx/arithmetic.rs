@@ -1,0 +1,116 @@
+//! Arithmetic of MaterialX: sums and products of constants and of one picture, which stay affine in it.
+
+use crate::read::located::mtlx::{Affine, Bound, BoundPicture, Obstacle};
+use crate::read::options::colour_space::ColourSpace;
+
+/// Most operands of a node.
+pub(super) const OPERANDS: usize = 3;
+
+/// The value of a node of this `kind`, whose input of a name is the `operand` of it or else a number; `None` where it is no
+/// affine function of at most one picture.
+///
+/// # Errors
+/// Those of an operand.
+pub(super) fn value(
+    kind: &str,
+    operand: impl Fn(&str) -> Result<Option<Bound>, Obstacle>,
+) -> Result<Option<Bound>, Obstacle> {
+    let operand = |name: &str, usual: f32| Ok(operand(name)?.unwrap_or_else(|| constant(usual)));
+    let minus = |bound: Bound| product(bound, constant(-1.0));
+    Ok(match kind {
+        "multiply" => product(operand("in1", 0.0)?, operand("in2", 1.0)?),
+        "divide" => inverse(&operand("in2", 1.0)?).and_then(|by| product(operand("in1", 0.0).ok()?, by)),
+        "add" => sum(operand("in1", 0.0)?, operand("in2", 0.0)?),
+        "subtract" => minus(operand("in2", 0.0)?).and_then(|by| sum(operand("in1", 0.0).ok()?, by)),
+        "invert" => minus(operand("in", 0.0)?).and_then(|by| sum(operand("amount", 1.0).ok()?, by)),
+        // bg + mix (fg - bg)
+        "mix" => {
+            let (fg, bg, mix) = (operand("fg", 0.0)?, operand("bg", 0.0)?, operand("mix", 0.0)?);
+            mixed(fg, bg, mix)
+        }
+        _ => None,
+    })
+}
+
+fn mixed(fg: Bound, bg: Bound, mix: Bound) -> Option<Bound> {
+    match &mix {
+        Bound::Values { .. } => {
+            let rest = sum(constant(1.0), product(mix.clone(), constant(-1.0))?)?;
+            sum(product(fg, mix)?, product(bg, rest)?)
+        }
+        Bound::Picture(_) => {
+            let difference = sum(fg, product(bg.clone(), constant(-1.0))?)?;
+            sum(bg, product(difference, mix)?)
+        }
+    }
+}
+
+fn constant(value: f32) -> Bound {
+    Bound::Values { values: vec![value], space: None }
+}
+
+/// Linear numbers of Rec. 709, one for each channel; `None` where their colour space is not known.
+fn linear(values: &[f32], space: Option<&str>) -> Option<[f32; 3]> {
+    let three = match values {
+        [one] => return Some([*one; 3]),
+        [r, g] => [*r, *g, 0.0],
+        [r, g, b, ..] => [*r, *g, *b],
+        [] => return None,
+    };
+    let Some(space) = space else { return Some(three) };
+    Some(ColourSpace::of_name(space)?.to_linear(three.map(f64::from)).map(|value| value as f32))
+}
+
+/// 1 / the constant.
+fn inverse(bound: &Bound) -> Option<Bound> {
+    let Bound::Values { values, space } = bound else { return None };
+    let inverse = linear(values, space.as_deref())?.map(f32::recip);
+    inverse.iter().all(|v| v.is_finite()).then(|| Bound::Values { values: inverse.to_vec(), space: None })
+}
+
+fn product(a: Bound, b: Bound) -> Option<Bound> {
+    combined(
+        a,
+        b,
+        |a, b| a * b,
+        |picture, by| {
+            let Affine { scale, offset } = picture.affine;
+            Affine { scale: of(scale, by, |a, b| a * b), offset: of(offset, by, |a, b| a * b) }
+        },
+    )
+}
+
+fn sum(a: Bound, b: Bound) -> Option<Bound> {
+    combined(
+        a,
+        b,
+        |a, b| a + b,
+        |picture, by| Affine { offset: of(picture.affine.offset, by, |a, b| a + b), ..picture.affine },
+    )
+}
+
+fn of(a: [f32; 3], b: [f32; 3], both: impl Fn(f32, f32) -> f32) -> [f32; 3] {
+    [0, 1, 2].map(|c| both(a[c], b[c]))
+}
+
+/// Two operands in either order: of constants the result of `both`, of a picture and a constant the affine function.
+fn combined(
+    a: Bound,
+    b: Bound,
+    both: impl Fn(f32, f32) -> f32,
+    affine: impl Fn(&BoundPicture, [f32; 3]) -> Affine,
+) -> Option<Bound> {
+    match (a, b) {
+        (Bound::Values { values: a, space: of_a }, Bound::Values { values: b, space: of_b }) => {
+            let values = of(linear(&a, of_a.as_deref())?, linear(&b, of_b.as_deref())?, both);
+            let count = a.len().max(b.len()).min(3);
+            Some(Bound::Values { values: values[..count].to_vec(), space: None })
+        }
+        (Bound::Picture(picture), Bound::Values { values, space })
+        | (Bound::Values { values, space }, Bound::Picture(picture)) => {
+            let affine = affine(&picture, linear(&values, space.as_deref())?);
+            Some(Bound::Picture(BoundPicture { affine, ..picture }))
+        }
+        (Bound::Picture(_), Bound::Picture(_)) => None,
+    }
+}

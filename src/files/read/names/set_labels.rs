@@ -1,0 +1,68 @@
+//! Labels of the files of a folder: the words that the names of a set have in common tell no map.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::label::{Label, telling_words};
+use crate::read::options::Role;
+
+/// The label of each of these files, in their order.
+///
+/// `metal_albedo`, `metal_roughness` and `metal_xyz` are of a set named `metal`: what two maps or more have in common at
+/// the beginning of their names is the name of their set, and the maps are in the words after it.
+pub(crate) fn set_labels(names: &[String]) -> Vec<Option<Label>> {
+    let all: Vec<Vec<String>> = names
+        .iter()
+        .map(|name| telling_words(&Path::new(name).file_stem().unwrap_or_default().to_string_lossy()))
+        .collect();
+    let mut roles: BTreeMap<&[String], Vec<Role>> = BTreeMap::new();
+    for words in &all {
+        for count in 1..words.len() {
+            let label = Label::of_words(words.clone(), count).filter(|label| label.role != Role::Ignored);
+            let of_prefix = roles.entry(&words[..count]).or_default();
+            of_prefix.extend(label.map(|label| label.role).filter(|role| !of_prefix.contains(role)));
+        }
+    }
+    let is_set = |prefix: &[String]| roles.get(prefix).is_some_and(|roles| roles.len() > 1);
+    let label = |words: &Vec<String>| {
+        let common = (1..=words.len()).rev().find(|count| is_set(&words[..*count])).unwrap_or(0);
+        Label::of_words(words.clone(), common)
+    };
+    all.iter().map(label).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn roles(names: &[&str]) -> Vec<Option<Role>> {
+        let names: Vec<String> = names.iter().map(|name| format!("{name}.png")).collect();
+        set_labels(&names).into_iter().map(|label| label.map(|label| label.role)).collect()
+    }
+
+    #[test]
+    fn the_name_of_a_set_is_not_the_word_of_a_map() {
+        let rough = Some(Role::Roughness);
+        assert_eq!(roles(&["metal_color", "metal_nmral", "metal_rough"]), [Some(Role::Base), None, rough]);
+        assert_eq!(
+            roles(&["color_4_n", "color_4_d", "color_4_thing"]),
+            [Some(Role::Normal), Some(Role::Diffuse), None]
+        );
+        assert_eq!(roles(&["metal", "metal_n", "metal_r"]), [None, Some(Role::Normal), rough]);
+    }
+
+    #[test]
+    fn words_that_are_not_the_name_of_a_set_tell_maps() {
+        assert_eq!(roles(&["a_normal_gl", "a_normal_dx", "a_rough"])[..2], [Some(Role::Normal); 2]);
+        assert_eq!(roles(&["a_metal_rough", "a_color"])[0], Some(Role::OcclusionRoughnessMetallic));
+        assert_eq!(roles(&["metal_color"]), [Some(Role::Base)]);
+        assert_eq!(roles(&["metallic", "roughness", "color"])[0], Some(Role::Metallic));
+    }
+
+    #[test]
+    fn the_name_of_the_set_stays_part_of_the_stem() {
+        let names = ["metal_color.png", "metal_normal.png"].map(str::to_owned);
+        let stems: Vec<_> = set_labels(&names).into_iter().map(|label| label.unwrap().stem).collect();
+        assert_eq!(stems, [["metal"], ["metal"]]);
+    }
+}

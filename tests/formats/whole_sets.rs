@@ -1,0 +1,323 @@
+//! Sets as a whole: what the names of their files have in common, what is left over, and what files beside the maps tell.
+
+use image::{Rgba, RgbaImage};
+
+use svbrdf_files::read::{Binding, Preset, Role, read_bound};
+
+use super::*;
+
+/// The height of the bumps of [`texel`]'s normals, in [0, 1].
+fn height(x: usize, y: usize) -> f64 {
+    let [u, v] = [x, y].map(|i| i as f64 / BUMPS as f64);
+    0.5 + 0.2 * (9.0 * u).sin() * (7.0 * v).cos() + 0.1 * (5.0 * u + 11.0 * v).sin()
+}
+
+/// Side of maps with heights: correlations need some texels.
+const BUMPS: usize = 64;
+
+/// Normals of [`height`] as they are stored, with y up times `sign`.
+fn bumps(sign: f64) -> image::DynamicImage {
+    picture(BUMPS, BUMPS, |x, y| {
+        let at = |x: usize, y: usize| height(x.min(BUMPS - 1), y.min(BUMPS - 1));
+        let n = [
+            -4.0 * (at(x + 1, y) - at(x.saturating_sub(1), y)),
+            -4.0 * sign * (at(x, y.saturating_sub(1)) - at(x, y + 1)),
+            1.0,
+        ];
+        let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
+        n.map(|c| 0.5 * c / length + 0.5)
+    })
+}
+
+fn put(folder: &Path, name: &str, image: &image::DynamicImage) {
+    save(folder, name, image, ImageFormat::Png);
+}
+
+fn gray(folder: &Path, name: &str, value: f64) {
+    put(folder, name, &picture(BUMPS, BUMPS, |_, _| [value; 3]));
+}
+
+fn notes(read: &Read<f64>) -> String {
+    read.messages().collect::<Vec<_>>().join("\n")
+}
+
+/// Base colour and roughness of a set of this stem.
+fn colour_and_roughness(folder: &Path, stem: &str) {
+    gray(folder, &format!("{stem}_albedo.png"), 0.5);
+    gray(folder, &format!("{stem}_roughness.png"), 0.25);
+}
+
+#[test]
+fn the_common_name_of_a_set_is_no_word_of_a_map() {
+    let folder = tempdir().unwrap();
+    colour_and_roughness(folder.path(), "metal");
+    put(folder.path(), "metal_nmroal.png", &bumps(1.0));
+    let read = open(folder.path());
+    assert!((read.material.texel(9).roughness - 0.25).abs() < EIGHT_BITS, "{:?}", read.material.texel(9));
+    assert!(notes(&read).contains("normal is metal_nmroal.png"), "{}", notes(&read));
+    assert!(read.material.planes().normal[0].iter().any(|x| x.abs() > 0.1));
+}
+
+#[test]
+fn a_normal_map_with_a_word_too_many_is_found_and_other_leftovers_are_listed() {
+    let folder = tempdir().unwrap();
+    colour_and_roughness(folder.path(), "crate3");
+    put(folder.path(), "crate3_normal_final.png", &bumps(1.0));
+    gray(folder.path(), "crate3_roughness_old.png", 0.9);
+    gray(folder.path(), "label_specular.png", 0.5);
+    let read = open(folder.path());
+    assert!((read.material.texel(9).roughness - 0.25).abs() < EIGHT_BITS);
+    let notes = notes(&read);
+    assert!(notes.contains("normal is crate3_normal_final.png"), "{notes}");
+    for file in ["crate3_roughness_old.png", "label_specular.png"] {
+        assert!(
+            notes.contains(&format!("{file} is not used: it is not named as the other maps are")),
+            "{notes}"
+        );
+    }
+}
+
+#[test]
+fn heights_decide_where_y_points() {
+    for (sign, expected) in [(1.0, "up"), (-1.0, "down")] {
+        let folder = tempdir().unwrap();
+        colour_and_roughness(folder.path(), "floor");
+        put(folder.path(), "floor_normal.png", &bumps(sign));
+        put(folder.path(), "floor_displacement.png", &picture(BUMPS, BUMPS, |x, y| [height(x, y); 3]));
+        let read = open(folder.path());
+        let y = read.assumptions.iter().find(|a| a.what == What::NormalY).unwrap();
+        assert_eq!((y.chosen.as_str(), y.certainty), (expected, Certainty::Likely), "{y}");
+        assert!(y.to_string().contains("the slopes of"), "{y}");
+        assert!(!notes(&read).contains("floor_displacement.png is not used"), "{}", notes(&read));
+        assert!(read.files.iter().any(|file| file.ends_with("floor_displacement.png")), "{:?}", read.files);
+    }
+}
+
+/// Normals of [`height`] with y up and of fine scratches with y down, which dominate the curl.
+fn scratched_bumps() -> image::DynamicImage {
+    let bumps = bumps(1.0).to_rgb8();
+    picture(BUMPS, BUMPS, |x, y| {
+        let n = bumps.get_pixel(x as u32, y as u32).0.map(|code| f64::from(code) / 127.5 - 1.0);
+        let [u, v] = [x, y].map(|i| 1.5 * i as f64);
+        let n = [n[0] / n[2] - 0.45 * u.cos() * v.sin(), n[1] / n[2] - 0.45 * u.sin() * v.cos(), 1.0];
+        let length = n.iter().map(|c| c * c).sum::<f64>().sqrt();
+        n.map(|c| 0.5 * c / length + 0.5)
+    })
+}
+
+#[test]
+fn heights_settle_a_name_that_the_curl_contradicts() {
+    let folder = tempdir().unwrap();
+    colour_and_roughness(folder.path(), "floor");
+    put(folder.path(), "floor_normal_gl.png", &scratched_bumps());
+    let is_doubted = |read: &Read<f64>| read.unsure().any(|a| a.what == What::NormalY);
+    assert!(is_doubted(&open(folder.path())));
+    put(folder.path(), "floor_height.png", &picture(BUMPS, BUMPS, |x, y| [height(x, y); 3]));
+    let settled = open(folder.path());
+    assert_eq!(chosen(&settled, What::NormalY), "up");
+    assert!(!is_doubted(&settled), "{:#?}", settled.assumptions);
+    // Heights that contradict the name, too, leave it in doubt.
+    put(folder.path(), "floor_normal_gl.png", &bumps(-1.0));
+    let doubted = open(folder.path());
+    assert_eq!(chosen(&doubted, What::NormalY), "up");
+    assert!(is_doubted(&doubted) && notes(&doubted).contains("the slopes of"), "{:#?}", doubted.assumptions);
+}
+
+#[test]
+fn a_normal_and_a_roughness_word_together_mean_roughness_in_alpha() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "soil_alb_ht.png", 0.5);
+    let normals = bumps(1.0).to_rgb8();
+    let packed = RgbaImage::from_fn(BUMPS as u32, BUMPS as u32, |x, y| {
+        let [r, g, b] = normals.get_pixel(x, y).0;
+        Rgba([r, g, b, 102])
+    });
+    put(folder.path(), "soil_nrm_rgh.png", &packed.into());
+    let read = open(folder.path());
+    assert!((read.material.texel(9).roughness - 0.4).abs() < EIGHT_BITS, "{:?}", read.material.texel(9));
+    assert!(read.material.planes().normal[0].iter().any(|x| x.abs() > 0.1));
+    put(folder.path(), "soil_nrm_rgh.png", &bumps(1.0));
+    let refused = refusal(folder.path());
+    assert!(refused.contains("roughness in alpha") && refused.contains("no alpha"), "{refused}");
+}
+
+#[test]
+fn heights_in_the_alpha_of_a_colour_decide_y_too() {
+    let folder = tempdir().unwrap();
+    let with_height = RgbaImage::from_fn(BUMPS as u32, BUMPS as u32, |x, y| {
+        Rgba([128, 128, 128, (255.0 * height(x as usize, y as usize)) as u8])
+    });
+    put(folder.path(), "soil_albedo_height.png", &with_height.into());
+    gray(folder.path(), "soil_roughness.png", 0.5);
+    put(folder.path(), "soil_normal.png", &bumps(-1.0));
+    let read = open(folder.path());
+    assert_eq!(chosen(&read, What::NormalY), "down");
+    assert_eq!(read.unsure().count(), 0, "{:#?}", read.assumptions);
+    assert!(!notes(&read).contains("alpha"), "{}", notes(&read));
+    // Where a name states y, nothing asks for the heights.
+    std::fs::rename(folder.path().join("soil_normal.png"), folder.path().join("soil_normal_dx.png")).unwrap();
+    let named = open(folder.path());
+    assert!(notes(&named).contains("The alpha of soil_albedo_height.png is not used"), "{}", notes(&named));
+}
+
+/// A texture set of Minecraft of these pairs.
+fn texture_set(folder: &Path, entries: &str) -> std::path::PathBuf {
+    let path = folder.join("ore.texture_set.json");
+    let text = format!(r#"{{"format_version": "1.16.100", "minecraft:texture_set": {{{entries}}}}}"#);
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+#[test]
+fn a_texture_set_names_its_maps_and_states_constants() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "ore.png", 0.5);
+    put(folder.path(), "glow.png", &picture(BUMPS, BUMPS, |_, _| [0.2, 0.9, 0.6]));
+    let maps = r#""color": "ore", "metalness_emissive_roughness": "glow""#;
+    let read = open(&texture_set(folder.path(), maps));
+    let texel = read.material.texel(9);
+    assert_eq!(read.material.name(), "ore");
+    assert!((texel.roughness - 0.6).abs() < EIGHT_BITS, "{texel:?}");
+    let base = 0.214;
+    assert!((texel.diffuse[0] - 0.8 * base).abs() < 0.005, "{texel:?}");
+    assert!((texel.specular[0] - (0.8 * 0.04 + 0.2 * base)).abs() < 0.005, "{texel:?}");
+    let constants = r##""color": "#808080", "metalness_emissive_roughness": [51, 0, 153]"##;
+    let read = open(&texture_set(folder.path(), constants));
+    assert_eq!(read.material.size(), [1, 1]);
+    let of_constants = read.material.texel(0);
+    assert!((of_constants.roughness - 0.6).abs() < EIGHT_BITS, "{of_constants:?}");
+    assert!((of_constants.diffuse[0] - 0.8 * base).abs() < 0.005, "{of_constants:?}");
+    let plain = open(&texture_set(folder.path(), r#""color": "ore""#));
+    assert_eq!((plain.material.texel(9).roughness, plain.material.texel(9).specular), (1.0, [0.04; 3]));
+    let absent = refusal(&texture_set(folder.path(), r#""color": "none""#));
+    assert!(absent.contains("none.png"), "{absent}");
+}
+
+#[test]
+fn one_file_of_an_incomplete_set_says_what_is_missing() {
+    let folder = tempdir().unwrap();
+    put(folder.path(), "shield_Normal.png", &bumps(1.0));
+    gray(folder.path(), "shield_AlbedoTransparency.png", 0.5);
+    let refused = refusal(&folder.path().join("shield_Normal.png"));
+    assert!(refused.contains("the roughness map") && !refused.contains("strip"), "{refused}");
+    let smooth = RgbaImage::from_pixel(BUMPS as u32, BUMPS as u32, Rgba([0, 0, 0, 204]));
+    put(folder.path(), "shield_MetallicSmoothness.png", &smooth.into());
+    for file in ["shield_Normal.png", "shield_AlbedoTransparency.png"] {
+        let read = open(&folder.path().join(file));
+        assert!((read.material.texel(3).roughness - 0.2).abs() < EIGHT_BITS, "{:?}", read.material.texel(3));
+        assert!(!notes(&read).contains("alpha is ignored"), "{}", notes(&read));
+    }
+}
+
+#[test]
+fn a_map_may_be_specified_as_a_constant_and_its_file_is_not_called_unused() {
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "lid_albedo.png", 0.5);
+    gray(folder.path(), "Properties.png", 0.3);
+    let read = |text: &str| {
+        let bindings: Vec<Binding> = vec![text.parse().unwrap()];
+        read_bound::<f64>(folder.path(), &bindings, &ReadOptions::AUTO, &Progress::default()).unwrap()
+    };
+    let constant = read("roughness=0.5");
+    assert!((constant.material.texel(9).roughness - 0.5).abs() < 1e-6);
+    assert!(notes(&constant).contains("The roughness map is 0.5, as specified"), "{}", notes(&constant));
+    assert!(constant.files.iter().all(|file| file.is_file()), "{:?}", constant.files);
+    let file = format!("roughness={}:r", folder.path().join("Properties.png").display());
+    let of_file = read(&file);
+    assert!((of_file.material.texel(9).roughness - 0.3).abs() < EIGHT_BITS);
+    assert!(!notes(&of_file).contains("is not used"), "{}", notes(&of_file));
+    for wrong in ["roughness=1,1,1", "normal=0.5,0.5,1"] {
+        let file: Binding = wrong.parse().unwrap();
+        assert!(
+            read_bound::<f64>(folder.path(), &[file], &ReadOptions::AUTO, &Progress::default()).is_err(),
+            "{wrong} is a file that is not there"
+        );
+    }
+}
+
+#[test]
+fn a_pointer_of_git_lfs_says_what_to_run() {
+    let folder = tempdir().unwrap();
+    let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12345\n";
+    for name in ["a.png", "a.gltf", "a.mtlx", "a.mtl", "a.texture_set.json", "a.exr"] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, pointer).unwrap();
+        let refused = refusal(&path);
+        assert!(refused.contains("git lfs pull"), "{name}: {refused}");
+    }
+}
+
+#[test]
+fn a_material_of_an_engine_says_what_to_open_instead() {
+    let folder = tempdir().unwrap();
+    for (name, text) in [
+        ("lid.vmat", "Layer0\n{\n\tTextureColor \"materials/lid_color.tga\"\n}\n"),
+        ("lid.tres", "[gd_resource]\n[ext_resource path=\"res://materials/lid_color.tga\"]\n"),
+        ("lid.xml", "<material><texture unit=\"diffuse\" name=\"materials/lid_color.tga\"/></material>"),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        let refused = refusal(&path);
+        assert!(
+            refused.contains("materials/lid_color.tga") && refused.contains("open the folder"),
+            "{refused}"
+        );
+    }
+}
+
+#[test]
+fn presets_of_networks_read_what_their_codes_write() {
+    let metallic = ["basecolor.png", "normal.png", "roughness.png"];
+    let open_as = |folder: &Path, preset| {
+        let options = ReadOptions { preset: Some(preset), ..ReadOptions::AUTO };
+        svbrdf_files::read::read::<f64>(folder, &options, &Progress::default()).unwrap()
+    };
+    for (preset, metal) in [
+        (Preset::Chord, "metalness.png"),
+        (Preset::StableMaterials, "metallic.png"),
+        (Preset::MatE, "metallic.png"),
+    ] {
+        let folder = tempdir().unwrap();
+        gray(folder.path(), metallic[0], 0.5);
+        put(folder.path(), metallic[1], &bumps(1.0));
+        gray(folder.path(), metallic[2], 0.25);
+        gray(folder.path(), metal, 0.2);
+        gray(folder.path(), "height.png", 0.2);
+        let read = open_as(folder.path(), preset);
+        let texel = read.material.texel(9);
+        assert!((texel.diffuse[0] - 0.8 * 0.214).abs() < 0.005, "{preset}: {texel:?}");
+        assert!((texel.roughness - 0.25).abs() < EIGHT_BITS, "{preset}: {texel:?}");
+        assert_eq!(
+            (chosen(&read, What::NormalY), read.unsure().count()),
+            ("up", 0),
+            "{:#?}",
+            read.assumptions
+        );
+    }
+    let folder = tempdir().unwrap();
+    gray(folder.path(), "0_albedo.png", 0.5);
+    put(folder.path(), "0_normals.png", &bumps(1.0));
+    gray(folder.path(), "0_roughness.png", 0.25);
+    let read = open_as(folder.path(), Preset::MaterialPalette);
+    // Its renderer does not scale diffuse by 1 - 0.04.
+    let expected = (128.0_f64 / 255.0).powf(2.2) / 0.96;
+    assert!((read.material.texel(9).diffuse[0] - expected).abs() < 1e-4, "{:?}", read.material.texel(9));
+    assert_eq!(read.maps.iter().filter(|map| map.map == Role::Roughness).count(), 1);
+}
+
+#[test]
+fn a_document_beside_the_pictures_is_named_and_its_format_defines_y() {
+    let folder = tempdir().unwrap();
+    colour_and_roughness(folder.path(), "lid");
+    let slight = picture(BUMPS, BUMPS, |x, _| [0.5 + 0.05 * (x % 2) as f64, 0.5, 1.0]);
+    put(folder.path(), "lid_normal.png", &slight);
+    let text = r#"{"images": [{"uri": "lid_normal.png"}]}"#;
+    std::fs::write(folder.path().join("scene.gltf"), text).unwrap();
+    std::fs::write(folder.path().join("other.mtlx"), "<materialx/>").unwrap();
+    let read = open(folder.path());
+    assert!(notes(&read).contains("scene.gltf lists these pictures"), "{}", notes(&read));
+    assert!(!notes(&read).contains("other.mtlx"), "{}", notes(&read));
+    let y = read.assumptions.iter().find(|a| a.what == What::NormalY).unwrap();
+    assert_eq!((y.chosen.as_str(), y.certainty), ("up", Certainty::Likely), "{y}");
+    assert!(y.to_string().contains("scene.gltf"), "{y}");
+}
