@@ -4,7 +4,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::report::{BlameReport, MapReport, ScenesReport, WorstReport};
-use svbrdf_core::why::{self, Moved};
+use svbrdf_core::model::scene::Endpoint;
+use svbrdf_core::why;
 
 use crate::arrays;
 use crate::asked::{Asked, singles};
@@ -140,10 +141,10 @@ pub fn map<'py>(
     })
 }
 
-fn moved(over: &str) -> PyResult<Moved> {
+fn moved(over: &str) -> PyResult<Endpoint> {
     match over {
-        "lights" => Ok(Moved::Light),
-        "views" => Ok(Moved::View),
+        "lights" => Ok(Endpoint::Light),
+        "views" => Ok(Endpoint::View),
         _ => {
             Err(Error::new_err(format!("unknown axes of a map `{over}`; use one of: texels, lights, views")))
         }

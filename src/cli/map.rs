@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Comparison;
+use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::report::{MapReport, Report as _};
-use svbrdf_core::why::Moved;
 use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, write_text};
 
 use super::args::scenes::SceneArgs;
@@ -81,8 +81,8 @@ pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
             let (_, scenes) = args.scenes.scenes(comparison.convention())?;
             watched("rendering", |progress| MapReport::over_texels(&comparison, &scenes, progress))?
         }
-        Over::Lights => over(Moved::Light)?,
-        Over::Views => over(Moved::View)?,
+        Over::Lights => over(Endpoint::Light)?,
+        Over::Views => over(Endpoint::View)?,
     };
     let largest = map.images.iter().flat_map(|pane| pane.pixels.as_flattened()).copied().fold(0.0, f32::max);
     let sources: Vec<_> =

@@ -4,9 +4,10 @@ use glam::DVec3;
 
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Hemisphere, Moved, hemisphere, worst};
+use svbrdf_core::why::{Hemisphere, hemisphere, worst};
 
 use super::{built_in, printed, uniform};
 
@@ -18,7 +19,7 @@ fn planted() -> (svbrdf_core::material::Material<f64>, svbrdf_core::material::Ma
     (material(0.6), material(0.04), light)
 }
 
-fn map(comparison: &Comparison<'_, f64>, moved: Moved, side: usize) -> Hemisphere {
+fn map(comparison: &Comparison<'_, f64>, moved: Endpoint, side: usize) -> Hemisphere {
     hemisphere(comparison, moved, [0.0, 0.0, 1.0], side, &Progress::default(), |_| ()).unwrap()
 }
 
@@ -26,7 +27,7 @@ fn map(comparison: &Comparison<'_, f64>, moved: Moved, side: usize) -> Hemispher
 fn a_planted_bad_direction_is_found_by_the_map() {
     let (truth, prediction, light) = planted();
     let comparison = Comparison::new(&truth, &[&prediction], printed()).unwrap();
-    for moved in [Moved::Light, Moved::View] {
+    for moved in [Endpoint::Light, Endpoint::View] {
         let map = map(&comparison, moved, 64);
         let (worst, loss) = map.worst(0).unwrap();
         // Within two cells, of 2/64 each; reciprocity makes both maps alike.
@@ -45,7 +46,7 @@ fn a_cell_of_the_map_is_the_loss_of_its_scene() {
     let [truth, blurred, rough] = [truth, blurred, rough].map(|m| m.resized([24, 24]).unwrap());
     let comparison = Comparison::new(&truth, &[&blurred, &rough], printed()).unwrap();
     let view = [0.3, -0.2, 1.0];
-    let map = hemisphere(&comparison, Moved::Light, view, 10, &Progress::default(), |_| ()).unwrap();
+    let map = hemisphere(&comparison, Endpoint::Light, view, 10, &Progress::default(), |_| ()).unwrap();
     for (index, direction) in map.directions.iter().enumerate() {
         let Some(light) = *direction else {
             assert!(map.losses.iter().all(|losses| losses[index].is_nan()));
@@ -69,7 +70,7 @@ fn sampled_texels_give_a_map_within_its_standard_error() {
     let [truth, blurred, _] = built_in();
     let comparison = Comparison::new(&truth, &[&blurred], printed()).unwrap();
     let mut sides = Vec::new();
-    let map = hemisphere(&comparison, Moved::Light, [0.0, 0.0, 1.0], 16, &Progress::default(), |map| {
+    let map = hemisphere(&comparison, Endpoint::Light, [0.0, 0.0, 1.0], 16, &Progress::default(), |map| {
         sides.push(map.side);
     });
     let map = map.unwrap();

@@ -6,7 +6,7 @@
 mod adaptive;
 mod batches;
 mod comparison;
-mod differing;
+mod different_texels;
 mod fused;
 mod outcome;
 mod pilot;

@@ -2,7 +2,7 @@
 //!
 //! Losses of scenes are skewed: a few scenes see far more than the others, and a sample of nine tells nothing of them. So
 //! the interval of a mean does not come from its own scenes, but from those of a pilot, which are independent of it and
-//! many more: they give the distribution of the mean of N_S + N_D scenes ([`Spread`]).
+//! many more: they give the distribution of the mean of N_S + N_D scenes ([`SamplingDistribution`]).
 //!
 //! **From quantiles to an interval.** Let q_1 and q_2 be the 2.5% and the 97.5% quantile of the mean M over scenes, and mu
 //! the loss. A loss is taken to be a parameter of scale: where all differences of two materials are halved, so are, to
@@ -22,7 +22,7 @@
 //! and are left out.
 
 use super::comparison::{Comparison, Compute};
-use super::pilot_mean::{Draws, Spread};
+use super::pilot_mean::{Draws, SamplingDistribution};
 use super::pilot_texels::{Subsets, pilot_seed};
 use super::request::Sampling;
 use super::texels::scene_losses;
@@ -49,7 +49,7 @@ const LEAST_RATIO: f64 = 0.05;
 pub(crate) struct Pilot {
     groups: Vec<Group>,
     /// The distribution of the mean of each prediction.
-    losses: Vec<Spread>,
+    losses: Vec<SamplingDistribution>,
 }
 
 /// Units with the same distribution.
@@ -95,19 +95,19 @@ impl Pilot {
     fn new(groups: Vec<Group>) -> Self {
         let mut pilot = Self { groups, losses: Vec::new() };
         let predictions = pilot.groups.first().map_or(0, |group| group.units.len());
-        pilot.losses = (0..predictions).map(|p| pilot.spread(|units| units[p].clone())).collect();
+        pilot.losses = (0..predictions).map(|p| pilot.distribution(|units| units[p].clone())).collect();
         pilot
     }
 
     /// The distribution of the mean of what `of` makes of the units of all predictions.
-    fn spread(&self, of: impl Fn(&[Halves]) -> Halves) -> Spread {
+    fn distribution(&self, of: impl Fn(&[Halves]) -> Halves) -> SamplingDistribution {
         let draws = |group: &Group| Draws { values: without_noise(&of(&group.units)), count: group.count };
-        Spread::of_sum(&self.groups.iter().map(draws).collect::<Vec<_>>())
+        SamplingDistribution::of_sum(&self.groups.iter().map(draws).collect::<Vec<_>>())
     }
 
     /// The 95% interval of the loss of the prediction with index `p`, whose mean over the scenes is `mean`.
     pub(super) fn interval_of_loss(&self, p: usize, mean: f64) -> [f64; 2] {
-        let Spread { mean: expected, quantiles95: [low, high], .. } = self.losses[p];
+        let SamplingDistribution { mean: expected, quantiles95: [low, high], .. } = self.losses[p];
         if expected + low > LEAST_RATIO * expected {
             [high, low].map(|quantile| mean / (1.0 + quantile / expected))
         } else {
@@ -119,7 +119,7 @@ impl Pilot {
     pub(super) fn interval_of_difference(&self, a: usize, b: usize, mean: f64) -> [f64; 2] {
         let less = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect();
         let [low, high] =
-            self.spread(|units| [0, 1].map(|half| less(&units[a][half], &units[b][half]))).quantiles95;
+            self.distribution(|units| [0, 1].map(|half| less(&units[a][half], &units[b][half]))).quantiles95;
         [mean - high, mean - low]
     }
 }

@@ -24,7 +24,7 @@ pub(super) struct Draws {
 
 /// The distribution of the sum of [`Draws`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Spread {
+pub(super) struct SamplingDistribution {
     /// The expectation.
     pub mean: f64,
     /// The 2.5% and the 97.5% quantile, less the expectation.
@@ -33,7 +33,7 @@ pub(super) struct Spread {
     pub freedom: f64,
 }
 
-impl Spread {
+impl SamplingDistribution {
     /// The distribution of the sum of all `draws`.
     ///
     /// The variance of each sample is only estimated. So the quantiles are as much wider as those of Student's t are than
@@ -196,17 +196,17 @@ mod tests {
         (0..count).map(|i| -((i as f64 + 0.5) / count as f64).ln()).collect()
     }
 
-    fn narrowed(spread: Spread) -> [f64; 2] {
-        let wider = student_quantile(spread.freedom) / student_quantile(f64::INFINITY);
-        spread.quantiles95.map(|q| q / wider)
+    fn narrowed(distribution: SamplingDistribution) -> [f64; 2] {
+        let wider = student_quantile(distribution.freedom) / student_quantile(f64::INFINITY);
+        distribution.quantiles95.map(|q| q / wider)
     }
 
     #[test]
     fn sums_of_exponential_numbers_have_the_quantiles_of_the_gamma_distribution() {
         for count in [1, 9, 90, 900] {
-            let spread = Spread::of_sum(&[Draws { values: exponential(4096), count }]);
+            let distribution = SamplingDistribution::of_sum(&[Draws { values: exponential(4096), count }]);
             let gamma = Gamma::new(count as f64, 1.0).unwrap();
-            for (got, p) in narrowed(spread).into_iter().zip([0.025, 0.975]) {
+            for (got, p) in narrowed(distribution).into_iter().zip([0.025, 0.975]) {
                 let expected = gamma.inverse_cdf(p) - count as f64;
                 let error = (got - expected).abs() / (count as f64).sqrt();
                 assert!(error < 0.01, "{count}, {p}: {got}, {expected}");
@@ -218,7 +218,8 @@ mod tests {
     fn draws_from_two_distributions_add_up() {
         let values = exponential(2048);
         let part = |count| Draws { values: values.clone(), count };
-        let [a, b] = [vec![part(9)], vec![part(6), part(3)]].map(|draws| Spread::of_sum(&draws));
+        let [a, b] =
+            [vec![part(9)], vec![part(6), part(3)]].map(|draws| SamplingDistribution::of_sum(&draws));
         assert!((a.mean - b.mean).abs() < 1e-12);
         for (a, b) in narrowed(a).into_iter().zip(narrowed(b)) {
             assert!((a - b).abs() < 1e-9, "{a}, {b}");
@@ -229,14 +230,14 @@ mod tests {
     fn a_sample_with_one_value_that_matters_has_few_degrees_of_freedom() {
         let mut values = vec![1.0; 1000];
         values[3] = 9.0;
-        let rare = Spread::of_sum(&[Draws { values, count: 9 }]).freedom;
-        let common = Spread::of_sum(&[Draws { values: exponential(1000), count: 9 }]).freedom;
+        let rare = SamplingDistribution::of_sum(&[Draws { values, count: 9 }]).freedom;
+        let common = SamplingDistribution::of_sum(&[Draws { values: exponential(1000), count: 9 }]).freedom;
         assert!(rare < 3.0 && common > 100.0, "{rare}, {common}");
     }
 
     #[test]
-    fn equal_values_have_no_spread() {
-        let spread = Spread::of_sum(&[Draws { values: vec![0.25; 8], count: 4 }]);
-        assert_eq!((spread.mean, spread.quantiles95), (1.0, [0.0; 2]));
+    fn equal_values_have_no_error() {
+        let distribution = SamplingDistribution::of_sum(&[Draws { values: vec![0.25; 8], count: 4 }]);
+        assert_eq!((distribution.mean, distribution.quantiles95), (1.0, [0.0; 2]));
     }
 }

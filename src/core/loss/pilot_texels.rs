@@ -1,7 +1,7 @@
 //! The texels that a pilot compares.
 
 use super::comparison::{Comparison, Compute};
-use super::differing::Differing;
+use super::different_texels::DifferentTexels;
 use super::request::Sampling;
 use crate::model::sampler::Sampler;
 use crate::model::scene::Kind;
@@ -33,8 +33,8 @@ impl Subsets {
         }
         let seed = pilot_seed(sampling.seed, 0);
         let random = |index, count, size| Sampler::Random.texels(seed, Kind::Near, index, count, size);
-        let (texels, share) = match Differing::of(comparison) {
-            Some(Differing { texels, share }) => (texels, share),
+        let (texels, share) = match DifferentTexels::of(comparison) {
+            Some(DifferentTexels { texels, share }) => (texels, share),
             None if size[0] * size[1] <= 2 * HALF => ((0..size[0] * size[1]).collect(), 1.0),
             None => {
                 return Self::Shared { halves: [1, 2].map(|index| random(index, HALF, size)), share: 1.0 };

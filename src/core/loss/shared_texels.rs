@@ -2,7 +2,7 @@
 //! with one another.
 
 use super::comparison::{Comparison, Compute};
-use super::differing::Differing;
+use super::different_texels::DifferentTexels;
 use crate::error::Error;
 use crate::model::sampler::Sampler;
 use crate::model::scene::{Kind, Scene};
@@ -35,9 +35,9 @@ impl SharedTexels {
         let [width, height] = comparison.ground_truth().size();
         let random = |index, size| Sampler::Random.texels(seed, Kind::Near, index, count, size);
         let few = |texels: &Vec<usize>| texels.len() <= number * count;
-        match Differing::of(comparison) {
-            Some(Differing { texels, share }) if few(&texels) => Self { subsets: vec![texels], share },
-            Some(Differing { texels, share }) => {
+        match DifferentTexels::of(comparison) {
+            Some(DifferentTexels { texels, share }) if few(&texels) => Self { subsets: vec![texels], share },
+            Some(DifferentTexels { texels, share }) => {
                 let subset = |index| random(index, [texels.len(), 1]).into_iter().map(|at| texels[at]);
                 Self { subsets: (0..number).map(|index| subset(index).collect()).collect(), share }
             }

@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 
 use super::comparison::{Comparison, Compute};
-use super::differing::Differing;
+use super::different_texels::DifferentTexels;
 use super::request::Sampling;
 use crate::error::Error;
 use crate::model::scene::{Kind, Scene};
@@ -32,14 +32,14 @@ pub(super) fn scene_losses<T: Compute>(
         return backend.scene_losses(comparison, scenes, None, progress);
     };
     progress.begin(scenes.len() as u64);
-    let differing = Differing::of(comparison);
-    let share = differing.as_ref().map_or(1.0, |differing| differing.share);
+    let different = DifferentTexels::of(comparison);
+    let share = different.as_ref().map_or(1.0, |different| different.share);
     let subset = |kind, index| {
         let texels = |size| sampling.sampler.texels(sampling.seed, kind, index, count, size);
-        match &differing {
+        match &different {
             None => texels(size),
-            Some(Differing { texels: few, .. }) if few.len() <= count => few.clone(),
-            Some(Differing { texels: few, .. }) => {
+            Some(DifferentTexels { texels: few, .. }) if few.len() <= count => few.clone(),
+            Some(DifferentTexels { texels: few, .. }) => {
                 texels([few.len(), 1]).into_iter().map(|at| few[at]).collect()
             }
         }

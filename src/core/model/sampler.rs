@@ -187,8 +187,8 @@ mod tests {
             |sampler: Sampler, kind| move |seed| sampler.texels(seed, kind, (seed % 17) as usize, 20, [7, 5]);
         for sampler in [Sampler::Random, Sampler::Sobol] {
             for kind in [Kind::Near, Kind::Distant] {
-                let seen = unevenness(draw(sampler, kind));
-                assert!(seen < 0.05, "{sampler}, {kind:?}: {seen}");
+                let found = unevenness(draw(sampler, kind));
+                assert!(found < 0.05, "{sampler}, {kind:?}: {found}");
             }
         }
         let faulty =

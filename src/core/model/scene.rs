@@ -46,6 +46,13 @@ impl fmt::Display for Kind {
     }
 }
 
+/// An endpoint of a scene: what moves while the other stays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Endpoint {
+    Light,
+    View,
+}
+
 /// One view and one light.
 ///
 /// Positions for [`Kind::Near`], directions of any length for [`Kind::Distant`], in units of half the width of the

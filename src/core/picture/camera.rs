@@ -185,9 +185,9 @@ mod tests {
     #[test]
     fn a_fitted_material_lies_inside_the_pane_and_touches_its_margin() {
         for camera in cameras() {
-            let seen = corners(GRID).map(|c| camera.ndc_from_point(c).unwrap());
-            let farthest = seen.iter().flatten().fold(0.0f32, |m, x| m.max(x.abs()));
-            assert!((farthest - MARGIN.recip()).abs() < 1e-4, "{camera:?}: {seen:?}");
+            let projected = corners(GRID).map(|c| camera.ndc_from_point(c).unwrap());
+            let farthest = projected.iter().flatten().fold(0.0f32, |m, x| m.max(x.abs()));
+            assert!((farthest - MARGIN.recip()).abs() < 1e-4, "{camera:?}: {projected:?}");
         }
     }
 
@@ -205,7 +205,11 @@ mod tests {
         let camera = Camera::flat(GRID, 1.0);
         let (zoom, pan) = (3.0, [0.2, -0.1]);
         let before = camera.plane_from_ndc(0.0, 0.0).unwrap();
-        let seen = camera.zoomed(zoom, pan).ndc_from_point(Vec3::new(before[0], before[1], 0.0)).unwrap();
-        assert!((seen[0] - pan[0]).abs() < 1e-5 && (seen[1] - pan[1]).abs() < 1e-5, "{seen:?}");
+        let projected =
+            camera.zoomed(zoom, pan).ndc_from_point(Vec3::new(before[0], before[1], 0.0)).unwrap();
+        assert!(
+            (projected[0] - pan[0]).abs() < 1e-5 && (projected[1] - pan[1]).abs() < 1e-5,
+            "{projected:?}"
+        );
     }
 }

@@ -8,9 +8,10 @@ use super::table::{Cell, Table, aligned};
 use crate::error::Error;
 use crate::image::{Image, mean_of_channels};
 use crate::loss::Comparison;
+use crate::model::scene::Endpoint;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::why::{self, Hemisphere, Moved};
+use crate::why::{self, Hemisphere};
 
 /// A map of the loss of each prediction.
 #[derive(Clone, Debug, Serialize)]
@@ -26,7 +27,7 @@ pub struct MapReport {
     pub images: Vec<Image<f32>>,
     /// The map over directions and what moves; `None` for a map over texels.
     #[serde(skip)]
-    pub directions: Option<(Moved, Hemisphere)>,
+    pub directions: Option<(Endpoint, Hemisphere)>,
 }
 
 /// The summary of the map of a prediction.
@@ -87,7 +88,7 @@ impl MapReport {
     /// As [`why::hemisphere`].
     pub fn over_directions(
         comparison: &Comparison<'_, f32>,
-        moved: Moved,
+        moved: Endpoint,
         fixed: [f64; 3],
         side: usize,
         progress: &Progress,
@@ -130,10 +131,10 @@ fn names(comparison: &Comparison<'_, f32>) -> impl Iterator<Item = String> {
 }
 
 /// What moves, and what is fixed.
-fn roles(moved: Moved) -> [&'static str; 2] {
+fn roles(moved: Endpoint) -> [&'static str; 2] {
     match moved {
-        Moved::Light => ["light", "view"],
-        Moved::View => ["view", "light"],
+        Endpoint::Light => ["light", "view"],
+        Endpoint::View => ["view", "light"],
     }
 }
 

@@ -3,22 +3,13 @@
 use crate::error::Error;
 use crate::loss::{Comparison, Compute, SharedTexels};
 use crate::model::convention::Convention;
-use crate::model::scene::{Kind, Scene};
+use crate::model::scene::{Endpoint, Kind, Scene};
 use crate::progress::Progress;
 
 /// Independent subsets of texels, and the texels of each.
 const TEXELS: [usize; 2] = [8, 512];
 /// Columns of the coarsest map.
 const COARSEST: usize = 8;
-
-/// What moves over the hemisphere.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Moved {
-    /// The light, with a fixed view.
-    Light,
-    /// The view, with a fixed light.
-    View,
-}
 
 /// The loss in distant scenes over the directions of the light or the view, the other being fixed.
 ///
@@ -91,7 +82,7 @@ impl Hemisphere {
 /// [`Error::UnusableScene`] where `fixed` is not above the plane, [`Error::Cancelled`].
 pub fn hemisphere<T: Compute>(
     comparison: &Comparison<'_, T>,
-    moved: Moved,
+    moved: Endpoint,
     fixed: [f64; 3],
     side: usize,
     progress: &Progress,
@@ -114,27 +105,27 @@ pub fn hemisphere<T: Compute>(
 fn of_side<T: Compute>(
     comparison: &Comparison<'_, T>,
     texels: &SharedTexels,
-    moved: Moved,
+    moved: Endpoint,
     fixed: [f64; 3],
     side: usize,
     progress: &Progress,
 ) -> Result<Hemisphere, Error> {
     let directions = directions(side, comparison.convention());
     let scene = |direction: [f64; 3]| match moved {
-        Moved::Light => Scene { kind: Kind::Distant, view: fixed, light: direction },
-        Moved::View => Scene { kind: Kind::Distant, view: direction, light: fixed },
+        Endpoint::Light => Scene { kind: Kind::Distant, view: fixed, light: direction },
+        Endpoint::View => Scene { kind: Kind::Distant, view: direction, light: fixed },
     };
     let scenes: Vec<Scene> = directions.iter().flatten().map(|&direction| scene(direction)).collect();
     let usable = scenes.iter().try_for_each(Scene::check);
     usable.map_err(|problem| Error::UnusableScene { problem })?;
     let mut map = Hemisphere { side, directions, losses: Vec::new(), standard_errors: Vec::new() };
     for losses in texels.losses(comparison, &scenes, progress)? {
-        let spread = |values: Vec<f64>| -> Vec<f64> {
+        let on_grid = |values: Vec<f64>| -> Vec<f64> {
             let mut values = values.into_iter();
             map.directions.iter().map(|d| d.and_then(|_| values.next()).unwrap_or(f64::NAN)).collect()
         };
-        let errors = spread(losses.iter().map(|scene| scene.standard_error).collect());
-        let losses = spread(losses.iter().map(|scene| scene.loss).collect());
+        let errors = on_grid(losses.iter().map(|scene| scene.standard_error).collect());
+        let losses = on_grid(losses.iter().map(|scene| scene.loss).collect());
         map.losses.push(losses);
         map.standard_errors.push(errors);
     }

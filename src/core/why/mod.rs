@@ -27,6 +27,6 @@ mod worst;
 
 pub use attribution::{Attribution, MOST_SCENES, MapShare, attribute};
 pub use error_map::{error_maps, mean};
-pub use hemisphere::{Hemisphere, Moved, hemisphere};
+pub use hemisphere::{Hemisphere, hemisphere};
 pub use scene_losses::{Distribution, RankedScene, worst_first};
 pub use worst::{Worst, worst};

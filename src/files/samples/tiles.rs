@@ -214,7 +214,7 @@ fn stain(surface: &mut Surface, x: f64, y: f64) {
     let film = step(0.60, 0.63, spilt);
     let rim = step(0.025, 0.0, (spilt - 0.62).abs());
     let tint = |amount: f64| [1.0 - 0.3 * amount, 1.0 - 0.42 * amount, 1.0 - 0.55 * amount];
-    let kept = tint((0.5 * film + 0.7 * rim).min(1.0));
-    surface.diffuse = [0, 1, 2].map(|c| surface.diffuse[c] * kept[c]);
+    let transmitted = tint((0.5 * film + 0.7 * rim).min(1.0));
+    surface.diffuse = [0, 1, 2].map(|c| surface.diffuse[c] * transmitted[c]);
     surface.roughness = mix(surface.roughness, surface.roughness.max(0.42), 0.6 * film);
 }

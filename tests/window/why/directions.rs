@@ -1,11 +1,12 @@
 //! The map over the directions of light and view.
 
+use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_core::why::{Hemisphere, Moved, hemisphere};
+use svbrdf_core::why::{Hemisphere, hemisphere};
 
 use super::*;
 
-fn expected(prediction: usize, moved: Moved, fixed: [f64; 3]) -> Hemisphere {
+fn expected(prediction: usize, moved: Endpoint, fixed: [f64; 3]) -> Hemisphere {
     let materials = materials();
     let comparison = Comparison::new(&materials[0], &[&materials[prediction]], PRINTED).unwrap();
     hemisphere(&comparison, moved, fixed, 64, &Progress::default(), |_| ()).unwrap()
@@ -34,15 +35,15 @@ fn unit(p: [f64; 3]) -> [f64; 3] {
 fn the_map_is_that_of_the_core_over_lights_and_over_views() {
     let mut window = opened();
     let over_lights = wait_for_map(&mut window);
-    assert!(is_same(&over_lights, &expected(1, Moved::Light, [0.0, 0.0, 1.0])));
+    assert!(is_same(&over_lights, &expected(1, Endpoint::Light, [0.0, 0.0, 1.0])));
     window.get_by_label("Over views").click();
     window.run_steps(3);
     let over_views = wait_for_map(&mut window);
     let fixed = unit(window.state().parts.model.view.scene.light);
-    assert!(is_same(&over_views, &expected(1, Moved::View, fixed)));
+    assert!(is_same(&over_views, &expected(1, Endpoint::View, fixed)));
     assert!(!is_same(&over_views, &over_lights), "a planted fault");
     press(&mut window, egui::Key::Num2);
-    assert!(is_same(&wait_for_map(&mut window), &expected(2, Moved::View, fixed)));
+    assert!(is_same(&wait_for_map(&mut window), &expected(2, Endpoint::View, fixed)));
 }
 
 #[test]

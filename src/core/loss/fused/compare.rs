@@ -4,7 +4,7 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use crate::render::simd::lanes::{V, three};
+use crate::render::simd::lanes::{V, vec3};
 use crate::render::simd::shade::TileRadiance;
 use crate::render::simd::tile::{TilePlane, vectors};
 
@@ -82,7 +82,7 @@ impl<S: Simd> LogDifferences<S> for LogProducts<S> {
         for pair in 0..vectors::<S>() / 2 {
             for i in [2 * pair, 2 * pair + 1] {
                 let (a, b) = (TilePlane::load_three(&a.0, simd, i), TilePlane::load_three(&b.0, simd, i));
-                let (larger, smaller) = (three!(C => a[C].max(b[C])), three!(C => a[C].min(b[C])));
+                let (larger, smaller) = (vec3!(C => a[C].max(b[C])), vec3!(C => a[C].min(b[C])));
                 if SAFE {
                     for c in 0..3 {
                         products.multiply(larger[c], smaller[c]);

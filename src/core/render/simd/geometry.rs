@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, prelude::*};
 use glam::DVec3;
 
-use super::lanes::{Lanes, V, neg_mul_add, three};
+use super::lanes::{Lanes, V, neg_mul_add, vec3};
 use super::tile::{Positions, TilePlane, vectors};
 use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
@@ -74,8 +74,8 @@ impl KernelScene {
         if self.near {
             return None;
         }
-        let light = three!(C => V::<S>::splat(simd, 2.0 * self.light[C]));
-        let view = three!(C => V::<S>::splat(simd, 2.0 * self.view[C]));
+        let light = vec3!(C => V::<S>::splat(simd, 2.0 * self.light[C]));
+        let view = vec3!(C => V::<S>::splat(simd, 2.0 * self.view[C]));
         let light_scale = V::<S>::splat(simd, self.light_scale.min(self.light_scale_limit));
         let (square, fresnel_weight) = half_way(simd, sum(light, view));
         Some(Geometry { light, view, square, fresnel_weight, light_scale })
@@ -86,8 +86,8 @@ impl KernelScene {
     fn splat<S: Simd>(&self, simd: S) -> NearScene<V<S>> {
         let splat = |c| V::<S>::splat(simd, c);
         NearScene {
-            light: three!(C => splat(self.light[C])),
-            view: three!(C => splat(self.view[C])),
+            light: vec3!(C => splat(self.light[C])),
+            view: vec3!(C => splat(self.view[C])),
             light_scale: splat(self.light_scale),
             light_scale_limit: splat(self.light_scale_limit),
         }
@@ -111,7 +111,7 @@ fn near<S: Lanes>(simd: S, scene: &NearScene<V<S>>, x: V<S>, y: V<S>) -> ([V<S>;
     let per_light = twice_rsqrt(simd, light_square);
     let per_view = twice_rsqrt(simd, dot(to_view, to_view));
     let light_scale = (light_square * per_light * scene.light_scale).min(scene.light_scale_limit);
-    (three!(C => to_light[C] * per_light), three!(C => to_view[C] * per_view), light_scale)
+    (vec3!(C => to_light[C] * per_light), vec3!(C => to_view[C] * per_view), light_scale)
 }
 
 /// a . b.
@@ -130,7 +130,7 @@ pub(crate) fn cross<S: Simd>(a: [V<S>; 3], b: [V<S>; 3]) -> [V<S>; 3] {
 /// a + b.
 #[inline(always)]
 pub(crate) fn sum<S: Simd, F: SimdFloat<S>>(a: [F; 3], b: [F; 3]) -> [F; 3] {
-    three!(C => a[C] + b[C])
+    vec3!(C => a[C] + b[C])
 }
 
 /// (|q|^2, Schlick's power).

@@ -39,7 +39,7 @@ pub(crate) trait Lanes: Simd {
 ///
 /// Not `array::map` or `array::from_fn`: how the crate is divided for code generation decides whether these are calls, and
 /// where they are, all vectors go through memory and the loss takes twice as long.
-macro_rules! three {
+macro_rules! vec3 {
     ($c:ident => $value:expr) => {
         [
             {
@@ -58,7 +58,7 @@ macro_rules! three {
     };
 }
 
-pub(crate) use three;
+pub(crate) use vec3;
 
 /// c - a b.
 #[inline(always)]

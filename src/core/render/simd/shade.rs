@@ -7,7 +7,7 @@
 use fearless_simd::prelude::*;
 
 use super::geometry::{Geometry, KernelScene, cross, dot, sum};
-use super::lanes::{Lanes, V, neg_mul_add, three};
+use super::lanes::{Lanes, V, neg_mul_add, vec3};
 use super::tile::{MaterialTerms, TilePlane, vectors};
 use crate::model::convention::Convention;
 
@@ -156,7 +156,7 @@ fn lobe<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
     let e = n_dot_l * geometry.light_scale;
 
     let across: [V<S>; 3] =
-        if NARROW { cross::<S>(n, q) } else { three!(C => neg_mul_add::<S>(n_dot_q, n[C], q[C])) };
+        if NARROW { cross::<S>(n, q) } else { vec3!(C => neg_mul_add::<S>(n_dot_q, n[C], q[C])) };
     let along = a * n_dot_q;
     // In this order only three additions wait for `across`.
     let [x, y, z] = across;

@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
-use super::lanes::{Lanes, V, three};
+use super::lanes::{Lanes, V, vec3};
 use super::size::TEXELS;
 use crate::material::{Grid, Planes};
 
@@ -29,7 +29,7 @@ impl TilePlane {
     /// Vector number `index` of each of three planes.
     #[inline(always)]
     pub(crate) fn load_three<S: Simd>(planes: &[Self; 3], simd: S, index: usize) -> [V<S>; 3] {
-        three!(C => planes[C].load(simd, index))
+        vec3!(C => planes[C].load(simd, index))
     }
 
     #[inline(always)]

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use svbrdf_core::error::Error;
+use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Hemisphere, Moved, hemisphere};
+use svbrdf_core::why::{Hemisphere, hemisphere};
 
 use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
 use crate::viewer::jobs::work::job::Job;
@@ -23,7 +24,7 @@ pub const SIDE: usize = 64;
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct DirectionsKey {
     pair: PairKey,
-    moved: Moved,
+    moved: Endpoint,
     /// The unit direction of the light or view that stays.
     fixed: [f64; 3],
 }
@@ -52,7 +53,7 @@ impl DirectionsJob {
         waker: &Waker,
         displayed: bool,
         pair: Option<&ComparedPair>,
-        moved: Moved,
+        moved: Endpoint,
         scene: &Scene,
     ) -> Option<Error> {
         let Some(pair) = pair.filter(|_| displayed) else {
@@ -77,7 +78,7 @@ impl DirectionsJob {
     }
 
     /// The finest map of this pair, and whether it is up to date; otherwise the latest one of an earlier light or view.
-    pub fn get(&self, pair: &ComparedPair, moved: Moved, scene: &Scene) -> Option<(&DirectionMap, bool)> {
+    pub fn get(&self, pair: &ComparedPair, moved: Endpoint, scene: &Scene) -> Option<(&DirectionMap, bool)> {
         let wanted = key(pair, moved, scene);
         let fine = self.fine.get().map(|(of, map)| (*of, map));
         let coarse = self.coarse.as_ref().map(|(of, map)| (*of, map));
@@ -107,10 +108,10 @@ impl DirectionMap {
     }
 }
 
-fn key(pair: &ComparedPair, moved: Moved, scene: &Scene) -> DirectionsKey {
+fn key(pair: &ComparedPair, moved: Endpoint, scene: &Scene) -> DirectionsKey {
     let fixed = match moved {
-        Moved::Light => scene.view,
-        Moved::View => scene.light,
+        Endpoint::Light => scene.view,
+        Endpoint::View => scene.light,
     };
     DirectionsKey { pair: pair.key, moved, fixed: DVec3::from(fixed).normalize().to_array() }
 }

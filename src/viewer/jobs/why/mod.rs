@@ -9,7 +9,8 @@ pub mod thumbnails;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
-use svbrdf_core::why::{Moved, Worst};
+use svbrdf_core::model::scene::Endpoint;
+use svbrdf_core::why::Worst;
 
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::model::settings::why::{WhySection, WhySections};
@@ -31,7 +32,7 @@ pub struct WhyQuery {
     /// Seeds the scenes of the attribution.
     pub seed: u64,
     /// The endpoint that moves over the hemisphere.
-    pub moved: Moved,
+    pub moved: Endpoint,
 }
 
 /// The jobs of the tab.

@@ -14,7 +14,6 @@ use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::why::Moved;
 use svbrdf_files::read::ReadOptions;
 
 use super::inspection::Region;
@@ -23,8 +22,8 @@ use super::settings::Tab;
 use super::settings::save_kind::SaveKind;
 use super::settings::why::WhySection;
 use super::view::animation::{Animation, Preset};
-use super::view::endpoint::Endpoint;
 use super::view::state::Layout;
+use svbrdf_core::model::scene::Endpoint;
 
 /// One act. Nothing else changes the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -237,7 +236,7 @@ pub enum WhyCommand {
     /// Lists this many scenes, the worst first.
     ListScenes(usize),
     /// Chooses what moves over the hemisphere.
-    SetMoved(Moved),
+    SetMoved(Endpoint),
     /// Searches the worst scene of the chosen prediction, and shows it.
     FindWorst,
     CancelSearch,

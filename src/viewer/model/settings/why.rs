@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use svbrdf_core::why::Moved;
+use svbrdf_core::model::scene::Endpoint;
 
 /// Scenes in the panel until more are asked for.
 const FEW: usize = 10;
@@ -11,14 +11,14 @@ const FEW: usize = 10;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WhyState {
     /// The endpoint that moves over the hemisphere.
-    pub moved: Moved,
+    pub moved: Endpoint,
     /// Number of listed scenes.
     pub listed: usize,
 }
 
 impl Default for WhyState {
     fn default() -> Self {
-        Self { moved: Moved::Light, listed: FEW }
+        Self { moved: Endpoint::Light, listed: FEW }
     }
 }
 

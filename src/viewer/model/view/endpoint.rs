@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+pub use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
 
 /// Least height of a light or a view in the window: from within the plane nothing is seen.
@@ -12,13 +13,6 @@ pub const FARTHEST: f64 = 1000.0;
 const ORBIT_LOWEST: f64 = 0.087_155_742_747_658_18;
 /// Least height of a position that a direction becomes, as a share of its distance: about 6 degrees above the plane.
 const LOWEST_SHARE: f64 = 0.1;
-
-/// Either endpoint of a scene: what a gesture moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Endpoint {
-    Light,
-    View,
-}
 
 /// The position (or direction) of one endpoint of the scene.
 pub fn endpoint(scene: &Scene, which: Endpoint) -> [f64; 3] {

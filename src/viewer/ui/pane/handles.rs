@@ -44,8 +44,9 @@ pub fn pos_from_plane(camera: &Camera, rect: Rect, [x, y]: [f64; 2]) -> Option<(
     let ndc = camera.ndc_from_point(Vec3::new(x as f32, y as f32, 0.0))?;
     let pos = pos_from_ndc(rect, ndc);
     let inside = rect.shrink(RADIUS);
-    let kept = pos2(pos.x.clamp(inside.left(), inside.right()), pos.y.clamp(inside.top(), inside.bottom()));
-    Some((kept, kept != pos))
+    let clamped =
+        pos2(pos.x.clamp(inside.left(), inside.right()), pos.y.clamp(inside.top(), inside.bottom()));
+    Some((clamped, clamped != pos))
 }
 
 /// The light's handle; hollow where the light is outside of the pane.

@@ -16,7 +16,7 @@ pub enum ShadedPart {
     Visible(Region),
 }
 
-/// What is asked of a frame.
+/// What is wanted of a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShadingRequest {
     pub params: ShadeParams,
@@ -74,7 +74,7 @@ impl ShadedMaterial {
         self.full.as_ref().is_some_and(|full| full.drawn == Some((params, None)))
     }
 
-    /// Shades what is asked for and not there yet.
+    /// Shades what is wanted for and not there yet.
     ///
     /// # Errors
     /// Where the adapter cannot hold the texels.
@@ -142,14 +142,14 @@ impl ShadedTexels {
 
     /// Shades a region, or all texels, unless that is what is there.
     fn draw(&mut self, device: &mut ShadingDevice<'_>, params: ShadeParams, region: Option<Region>) {
-        let asked = Some((params, region));
-        if self.drawn == asked {
+        let wanted = Some((params, region));
+        if self.drawn == wanted {
             return;
         }
         let ShadingDevice { gpu, shading, textures, versions, .. } = device;
         let textures = self.reduced.as_ref().unwrap_or(textures);
         shading.draw_part(gpu, textures, &params, &self.shaded, region.map(Region::rectangle));
-        (self.drawn, self.version) = (asked, next(versions));
+        (self.drawn, self.version) = (wanted, next(versions));
     }
 }
 
@@ -213,8 +213,8 @@ mod tests {
             let Self { gpu, shading, textures, versions } = self;
             let mut device = ShadingDevice { gpu, shading, textures, are_reduced: false, versions };
             let sharpens = part != ShadedPart::Whole;
-            let asked = ShadingRequest { params: params(x), part, sharpens, waits: false, exact: false };
-            texels.shade(&mut device, SIZE, asked).unwrap();
+            let wanted = ShadingRequest { params: params(x), part, sharpens, waits: false, exact: false };
+            texels.shade(&mut device, SIZE, wanted).unwrap();
             texels.shown().unwrap().version
         }
 

@@ -5,9 +5,9 @@ use eframe::egui::{
 };
 use glam::DVec3;
 
+use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::colour_map::difference_to_display;
-use svbrdf_core::why::Moved;
 
 use crate::viewer::jobs::why::{ComparedPair, DirectionMap};
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand};
@@ -33,8 +33,8 @@ impl WhyPanel<'_> {
         let moved = self.why.moved;
         ui.horizontal_wrapped(|ui| {
             for (which, name, hover) in [
-                (Moved::Light, "Over lights", "Distant lights from everywhere, for the view of the panes"),
-                (Moved::View, "Over views", "Distant views from everywhere, for the light of the panes"),
+                (Endpoint::Light, "Over lights", "Distant lights from everywhere, for the view of the panes"),
+                (Endpoint::View, "Over views", "Distant views from everywhere, for the light of the panes"),
             ] {
                 if ui.selectable_label(moved == which, name).on_hover_text(hover).clicked() {
                     commands.push(WhyCommand::SetMoved(which).into());
@@ -48,7 +48,7 @@ impl WhyPanel<'_> {
         let mut direction = None;
         ui.horizontal_top(|ui| {
             let (area, response) = ui.allocate_exact_size(vec2(side, side), Sense::click_and_drag());
-            let name = if moved == Moved::Light { "light" } else { "view" };
+            let name = if moved == Endpoint::Light { "light" } else { "view" };
             let label = format!("Loss over {name} directions");
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
             let rim = pair.convention.u1_max.sqrt();
@@ -72,7 +72,7 @@ impl WhyPanel<'_> {
             );
         }
         let [x, y, z] = unit(&self.state.scene, other(moved));
-        let fixed = if moved == Moved::Light { "view" } else { "light" };
+        let fixed = if moved == Endpoint::Light { "view" } else { "light" };
         let text = format!("distant scenes, {fixed} fixed at ({x:.2}, {y:.2}, {z:.2})");
         ui.label(RichText::new(text).small().weak()).on_hover_text(
             "Seen from above: x to the right, y up, straight above in the middle. It covers the directions that the loss \
@@ -107,34 +107,34 @@ impl WhyPanel<'_> {
             );
         }
         let at = |moved| pos_of(area, unit(&self.state.scene, moved));
-        handles::paint_eye(&painter, at(Moved::View), false);
-        handles::paint_sun(&painter, at(Moved::Light), false);
+        handles::paint_eye(&painter, at(Endpoint::View), false);
+        handles::paint_sun(&painter, at(Endpoint::Light), false);
     }
 }
 
-fn other(moved: Moved) -> Moved {
+fn other(moved: Endpoint) -> Endpoint {
     match moved {
-        Moved::Light => Moved::View,
-        Moved::View => Moved::Light,
+        Endpoint::Light => Endpoint::View,
+        Endpoint::View => Endpoint::Light,
     }
 }
 
 /// The direction of light or view from the middle of the material.
-fn unit(scene: &Scene, which: Moved) -> [f64; 3] {
+fn unit(scene: &Scene, which: Endpoint) -> [f64; 3] {
     let endpoint = match which {
-        Moved::Light => scene.light,
-        Moved::View => scene.view,
+        Endpoint::Light => scene.light,
+        Endpoint::View => scene.view,
     };
     DVec3::from(endpoint).normalize().to_array()
 }
 
 /// The distant scene with light or view in this direction. Both keep their distances, for when the scene is made near-field
 /// again.
-fn put(scene: Scene, moved: Moved, direction: [f64; 3]) -> Scene {
+fn put(scene: Scene, moved: Endpoint, direction: [f64; 3]) -> Scene {
     let moved_to = |from: [f64; 3]| (DVec3::from(direction) * DVec3::from(from).length()).to_array();
     match moved {
-        Moved::Light => Scene { kind: Kind::Distant, light: moved_to(scene.light), ..scene },
-        Moved::View => Scene { kind: Kind::Distant, view: moved_to(scene.view), ..scene },
+        Endpoint::Light => Scene { kind: Kind::Distant, light: moved_to(scene.light), ..scene },
+        Endpoint::View => Scene { kind: Kind::Distant, view: moved_to(scene.view), ..scene },
     }
 }
 
@@ -153,8 +153,8 @@ fn direction_at(area: Rect, pos: Pos2, rim: f64) -> [f64; 3] {
 }
 
 /// The loss in a direction, with its standard error.
-fn reading(moved: Moved, direction: [f64; 3], found: Option<&DirectionMap>) -> String {
-    let name = if moved == Moved::Light { "light" } else { "view" };
+fn reading(moved: Endpoint, direction: [f64; 3], found: Option<&DirectionMap>) -> String {
+    let name = if moved == Endpoint::Light { "light" } else { "view" };
     let [x, y, z] = direction;
     let place = format!("{name} {x:5.2} {y:5.2} {z:4.2}");
     let read = |map: &DirectionMap| {
@@ -214,9 +214,9 @@ mod tests {
     fn what_is_put_somewhere_keeps_its_distance_and_leaves_the_other() {
         let scene = ViewState::default().scene;
         let direction = [0.6, 0.0, 0.8];
-        let moved = put(scene, Moved::Light, direction);
+        let moved = put(scene, Endpoint::Light, direction);
         assert_eq!((moved.kind, moved.view), (Kind::Distant, scene.view));
         assert!((DVec3::from(moved.light).length() - DVec3::from(scene.light).length()).abs() < 1e-12);
-        assert!(DVec3::from(unit(&moved, Moved::Light)).distance(DVec3::from(direction)) < 1e-12);
+        assert!(DVec3::from(unit(&moved, Endpoint::Light)).distance(DVec3::from(direction)) < 1e-12);
     }
 }

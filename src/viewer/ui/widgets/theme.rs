@@ -156,14 +156,14 @@ mod tests {
         let product = |matrix: [[f64; 3]; 3], v: [f64; 3]| {
             matrix.map(|row| row.iter().zip(v).map(|(m, c)| m * c).sum::<f64>())
         };
-        let seen = product(matrix, linear).map(|c| c.clamp(0.0, 1.0));
+        let simulated = product(matrix, linear).map(|c| c.clamp(0.0, 1.0));
         let [x, y, z] = product(
             [
                 [0.412_456, 0.357_576, 0.180_438],
                 [0.212_673, 0.715_152, 0.072_175],
                 [0.019_334, 0.119_192, 0.950_304],
             ],
-            seen,
+            simulated,
         );
         let root = |t: f64| if t > 0.008_856 { t.cbrt() } else { 7.787 * t + 16.0 / 116.0 };
         let [x, y, z] = [x / 0.950_47, y, z / 1.088_83].map(root);

@@ -11,14 +11,14 @@ const GLANCE: usize = 1024;
 
 /// The texels of a comparison of which few differ.
 #[derive(Debug, PartialEq)]
-pub(super) struct Differing {
+pub(super) struct DifferentTexels {
     /// Those that differ in any prediction, as row * width + column; at least one, whether it differs or not.
     pub texels: Vec<usize>,
     /// Of all texels: those that differ.
     pub share: f64,
 }
 
-impl Differing {
+impl DifferentTexels {
     /// `None` where half of the texels or more seem to differ.
     pub(super) fn of<T: Real>(comparison: &Comparison<'_, T>) -> Option<Self> {
         let [width, height] = comparison.ground_truth().size();
