@@ -3,6 +3,7 @@
 mod backend;
 mod ends;
 mod help;
+mod inputs;
 mod journal;
 mod loss;
 mod materials;

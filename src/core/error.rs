@@ -187,6 +187,11 @@ pub enum Error {
     #[error("cannot write {}: {source}; {remedy}", path.display())]
     Unwritable { path: PathBuf, source: io::Error, remedy: &'static str },
 
+    /// A result would replace a file that it is made from.
+    #[error("cannot write {}: it is the file {}, which the result is made from; name another file",
+        path.display(), input.display())]
+    ReplacesInput { path: PathBuf, input: PathBuf },
+
     /// No graphics adapter can do what is asked.
     #[error("no usable graphics adapter: {problem}; {remedy}")]
     NoAdapter { problem: String, remedy: &'static str },

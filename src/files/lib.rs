@@ -20,6 +20,7 @@
 pub mod atomic;
 pub mod dataset;
 pub mod export;
+pub mod inputs;
 pub mod open;
 mod panics;
 pub mod photograph;

@@ -6,6 +6,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::report::distinct_names;
+use svbrdf_files::inputs::check_output;
 use svbrdf_files::read::{self, Assumption, Binding, Certainty, Read, What};
 use svbrdf_files::samples;
 use svbrdf_files::session::Session;
@@ -135,7 +136,6 @@ pub struct Opened<T> {
     pub ground_truth: Material<T>,
     pub predictions: Vec<Material<T>>,
     /// Every file that was read.
-    #[expect(dead_code, reason = "outputs will be compared with them before they are written")]
     pub files: Vec<PathBuf>,
 }
 
@@ -143,6 +143,18 @@ impl<T> Opened<T> {
     /// The ground truth, then the predictions.
     pub fn into_all(self) -> Vec<Material<T>> {
         std::iter::once(self.ground_truth).chain(self.predictions).collect()
+    }
+
+    /// Refuses to write `output` where it is one of the files that were read: those of the materials, or `others`.
+    ///
+    /// # Errors
+    /// [`Error::ReplacesInput`].
+    pub fn check_output<'a>(
+        &'a self,
+        output: &Path,
+        others: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<(), Error> {
+        check_output(output, self.files.iter().map(PathBuf::as_path).chain(others))
     }
 }
 
