@@ -10,6 +10,7 @@ mod materials;
 mod metrics;
 mod notes;
 mod options;
+mod outside;
 mod photo;
 mod pictures;
 mod rank;

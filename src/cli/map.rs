@@ -100,7 +100,7 @@ pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
         }
         Output::Table(path) => write_text(path, &map.csv()?, progress),
     })?;
-    Ok(exit::put(&map.text())?)
+    Ok(exit::put_text(&map.text())?)
 }
 
 /// Where the map goes.

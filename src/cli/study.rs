@@ -51,7 +51,7 @@ pub fn run(args: &StudyArgs, given: &Given) -> Result<(), CommandError> {
         table.map_or(Ok(()), |table| study_csv::write(&study, &table, progress))?;
         plot.map_or(Ok(()), |plot| plot::write(&study, &plot, progress))
     })?;
-    Ok(exit::put(&study.summary())?)
+    Ok(exit::put_text(&study.summary())?)
 }
 
 fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {

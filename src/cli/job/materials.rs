@@ -7,6 +7,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::report::distinct_names;
 use svbrdf_files::inputs::check_output;
+use svbrdf_files::open::is_pipe_at;
 use svbrdf_files::read::{self, Assumption, Binding, Certainty, Read, What};
 use svbrdf_files::samples;
 use svbrdf_files::session::Session;
@@ -122,6 +123,7 @@ impl MaterialJob {
     }
 
     fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {
+        note_pipe(source.location());
         let read = watched(&format!("reading {source}"), |progress| source.read(progress))?;
         if self.strict {
             read.refuse_guesses(source.location())?;
@@ -158,11 +160,19 @@ impl<T> Opened<T> {
     }
 }
 
+/// A pipe is read to its end before anything is decoded: it may have none.
+pub fn note_pipe(path: &Path) {
+    if is_pipe_at(path) {
+        exit::tell(&format!("note: {} is a pipe, which is read to its end", path.display()));
+    }
+}
+
 /// Reads one material with the maps of `bindings` in place of its own.
 ///
 /// # Errors
 /// Those of the reader; [`Error::Guessed`] with `--strict`.
 pub fn read_one<T: Real>(path: &Path, bindings: &[Binding], args: &ReadingArgs) -> Result<Read<T>, Error> {
+    note_pipe(path);
     let read: Read<T> = watched(&format!("reading {}", path.display()), |progress| {
         read::read_bound(path, bindings, &args.options(), progress)
     })?;

@@ -9,6 +9,7 @@ pub mod history;
 pub mod inspection;
 pub mod material;
 pub mod message;
+pub mod ranges;
 pub mod session;
 pub mod settings;
 pub mod view;

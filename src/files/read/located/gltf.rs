@@ -15,6 +15,8 @@ pub(crate) struct LocatedGltf {
     pub textures: GltfTextures,
     /// The scale of x and y of the normals.
     pub normal_scale: f32,
+    /// Buffers outside of the folder of the file.
+    pub outside: Vec<PathBuf>,
     /// Features that change the look and are not modelled.
     pub not_modelled: Vec<String>,
     /// The names of all materials of the file, and which of them this is.

@@ -10,12 +10,9 @@ use super::undo;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::DisplayCommand;
 use crate::viewer::model::command::effect::Effect;
+use crate::viewer::model::ranges::{STOPS, ZOOM};
 use crate::viewer::model::view::state::{Layout, ViewState};
 
-/// Least and greatest magnification.
-const ZOOM: std::ops::RangeInclusive<f32> = 0.1..=400.0;
-/// Greatest exposure either way, in stops.
-const STOPS: f32 = 20.0;
 /// Most texels that are rendered to find the automatic exposure.
 const AUTO_EXPOSURE_TEXELS: usize = 20_000;
 

@@ -23,7 +23,8 @@ use textures::GltfFile;
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`], [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, Error> {
-    let (document, blob) = document::parse(path, &NamedFile::by_user(path).bytes()?)?;
+    let bytes = NamedFile::by_user(path).bytes()?;
+    let (document, blob) = document::parse(path, bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))?;
     let file = GltfFile { path: path.to_owned(), document, blob };
     let materials: Vec<_> = file.document.materials().collect();
     let declared = &file.document.as_json().materials;
@@ -54,6 +55,7 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
         pictures,
         textures,
         normal_scale: material.normal_texture().map_or(1.0, |texture| texture.scale()),
+        outside: file.buffers_outside(),
         not_modelled: features::ignored(declared).collect(),
         materials: (names, index),
     })
