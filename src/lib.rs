@@ -32,6 +32,8 @@
 //! `docs/architecture.md` follows a loss, a drag and a folder through them.
 
 pub mod backend;
+#[doc(hidden)]
+pub mod signals;
 
 pub use svbrdf_core::error::Error;
 pub use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request, Sampling, Texels};

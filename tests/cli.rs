@@ -3,12 +3,14 @@
 mod backend;
 mod ends;
 mod help;
+mod inputs;
 mod journal;
 mod loss;
 mod materials;
 mod metrics;
 mod notes;
 mod options;
+mod outside;
 mod photo;
 mod pictures;
 mod rank;

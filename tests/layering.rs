@@ -26,7 +26,7 @@ const LAYERS: [&[&str]; 18] = [
     &["core/lib"],
     &["files"],
     &["gpu"],
-    &["backend"],
+    &["backend", "signals"],
     &["viewer/model"],
     &["viewer/jobs"],
     &["viewer"],

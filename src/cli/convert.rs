@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_core::material::Material;
+use svbrdf_files::inputs::check_output;
 use svbrdf_files::read::{Binding, Preset};
 use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 
@@ -61,6 +62,7 @@ pub fn run(args: &ConvertArgs) -> Result<(), CommandError> {
     let options = WriteOptions { depth: args.depth, like: args.like, preview: args.preview };
     let kind = FileKind::new(&args.output, &options)?;
     let read = read_one(&args.material, &args.bindings, &args.reading)?;
+    check_output(&args.output, &read.files)?;
     let material: Material<f32> = noted(read, args.reading.verbose);
     Ok(stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))?)
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde::Serialize;
 
+use svbrdf_core::text::printable;
 use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;
@@ -79,7 +80,7 @@ pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
         notes: &read.notes,
     };
     let printed = match args.format {
-        InfoFormat::Text => text(&info),
+        InfoFormat::Text => printable(&text(&info)),
         InfoFormat::Json => json::text(&info)?,
     };
     Ok(exit::put(&printed)?)

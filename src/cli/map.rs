@@ -69,6 +69,7 @@ pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
     })?;
     let output = Output::new(&args.output)?;
     let opened = job.materials.open::<f32>()?;
+    opened.check_output(&args.output, args.scenes.file())?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
     let over = |moved| {
@@ -99,7 +100,7 @@ pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
         }
         Output::Table(path) => write_text(path, &map.csv()?, progress),
     })?;
-    Ok(exit::put(&map.text())?)
+    Ok(exit::put_text(&map.text())?)
 }
 
 /// Where the map goes.

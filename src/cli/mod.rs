@@ -23,7 +23,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
-use args::Given;
+use args::{Given, TrustArgs};
 use output::CommandError;
 use output::exit::{exit_code, explain};
 
@@ -60,6 +60,8 @@ struct Cli {
     #[command(subcommand)]
     command: Option<Subcommands>,
     #[command(flatten)]
+    trust: TrustArgs,
+    #[command(flatten)]
     view: view::ViewArgs,
 }
 
@@ -84,6 +86,7 @@ enum Subcommands {
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
+    svbrdf::signals::outlive_size_limits();
     let command = Cli::command();
     match command
         .clone()
@@ -97,6 +100,7 @@ pub fn main() -> ExitCode {
 
 impl Cli {
     fn run(self, given: &Given) -> Result<(), CommandError> {
+        self.trust.apply();
         match self.command.unwrap_or(Subcommands::View(self.view)) {
             Subcommands::View(args) => view::run(args, given),
             Subcommands::Loss(args) => loss::run(args, given),

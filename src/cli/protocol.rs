@@ -9,6 +9,7 @@ use svbrdf_core::metrics::{Metric, matfusion_renderings, of_matfusion};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::MetricsReport;
 use svbrdf_files::export::write_npy;
+use svbrdf_files::inputs::check_output;
 use svbrdf_files::read::{self, Energy, ReadOptions};
 use svbrdf_files::source::{MaterialSource, Place};
 
@@ -58,10 +59,10 @@ pub fn run(args: &ProtocolArgs, job: &ComparisonJob, format: ReportFormat) -> Re
             "a protocol takes the files of materials; name them instead of a session",
         ));
     }
-    let all = opened(&job.materials)?;
+    let (all, files) = opened(&job.materials)?;
     let (truth, predictions) = (&all[0], &all[1..]);
     if let Some(folder) = &args.renderings {
-        write_renderings(folder, &all)?;
+        write_renderings(folder, &all, &files)?;
     }
     let of = |prediction: &ProtocolMaterial| -> Result<(String, Vec<Metric>), Error> {
         let metrics = watched("rendering", |progress| {
@@ -73,9 +74,11 @@ pub fn run(args: &ProtocolArgs, job: &ComparisonJob, format: ReportFormat) -> Re
     Ok(exit::put(&format.write(&MetricsReport::matfusion(&truth.name, truth.size, results))?)?)
 }
 
-/// The ground truth, then the predictions, of one size.
-fn opened(job: &MaterialJob) -> Result<Vec<ProtocolMaterial>, CommandError> {
-    let materials: Vec<Material<f64>> = job.open()?.into_all();
+/// The ground truth, then the predictions, of one size; and the files that were read.
+fn opened(job: &MaterialJob) -> Result<(Vec<ProtocolMaterial>, Vec<PathBuf>), CommandError> {
+    let mut opened = job.open::<f64>()?;
+    let files = std::mem::take(&mut opened.files);
+    let materials: Vec<Material<f64>> = opened.into_all();
     for prediction in &materials[1..] {
         check_same_size(&materials[0], prediction)?;
     }
@@ -90,11 +93,12 @@ fn opened(job: &MaterialJob) -> Result<Vec<ProtocolMaterial>, CommandError> {
         };
         Ok(ProtocolMaterial { name, planes, size })
     };
-    job.sources().iter().zip(&materials).map(stored).collect()
+    let materials = job.sources().iter().zip(&materials).map(stored).collect::<Result<_, _>>()?;
+    Ok((materials, files))
 }
 
 /// Writes the renderings of every material; the folder is made.
-fn write_renderings(folder: &Path, materials: &[ProtocolMaterial]) -> Result<(), Error> {
+fn write_renderings(folder: &Path, materials: &[ProtocolMaterial], files: &[PathBuf]) -> Result<(), Error> {
     let remedy = "check that the folder above it is there and writable";
     std::fs::create_dir_all(folder).map_err(|source| Error::Unwritable {
         path: folder.to_owned(),
@@ -108,6 +112,7 @@ fn write_renderings(folder: &Path, materials: &[ProtocolMaterial]) -> Result<(),
             .map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' })
             .collect();
         let path = folder.join(format!("{index}_{name}.npy"));
+        check_output(&path, files)?;
         watched(&format!("writing {}", path.display()), |progress| {
             let renderings = matfusion_renderings(&material.planes, material.size, progress)?;
             write_npy(&path, &renderings, &progress.part())

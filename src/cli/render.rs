@@ -77,7 +77,9 @@ struct RenderJob {
 /// Where the output cannot be written, or a material cannot be read or rendered.
 pub fn run(args: &RenderArgs, given: &Given) -> Result<(), CommandError> {
     let job = RenderJob::new(args, given)?;
-    let materials = job.comparison.materials.open::<f32>()?.into_all();
+    let opened = job.comparison.materials.open::<f32>()?;
+    opened.check_output(&args.output, [])?;
+    let materials = opened.into_all();
     if let ([ground_truth, predictions @ ..], Some(_)) = (materials.as_slice(), job.shown.difference) {
         predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
     }

@@ -69,7 +69,9 @@ pub fn run(args: &StripArgs, given: &Given) -> Result<(), CommandError> {
     check_options(&columns, given)?;
     let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
     let strip = Strip { columns, convention: job.convention, exposure_ev };
-    let materials = job.materials.open::<f32>()?.into_all();
+    let opened = job.materials.open::<f32>()?;
+    opened.check_output(&args.output, args.scenes.as_deref())?;
+    let materials = opened.into_all();
     if let [ground_truth, predictions @ ..] = materials.as_slice() {
         predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
     }

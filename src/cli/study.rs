@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use svbrdf::backend::Adapter;
 use svbrdf_core::loss::check_same_size;
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::study::{self, Pair, Study};
-use svbrdf_files::export;
 use svbrdf_files::export::{study_csv, study_plot as plot};
 
 use super::args::{ComparisonArgs, Given};
+use super::job::materials::Opened;
 use super::job::{ComparisonJob, MaterialJob};
 use super::output::stop::stoppable;
 use super::output::{CommandError, exit, watched};
@@ -40,15 +41,17 @@ pub fn run(args: &StudyArgs, given: &Given) -> Result<(), CommandError> {
     let job = ComparisonJob::new(&args.comparison, given)?;
     check_predictions(&job.materials)?;
     let plot = args.plot.as_deref().map(plot::destination).transpose()?;
-    args.output.as_deref().map_or(Ok(()), export::check_place)?;
-    let study = measured(&job)?;
+    let table = args.output.as_deref().map(study_csv::destination).transpose()?;
+    let opened = job.materials.open::<f32>()?;
+    for output in args.output.iter().chain(&args.plot) {
+        opened.check_output(output, [])?;
+    }
+    let study = measured(&opened, job.convention)?;
     stoppable(|progress| {
-        if let Some(path) = &args.output {
-            study_csv::write(&study, path, progress)?;
-        }
+        table.map_or(Ok(()), |table| study_csv::write(&study, &table, progress))?;
         plot.map_or(Ok(()), |plot| plot::write(&study, &plot, progress))
     })?;
-    Ok(exit::put(&study.summary())?)
+    Ok(exit::put_text(&study.summary())?)
 }
 
 fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {
@@ -61,8 +64,7 @@ fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {
     }
 }
 
-fn measured(job: &ComparisonJob) -> Result<Study, CommandError> {
-    let opened = job.materials.open::<f32>()?;
+fn measured(opened: &Opened<f32>, convention: Convention) -> Result<Study, CommandError> {
     let (ground_truth, prediction) = (&opened.ground_truth, &opened.predictions[0]);
     check_same_size(ground_truth, prediction)?;
     let adapter = match Adapter::start() {
@@ -76,6 +78,6 @@ fn measured(job: &ComparisonJob) -> Result<Study, CommandError> {
         }
     };
     let gpu = adapter.as_ref().map(Adapter::backend);
-    let pair = Pair { ground_truth, prediction, convention: job.convention, gpu };
+    let pair = Pair { ground_truth, prediction, convention, gpu };
     Ok(watched("measuring", |progress| study::run(&pair, progress, |_| ()))?)
 }

@@ -108,6 +108,16 @@ pub enum Error {
     #[error("{} cannot be used: {problem}; delete it or name another file, or give what it was made with", path.display())]
     BadJournal { path: PathBuf, problem: String },
 
+    /// Another process adds results to a journal.
+    #[error("{} is being written by {owner}; wait until it ends, or name another journal: every shard has its own", path.display())]
+    JournalInUse { path: PathBuf, owner: String },
+
+    /// No prediction of a data set has a loss.
+    #[error(
+        "no prediction has a loss: {failed} of {failed} failed, the first of them, {name}: {problem}; correct the predictions"
+    )]
+    NothingRanked { failed: usize, name: String, problem: String },
+
     /// A scene given by hand cannot be rendered.
     #[error("the scene cannot be rendered: {problem}; move it above the plane, within 1e9 of the origin")]
     UnusableScene { problem: String },
@@ -187,6 +197,25 @@ pub enum Error {
     #[error("cannot write {}: {source}; {remedy}", path.display())]
     Unwritable { path: PathBuf, source: io::Error, remedy: &'static str },
 
+    /// A file names another by an absolute path.
+    #[error("{} names {} by an absolute path: only files by relative paths are read; use a relative path, or allow files \
+        outside, if you trust it", by.display(), path.display())]
+    Outside { path: PathBuf, by: PathBuf },
+
+    /// Something other than a regular file stands where one is expected.
+    #[error("cannot read {}: expected a regular file, found {found}; name a file", path.display())]
+    NotAFile { path: PathBuf, found: &'static str },
+
+    /// Something takes more memory than the limit leaves.
+    #[error("{what} takes {} of memory, more than the limit of {} leaves; use smaller files, or raise the limit",
+        size(*bytes), size(*limit))]
+    Memory { what: String, bytes: u64, limit: u64 },
+
+    /// A result would replace a file that it is made from.
+    #[error("cannot write {}: it is the file {}, which the result is made from; name another file",
+        path.display(), input.display())]
+    ReplacesInput { path: PathBuf, input: PathBuf },
+
     /// No graphics adapter can do what is asked.
     #[error("no usable graphics adapter: {problem}; {remedy}")]
     NoAdapter { problem: String, remedy: &'static str },
@@ -220,6 +249,14 @@ pub enum OutputProblem {
     PackedPreset,
     #[error("cannot be a folder of that preset; materialgan and gltf have one")]
     FolderPreset,
+}
+
+/// A number of bytes in GiB or MiB.
+fn size(bytes: u64) -> String {
+    match bytes {
+        0..0x4000_0000 => format!("{} MiB", bytes.div_ceil(1 << 20)),
+        _ => format!("{:.1} GiB", bytes as f64 / (1u64 << 30) as f64),
+    }
 }
 
 /// What a packed image has to be.

@@ -18,6 +18,34 @@ pub fn percent(share: f64) -> String {
     format!("{text}%")
 }
 
+/// Most characters of a line that has no end of its own, such as a name from a file.
+const LONGEST: usize = 2000;
+
+/// The text with every character that steers a terminal, or the direction of the text after it, written as `\u{...}`.
+pub fn printable(text: &str) -> String {
+    let steers = |c: char| {
+        let is_direction = matches!(c, '\u{200e}' | '\u{200f}' | '\u{61c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+        c.is_control() && c != '\n' || is_direction
+    };
+    let mut shown = String::with_capacity(text.len());
+    for c in text.chars() {
+        if steers(c) { shown.extend(c.escape_unicode()) } else { shown.push(c) }
+    }
+    shown
+}
+
+/// The text without its middle where it is too long to be read.
+pub fn shortened(text: &str) -> String {
+    let count = text.chars().count();
+    if count <= LONGEST {
+        return text.to_owned();
+    }
+    let half = LONGEST / 2;
+    let (start, end) = (text.chars().take(half), text.chars().skip(count - half));
+    let left_out = format!(" ... {} characters ... ", count - 2 * half);
+    start.chain(left_out.chars()).chain(end).collect()
+}
+
 fn digits(value: f64, unit: &str) -> String {
     let text = if value < 9.95 { format!("{value:.1}") } else { format!("{value:.0}") };
     format!("{} {unit}", text.trim_end_matches(".0"))
@@ -26,6 +54,15 @@ fn digits(value: f64, unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_steers_a_terminal_is_escaped_and_what_is_long_is_shortened() {
+        assert_eq!(printable("a\u{1b}[31m\u{202e}b\r\nc\u{9b}"), "a\\u{1b}[31m\\u{202e}b\\u{d}\nc\\u{9b}");
+        assert_eq!(printable("Größe 木 \u{1f600}"), "Größe 木 \u{1f600}");
+        let long = shortened(&"é".repeat(1_000_000));
+        assert!(long.chars().count() < 2100 && long.contains("... 998000 characters ..."), "{long}");
+        assert_eq!(shortened("short"), "short");
+    }
 
     #[test]
     fn times_and_shares_have_a_few_digits() {

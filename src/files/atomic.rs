@@ -107,7 +107,8 @@ pub fn write_text(path: &Path, text: &str, progress: &Progress) -> Result<(), Er
     replace(path, progress, |file| file.write_all(text.as_bytes()))
 }
 
-/// Writes a temporary file beside `path` and renames it: at any moment the old file or the new one is there, whole.
+/// Writes a temporary file beside `path`, brings it to the disk and renames it: at any moment, even after a loss of power, the old
+/// file or the new one is there, whole.
 ///
 /// A symbolic link stays, and what it points to is replaced. A device or a pipe stays, too: it is written to.
 ///
@@ -137,6 +138,8 @@ pub fn replace(
         let target = target_of(path)?;
         let mut temporary = temporary_in(folder_of(&target))?;
         fill(temporary.as_file_mut())?;
+        // The name must not lead to content that a loss of power takes away.
+        temporary.as_file().sync_all()?;
         temporary.persist(&target)?;
         Ok(())
     };

@@ -20,9 +20,12 @@
 pub mod atomic;
 pub mod dataset;
 pub mod export;
+pub mod inputs;
 mod lfs;
+pub mod memory;
 pub mod open;
 mod panics;
+mod paths;
 pub mod photograph;
 pub mod read;
 pub mod samples;

@@ -8,6 +8,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::{Kind, Scene, SceneFile};
 
+use crate::atomic::Destination;
 use crate::open::NamedFile;
 use crate::read::Sidecar;
 use crate::session::Session;
@@ -29,6 +30,21 @@ pub fn read(path: &Path) -> Result<Vec<Scene>, Error> {
 pub fn is_named(path: &Path) -> bool {
     let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
     is_json && !Session::is_named(path) && !Sidecar::is_named(path)
+}
+
+/// The destination of a scene file. Checks `path` before there is anything to write.
+///
+/// # Errors
+/// [`Error::UnknownName`] where it is not named like a scene file, [`Error::Unwritable`] where its folder is missing or it is
+/// itself a folder.
+pub fn destination(path: &Path) -> Result<Destination<()>, Error> {
+    let format = |_: &str| is_named(path).then_some(());
+    Destination::among(
+        path,
+        format,
+        "name of a scene file",
+        "NAME.json, other than a sidecar or session file",
+    )
 }
 
 /// Reads the scenes of a file, with its name.

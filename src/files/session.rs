@@ -1,6 +1,6 @@
 //! The session file: a comparison that another person can open, with everything that it takes.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -11,6 +11,7 @@ use svbrdf_core::model::scene::Scene;
 use super::read::{PhotographOptions, ReadOptions};
 use super::session_window::SessionWindow;
 use crate::open::NamedFile;
+use crate::paths::{absolute, is_outside, relative};
 
 /// What the names of session files end with.
 const ENDING: &str = ".svbrdf-session.json";
@@ -94,31 +95,40 @@ impl Session {
     /// # Errors
     /// [`Error::Unreadable`], [`Error::BadSession`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let bytes = NamedFile::by_user(path).bytes()?;
+        let text = NamedFile::by_user(path).text()?;
         let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
-        let mut session: Self = serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
-        if session.version > VERSION {
-            let version = session.version;
+        let value: Value = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
+        // Before its fields are judged: a newer version may have others.
+        let version = value.get("svbrdf-session").and_then(Value::as_u64).unwrap_or(0);
+        if version > u64::from(VERSION) {
             return Err(bad(format!(
                 "expected version {VERSION}, found version {version} of a newer program"
             )));
         }
+        let mut session: Self = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
         session.scene.check().map_err(|problem| bad(format!("the scene cannot be rendered, {problem}")))?;
         if session.materials.is_empty() {
             return Err(bad("expected at least one material, found none".to_owned()));
         }
-        let folder = path.parent().unwrap_or(Path::new(""));
         if let Some(photograph) = &mut session.photograph {
-            photograph.path = folder.join(&photograph.path);
+            photograph.path = named(&photograph.path, path)?;
         }
         for material in &mut session.materials {
             match (&mut material.path, material.built_in) {
-                (Some(path), None) => *path = folder.join(&path),
+                (Some(name), None) => *name = named(name, path)?,
                 (None, Some(_)) => {}
                 _ => return Err(bad("expected a path or the number of a built-in material".to_owned())),
             }
         }
         Ok(session)
+    }
+
+    /// The files of a session that was read from `path` which lie outside of its folder.
+    pub fn outside(&self, path: &Path) -> Vec<&Path> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let materials = self.materials.iter().filter_map(|material| material.path.as_deref());
+        let photograph = self.photograph.iter().map(|photograph| photograph.path.as_path());
+        materials.chain(photograph).filter(|file| is_outside(file, folder)).collect()
     }
 
     /// The text of the session file `path`: the paths of materials are relative to its folder.
@@ -152,28 +162,14 @@ impl Session {
     }
 }
 
-fn absolute(path: &Path) -> PathBuf {
-    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
-    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    path.components().fold(PathBuf::new(), |mut path, component| {
-        match component {
-            Component::ParentDir => drop(path.pop()),
-            component => path.push(component),
-        }
-        path
-    })
-}
-
-/// The way from `folder` to `path`, both absolute, with slashes; `path` itself on another drive.
-fn relative(path: &Path, folder: &Path) -> PathBuf {
-    let (to, from): (Vec<_>, Vec<_>) = (path.components().collect(), folder.components().collect());
-    let common = to.iter().zip(&from).take_while(|(a, b)| a == b).count();
-    if common == 0 {
-        return path.to_owned();
+/// The path that `session` calls `name`: of a file, a folder or a prefix, and of nothing that waits or has no end.
+fn named(name: &Path, session: &Path) -> Result<PathBuf, Error> {
+    let file = NamedFile::within(name, session);
+    file.check()?;
+    if file.path().metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        file.open()?;
     }
-    let up = from[common..].iter().map(|_| "..".to_owned());
-    let down = to[common..].iter().map(|part| part.as_os_str().to_string_lossy().into_owned());
-    up.chain(down).collect::<Vec<_>>().join("/").into()
+    Ok(file.path().to_owned())
 }
 
 #[cfg(test)]
@@ -238,6 +234,7 @@ mod tests {
             (good.replace("\"path\"", "\"way\""), "expected a path"),
             (good.replace("\"materials\"", "\"things\""), "materials"),
             ("[".to_owned(), "EOF"),
+            (r#"{"svbrdf-session": 9, "materials": 3}"#.to_owned(), "newer program"),
             (good.replacen('{', r#"{"window": {"loss": {"ask": "Acuracy"}},"#, 1), "window.loss.ask"),
         ];
         for (text, reason) in cases {

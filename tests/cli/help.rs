@@ -5,8 +5,16 @@ use std::collections::BTreeSet;
 use super::{svbrdf, text};
 
 /// The headings of help pages.
-const HEADINGS: [&str; 7] =
-    ["Usage:", "Arguments:", "Options:", "Commands:", "Reading materials:", "Examples:", "Exit codes:"];
+const HEADINGS: [&str; 8] = [
+    "Usage:",
+    "Arguments:",
+    "Options:",
+    "Commands:",
+    "Reading materials:",
+    "Files:",
+    "Examples:",
+    "Exit codes:",
+];
 
 /// The help page of a subcommand, which is named by its path from the program.
 pub fn page(path: &[String]) -> String {

@@ -143,3 +143,78 @@ fn a_journal_without_a_head_is_refused_with_what_to_do() {
     let stderr = fail(folder.path(), &format!("{RANK} --journal new.jsonl"), 1);
     assert!(stderr.contains("its format is 3, expected 2"), "{stderr}");
 }
+
+#[test]
+fn a_journal_that_another_process_writes_is_refused() {
+    let folder = data_set();
+    let lock = folder.path().join("run.jsonl.lock");
+    fs::write(&lock, "process 4711\n").unwrap();
+    let held = fs::OpenOptions::new().write(true).open(&lock).unwrap();
+    held.try_lock().unwrap();
+    let error = fail(folder.path(), &format!("{RANK} --journal run.jsonl"), 1);
+    for part in ["run.jsonl is being written by process 4711", "every shard has its own"] {
+        assert!(error.contains(part), "{error}");
+    }
+    drop(held);
+    succeed(folder.path(), &format!("{RANK} --journal run.jsonl"));
+    assert!(!lock.exists());
+}
+
+#[test]
+fn two_shards_at_once_on_one_journal_do_not_lose_results_in_silence() {
+    let folder = data_set();
+    let shard = |part: usize| {
+        let args = format!("{RANK} --shard {part}/2 --journal run.jsonl");
+        super::svbrdf().args(args.split(' ')).current_dir(folder.path()).output().unwrap()
+    };
+    let ends: Vec<_> = std::thread::scope(|scope| {
+        let running: Vec<_> = (1..=2).map(|part| scope.spawn(move || shard(part))).collect();
+        running.into_iter().map(|running| running.join().unwrap()).collect()
+    });
+    let lines = fs::read_to_string(folder.path().join("run.jsonl")).unwrap().lines().count() - 1;
+    match ends.iter().filter(|end| end.status.success()).count() {
+        // One after the other.
+        2 => assert_eq!(lines, 3),
+        1 => assert!((1..=2).contains(&lines), "{lines}"),
+        none => panic!("{none} shards have ended well: {}", text(&ends[0].stderr)),
+    }
+}
+
+#[test]
+fn a_journal_that_contradicts_itself_is_refused() {
+    let folder = data_set();
+    succeed(folder.path(), &format!("{RANK} --journal run.jsonl"));
+    let path = folder.path().join("run.jsonl");
+    let journal = fs::read_to_string(&path).unwrap();
+    let line = journal.lines().nth(1).unwrap();
+    // The same line twice is no contradiction.
+    fs::write(&path, format!("{journal}{line}\n")).unwrap();
+    succeed(folder.path(), "rank --merge run.jsonl");
+    let mut other: Value = serde_json::from_str(line).unwrap();
+    other["seed"] = 12345.into();
+    fs::write(&path, format!("{journal}{other}\n")).unwrap();
+    for args in ["rank --merge run.jsonl".to_owned(), format!("{RANK} --journal run.jsonl")] {
+        let error = fail(folder.path(), &args, 1);
+        assert!(error.contains("two results of m0"), "{error}");
+    }
+}
+
+#[test]
+fn a_data_set_without_any_loss_is_an_error() {
+    let folder = data_set();
+    for method in ["ours", "theirs"] {
+        for i in 0..3 {
+            fs::write(folder.path().join(format!("{method}/m{i}.png")), "no image").unwrap();
+        }
+    }
+    for format in ["text", "json", "csv", "latex"] {
+        let output = run_in(folder.path(), &format!("{RANK} --format {format}"));
+        assert_eq!(output.status.code(), Some(1), "{format}");
+        assert!(!text(&output.stdout).contains("NaN"), "{}", text(&output.stdout));
+        assert!(
+            text(&output.stderr).contains("no prediction has a loss: 6 of 6"),
+            "{}",
+            text(&output.stderr)
+        );
+    }
+}

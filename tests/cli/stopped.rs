@@ -88,6 +88,53 @@ fn an_interrupt_at_any_moment_leaves_what_was_there() {
     }
 }
 
+#[test]
+fn a_signal_is_handled_though_another_one_is_ignored() {
+    let folder = folder();
+    write_material(&folder.path().join("large.png"), LARGE, 90);
+    let before = files(folder.path());
+    for (signal, ignored) in [("TERM", "INT"), ("HUP", "INT"), ("TERM", "HUP"), ("INT", "HUP")] {
+        let mut command = Command::new("env");
+        command.args(["--default-signal=INT,TERM,HUP", &format!("--ignore-signal={ignored}")]);
+        command.args([env!("CARGO_BIN_EXE_svbrdf"), "convert", "large.png", "out.exr", "--depth", "float"]);
+        command.current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        assert!(writing(folder.path(), &mut child));
+        send(ignored, &child);
+        send(signal, &child);
+        let status = child.wait().unwrap();
+        let finished = status.success();
+        if finished {
+            fs::remove_file(folder.path().join("out.exr")).unwrap();
+        }
+        assert!(finished || status.code() == Some(130), "{signal}: {status}");
+        assert_eq!(files(folder.path()), before, "{signal}: something is left");
+    }
+    // The one that is ignored does not end it.
+    let mut command = Command::new("env");
+    command.args(["--ignore-signal=INT", env!("CARGO_BIN_EXE_svbrdf"), "convert", "large.png", "out.exr"]);
+    let mut child = command.current_dir(folder.path()).spawn().unwrap();
+    assert!(writing(folder.path(), &mut child));
+    send("INT", &child);
+    assert!(child.wait().unwrap().success() && folder.path().join("out.exr").exists());
+}
+
+#[test]
+fn a_limit_of_the_size_of_files_is_an_error_that_leaves_nothing() {
+    let folder = folder();
+    write_material(&folder.path().join("large.png"), LARGE, 90);
+    let before = files(folder.path());
+    let limited = format!(
+        "ulimit -f 100; exec {} convert large.png out.exr --depth float",
+        env!("CARGO_BIN_EXE_svbrdf")
+    );
+    let output = Command::new("sh").args(["-c", &limited]).current_dir(folder.path()).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("cannot write out.exr"), "{said}");
+    assert_eq!(files(folder.path()), before);
+}
+
 /// A data set of so many materials that a run of it can be killed on its way.
 fn data_set() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();

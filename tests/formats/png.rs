@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::support::fixtures::{LINEAR, SIDE as SMALL, bytes_at, save_maps};
-use crate::support::png::{GRAY, GRAY_ALPHA, PALETTE, Png, RGB, RGBA};
+use crate::support::png::{GRAY, GRAY_ALPHA, PALETTE, Png, RGB, RGBA, zlib};
 
 const SIDES: [usize; 2] = [SMALL as usize; 2];
 
@@ -145,4 +145,22 @@ fn a_wrong_checksum_in_an_ancillary_chunk_is_no_reason_to_refuse() {
         start = end;
     }
     assert_eq!(certainty(&with_roughness(&whole), What::Roughness), Some(Certainty::Given));
+}
+
+#[test]
+fn a_profile_that_unpacks_to_more_than_any_profile_is_refused() {
+    let file = |bytes: usize| {
+        let profile = [b"name\0\0".as_slice(), &zlib(&vec![7; bytes])].concat();
+        let chunks = [(*b"iCCP", profile)];
+        let png = Png { chunks: &chunks, ..plain(8, RGB) };
+        png.bytes(|x, y, c| bytes_at(1, x as u32, y as u32)[c].into())
+    };
+    let usual = with("diffuse.png", &file(1 << 20));
+    assert!(usual.notes.iter().any(|note| note.to_string().contains("ICC profile")));
+    let folder = tempdir().unwrap();
+    save_maps(folder.path(), "");
+    std::fs::write(folder.path().join("diffuse.png"), file(65 << 20)).unwrap();
+    let read = svbrdf_files::read::read::<f32>(folder.path(), &LINEAR, &Default::default());
+    let error = read.unwrap_err().to_string();
+    assert!(error.contains("at most 64 MiB of profiles"), "{error}");
 }

@@ -6,8 +6,10 @@ pub mod modes;
 pub mod photograph;
 pub mod reading;
 pub mod scenes;
+pub mod trust;
 pub mod values;
 pub mod wildcards;
 
 pub use comparison::{ComparisonArgs, MaterialArgs};
 pub use given::Given;
+pub use trust::TrustArgs;

@@ -1,6 +1,6 @@
 //! The scenes of a subcommand, as arguments.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Request, Sampling, Texels};
@@ -45,6 +45,11 @@ impl SceneArgs {
             Request::Scenes(sampling) => Ok((Some(sampling), sampling.scenes(convention)?)),
             _ => Err(Error::Internal("scenes without a list".to_owned())),
         }
+    }
+
+    /// The scene file, where there is one.
+    pub fn file(&self) -> Option<&Path> {
+        self.scenes.as_deref()
     }
 
     /// The request for these scenes on all texels.

@@ -6,6 +6,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::report::distinct_names;
+use svbrdf_files::inputs::check_output;
+use svbrdf_files::open::is_pipe_at;
 use svbrdf_files::read::{self, Assumption, Binding, Certainty, Read, What};
 use svbrdf_files::samples;
 use svbrdf_files::session::Session;
@@ -121,6 +123,7 @@ impl MaterialJob {
     }
 
     fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {
+        note_pipe(source.location());
         let read = watched(&format!("reading {source}"), |progress| source.read(progress))?;
         if self.strict {
             read.refuse_guesses(source.location())?;
@@ -135,7 +138,6 @@ pub struct Opened<T> {
     pub ground_truth: Material<T>,
     pub predictions: Vec<Material<T>>,
     /// Every file that was read.
-    #[expect(dead_code, reason = "outputs will be compared with them before they are written")]
     pub files: Vec<PathBuf>,
 }
 
@@ -144,6 +146,25 @@ impl<T> Opened<T> {
     pub fn into_all(self) -> Vec<Material<T>> {
         std::iter::once(self.ground_truth).chain(self.predictions).collect()
     }
+
+    /// Refuses to write `output` where it is one of the files that were read: those of the materials, or `others`.
+    ///
+    /// # Errors
+    /// [`Error::ReplacesInput`].
+    pub fn check_output<'a>(
+        &'a self,
+        output: &Path,
+        others: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<(), Error> {
+        check_output(output, self.files.iter().map(PathBuf::as_path).chain(others))
+    }
+}
+
+/// A pipe is read to its end before anything is decoded: it may have none.
+pub fn note_pipe(path: &Path) {
+    if is_pipe_at(path) {
+        exit::tell(&format!("note: {} is a pipe, which is read to its end", path.display()));
+    }
 }
 
 /// Reads one material with the maps of `bindings` in place of its own.
@@ -151,6 +172,7 @@ impl<T> Opened<T> {
 /// # Errors
 /// Those of the reader; [`Error::Guessed`] with `--strict`.
 pub fn read_one<T: Real>(path: &Path, bindings: &[Binding], args: &ReadingArgs) -> Result<Read<T>, Error> {
+    note_pipe(path);
     let read: Read<T> = watched(&format!("reading {}", path.display()), |progress| {
         read::read_bound(path, bindings, &args.options(), progress)
     })?;

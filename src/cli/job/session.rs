@@ -12,7 +12,7 @@ use svbrdf_files::session::Session;
 use svbrdf_files::session_window::Display;
 
 use crate::cli::args::MaterialArgs;
-use crate::cli::output::CommandError;
+use crate::cli::output::{CommandError, exit};
 
 /// The display and the loss settings of a session.
 #[derive(Debug)]
@@ -35,7 +35,13 @@ pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> 
     if !materials.predictions.is_empty() {
         return Err(CommandError::usage("a session names its predictions itself; give it alone"));
     }
-    Ok(Some(Session::read(path)?))
+    let session = Session::read(path)?;
+    for file in session.outside(path) {
+        let line =
+            format!("note: {} lies outside of the folder of the session, which names it", file.display());
+        exit::tell(&line);
+    }
+    Ok(Some(session))
 }
 
 impl SessionSettings {
@@ -45,6 +51,9 @@ impl SessionSettings {
     /// [`Error::BadSession`] for an unknown convention.
     pub fn new(session: &Session, path: &Path) -> Result<Self, Error> {
         let bad = |problem: Error| Error::BadSession { path: path.to_owned(), problem: problem.to_string() };
+        if let Some(Request::Scenes(sampling)) = session.window.loss.as_ref().map(LossSettings::request) {
+            sampling.check().map_err(bad)?;
+        }
         Ok(Self {
             scene: session.scene,
             convention: session.convention.parse().map_err(bad)?,

@@ -9,6 +9,8 @@ use super::error::CommandError;
 pub fn of_error(error: &CommandError) -> Option<&'static str> {
     let CommandError::Library(error) = error else { return None };
     Some(match error {
+        Error::Outside { .. } => "--allow-outside allows it",
+        Error::Memory { .. } => "--max-memory sets it",
         Error::Guessed { .. } => "specify it by an option, or leave out --strict",
         Error::SizesDiffer { .. } => "--resize-to gt, pred or a width brings materials to one size",
         Error::TooLarge { .. } => "give a smaller width to --resize-to",

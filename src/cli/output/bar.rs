@@ -1,4 +1,4 @@
-//! A progress bar for long operations, if stderr is a terminal.
+//! The progress of long operations: a bar on a terminal, else a line a minute.
 
 use std::io::{IsTerminal, stderr};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -9,24 +9,36 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use svbrdf_core::progress::Progress;
 
+use super::exit;
+
 /// Operations that end sooner get no bar.
 const DELAY: Duration = Duration::from_millis(500);
+/// The time between two lines where stderr is no terminal.
+const LINE: Duration = Duration::from_secs(60);
 const REFRESH: Duration = Duration::from_millis(100);
 
-/// Runs `work`, with a progress bar of this title if it takes long and stderr is a terminal.
+/// Runs `work`; if it takes long, with a progress bar of this title, or lines where stderr is no terminal.
 pub fn watched<R>(title: &str, work: impl FnOnce(&Progress) -> R) -> R {
     let progress = Progress::default();
-    if !stderr().is_terminal() {
-        return work(&progress);
-    }
     let (working, finished) = channel::<()>();
     thread::scope(|scope| {
         let progress = &progress;
-        scope.spawn(move || show(title, progress, &finished));
+        match stderr().is_terminal() {
+            true => scope.spawn(move || show(title, progress, &finished)),
+            false => scope.spawn(move || report(title, progress, &finished, LINE)),
+        };
         let result = work(progress);
         drop(working);
         result
     })
+}
+
+/// Prints a line about the progress each `interval`, until the other end of `finished` is dropped.
+fn report(title: &str, progress: &Progress, finished: &Receiver<()>, interval: Duration) {
+    while finished.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
+        let (done, total) = progress.counts();
+        exit::tell(&format!("{title}: {done} of {total}"));
+    }
 }
 
 /// Shows a bar until the other end of `finished` is dropped.

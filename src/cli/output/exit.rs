@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use svbrdf_core::error::Error;
+use svbrdf_core::text::{printable, shortened};
 
 use super::advice;
 use super::error::CommandError;
@@ -42,7 +43,15 @@ pub fn explain(unusual: &clap::Error) -> ExitCode {
 
 /// A line on stderr, under the program's name. A closed stderr is no reason to stop.
 pub fn tell(line: &str) {
-    let _ = writeln!(io::stderr(), "svbrdf: {line}");
+    let _ = writeln!(io::stderr(), "svbrdf: {}", shortened(&printable(line)));
+}
+
+/// Writes a result for people to stdout: names from files do not steer the terminal.
+///
+/// # Errors
+/// As [`put`].
+pub fn put_text(text: &str) -> Result<(), Error> {
+    put(&printable(text))
 }
 
 /// Writes a result to stdout. A reader that has closed the pipe has seen enough.

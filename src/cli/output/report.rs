@@ -2,6 +2,7 @@
 
 use svbrdf_core::error::Error;
 use svbrdf_core::report::Report;
+use svbrdf_core::text::printable;
 
 /// The output format of a report.
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
@@ -19,7 +20,7 @@ impl ReportFormat {
     /// As [`Report::json`] and [`Report::csv`].
     pub fn write(self, report: &impl Report) -> Result<String, Error> {
         match self {
-            Self::Text => Ok(report.text()),
+            Self::Text => Ok(printable(&report.text())),
             Self::Json => report.json(),
             Self::Csv => report.csv(),
         }

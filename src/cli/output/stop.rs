@@ -2,6 +2,7 @@
 
 use std::process;
 
+use svbrdf::signals;
 use svbrdf_core::progress::Progress;
 
 use super::exit::INTERRUPTED;
@@ -11,8 +12,7 @@ use super::exit::INTERRUPTED;
 pub fn stoppable<R>(work: impl FnOnce(&Progress) -> R) -> R {
     let progress = Progress::default();
     let part = progress.part();
-    // Fails where a signal is already handled or ignored, as under nohup; that stays.
-    let _ = ctrlc::try_set_handler(move || {
+    signals::on_end(move || {
         if part.is_cancelled() {
             process::exit(INTERRUPTED.into());
         }

@@ -37,7 +37,9 @@ pub fn run(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
     for note in &photograph.notes {
         tell(&format!("note: {note}"));
     }
-    let materials = job.materials.open::<f32>()?.into_all();
+    let opened = job.materials.open::<f32>()?;
+    args.output.as_deref().map_or(Ok(()), |output| opened.check_output(output, [args.photo.as_path()]))?;
+    let materials = opened.into_all();
     if destination.is_some() {
         check_heights(&materials)?;
     }

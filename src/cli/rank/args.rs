@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::report::Report;
+use svbrdf_core::text::printable;
 use svbrdf_files::dataset::{Pick, Shard};
 
 use crate::cli::args::{ComparisonArgs, values};
@@ -82,7 +83,7 @@ impl RankFormat {
     /// As [`Report::json`] and [`Report::csv`].
     pub fn write<R: Report>(self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<String, Error> {
         match self {
-            Self::Text => Ok(report.text()),
+            Self::Text => Ok(printable(&report.text())),
             Self::Json => report.json(),
             Self::Csv => report.csv(),
             Self::Latex => Ok(latex(report)),

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::error::Error;
 use svbrdf_core::report::{Report as _, distinct_names};
 use svbrdf_files::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, MaterialResult,
@@ -19,6 +20,7 @@ pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
     }
     let report = DatasetReport::new(settings, results, args.pick);
     exit::put(&args.format.write(&report, DatasetReport::latex)?)?;
+    check_any(&report)?;
     target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)?;
     check_limit(args.fail_above, report.methods.into_iter().map(|summary| (summary.method, summary.mean)))
 }
@@ -28,6 +30,22 @@ fn merged(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<Materi
     given.check(&modes::RANK_MERGE)?;
     let paths: Vec<PathBuf> = args.comparison.materials.paths().cloned().collect();
     Ok(dataset::merged(&wildcards::expanded(&paths)?)?)
+}
+
+/// The error of a data set without any loss.
+fn check_any(report: &DatasetReport) -> Result<(), Error> {
+    if report.methods.iter().any(|summary| summary.materials > 0) {
+        return Ok(());
+    }
+    let failed = failures(&report.results).count();
+    match failures(&report.results).next() {
+        Some((material, method, problem)) => Err(Error::NothingRanked {
+            failed,
+            name: format!("{material}, {method}"),
+            problem: problem.to_owned(),
+        }),
+        None => Ok(()),
+    }
 }
 
 /// The predictions without a loss: material, method and what is wrong.

@@ -55,6 +55,20 @@ impl Differences {
         self.ranges.iter().find(|(of, _)| *of == key).map(|(_, range)| *range)
     }
 
+    /// Leaves out choices that a quantity does not have and ranges that are no positive numbers, as files may hold them. Whether
+    /// there were none.
+    pub fn leave_out_unusable(&mut self) -> bool {
+        let count = |all: &Self| (all.chosen.len(), all.ranges.len(), all.error_map_range.is_some());
+        let before = count(self);
+        let is_usable = |range: &f64| range.is_finite() && *range > 0.0;
+        self.chosen.retain(|(quantity, kind)| Difference::all(*quantity).contains(kind));
+        self.ranges.retain(|((quantity, kind), range)| {
+            Difference::all(*quantity).contains(kind) && is_usable(range)
+        });
+        self.error_map_range = self.error_map_range.filter(is_usable);
+        count(self) == before
+    }
+
     /// Sets the range of the chosen difference of `quantity`; `None` makes it automatic.
     pub fn set_range(&mut self, quantity: Quantity, range: Option<f64>) {
         let range = range.filter(|r| r.is_finite() && *r > 0.0);

@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::error::Error;
 use crate::loss::Estimate;
+use crate::text::printable;
 
 /// A value of a [`Table`].
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,19 @@ impl fmt::Display for Cell {
             Self::Number(number) => number.fmt(f),
             Self::Single(number) => number.fmt(f),
             Self::Truth(truth) => truth.fmt(f),
+        }
+    }
+}
+
+impl Cell {
+    /// Its text in a table. Spreadsheets take text that begins with `= + - @` as a formula: it begins with `'` instead.
+    fn in_table(&self) -> String {
+        match self {
+            Self::Text(text) if text.starts_with(['=', '+', '-', '@', '\t', '\r']) => {
+                format!("'{}", printable(text))
+            }
+            Self::Text(text) => printable(text),
+            number => number.to_string(),
         }
     }
 }
@@ -107,7 +121,7 @@ impl Table {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(&self.columns).map_err(internal)?;
         for row in &self.rows {
-            writer.write_record(row.iter().map(ToString::to_string)).map_err(internal)?;
+            writer.write_record(row.iter().map(Cell::in_table)).map_err(internal)?;
         }
         let bytes = writer.into_inner().map_err(|problem| Error::Internal(problem.to_string()))?;
         String::from_utf8(bytes).map_err(|problem| Error::Internal(problem.to_string()))
@@ -139,6 +153,13 @@ mod tests {
         let row = vec!["a, b".into(), 0.1.into(), Option::<f64>::None.into(), 3_usize.into(), true.into()];
         let table = Table::new(["name", "loss", "error", "scenes", "reached"], [row]);
         assert_eq!(table.csv().unwrap(), "name,loss,error,scenes,reached\n\"a, b\",0.1,,3,true\n");
+    }
+
+    #[test]
+    fn text_is_no_formula_and_steers_no_terminal() {
+        let row = vec!["=cmd()".into(), "@a".into(), "a-b".into(), (-0.5).into(), "\u{1b}[2J".into()];
+        let table = Table::new(["a", "b", "c", "d", "e"], [row]);
+        assert_eq!(table.csv().unwrap(), "a,b,c,d,e\n'=cmd(),'@a,a-b,-0.5,\\u{1b}[2J\n");
     }
 
     #[test]

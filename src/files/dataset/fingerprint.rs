@@ -2,11 +2,13 @@
 
 use std::collections::BTreeSet;
 use std::fs::{self, Metadata};
-use std::io::{self, Read as _};
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
+
+use svbrdf_core::error::Error;
 
 use crate::open::NamedFile;
 use crate::read::{EXTENSIONS, Sidecar};
@@ -111,12 +113,12 @@ fn nanoseconds(metadata: &Metadata) -> Option<u64> {
 }
 
 /// FNV-1a of the content of a file (Fowler, Noll and Vo), 64 bits.
-fn hash(path: &Path) -> io::Result<String> {
+fn hash(path: &Path) -> Result<String, Error> {
     const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
     const PRIME: u64 = 0x0100_0000_01b3;
     let (mut file, mut buffer, mut hash) = (NamedFile::by_user(path).open()?, vec![0; 1 << 16], BASIS);
     loop {
-        match file.read(&mut buffer)? {
+        match file.read(&mut buffer).map_err(|source| Error::unreadable(path, source))? {
             0 => return Ok(format!("{hash:016x}")),
             count => {
                 buffer[..count].iter().for_each(|byte| hash = (hash ^ u64::from(*byte)).wrapping_mul(PRIME))

@@ -19,6 +19,7 @@ use svbrdf_core::progress::Progress;
 
 use super::evaluate::Evaluated;
 use super::fingerprint::MaterialFiles;
+use super::lock::Lock;
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
 use crate::atomic::write_text;
 use crate::open::NamedFile;
@@ -74,6 +75,8 @@ pub(super) struct Journal {
     path: PathBuf,
     head: Head,
     file: Mutex<File>,
+    /// Held while results are added.
+    _lock: Lock,
 }
 
 impl Journal {
@@ -83,12 +86,14 @@ impl Journal {
     /// A last line that was cut off, as when the program was ended, is dropped.
     ///
     /// # Errors
-    /// [`Error::Unreadable`], [`Error::Unwritable`]; [`Error::BadJournal`] where the file has another head, or is no journal.
+    /// [`Error::Unreadable`], [`Error::Unwritable`]; [`Error::BadJournal`] where the file has another head, contradicts itself, or
+    /// is no journal; [`Error::JournalInUse`].
     pub(super) fn open(
         path: &Path,
         head: Head,
         cases: &[Case],
     ) -> Result<(Self, Vec<Line>, Vec<Recomputed>), Error> {
+        let lock = Lock::take(path)?;
         let mut lines = Vec::new();
         if path.exists() {
             let (found, known) = read(path)?;
@@ -110,7 +115,7 @@ impl Journal {
         });
         write(path, &head, &lines)?;
         let file = OpenOptions::new().append(true).open(path).map_err(|source| unwritable(path, source))?;
-        Ok((Self { path: path.to_owned(), head, file: Mutex::new(file) }, lines, recomputed))
+        Ok((Self { path: path.to_owned(), head, file: Mutex::new(file), _lock: lock }, lines, recomputed))
     }
 
     /// Adds a result with the fingerprints of its files, and returns its line.
@@ -177,6 +182,11 @@ fn compare(a: &Value, b: &Value, path: &str, found: &mut Vec<String>) {
 }
 
 impl Line {
+    /// Whether both are of one material, and not the same.
+    fn contradicts(&self, other: &Self) -> bool {
+        self.result.index == other.result.index && self.result != other.result
+    }
+
     /// The first file of a case that is not what it was when the result was computed.
     fn changed(&self, case: &Case) -> Option<String> {
         let predictions = case.candidates.iter().map(|candidate| candidate.path.as_path());
@@ -247,6 +257,10 @@ fn read(path: &Path) -> Result<(Head, Vec<Line>), Error> {
     let head = serde_json::from_value(head).map_err(is_not)?;
     let mut lines: Vec<Line> = lines.map(serde_json::from_str).collect::<Result<_, _>>().map_err(is_not)?;
     lines.sort_by_key(|line| line.result.index);
+    if let Some(pair) = lines.windows(2).find(|pair| pair[0].contradicts(&pair[1])) {
+        let name = &pair[0].result.material;
+        return Err(bad(path, format!("it has two results of {name}, which differ")));
+    }
     lines.dedup_by_key(|line| line.result.index);
     Ok((head, lines))
 }

@@ -1,6 +1,6 @@
 //! Lists of cases: materials of folders matched by name, and tables of pairs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -131,20 +131,24 @@ pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
     let [method, material] = [column("method"), column("material")];
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut cases: Vec<Case> = Vec::new();
+    // The place of each ground truth, and the samples of each method: a table may have a million rows.
+    let mut places: HashMap<PathBuf, usize> = HashMap::new();
+    let mut samples: HashMap<(usize, String), usize> = HashMap::new();
     for row in reader.records() {
         let row = row.map_err(bad)?;
         let cell = |column: usize| row.get(column).unwrap_or_default();
         let ground_truth = folder.join(cell(truth));
         let method = method.map_or("prediction", cell).to_owned();
-        let at = cases.iter().position(|case| case.ground_truth == ground_truth).unwrap_or(cases.len());
+        let at = *places.entry(ground_truth.clone()).or_insert(cases.len());
         if at == cases.len() {
             let stem = ground_truth.file_stem().unwrap_or_default().to_string_lossy().into_owned();
             let material = material.map_or(stem, |column| cell(column).to_owned());
             cases.push(Case { index: at, material, ground_truth, candidates: Vec::new() });
         }
-        let candidates = &mut cases[at].candidates;
-        let sample = candidates.iter().filter(|candidate| candidate.method == method).count();
-        candidates.push(Candidate { method, sample, path: folder.join(cell(prediction)) });
+        let count = samples.entry((at, method.clone())).or_insert(0);
+        let sample = *count;
+        *count += 1;
+        cases[at].candidates.push(Candidate { method, sample, path: folder.join(cell(prediction)) });
     }
     if cases.is_empty() { Err(nothing_in(path, "rows")) } else { Ok(cases) }
 }

@@ -9,6 +9,7 @@ mod evaluate;
 mod fingerprint;
 mod journal;
 mod list;
+mod lock;
 mod metric_report;
 mod metric_summary;
 mod record;

@@ -58,12 +58,17 @@ impl DatasetReport {
     /// Tables for a paper: the best methods in bold, and the same of the metrics.
     pub fn latex(&self) -> String {
         let row = |summary: &MethodSummary| {
-            let mean = bold(&format!("{:.4}", summary.mean), summary.ties_with_best());
+            let number = |value: f64| if value.is_nan() { "--".to_owned() } else { format!("{value:.4}") };
+            let mean = bold(&number(summary.mean), summary.materials > 0 && summary.ties_with_best());
             let interval = summary
                 .interval95_materials
                 .map_or("--".to_owned(), |[low, high]| format!("[{low:.4}, {high:.4}]"));
             let method = escaped(&summary.method);
-            format!("{method} & {mean} & {interval} & {:.4} & {} \\\\\n", summary.median, summary.materials)
+            format!(
+                "{method} & {mean} & {interval} & {} & {} \\\\\n",
+                number(summary.median),
+                summary.materials
+            )
         };
         let rows: String = self.methods.iter().map(row).collect();
         let losses = latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows);
@@ -71,25 +76,26 @@ impl DatasetReport {
     }
 
     fn losses(&self) -> String {
+        let number = |value: f64| if value.is_nan() { "none".to_owned() } else { format!("{value:.6}") };
         let range = |interval: Option<[f64; 2]>| {
-            interval.map_or_else(|| "unknown".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"))
+            interval
+                .filter(|[low, _]| !low.is_nan())
+                .map_or_else(|| "unknown".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"))
         };
         let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
         rows.extend(self.methods.iter().map(|summary| {
             let [difference, of_difference] = match &summary.to_best {
                 None => [const { String::new() }; 2],
-                Some(difference) => {
-                    [format!("{:.6}", difference.mean), range(difference.interval95_materials)]
-                }
+                Some(difference) => [number(difference.mean), range(difference.interval95_materials)],
             };
             vec![
                 summary.method.clone(),
                 summary.materials.to_string(),
                 summary.failures.to_string(),
-                format!("{:.6}", summary.mean),
+                number(summary.mean),
                 range(summary.interval95_materials),
                 range(Some(summary.interval95_scenes)),
-                format!("{:.6}", summary.median),
+                number(summary.median),
                 difference,
                 of_difference,
             ]

@@ -7,7 +7,7 @@ use svbrdf_core::loss::Precision;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::study::{Device, Point, Study};
 
-use crate::atomic;
+use crate::atomic::Destination;
 
 const CSV_HEADING: [&str; 15] = [
     "scenes",
@@ -27,12 +27,22 @@ const CSV_HEADING: [&str; 15] = [
     "options",
 ];
 
+/// The destination of a table. Checks `path` before there is anything to write.
+///
+/// # Errors
+/// [`Error::UnknownName`] for an extension other than csv, [`Error::Unwritable`] where its folder is missing or it is itself
+/// a folder.
+pub fn destination(path: &Path) -> Result<Destination<()>, Error> {
+    let format = |extension: &str| (extension == "csv").then_some(());
+    Destination::among(path, format, "extension of a table", ".csv")
+}
+
 /// Writes every point of a study, a row each (RFC 4180); the file appears when it is complete, or not at all.
 ///
 /// # Errors
 /// [`Error::Unwritable`], [`Error::Cancelled`].
-pub fn write(study: &Study, path: &Path, progress: &Progress) -> Result<(), Error> {
-    atomic::replace(path, progress, |file| {
+pub fn write(study: &Study, destination: &Destination<()>, progress: &Progress) -> Result<(), Error> {
+    destination.replace(progress, |file| {
         let mut writer = csv::Writer::from_writer(file);
         writer.write_record(CSV_HEADING)?;
         for point in &study.points {

@@ -50,7 +50,9 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::text::shortened;
 
+use crate::memory;
 use crate::open::NamedFile;
 
 use decode::pictures;
@@ -174,13 +176,17 @@ fn stored(located: Located, options: &ReadOptions, progress: &Progress) -> Resul
 }
 
 fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read<T>, Error> {
+    let [width, height] = stored.colour.raster.size();
+    // Three planes each of normals, diffuse and specular, one of roughness.
+    let bytes = (width as u64).saturating_mul(height as u64).saturating_mul(10 * size_of::<T>() as u64);
+    let _reserved = memory::reserve(bytes, || format!("the material {}", stored.name))?;
     let maps = map_report::reports(&stored);
     let evidence = gather::evidences(&stored, options);
     let mut linear = interpret::interpret(stored, evidence, options)?;
     let planes = assemble::planes(&mut linear, options);
     let [width, height] = linear.size;
     Ok(Read {
-        material: Material::new(linear.name, width, height, planes)?,
+        material: Material::new(shortened(&linear.name), width, height, planes)?,
         assumptions: linear.assumptions,
         notes: linear.notes,
         files: linear.files,

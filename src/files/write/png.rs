@@ -193,8 +193,9 @@ pub(crate) fn folder(
     files.par_iter().try_for_each(|Picture { name, map, encoding }| {
         let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
         let bytes = pixels(material, &[*map], *encoding, sixteen, progress)?;
-        let file = io::BufWriter::new(atomic::Watched::new(&mut file, progress));
-        write(file, material.size(), sixteen, &encoding.text(), &bytes)
+        let buffer = io::BufWriter::new(atomic::Watched::new(&mut file, progress));
+        write(buffer, material.size(), sixteen, &encoding.text(), &bytes)?;
+        file.sync_all()
     })?;
     atomic::check(progress)?;
     // Only an empty folder gives way to a rename.

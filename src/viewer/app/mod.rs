@@ -46,7 +46,7 @@ impl App {
     pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
         theme::install(&cc.egui_ctx);
         let mut model = Model::default();
-        let stored = Stored::load(cc.storage, &mut model);
+        let stored = Stored::load(cc.storage, eframe::storage_dir("svbrdf").as_deref(), &mut model);
         cc.egui_ctx.set_zoom_factor(model.settings.ui_scale);
         let gpu = match cc.wgpu_render_state.as_ref().map(GpuView::new) {
             Some(Ok(gpu)) => Some(gpu),

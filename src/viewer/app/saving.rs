@@ -7,6 +7,7 @@ use eframe::egui;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_files::export::Provenance;
+use svbrdf_files::inputs::check_output;
 use svbrdf_files::session_window::Framing;
 
 use super::parts::Parts;
@@ -24,6 +25,10 @@ pub(super) fn save_file(
     path: PathBuf,
     size: [u32; 2],
 ) {
+    if let Err(error) = check_output(&path, parts.model.files()) {
+        parts.model.report([Message::Failed(error)]);
+        return;
+    }
     let picture = (kind == SaveKind::View).then(|| picture(parts, ctx, size));
     let (displayed, view) = (parts.displayed(), &parts.model.view);
     let job = match (kind, picture) {

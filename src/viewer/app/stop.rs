@@ -8,6 +8,8 @@ use eframe::egui;
 
 use svbrdf_core::progress::Progress;
 
+use crate::signals;
+
 /// How long the window may take to close after a signal.
 const TIME_TO_CLOSE: Duration = Duration::from_secs(5);
 /// The exit code after a signal, as of the command line.
@@ -24,8 +26,7 @@ impl Stop {
     /// Listens for signals; a second one ends the program at once.
     pub fn listen(&self, ctx: &egui::Context) {
         let (stop, ctx) = (self.clone(), ctx.clone());
-        // Fails where a signal is already handled or ignored, as under nohup; that stays.
-        let _ = ctrlc::try_set_handler(move || {
+        signals::on_end(move || {
             if stop.stopped.swap(true, Ordering::SeqCst) {
                 std::process::exit(INTERRUPTED);
             }

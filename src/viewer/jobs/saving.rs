@@ -13,6 +13,7 @@ use svbrdf_core::report::{Compared, Report as _, ScenesReport};
 use svbrdf_files::atomic::{self, Destination};
 use svbrdf_files::export::strip::{Column, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
+use svbrdf_files::scene_file;
 
 use super::displayed::Displayed;
 use super::why::ComparedPair;
@@ -110,11 +111,11 @@ pub fn scenes(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let request = displayed.model.settings.loss.listed_scenes();
     Job::start(&displayed.jobs.waker, move |progress| {
         let pair = pair.ok_or(Error::NoPrediction)?;
-        atomic::check_place(&path)?;
+        let destination = scene_file::destination(&path)?;
         let outcome = pair.comparison()?.run(&request, progress)?;
         let compared = Compared::new(pair.ground_truth(), &pair.convention);
         let text = ScenesReport::new(compared, outcome).json()?;
-        atomic::replace(&path, progress, |file| file.write_all(text.as_bytes()))?;
+        destination.replace(progress, |file| file.write_all(text.as_bytes()))?;
         Ok(path)
     })
 }

@@ -9,9 +9,12 @@ pub mod history;
 pub mod inspection;
 pub mod material;
 pub mod message;
+pub mod ranges;
 pub mod session;
 pub mod settings;
 pub mod view;
+
+use std::path::Path;
 
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::read::ReadOptions;
@@ -74,6 +77,13 @@ impl Model {
     /// The question of the loss: by the settings, in the convention that is rendered.
     pub fn loss_query(&self) -> LossQuery {
         LossQuery { request: self.settings.loss.request(), convention: self.view.convention() }
+    }
+
+    /// The files of the materials and of the photograph, which nothing that is saved may replace.
+    pub fn files(&self) -> impl Iterator<Item = &Path> {
+        let materials = self.materials.all.iter().flat_map(|material| &material.read.files);
+        let photograph = self.photograph.source().map(|photograph| photograph.path.as_path());
+        materials.map(|(file, _)| file.as_path()).chain(photograph)
     }
 
     /// Adds messages.

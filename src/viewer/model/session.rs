@@ -14,6 +14,8 @@ use super::command::effect::Effect;
 use super::material::read::Rules;
 use super::material::request::{ReadRequest, Target};
 use super::material::source::{Origin, Source, sources};
+use super::message::Message;
+use super::ranges::bring_into_range;
 use super::view::state::ViewState;
 use crate::viewer::model::settings::options::ViewerOptions;
 
@@ -76,6 +78,8 @@ impl Model {
         if let Some(loss) = &session.window.loss {
             self.settings.loss = loss.clone();
         }
+        let out_of_range = bring_into_range(self).map(Message::OutOfRange);
+        self.report(out_of_range);
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
         self.photograph.set(session.photograph.clone(), stamp);
         let sources: Vec<_> = session.materials.iter().filter_map(source).collect();

@@ -30,7 +30,8 @@ pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Ra
         Channels::Alpha | Channels::Rgba => (Channels::Rgba, 4),
     };
     let texels = u64::from(size.width).saturating_mul(u64::from(size.height));
-    place.check_size(size.width.into(), size.height.into(), texels.saturating_mul(4 * count as u64))?;
+    let _reserved =
+        place.check_size(size.width.into(), size.height.into(), texels.saturating_mul(4 * count as u64))?;
     let values = texels as usize * count;
     let (buffer, depth) = match native.precision {
         Precision::U8 => (pixels(&mut decoder, vec![0_u8; values], channels, place)?, "8-bit"),

@@ -31,6 +31,7 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     };
     let meta = MetaData::read_from_buffered(&mut reader, false).map_err(invalid)?;
     let bytes = check(&meta, place)?;
+    let _reserved = place.reserve(bytes)?;
     reader.seek(SeekFrom::Start(0)).map_err(|e| Error::unreadable(place.path, e))?;
     caught(|| dwa::check(&mut reader, &meta, bytes + SMALL))
         .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?
@@ -61,7 +62,7 @@ fn check(meta: &MetaData, place: Place<'_>) -> Result<u64, Error> {
         let (width, height) = (header.layer_size.0 as u64, header.layer_size.1 as u64);
         let samples = width.saturating_mul(height).saturating_mul(header.channels.list.len() as u64);
         bytes = bytes.saturating_add(samples.saturating_mul(4));
-        place.check_size(width, height, bytes)?;
+        drop(place.check_size(width, height, bytes)?);
     }
     Ok(bytes)
 }

@@ -33,7 +33,7 @@ pub(crate) fn decode(reader: impl BufRead, place: Place<'_>) -> Result<Raster, E
         return Err(place.bad(problem, "save the map by itself"));
     }
     let texels = u64::from(width) * u64::from(height);
-    place.check_size(width.into(), height.into(), texels.saturating_mul(4))?;
+    let _reserved = place.check_size(width.into(), height.into(), texels.saturating_mul(4))?;
     let transcode = || {
         let transcoder = Transcoder::new(&bytes)?;
         transcoder.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE)

@@ -33,7 +33,10 @@ use place::{Place, alone};
 /// # Errors
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
 pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
-    from_reader(file.reader()?, file.path(), what)
+    let mut decoded = from_reader(file.reader()?, file.path(), what)?;
+    let outside = file.outside().map(Path::to_owned);
+    decoded.notes.extend(outside.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
+    Ok(decoded)
 }
 
 /// As [`whole`], from what `reader` gives; `path` is the name for messages.

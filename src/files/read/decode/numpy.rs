@@ -42,6 +42,7 @@ pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> R
             format!("expected at most {} GiB in the npz, found {} GiB", MAX_BYTES >> 30, unpacked >> 30);
         return Err(place.bad(problem, "save fewer or smaller arrays"));
     }
+    let _reserved = place.reserve(unpacked)?;
     let mut shapes = Vec::new();
     for file in &names {
         let header = NpyFile::new(archive.by_name(file).map_err(invalid)?);
@@ -56,7 +57,7 @@ pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> R
         let layer = decode(array, name, axes, place)?;
         // In memory: 2 to 4 bytes a sample.
         bytes += 4 * (layer.raster.width * layer.raster.height * layer.raster.channels.len()) as u64;
-        place.check_size(layer.raster.width as u64, layer.raster.height as u64, bytes)?;
+        drop(place.check_size(layer.raster.width as u64, layer.raster.height as u64, bytes)?);
         decoded.notes.extend(layout::note(name, shape, axes));
         decoded.layers.push(layer);
     }
@@ -103,7 +104,7 @@ fn decode(reader: impl Read, name: &str, axes: Option<Axes>, place: Place<'_>) -
         )
     })?;
     let bytes = width.checked_mul(height).and_then(|n| n.checked_mul(8 * count));
-    place.check_size(width, height, bytes.unwrap_or(u64::MAX).min(MAX_BYTES + 1))?;
+    let _reserved = place.check_size(width, height, bytes.unwrap_or(u64::MAX).min(MAX_BYTES + 1))?;
     if file.order() == Order::Fortran {
         return Err(
             place.bad(format!("{whose}expected rows first, found Fortran order"), "save a C-ordered copy")

@@ -21,6 +21,9 @@ use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
 
+/// Most bytes of the metadata of a PNG: an ICC profile of a printer has some megabytes.
+const MAX_METADATA: u64 = 64 << 20;
+
 pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
     let head = reader.fill_buf().map_err(unreadable)?;
@@ -28,7 +31,8 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
         Ok(ImageFormat::Png) => {
             let PngHead { linear, meaning } = head::png(&mut reader).unwrap_or_default();
             reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
-            let decoder = PngDecoder::with_limits(reader, limits()).map_err(|e| explain(&e, "PNG", place))?;
+            let decoder =
+                PngDecoder::with_limits(reader, metadata_limits()).map_err(|e| of_metadata(&e, place))?;
             let mut decoded = decode_with(decoder, "PNG", place)?;
             if linear && !place.is_data() {
                 decoded.notes.push(Note::LinearGamma(place.what));
@@ -81,7 +85,7 @@ fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -
     let broken = |error: ImageError| explain(&error, format, place);
     decoder.set_limits(limits()).map_err(broken)?;
     let (width, height) = decoder.dimensions();
-    place.check_size(width.into(), height.into(), decoder.total_bytes())?;
+    let _reserved = place.check_size(width.into(), height.into(), decoder.total_bytes())?;
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let notes = ignored(&mut decoder, orientation, place);
     let image = caught(|| DynamicImage::from_decoder(decoder))
@@ -119,6 +123,25 @@ fn limits() -> Limits {
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_BYTES);
     limits
+}
+
+/// The most that profiles and texts of a PNG may unpack to.
+fn metadata_limits() -> Limits {
+    let mut limits = Limits::no_limits();
+    limits.max_alloc = Some(MAX_METADATA);
+    limits
+}
+
+/// The error of a PNG whose head cannot be read.
+fn of_metadata(error: &ImageError, place: Place<'_>) -> Error {
+    match error {
+        ImageError::Limits(_) => {
+            let problem =
+                format!("expected at most {} MiB of profiles and texts, found more", MAX_METADATA >> 20);
+            place.bad(problem, "write it again without them")
+        }
+        other => explain(other, "PNG", place),
+    }
 }
 
 fn explain(error: &ImageError, format: &str, place: Place<'_>) -> Error {

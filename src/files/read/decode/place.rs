@@ -4,6 +4,7 @@ use std::path::Path;
 
 use svbrdf_core::error::Error;
 
+use crate::memory::{self, Reserved};
 use crate::read::options::Role;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
@@ -79,8 +80,8 @@ impl Place<'_> {
         self.bad("expected the whole image, found the end of the file within it", "copy the file again")
     }
 
-    /// Refuses sizes before anything is allocated: `bytes` is what all samples take.
-    pub(super) fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<(), Error> {
+    /// Refuses sizes before anything is allocated, and puts the memory aside: `bytes` is what all samples take.
+    pub(super) fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<Reserved, Error> {
         if width == 0 || height == 0 {
             return Err(
                 self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again")
@@ -94,7 +95,15 @@ impl Place<'_> {
             );
             return Err(self.bad(problem, "scale it down"));
         }
-        Ok(())
+        self.reserve(bytes)
+    }
+
+    /// Puts memory aside while the file is decoded.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub(super) fn reserve(self, bytes: u64) -> Result<Reserved, Error> {
+        memory::reserve(bytes, || format!("{}: {}", self.path.display(), self.what))
     }
 }
 

@@ -26,7 +26,7 @@ pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Ra
         .ok_or_else(|| place.bad(format!("expected gray or RGB, found {colour:?}"), "convert it to RGB"))?;
     let bytes =
         u64::from(width) * u64::from(height) * count as u64 * u64::from(colour.bit_depth()).div_ceil(8);
-    place.check_size(width.into(), height.into(), bytes)?;
+    let _reserved = place.check_size(width.into(), height.into(), bytes)?;
     let planar = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(invalid)? == Some(2);
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(invalid)?.unwrap_or(1);
     let mut result = DecodingResult::U8(Vec::new());

@@ -1,7 +1,7 @@
 //! The sidecar file: the options of reading a material, saved beside it.
 
 use std::fs;
-use std::io::Write as _;
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
@@ -73,10 +73,10 @@ impl Sidecar {
             true => NamedFile::by_user(&place),
             false => NamedFile::by_file(&place, path),
         };
-        let bytes = file.bytes()?;
+        let text = file.text()?;
         let bad =
             |problem: String| Error::BadSidecar { path: place.clone(), problem, keys: keys().join(", ") };
-        let mut all: Map<String, Value> = serde_json::from_slice(&bytes).map_err(|e| bad(e.to_string()))?;
+        let mut all: Map<String, Value> = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
         let mut sidecar = Self::default();
         let maps = all.remove(MAPS).unwrap_or_else(|| Map::new().into());
         let maps =
@@ -86,7 +86,7 @@ impl Sidecar {
                 .as_str()
                 .ok_or_else(|| bad(format!("{map}: expected FILE or FILE:PART, found {file}")))?;
             let binding: Binding = format!("{map}={file}").parse().map_err(|e: Error| bad(e.to_string()))?;
-            sidecar.bindings.push(binding.within(place.parent().unwrap_or(Path::new(""))));
+            sidecar.bindings.push(binding.named_by(&place)?);
         }
         // One by one, so that an error can name the key.
         for (key, value) in &all {
@@ -130,6 +130,11 @@ impl Sidecar {
     /// [`Error::Unwritable`].
     pub fn save(&self, path: &Path) -> Result<PathBuf, Error> {
         let place = Self::path_for(path);
+        if let Ok(target) = fs::read_link(&place) {
+            // Whoever made the folder chose the target.
+            let source = io::Error::other(format!("it is a link to {}", target.display()));
+            return Err(Error::Unwritable { path: place, source, remedy: "remove the link" });
+        }
         let mut all = object(&self.options);
         all.retain(|_, value| !value.is_null());
         let folder = place.parent().unwrap_or(Path::new(""));

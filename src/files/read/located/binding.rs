@@ -6,6 +6,7 @@ use std::str::FromStr;
 use svbrdf_core::error::Error;
 
 use crate::open::NamedFile;
+use crate::paths::{absolute, relative};
 use crate::read::options::Role;
 
 /// A binding with its file.
@@ -123,12 +124,17 @@ impl Binding {
         LocatedBinding { role: self.role, source }
     }
 
-    /// The same, with a relative path of the file taken from `folder`.
-    pub(crate) fn within(self, folder: &Path) -> Self {
-        match self.constant {
-            Some(_) => self,
-            None => Self { file: folder.join(self.file), ..self },
+    /// The same as the sidecar file `sidecar` has it: the path of the file is relative to its folder.
+    ///
+    /// # Errors
+    /// [`Error::Outside`].
+    pub(crate) fn named_by(self, sidecar: &Path) -> Result<Self, Error> {
+        if self.constant.is_some() {
+            return Ok(self);
         }
+        let file = NamedFile::within(&self.file, sidecar);
+        file.check()?;
+        Ok(Self { file: file.path().to_owned(), ..self })
     }
 
     /// The name of the map, and `FILE` or `FILE:PART` relative to `folder`, or the constant.
@@ -137,11 +143,8 @@ impl Binding {
         if let Some(values) = &self.constant {
             return (name, values.iter().map(f32::to_string).collect::<Vec<_>>().join(","));
         }
-        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        // The folder of a file that was named without one.
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        let file = absolute(&self.file);
-        let file = file.strip_prefix(absolute(folder)).unwrap_or(&file).display();
+        let file = relative(&absolute(&self.file), &absolute(folder));
+        let file = file.display();
         let part = self.part.as_ref().map(|part| format!(":{part}")).unwrap_or_default();
         (name, format!("{file}{part}"))
     }

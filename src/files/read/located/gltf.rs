@@ -18,6 +18,8 @@ pub(crate) struct LocatedGltf {
     pub normal_scale: f32,
     /// Where y of the normals points.
     pub normal_y: NormalY,
+    /// Buffers outside of the folder of the file.
+    pub outside: Vec<PathBuf>,
     /// Features that change the look and are not modelled.
     pub not_modelled: Vec<String>,
     /// The names of all materials of the file, and which of them this is.

@@ -27,7 +27,16 @@ pub(super) fn material(
     options: &ReadOptions,
 ) -> Result<StoredMaterial, Error> {
     let LocatedGltf {
-        path, name, surface, textures, normal_scale, not_modelled, materials, normal_y, ..
+        path,
+        name,
+        surface,
+        textures,
+        normal_scale,
+        outside,
+        not_modelled,
+        materials,
+        normal_y,
+        ..
     } = located;
     let mut maps = MapsByRole::default();
     pictures.iter().for_each(|picture| maps.record_size(picture.map.raster.size()));
@@ -44,6 +53,7 @@ pub(super) fn material(
     };
     let is_linear = textures.add_to(&mut maps, surface);
     let mut found = maps.material(&path, name, "", options)?;
+    found.notes.extend(outside.into_iter().map(|file| Note::OutsideFolder { file, by: path.clone() }));
     found.add_file(path);
     let roughness = match surface {
         GltfSurface::SpecularGlossiness { .. } => Roughness::Gloss,

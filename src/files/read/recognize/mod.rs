@@ -36,6 +36,7 @@ pub(super) fn candidate(
     bound: &[(Role, StoredMap)],
     options: &ReadOptions,
 ) -> Result<StoredMaterial, Error> {
+    let outside = outside(&candidate);
     let mut found = match candidate {
         DecodedCandidate::Set(set, pictures) => return set::material(&set, pictures, bound, options),
         DecodedCandidate::Picture(located, decoded) => picture::material(located, decoded, options)?,
@@ -43,11 +44,29 @@ pub(super) fn candidate(
         DecodedCandidate::Mtl(located, pictures) => mtl::material(&located, pictures, options)?,
         DecodedCandidate::Mtlx(located, pictures) => mtlx::material(&located, pictures, options)?,
     };
+    let new: Vec<Note> = outside.into_iter().filter(|note| !found.notes.contains(note)).collect();
+    found.notes.extend(new);
     for (role, map) in bound {
         found.notes.push(Note::MapSpecified { map: *role, file: map.file.clone(), by: SpecifiedBy::Caller });
         found.replace(*role, map.clone());
     }
     Ok(found)
+}
+
+/// The notes about pictures outside of the folder of the document that names them, each once.
+fn outside(candidate: &DecodedCandidate) -> Vec<Note> {
+    let pictures = match candidate {
+        DecodedCandidate::Gltf(_, pictures) => pictures,
+        DecodedCandidate::Mtl(_, pictures) | DecodedCandidate::Mtlx(_, pictures) => pictures,
+        DecodedCandidate::Picture(..) | DecodedCandidate::Set(..) => return Vec::new(),
+    };
+    let mut notes: Vec<Note> = Vec::new();
+    for note in pictures.iter().flat_map(|picture| &picture.notes) {
+        if matches!(note, Note::OutsideFolder { .. }) && !notes.contains(note) {
+            notes.push(note.clone());
+        }
+    }
+    notes
 }
 
 /// `found` within these folders, the outermost first, with this name in place of its own.

@@ -65,6 +65,8 @@ pub enum Note {
     MapSpecified { map: Role, file: PathBuf, by: SpecifiedBy },
     /// Options come from this sidecar file.
     SidecarUsed { file: PathBuf },
+    /// A file that another one names lies outside of the folder of that file.
+    OutsideFolder { file: PathBuf, by: PathBuf },
     /// Row 0 is the lowest row.
     RowsFlipped { by: SpecifiedBy },
     /// A file, a layer or a statement is not used.

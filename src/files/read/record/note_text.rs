@@ -56,6 +56,14 @@ impl fmt::Display for Note {
                 write!(f, "Row 0 is the lowest row, {by}: the material is mirrored.")
             }
             Self::Unused { what, why } => write!(f, "{what} is not used{why}."),
+            Self::OutsideFolder { file, by } => {
+                write!(
+                    f,
+                    "{} lies outside of the folder of {}, which names it.",
+                    file.display(),
+                    by.display()
+                )
+            }
             Self::InFolder { folder } => write!(f, "The maps are in the folder {folder} within."),
             Self::Photos { count, tiles } => {
                 write!(f, "The first {count} of {tiles} tiles are taken as photos and ignored.")
@@ -141,6 +149,7 @@ impl Note {
             | Self::RowsFlipped { .. }
             | Self::Unused { .. }
             | Self::InFolder { .. }
+            | Self::OutsideFolder { .. }
             | Self::Photos { .. }
             | Self::Rows { .. }
             | Self::Materials { .. }

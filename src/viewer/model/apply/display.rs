@@ -11,12 +11,11 @@ use super::undo;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::DisplayCommand;
 use crate::viewer::model::command::effect::Effect;
+use crate::viewer::model::ranges::STOPS;
 use crate::viewer::model::view::endpoint::{self, Endpoint};
 use crate::viewer::model::view::framing::{self, Framed};
 use crate::viewer::model::view::state::{Layout, Projection, ViewState};
 
-/// Greatest exposure either way, in stops.
-const STOPS: f32 = 20.0;
 /// Most texels that are rendered to find the automatic exposure.
 const AUTO_EXPOSURE_TEXELS: usize = 20_000;
 

@@ -35,6 +35,10 @@ pub enum Message {
     /// There is no session of materials from files.
     NothingToReopen,
     Failed(Error),
+    /// Numbers of the settings or of a session were out of range: which, and what they are now.
+    OutOfRange(String),
+    /// The settings of the last start cannot be read; they were moved to this file.
+    SettingsDamaged(PathBuf),
 }
 
 /// Why the clipboard's text was not taken.
@@ -56,7 +60,9 @@ impl Message {
     pub fn severity(&self) -> Severity {
         match self {
             Self::Saved(_) | Self::Copied(_) | Self::ScenesOpened(..) => Severity::Success,
-            Self::Material(MaterialProblem::Closed(_)) => Severity::Warning,
+            Self::Material(MaterialProblem::Closed(_)) | Self::OutOfRange(_) | Self::SettingsDamaged(_) => {
+                Severity::Warning
+            }
             Self::Material(_) | Self::NotPasted(_) | Self::NothingToReopen | Self::Failed(_) => {
                 Severity::Error
             }
@@ -101,6 +107,12 @@ impl fmt::Display for Message {
             Self::Copied(what) => write!(f, "Copied {what}"),
             Self::ScenesOpened(name, count) => write!(f, "The loss is over the {count} scenes of {name}"),
             Self::Failed(error) => error.fmt(f),
+            Self::OutOfRange(numbers) => write!(f, "Settings out of range: {numbers}."),
+            Self::SettingsDamaged(path) => write!(
+                f,
+                "The settings of the last start cannot be read. They are in {}; the window has the default ones.",
+                path.display()
+            ),
         }
     }
 }

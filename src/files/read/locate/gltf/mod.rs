@@ -27,7 +27,9 @@ use textures::GltfFile;
 /// [`Error::Unreadable`], [`Error::BadImage`], also of a material with a required extension that is not known,
 /// [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, Error> {
-    let GltfDocument { parsed, declared, blob } = document::parse(path, &NamedFile::by_user(path).bytes()?)?;
+    let bytes = NamedFile::by_user(path).bytes()?;
+    let GltfDocument { parsed, declared, blob } =
+        document::parse(path, bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))?;
     let file = GltfFile { path: path.to_owned(), document: parsed, declared, blob };
     let materials: Vec<_> = file.document.materials().collect();
     let declared = array(&file.declared, "materials");
@@ -78,6 +80,7 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
         textures,
         normal_scale: material.normal_texture().map_or(1.0, |texture| texture.scale()),
         normal_y: normal_y(&file.declared),
+        outside: file.buffers_outside(),
         not_modelled,
         materials: (names, index),
     })

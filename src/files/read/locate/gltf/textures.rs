@@ -82,10 +82,22 @@ impl GltfFile {
         }
     }
 
+    /// The buffers that lie outside of the folder of the file.
+    pub(super) fn buffers_outside(&self) -> Vec<PathBuf> {
+        let outside = |buffer: gltf::Buffer<'_>| match buffer.source() {
+            gltf::buffer::Source::Uri(uri) if !uri.starts_with("data:") => {
+                let file = self.beside(uri);
+                (file.exists() && file.outside().is_some()).then(|| file.path().to_owned())
+            }
+            _ => None,
+        };
+        self.document.buffers().filter_map(outside).collect()
+    }
+
     /// A file by the URI that names it, `%20` and the like resolved.
     fn beside(&self, uri: &str) -> NamedFile {
         let name = percent_decode_str(uri).decode_utf8_lossy();
-        NamedFile::by_file(self.path.with_file_name(name.as_ref()), &self.path)
+        NamedFile::within(name.as_ref(), &self.path)
     }
 
     fn data(&self, uri: &str) -> Result<Vec<u8>, Error> {

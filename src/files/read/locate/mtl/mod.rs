@@ -23,7 +23,7 @@ use statement::{Texture, entries};
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtl, Error> {
     let bytes = NamedFile::by_user(path).bytes()?;
     lfs::refuse_pointer(path, &bytes)?;
-    let text = String::from_utf8_lossy(&bytes);
+    let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes));
     let mut all = entries(&text);
     let index = options.exemplar_of(all.len(), path)?;
     let names: Vec<_> = all.iter().map(|entry| entry.name.clone()).collect();
@@ -75,11 +75,11 @@ fn textures(path: &Path, entry: &MtlEntry, is_packed: bool) -> Vec<MtlTexture> {
     let texture = |(key, role): (Option<&'static str>, Role)| {
         let key = key?;
         let texture = Texture::of(line(key)?);
-        let file = texture.path(path);
-        let source = PictureSource::File(NamedFile::by_file(&file, path));
+        let file = texture.named_file(path);
+        let source = PictureSource::File(file.clone());
         let picture = LocatedPicture { source, subject: Subject::Map(role) };
         let Texture { file: named, channel, unused: unused_options } = texture;
-        Some(MtlTexture { key, named, file, picture, channel, unused_options })
+        Some(MtlTexture { key, named, file: file.path().to_owned(), picture, channel, unused_options })
     };
     keys.into_iter().filter_map(texture).collect()
 }

@@ -1,7 +1,8 @@
 //! Statements of an `.mtl`, taken apart.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use crate::open::NamedFile;
 use crate::read::located::mtl::MtlEntry;
 
 /// The materials of an .mtl.
@@ -61,13 +62,12 @@ impl Texture {
 
     /// The file beside that of the material, or of a path of its own; of a path of another machine the file of the same
     /// name, if that is there.
-    pub(super) fn path(&self, mtl: &Path) -> PathBuf {
-        let folder = mtl.parent().unwrap_or(Path::new(""));
+    pub(super) fn named_file(&self, mtl: &Path) -> NamedFile {
         let slashed = self.file.replace('\\', "/");
         let last = slashed.rsplit('/').next().unwrap_or_default();
-        let named = folder.join(&self.file);
-        let others = [folder.join(&slashed), folder.join(last)];
-        if named.exists() { named } else { others.into_iter().find(|other| other.is_file()).unwrap_or(named) }
+        let named = NamedFile::within(&self.file, mtl);
+        let others = [&*slashed, last].map(|name| NamedFile::within(name, mtl));
+        if named.exists() { named } else { others.into_iter().find(NamedFile::exists).unwrap_or(named) }
     }
 }
 

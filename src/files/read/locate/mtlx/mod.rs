@@ -4,7 +4,7 @@
 mod arithmetic;
 mod graph;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use roxmltree::{Document, Node};
 
@@ -20,6 +20,9 @@ use crate::read::record::Subject;
 
 use graph::{bound, input};
 
+/// Most attributes of an element of XML; those of MaterialX have about ten.
+const MOST_ATTRIBUTES: usize = 1000;
+
 /// Locates surface number `exemplar` of the file `path`.
 ///
 /// # Errors
@@ -28,11 +31,15 @@ use graph::{bound, input};
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtlx, Error> {
     let text = NamedFile::by_user(path).text()?;
     lfs::refuse_pointer(path, text.as_bytes())?;
-    let document = Document::parse(&text).map_err(|e| Error::BadImage {
+    let bad = |problem: String| Error::BadImage {
         path: path.to_owned(),
-        problem: format!("expected MaterialX, found: {e}"),
+        problem,
         remedy: "export it again".to_owned(),
-    })?;
+    };
+    if has_many_attributes(&text) {
+        return Err(bad(format!("expected at most {MOST_ATTRIBUTES} attributes in an element, found more")));
+    }
+    let document = Document::parse(&text).map_err(|e| bad(format!("expected MaterialX, found: {e}")))?;
     let surfaces: Vec<_> = document.descendants().filter_map(|node| Some((node, model_of(node)?))).collect();
     let index = options.exemplar_of(surfaces.len(), path)?;
     let &(node, model) = surfaces.get(index).ok_or_else(|| Error::NotAMaterial {
@@ -57,6 +64,12 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtlx, 
     Ok(located)
 }
 
+/// Whether an element may have more attributes than [`MOST_ATTRIBUTES`]: the parser compares each with each.
+fn has_many_attributes(text: &str) -> bool {
+    let signs = |element: &str| element.bytes().filter(|byte| *byte == b'=').count();
+    text.split('<').any(|element| element.len() > 2 * MOST_ATTRIBUTES && signs(element) > MOST_ATTRIBUTES)
+}
+
 /// The model of a node, if it is a surface that is read.
 fn model_of(node: Node<'_, '_>) -> Option<&'static SurfaceModel> {
     MODELS.iter().find(|model| node.has_tag_name(model.tag))
@@ -68,23 +81,21 @@ fn name(node: &Node<'_, '_>) -> String {
 
 /// The pictures that the inputs `wanted` of a surface lead to, each once for every map that it is read as.
 fn pictures(located: &LocatedMtlx, wanted: &[(&'static str, Role)]) -> Vec<LocatedPicture> {
-    let mut all: Vec<(PathBuf, Role)> = Vec::new();
+    let mut all: Vec<(NamedFile, Role)> = Vec::new();
     let specular_usd = located.is_specular_usd();
     for (name, role) in wanted {
         if *name == USD_SPECULAR.0 && !specular_usd {
             continue;
         }
         if let Some(Ok(Bound::Picture(picture))) = located.bound(name) {
-            let one = (located.path_of(&picture.file), *role);
+            let one = (NamedFile::within(&picture.file, &located.path), *role);
             if !all.contains(&one) {
                 all.push(one);
             }
         }
     }
-    let located = |(file, role)| LocatedPicture {
-        source: PictureSource::File(NamedFile::by_file(file, &located.path)),
-        subject: Subject::Map(role),
-    };
+    let located =
+        |(file, role)| LocatedPicture { source: PictureSource::File(file), subject: Subject::Map(role) };
     all.into_iter().map(located).collect()
 }
 
