@@ -12,6 +12,7 @@ mod png;
 mod practice;
 mod sets;
 mod sidecar;
+mod texture_sets;
 mod whole_sets;
 mod written;
 

@@ -13,7 +13,7 @@ fn height(x: usize, y: usize) -> f64 {
 }
 
 /// Side of maps with heights: correlations need some texels.
-const BUMPS: usize = 64;
+pub const BUMPS: usize = 64;
 
 /// Normals of [`height`] as they are stored, with y up times `sign`.
 fn bumps(sign: f64) -> image::DynamicImage {
@@ -29,11 +29,11 @@ fn bumps(sign: f64) -> image::DynamicImage {
     })
 }
 
-fn put(folder: &Path, name: &str, image: &image::DynamicImage) {
+pub fn put(folder: &Path, name: &str, image: &image::DynamicImage) {
     save(folder, name, image, ImageFormat::Png);
 }
 
-fn gray(folder: &Path, name: &str, value: f64) {
+pub fn gray(folder: &Path, name: &str, value: f64) {
     put(folder, name, &picture(BUMPS, BUMPS, |_, _| [value; 3]));
 }
 
@@ -158,39 +158,6 @@ fn heights_in_the_alpha_of_a_colour_decide_y_too() {
     std::fs::rename(folder.path().join("soil_normal.png"), folder.path().join("soil_normal_dx.png")).unwrap();
     let named = open(folder.path());
     assert!(notes(&named).contains("The alpha of soil_albedo_height.png is not used"), "{}", notes(&named));
-}
-
-/// A texture set of Minecraft of these pairs.
-fn texture_set(folder: &Path, entries: &str) -> std::path::PathBuf {
-    let path = folder.join("ore.texture_set.json");
-    let text = format!(r#"{{"format_version": "1.16.100", "minecraft:texture_set": {{{entries}}}}}"#);
-    std::fs::write(&path, text).unwrap();
-    path
-}
-
-#[test]
-fn a_texture_set_names_its_maps_and_states_constants() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "ore.png", 0.5);
-    put(folder.path(), "glow.png", &picture(BUMPS, BUMPS, |_, _| [0.2, 0.9, 0.6]));
-    let maps = r#""color": "ore", "metalness_emissive_roughness": "glow""#;
-    let read = open(&texture_set(folder.path(), maps));
-    let texel = read.material.texel(9);
-    assert_eq!(read.material.name(), "ore");
-    assert!((texel.roughness - 0.6).abs() < EIGHT_BITS, "{texel:?}");
-    let base = 0.214;
-    assert!((texel.diffuse[0] - 0.8 * base).abs() < 0.005, "{texel:?}");
-    assert!((texel.specular[0] - (0.8 * 0.04 + 0.2 * base)).abs() < 0.005, "{texel:?}");
-    let constants = r##""color": "#808080", "metalness_emissive_roughness": [51, 0, 153]"##;
-    let read = open(&texture_set(folder.path(), constants));
-    assert_eq!(read.material.size(), [1, 1]);
-    let of_constants = read.material.texel(0);
-    assert!((of_constants.roughness - 0.6).abs() < EIGHT_BITS, "{of_constants:?}");
-    assert!((of_constants.diffuse[0] - 0.8 * base).abs() < 0.005, "{of_constants:?}");
-    let plain = open(&texture_set(folder.path(), r#""color": "ore""#));
-    assert_eq!((plain.material.texel(9).roughness, plain.material.texel(9).specular), (1.0, [0.04; 3]));
-    let absent = refusal(&texture_set(folder.path(), r#""color": "none""#));
-    assert!(absent.contains("none.png"), "{absent}");
 }
 
 #[test]
