@@ -16,7 +16,7 @@ use svbrdf_core::error::Error;
 
 use super::head::{self, PngHead};
 use super::known;
-use super::place::{Decoded, FORMATS, MAX_BYTES, Place, alone};
+use super::place::{Decoded, FORMATS, MAX_BYTES, MAX_WIDTH, Place, alone};
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
@@ -29,10 +29,14 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     let head = reader.fill_buf().map_err(unreadable)?;
     match image::guess_format(head) {
         Ok(ImageFormat::Png) => {
+            // A row of it counts as metadata, too.
+            let width =
+                head.get(16..20).and_then(|bytes| bytes.try_into().ok()).map_or(0, u32::from_be_bytes);
+            let is_too_wide = width as usize > MAX_WIDTH;
             let PngHead { linear, meaning } = head::png(&mut reader).unwrap_or_default();
             reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
-            let decoder =
-                PngDecoder::with_limits(reader, metadata_limits()).map_err(|e| of_metadata(&e, place))?;
+            let decoder = PngDecoder::with_limits(reader, metadata_limits())
+                .map_err(|e| of_metadata(&e, is_too_wide, place))?;
             let mut decoded = decode_with(decoder, "PNG", place)?;
             if linear && !place.is_data() {
                 decoded.notes.push(Note::LinearGamma(place.what));
@@ -133,9 +137,9 @@ fn metadata_limits() -> Limits {
 }
 
 /// The error of a PNG whose head cannot be read.
-fn of_metadata(error: &ImageError, place: Place<'_>) -> Error {
+fn of_metadata(error: &ImageError, is_too_wide: bool, place: Place<'_>) -> Error {
     match error {
-        ImageError::Limits(_) => {
+        ImageError::Limits(_) if !is_too_wide => {
             let problem =
                 format!("expected at most {} MiB of profiles and texts, found more", MAX_METADATA >> 20);
             place.bad(problem, "write it again without them")
