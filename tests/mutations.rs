@@ -100,7 +100,10 @@ fn of_picture(error: &Error) -> bool {
 /// the map that it is named as.
 fn of_listing(error: &Error) -> bool {
     match error {
-        Error::BadImage { .. } | Error::Unreadable { .. } | Error::MapSizesDiffer { .. } => true,
+        Error::BadImage { .. }
+        | Error::Unreadable { .. }
+        | Error::NotAFile { .. }
+        | Error::MapSizesDiffer { .. } => true,
         Error::NotAMaterial { path, .. } | Error::MissingMap { path, .. } => {
             named_damaged(path) || path.extension().is_some_and(|e| e == "png")
         }
@@ -114,6 +117,10 @@ fn of_sidecar(error: &Error) -> bool {
         Error::BadSidecar { path, .. }
         | Error::NotPacked { path, .. }
         | Error::NoSuchExemplar { path, .. } => named_damaged(path),
+        // No UTF-8.
+        Error::Unreadable { path, source } => {
+            named_damaged(path) && source.kind() == std::io::ErrorKind::InvalidData
+        }
         Error::BadImage { .. }
         | Error::NotAMaterial { .. }
         | Error::MissingMap { .. }

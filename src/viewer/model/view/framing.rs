@@ -69,15 +69,17 @@ impl Framed<'_> {
     }
 }
 
-/// The camera of a pane of `pane` = [width, height] physical pixels.
-pub fn camera(state: &ViewState, grid: Grid, pane: [f32; 2]) -> Camera {
-    let fitted = state.fitted_camera(grid, aspect(pane));
-    let Some(framing) = state.display.framing else { return fitted };
-    let zoom = framing.pixels_per_texel / pixels_per_texel(&fitted, grid, pane);
-    let centre = fitted.ndc_from_point(point(grid, framing.centre));
-    match centre {
-        Some(centre) if zoom.is_finite() && zoom > 0.0 => fitted.zoomed(zoom, centre.map(|c| -c * zoom)),
-        _ => fitted,
+impl ViewState {
+    /// The camera of a pane of `pane` = [width, height] physical pixels.
+    pub fn camera(&self, grid: Grid, pane: [f32; 2]) -> Camera {
+        let fitted = self.fitted_camera(grid, aspect(pane));
+        let Some(framing) = self.display.framing else { return fitted };
+        let zoom = framing.pixels_per_texel / pixels_per_texel(&fitted, grid, pane);
+        let centre = fitted.ndc_from_point(point(grid, framing.centre));
+        match centre {
+            Some(centre) if zoom.is_finite() && zoom > 0.0 => fitted.zoomed(zoom, centre.map(|c| -c * zoom)),
+            _ => fitted,
+        }
     }
 }
 

@@ -9,8 +9,6 @@ use svbrdf_files::session_window::Display;
 
 pub use svbrdf_files::session_window::{Layout, Projection};
 
-use super::framing;
-
 /// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewState {
@@ -52,11 +50,6 @@ impl ViewState {
     /// The name of the chosen difference.
     pub fn difference_name(&self) -> &'static str {
         if self.is_error_map() { "error map" } else { self.difference_kind().name() }
-    }
-
-    /// The camera of a pane of `pane` = [width, height] physical pixels.
-    pub fn camera(&self, grid: Grid, pane: [f32; 2]) -> Camera {
-        framing::camera(self, grid, pane)
     }
 
     /// The camera that fits the material into a pane of `aspect` = width / height.
