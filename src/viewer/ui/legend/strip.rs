@@ -103,7 +103,7 @@ impl<'a> LegendStrip<'a> {
             }
             if self.quantity == Quantity::Rendering {
                 let label = ui.selectable_label(self.error_map.is_some(), ERROR_MAP);
-                let hover = "The log difference of each texel, averaged over the scenes of the loss: its mean is the loss";
+                let hover = "The log difference of each texel, averaged over scenes of the loss: its mean is the loss over these scenes";
                 if label.on_hover_text(hover).clicked() {
                     commands.push(DisplayCommand::ChooseErrorMap.into());
                 }
