@@ -166,7 +166,7 @@ fn missed(request: &Request, relative_error: f64, elapsed: Duration) -> Option<S
 
 /// A button of the width of the one that replaces it.
 fn button(text: &str) -> egui::Button<'_> {
-    egui::Button::new(text).min_size(egui::vec2(90.0, 0.0))
+    egui::Button::new(text).min_size(egui::vec2(96.0, 0.0))
 }
 
 /// The settings of the loss: first what decides the number of scenes, then the fields of that choice.
