@@ -30,7 +30,9 @@ fn main() {
     adapter::tell_cargo();
 
     commit::tell_cargo();
-    println!("cargo::rustc-env=SVBRDF_TARGET={}", env::var("TARGET").unwrap_or_default());
+    for name in ["TARGET", "PROFILE"] {
+        println!("cargo::rustc-env=SVBRDF_{name}={}", env::var(name).unwrap_or_default());
+    }
 
     let path = env::var_os("PATH").unwrap_or_default();
     let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());

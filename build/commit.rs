@@ -17,6 +17,7 @@ pub fn tell_cargo() {
     }
 }
 
+#[allow(clippy::disallowed_methods, reason = "a build script reads its own package")]
 fn of_package() -> Option<String> {
     let text = fs::read_to_string(OF_PACKAGE).ok()?;
     let (_, after) = text.split_once("\"sha1\"")?;

@@ -17,11 +17,10 @@ pub fn text(verbose: bool) -> String {
 }
 
 fn facts() -> [(&'static str, String); 6] {
-    let build = if cfg!(debug_assertions) { "debug" } else { "release" };
     let threads = thread::available_parallelism().map_or(1, usize::from);
     [
         ("commit", option_env!("SVBRDF_COMMIT").unwrap_or("unknown").to_owned()),
-        ("build", build.to_owned()),
+        ("build", env!("SVBRDF_PROFILE").to_owned()),
         ("features", features()),
         ("platform", env!("SVBRDF_TARGET").to_owned()),
         ("processor", format!("{}, {threads} threads", Level::best().name())),
