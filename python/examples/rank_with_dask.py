@@ -1,6 +1,7 @@
-"""Ranks a data set on a Dask cluster: `python rank_with_dask.py gt/ ours/ theirs/`, in a folder that all machines see. Writes ranking.txt.
+"""Ranks a data set on a Dask cluster: `python rank_with_dask.py gt/ ours/ theirs/` writes ranking.txt.
 
-A part whose worker is killed is repeated by Dask, and continues from its journal. Needs the program `svbrdf` and `distributed`.
+All machines see the folder and have the program `svbrdf`. Dask repeats a part whose worker is killed, which continues
+from its journal. Needs `distributed`.
 """
 
 import subprocess
