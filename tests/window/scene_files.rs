@@ -154,7 +154,7 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     window.get_by_label("3 scenes of render.json");
 
     let mut window = built_in();
-    let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/worn_tiles.png");
+    let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples/worn_tiles.png");
     let dropped =
         [material.clone(), path.clone(), material].map(|path| std::sync::Arc::new(Dropped(path)) as _);
     window.input_mut().dropped_files = dropped.into();
