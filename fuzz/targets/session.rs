@@ -2,5 +2,5 @@
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
-    let _ = svbrdf_files::session::Session::read(&svbrdf_fuzz::written("fuzzed.svbrdf", bytes));
+    let _ = svbrdf_files::session::Session::read(&svbrdf_fuzz::written("fuzzed.svbrdf-session.json", bytes));
 });

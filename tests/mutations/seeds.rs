@@ -67,7 +67,7 @@ fn session() -> String {
     let folder = tempdir().unwrap();
     let file: SceneFile = serde_json::from_str(SCENES).unwrap();
     let session = Session::new(vec![material], file.scenes[0], "printed".to_owned(), 0.5);
-    session.text(&folder.path().join("a.svbrdf")).unwrap()
+    session.text(&folder.path().join("a.svbrdf-session.json")).unwrap()
 }
 
 fn text(text: &str) -> Vec<u8> {
@@ -102,7 +102,7 @@ fn open(target: &str, folder: &Path, bytes: &[u8]) -> Result<(), Error> {
         "picture" => read_bytes::<f32>("fuzzed", bytes, &STRIP).map(drop),
         "photograph" => read_photograph(&put("fuzzed.png"), &Default::default()).map(drop),
         "scene_file" => scene_file::read(&put("fuzzed.json")).map(drop),
-        "session" => Session::read(&put("fuzzed.svbrdf")).map(drop),
+        "session" => Session::read(&put("fuzzed.svbrdf-session.json")).map(drop),
         "sidecar" => {
             put("packed.svbrdf.json");
             material(&folder.join("packed.png"), &ReadOptions::AUTO)

@@ -23,6 +23,7 @@ mod reduced;
 mod saving;
 mod scene_files;
 mod screenshots;
+mod soak;
 mod stillness;
 mod study;
 mod texels;
