@@ -210,3 +210,32 @@ fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
     let short = height("Copy scene", "Copied the scene as JSON");
     assert_eq!(height("Copy as CSV", "Copied the pinned texels as CSV"), short);
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [gt, p] = strips(folder.path());
+    let scenes = folder.path().join("scenes.json");
+    let text = r#"{"scenes": [{"kind": "near", "view": [0, 0, 2], "light": [0.1, 0, 2]}]}"#;
+    std::fs::write(&scenes, text).unwrap();
+    let [ground_truth, predictions] = [gt.clone(), p.clone()];
+    let mut window = window(ViewerOptions {
+        ground_truth: Some(ground_truth),
+        predictions: vec![predictions],
+        scenes: Some(svbrdf_files::scene_file::read_named(&scenes).unwrap()),
+        ..ViewerOptions::default()
+    });
+    let all = [gt, p, scenes];
+    let before: Vec<_> = all.iter().map(|path| std::fs::read(path).unwrap()).collect();
+    let size = window.state().picture_size();
+    for (number, kind) in [SaveKind::View, SaveKind::Strip, SaveKind::Scenes].into_iter().enumerate() {
+        let path = all[number].clone();
+        apply(&mut window, Command::from(WindowCommand::Save { what: kind, path, size }));
+        wait(&mut window, "the refusal", |app| app.messages().len() > number);
+        let message = window.state().messages().last().unwrap().clone();
+        assert!(message.contains("which the result is made from"), "{message}");
+    }
+    let after: Vec<_> = all.iter().map(|path| std::fs::read(path).unwrap()).collect();
+    assert!(before == after, "a file was replaced");
+}

@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn the_next_start_begins_without_the_scenes_of_a_file() {
-        let file = FileScenes { name: "render.json".to_owned(), scenes: Vec::new() };
+        let file = FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes: Vec::new() };
         let loss = LossSettings { seed: 7, ..LossSettings::default() };
         let mut model = Model::default();
         model.settings.loss = loss.with_file(Some(file));

@@ -82,11 +82,12 @@ impl Model {
         LossQuery { request: self.settings.loss.request(), convention: self.view.convention() }
     }
 
-    /// The files of the materials and of the photograph, which nothing that is saved may replace.
+    /// The files of the materials, of the photograph and of the scenes, which nothing that is saved may replace.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let materials = self.materials.all.iter().flat_map(|material| &material.read.files);
         let photograph = self.photograph.source().map(|photograph| photograph.path.as_path());
-        materials.map(|(file, _)| file.as_path()).chain(photograph)
+        let scenes = self.settings.loss.file_scenes().map(|file| file.path.as_path());
+        materials.map(|(file, _)| file.as_path()).chain(photograph).chain(scenes)
     }
 
     /// Adds messages.

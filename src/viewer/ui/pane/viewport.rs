@@ -240,7 +240,9 @@ impl Viewport {
         if let Some(scale) = Scale::of(scenery, content) {
             scale.paint(&painter, rect);
         }
-        if let Some(text) = hint(scenery, self.pane_pixels()) {
+        if gpu.reduction() > 1 {
+            paint_hint(&painter, rect, &reduced(gpu.reduction()));
+        } else if let Some(text) = hint(scenery, self.pane_pixels()) {
             paint_hint(&painter, rect, text);
         }
     }
@@ -336,6 +338,13 @@ impl Viewport {
     pub fn pane_pixels(&self) -> [f32; 2] {
         self.pane_pixels.into()
     }
+}
+
+/// The badge of a pane whose adapter has no room for all texels.
+fn reduced(stride: usize) -> String {
+    format!(
+        "Reduced display: one of {stride} x {stride} texels. The adapter's memory is full. Losses use all texels."
+    )
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.
