@@ -231,7 +231,10 @@ fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
     let size = window.state().picture_size();
     for (number, kind) in [SaveKind::View, SaveKind::Strip, SaveKind::Scenes].into_iter().enumerate() {
         let path = all[number].clone();
-        apply(&mut window, Command::from(WindowCommand::Save { what: kind, path, size }));
+        apply(
+            &mut window,
+            Command::from(WindowCommand::Save(SaveRequest { kind, path, size, handles: true })),
+        );
         wait(&mut window, "the refusal", |app| app.messages().len() > number);
         let message = window.state().messages().last().unwrap().clone();
         assert!(message.contains("which the result is made from"), "{message}");
