@@ -17,11 +17,13 @@ mod formats;
 mod fused;
 mod golden_loss;
 mod golden_points;
+mod golden_requests;
 #[cfg(feature = "gpu")]
 mod gpu_parity;
 mod layering;
 mod metrics;
 mod mutations;
+mod packages;
 mod photograph;
 mod physics;
 mod rank;
