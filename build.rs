@@ -1,11 +1,13 @@
 //! Tells the tests what is there: the reference numbers beside the checkout, a graphics driver, a display to test the
-//! window on. A test that needs what is not there is reported as ignored, with the reason.
+//! window on. A test that needs what is not there is reported as ignored, with the reason. Tells the program its commit and target.
 
 use std::env;
 use std::path::Path;
 
 #[path = "build/adapter.rs"]
 mod adapter;
+#[path = "build/commit.rs"]
+mod commit;
 
 use adapter::set;
 
@@ -26,6 +28,11 @@ fn main() {
     set("has_shared", shared);
 
     adapter::tell_cargo();
+
+    commit::tell_cargo();
+    for name in ["TARGET", "PROFILE"] {
+        println!("cargo::rustc-env=SVBRDF_{name}={}", env::var(name).unwrap_or_default());
+    }
 
     let path = env::var_os("PATH").unwrap_or_default();
     let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());

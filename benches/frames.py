@@ -11,7 +11,7 @@ per frame. Then single motions: from the event of the mouse to the first changed
 (`--only-latency`: nothing else). With materials also the time from the start to the first picture and to the last one, beside that of `svbrdf info`, which
 reads them and does no more. A large material, here of 2048 x 2048 texels, of a small one:
 
-    convert assets/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
+    convert src/files/samples/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
 """
 
 import math

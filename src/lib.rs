@@ -24,7 +24,7 @@
 //! |---|---|---|
 //! | [`svbrdf_core`] | `src/core` | numbers only: BRDF, scenes, rendering, loss, what a loss comes from, metrics, reports |
 //! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, data sets, the built-in materials |
-//! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter; the shaders are in `shaders/` |
+//! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter; the shaders are in `src/gpu/shaders/` |
 //! | `svbrdf` | `src` | [`backend`] (processor or adapter, whichever is faster), the window in `src/viewer` (feature `viewer`), and the command line in `src/cli`, which is part of the binary |
 //!
 //! In `src/viewer`, `model` is what the window displays, changed by commands alone; `jobs` computes in the background; `ui` reads

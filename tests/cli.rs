@@ -11,6 +11,7 @@ mod metrics;
 mod notes;
 mod options;
 mod outside;
+mod packages;
 mod photo;
 mod pictures;
 mod rank;

@@ -23,6 +23,7 @@ mod gpu_parity;
 mod layering;
 mod metrics;
 mod mutations;
+mod packages;
 mod photograph;
 mod physics;
 mod rank;

@@ -227,7 +227,8 @@ fn the_samples_are_what_their_generator_makes() {
         ("wrong_roughness", generate::pack(&generate::wrong_roughness(&truth))),
     ];
     for (name, pixels) in made {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets").join(name).with_extension("png");
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples").join(name).with_extension("png");
         let committed = image::open(path).unwrap().into_rgb8().into_raw();
         let differing = committed.iter().zip(&pixels).filter(|(a, b)| a != b).count();
         assert_eq!(committed.len(), pixels.len());

@@ -100,7 +100,7 @@ fn every_shader_has_its_entry_points() {
 
 #[test]
 fn every_file_of_the_shader_folder_is_in_a_shader() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/gpu/shaders");
     let files: BTreeSet<String> = std::fs::read_dir(folder)
         .expect("the folder is readable")
         .map(|entry| entry.expect("readable").file_name().into_string().expect("a plain name"))

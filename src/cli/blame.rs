@@ -20,17 +20,24 @@ use super::output::{CommandError, exit, target, watched};
 /// values add up to the loss. Beside them stands the loss where only this map is wrong, and where only this map is right. A share
 /// below 0%: the error of this map hides errors of others. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf blame gt.png a.png")]
 pub struct BlameArgs {
     /// Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152
-    #[arg(long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
+    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     target_error: f64,
 
     /// Seed of the sampled scenes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    #[arg(
+        help_heading = "Scenes",
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
     seed: u64,
 
     /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["target_error", "seed"])]
+    #[arg(help_heading = "Scenes", long, value_name = "FILE", conflicts_with_all = ["target_error", "seed"])]
     scenes: Option<PathBuf>,
 
     /// Output format

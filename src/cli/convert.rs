@@ -17,6 +17,7 @@ use super::output::stop::stoppable;
 /// The extension of OUT selects the format: .exr is one layered EXR, linear; .png is a packed strip normal | diffuse |
 /// roughness | specular, linear; any other name is a folder of four PNG files, colours in sRGB.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf convert textures/ brick.exr")]
 pub struct ConvertArgs {
     /// A packed or layered image, a folder, a name prefix, or one of the files
     #[arg(id = "ground_truth", value_name = "IN", required = true)]

@@ -24,40 +24,47 @@ use super::output::{CommandError, exit, target, watched};
 /// scenes to +-1%, and the loss over the 6 + 3 scenes of the papers; of a session, what its window asked for. A folder of training
 /// steps, such as NAME_step000100.png or epoch_12/, stands for all its steps. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf loss gt.png a.png b.png --target-error 0.5%")]
 pub struct LossArgs {
     /// Number of near-field scenes [default: 6]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
     near: Option<usize>,
 
     /// Number of distant scenes [default: 3]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
     distant: Option<usize>,
 
     /// Seed of the sampled scenes [default: 0, or as in the session]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
     seed: Option<u64>,
 
     /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: random]
-    #[arg(long, value_name = "random|sobol")]
+    #[arg(help_heading = "Scenes", long, value_name = "random|sobol")]
     sampler: Option<Sampler>,
 
     /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
     /// [default: all]
-    #[arg(long, value_name = "all|N", allow_negative_numbers = true, conflicts_with = "scenes")]
+    #[arg(
+        help_heading = "Scenes",
+        long,
+        value_name = "all|N",
+        allow_negative_numbers = true,
+        conflicts_with = "scenes"
+    )]
     texels: Option<Texels>,
 
     /// Samples as many scenes as this relative error needs at 95% confidence, such as 1%
-    #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true,
+    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true,
         conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes", "time_budget"])]
     target_error: Option<f64>,
 
     /// Samples as many scenes as fit into this time, such as 500ms or 2s
-    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true,
+    #[arg(help_heading = "Scenes", long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true,
         conflicts_with_all = ["near", "distant", "sampler", "texels", "scenes"])]
     time_budget: Option<Duration>,
 
     /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
+    #[arg(help_heading = "Scenes", long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
     scenes: Option<PathBuf>,
 
     /// Floating-point precision

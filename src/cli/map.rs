@@ -20,6 +20,7 @@ use super::output::{CommandError, exit, watched};
 /// distant scenes over the directions that Algorithm 2 samples, seen from above (x to the right, y up), with a standard
 /// error. Predictions stand side by side. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf map gt.png a.png --over lights -o lights.png")]
 pub struct MapArgs {
     /// Output file: .exr for floats, .png for colours from 0 to the largest value, .csv for a table
     #[arg(short, long, value_name = "FILE")]

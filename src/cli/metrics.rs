@@ -18,6 +18,7 @@ use super::protocol::{self, ProtocolArgs};
 /// differences and PSNR of renderings. docs/metrics.md defines each. With --protocol: those of a published evaluation, as
 /// its released code computes them. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf metrics gt.png a.png b.png --format csv")]
 pub struct MetricsArgs {
     #[command(flatten)]
     scenes: SceneArgs,

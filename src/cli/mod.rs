@@ -3,6 +3,7 @@
 mod args;
 mod blame;
 mod convert;
+mod generate;
 mod info;
 mod job;
 mod loss;
@@ -16,16 +17,21 @@ mod render;
 mod scenes;
 mod strip;
 mod study;
+mod version;
 mod view;
 mod worst;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{ArgAction, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use args::{Given, TrustArgs};
 use output::CommandError;
-use output::exit::{exit_code, explain};
+use output::exit::{exit_code, explain, put};
+
+/// The licences of the crates and fonts in this program.
+const THIRD_PARTY: &str = include_str!("../../THIRD-PARTY");
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,6 +49,10 @@ Examples:
   svbrdf info gt.png                      prints what the files hold and what was assumed
   svbrdf convert gt.png gt.exr            writes the material as one layered EXR
 
+Environment:
+  RUST_LOG      messages of the libraries of window and graphics: error, warn, info, debug; or by library, as wgpu=info
+  WGPU_BACKEND  graphics interfaces that may be used: vulkan, metal, dx12, gl
+
 Exit codes:
    0  success
    1  invalid input, or the operation failed
@@ -55,8 +65,14 @@ Exit codes:
 /// A material is a packed image (photos, then normal | diffuse | roughness | specular, or another order), a layered
 /// EXR or npz, a glTF, MaterialX or MTL file, or a folder or name prefix with one file per map. Without a subcommand: `view`.
 #[derive(Debug, Parser)]
-#[command(version, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+#[command(version, disable_version_flag = true, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
 struct Cli {
+    /// Prints the version; with --verbose also commit, features, processor and graphics adapter, for reports of faults
+    #[arg(short = 'V', long, action = ArgAction::Version)]
+    version: (),
+    /// Prints the licences of svbrdf and of the crates and fonts in it
+    #[arg(long, exclusive = true)]
+    licenses: bool,
     #[command(subcommand)]
     command: Option<Subcommands>,
     #[command(flatten)]
@@ -68,6 +84,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Subcommands {
     /// Opens a ground truth and predictions, or the built-in pair, in the window
+    #[command(after_help = "Example:\n  svbrdf view gt.png a.png b.png")]
     View(view::ViewArgs),
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
@@ -82,11 +99,20 @@ enum Subcommands {
     Study(study::StudyArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
+    #[command(hide = true)]
+    Completions(generate::CompletionsArgs),
+    #[command(hide = true)]
+    Man(generate::ManArgs),
 }
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
     svbrdf::signals::outlive_size_limits();
+    // Nothing else writes messages of libraries to stderr.
+    #[cfg(feature = "gpu")]
+    if std::env::var_os("RUST_LOG").is_some() {
+        env_logger::init();
+    }
     let command = Cli::command();
     match command
         .clone()
@@ -94,12 +120,22 @@ pub fn main() -> ExitCode {
         .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
     {
         Ok((cli, matches)) => exit_code(cli.run(&Given::of(&command, &matches))),
+        Err(version) if version.kind() == ErrorKind::DisplayVersion => exit_code(print_version()),
         Err(unusual) => explain(&unusual),
     }
 }
 
+/// The parser of the command line stops at `--version`, wherever `--verbose` stands.
+fn print_version() -> Result<(), CommandError> {
+    let is_verbose = std::env::args_os().any(|argument| argument == "--verbose");
+    Ok(put(&version::text(is_verbose))?)
+}
+
 impl Cli {
     fn run(self, given: &Given) -> Result<(), CommandError> {
+        if self.licenses {
+            return Ok(put(THIRD_PARTY)?);
+        }
         self.trust.apply();
         match self.command.unwrap_or(Subcommands::View(self.view)) {
             Subcommands::View(args) => view::run(args, given),
@@ -116,6 +152,8 @@ impl Cli {
             Subcommands::Study(args) => study::run(&args, given),
             Subcommands::Info(args) => info::run(&args, given),
             Subcommands::Convert(args) => convert::run(&args),
+            Subcommands::Completions(args) => generate::completions(&args, Self::command()),
+            Subcommands::Man(args) => generate::man(&args, Self::command()),
         }
     }
 }

@@ -25,6 +25,7 @@ use super::output::{CommandError, watched};
 /// The material spans x in [-1, 1] in the plane z = 0; y points up, z towards the viewer. Without GT and PRED: the built-in
 /// materials.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf render gt.png a.png --light 0.4,0.5,1.2 -o pair.png")]
 pub struct RenderArgs {
     /// Output file: .exr for linear floats, .png for exposed, sRGB-encoded 8 bits
     #[arg(short, long, value_name = "FILE")]

@@ -14,6 +14,7 @@ use super::output::{CommandError, exit, watched};
 /// Scenes are sorted by the mean of the losses of all predictions in them, over all texels. The JSON is a scene file that
 /// `--scenes` takes. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf scenes gt.png a.png --top 5 --format json > worst.json")]
 pub struct ScenesArgs {
     /// Number of scenes that are printed
     #[arg(long, value_name = "N", default_value_t = 10)]

@@ -22,6 +22,9 @@ use super::render::difference_of;
 ///
 /// Every cell has the pixels that `svbrdf render` writes, one per texel. The row of GT has the legends of differences.
 #[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Example:\n  svbrdf strip gt.png a.png --columns normal,roughness:,rendering -o figure.png"
+)]
 pub struct StripArgs {
     /// Output file, .png
     #[arg(short, long, value_name = "FILE")]

@@ -20,6 +20,7 @@ use super::output::{CommandError, exit, watched};
 /// graphics adapter, with float, half and 8-bit maps. Errors are relative to a reference over far more scenes. Prints the
 /// cheapest setting for a few target errors. Without GT and PRED: the built-in pair.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf study gt.png a.png -o study.csv --plot study.svg")]
 pub struct StudyArgs {
     /// Writes all points to a CSV file
     #[arg(short, long, value_name = "FILE")]

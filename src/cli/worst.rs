@@ -15,9 +15,16 @@ use super::output::{CommandError, exit, target, watched};
 /// printed loss is over all. The mean is the loss over all scenes, to +-1% where 49,152 scenes are enough. The JSON is a scene file
 /// that `--scenes` takes. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf worst gt.png a.png")]
 pub struct WorstArgs {
     /// Seed of the scenes that the search starts from
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    #[arg(
+        help_heading = "Scenes",
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
     seed: u64,
 
     /// Output format

@@ -19,7 +19,7 @@ impl Shader {
 /// A file of `shaders/` with its name.
 macro_rules! piece {
     ($file:literal) => {
-        ($file, include_str!(concat!("../../shaders/", $file)))
+        ($file, include_str!(concat!("shaders/", $file)))
     };
 }
 

@@ -118,7 +118,8 @@ fn native_options(adapters: Adapters) -> eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("svbrdf")
             .with_app_id("svbrdf")
-            .with_inner_size([1360.0, 860.0])
+            // With its title bar it fits a screen of 1366 x 768.
+            .with_inner_size([1340.0, 700.0])
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,

@@ -25,7 +25,7 @@ fn temporary(folder: &Path) -> Vec<String> {
 )]
 fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
     let desktop = Desktop::start();
-    let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/worn_tiles.png");
+    let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples/worn_tiles.png");
     std::fs::copy(built_in, desktop.folder.path().join("tiles.png")).unwrap();
     let program = desktop.open(&[]);
     desktop.dialog("ctrl+o");

@@ -40,7 +40,7 @@ fn pixels(desktop: &Desktop, name: &str) -> RgbImage {
 )]
 fn a_session_gives_the_pixels_and_the_numbers_of_its_window() {
     let desktop = Desktop::start();
-    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples");
     for name in ["worn_tiles.png", "wrong_roughness.png"] {
         std::fs::copy(assets.join(name), desktop.folder.path().join(name)).unwrap();
     }

@@ -93,6 +93,12 @@ fn by_scenes<'a>() -> Window<'a> {
     window
 }
 
+/// Opens the menu of light and view.
+fn more(window: &mut Window<'_>) {
+    window.get_by_label("More of light and view").click();
+    window.run_steps(4);
+}
+
 /// Opens a tab of the side panel.
 fn tab(window: &mut Window<'_>, name: &str) {
     window.get_by_label(&format!("Tab {name}")).click();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use svbrdf::viewer::model::command::{
     Command, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
 };
-use svbrdf::viewer::model::settings::save_kind::SaveKind;
+use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf::viewer::model::view::state::{Layout, Projection};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
@@ -23,7 +23,10 @@ fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
 }
 
 fn save(window: &mut Window<'_>, what: SaveKind, path: &Path, size: [u32; 2]) {
-    apply(window, WindowCommand::Save { what, path: path.to_owned(), size });
+    apply(
+        window,
+        WindowCommand::Save(SaveRequest { kind: what, path: path.to_owned(), size, handles: true }),
+    );
     wait(window, "the file", |app| !app.messages().is_empty());
     assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
     apply(window, WindowCommand::DismissMessages);
@@ -161,7 +164,7 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     later.run_steps(3);
     apply(&mut later, MaterialsCommand::OpenBuiltIn);
     wait(&mut later, "the built-in pair", |app| app.names().len() == 3 && !app.is_reading());
-    apply(&mut later, MaterialsCommand::ReopenLast);
+    apply(&mut later, MaterialsCommand::Reopen(0));
     wait(&mut later, "the last materials", |app| app.names() == ["gt", "p"] && !app.is_reading());
     same(&later);
 }
@@ -198,6 +201,7 @@ fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
     window.event(egui::Event::PointerMoved(at));
     window.run_steps(2);
     press(&mut window, egui::Key::I);
+    more(&mut window);
     let mut height = |button: &str, message: &str| {
         window.get_by_label(button).click();
         window.run_steps(4);

@@ -97,7 +97,11 @@ fn training() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("run")).unwrap();
     let truth = folder.path().join("worn tiles.png");
-    std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/worn_tiles.png"), &truth).unwrap();
+    std::fs::copy(
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples/worn_tiles.png"),
+        &truth,
+    )
+    .unwrap();
     write_steps(folder.path(), "baseline", 0.9, 0.25);
     write_steps(folder.path(), "ours", 1.0, 0.05);
     let predictions = vec![folder.path().join("run")];

@@ -14,6 +14,7 @@ use crate::cli::output::CommandError;
 
 /// Light and view of a photograph.
 #[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Photograph")]
 pub struct PhotoSceneArgs {
     /// Light and view from a JSON file of scenes, or from a MaterialGAN capture (render.json)
     #[arg(long, value_name = "FILE", conflicts_with = "flash", requires = "photo")]
@@ -40,6 +41,7 @@ pub struct PhotoSceneArgs {
 
 /// How a photograph is read, and where the material is in it.
 #[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Photograph")]
 pub struct PhotoReadingArgs {
     /// Corners of the material in the photograph, in pixels: top left, top right, bottom right, bottom left [default: the whole
     /// picture]

@@ -12,6 +12,7 @@ use svbrdf_files::scene_file;
 use super::values::triple;
 
 #[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Scenes")]
 pub struct SceneArgs {
     /// Number of near-field scenes
     #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 128)]
@@ -68,6 +69,7 @@ impl SceneArgs {
 }
 
 #[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Light and view")]
 pub struct OneSceneArgs {
     /// Position of the viewer, or its direction with --distant [default: 0,0,2.5, or as in the session]
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]

@@ -15,6 +15,7 @@ use crate::cli::output::report::ReportFormat;
 /// differences are printed, the material with the smallest mean log difference first. Clipped pixels are left out. Beyond the
 /// four corners, nothing is aligned or calibrated.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf photo photo.jpg a.png b.png --flash --fov 45")]
 #[command(mut_arg("ground_truth", |arg| arg.value_name("MATERIAL").required(true).help(
     "Material: a packed or layered image, a folder, a name prefix, or a session file of the window")))]
 #[command(mut_arg("predictions", |arg| arg.value_name("MATERIAL").help("More materials")))]

@@ -17,6 +17,7 @@ use crate::cli::output::CommandError;
 /// for all its steps. With --dataset, GT and every PRED are folders: their materials are matched by name, and every PRED is a
 /// method. With --pairs, GT is a CSV table with the columns ground_truth, prediction and, where needed, method and material.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf rank --dataset gt/ ours/ theirs/ --format latex")]
 pub struct RankArgs {
     /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method
     #[arg(long, conflicts_with_all = ["pairs", "merge"], requires = "ground_truth")]
@@ -51,11 +52,17 @@ pub struct RankArgs {
     pub fail_above: Option<f64>,
 
     /// Samples as many scenes as this relative error of every loss needs at 95% confidence
-    #[arg(long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
+    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     pub target_error: f64,
 
     /// Seed of the sampled scenes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    #[arg(
+        help_heading = "Scenes",
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
     pub seed: u64,
 
     /// Output format

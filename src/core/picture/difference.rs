@@ -1,6 +1,6 @@
 //! Differences of a prediction from the ground truth, as quantities with a unit and a range.
 //!
-//! `shaders/difference.wgsl` is the twin of [`Difference::of_texel`].
+//! `src/gpu/shaders/difference.wgsl` is the twin of [`Difference::of_texel`].
 
 use std::str::FromStr;
 

@@ -42,9 +42,9 @@ pub struct BuiltIn<T> {
 
 /// Name and packed image of each sample, the ground truth first.
 const SAMPLES: [(&str, &[u8]); COUNT] = [
-    ("worn tiles", include_bytes!("../../../assets/worn_tiles.png")),
-    ("blurred normals", include_bytes!("../../../assets/blurred_normals.png")),
-    ("wrong roughness", include_bytes!("../../../assets/wrong_roughness.png")),
+    ("worn tiles", include_bytes!("worn_tiles.png")),
+    ("blurred normals", include_bytes!("blurred_normals.png")),
+    ("wrong roughness", include_bytes!("wrong_roughness.png")),
 ];
 
 /// The ground truth "worn tiles" with the predictions "blurred normals" and "wrong roughness".

@@ -28,8 +28,8 @@ use super::jobs::displayed::Displayed;
 use super::jobs::follow::DisplayedParts;
 use super::jobs::work::waker::Waker;
 use super::model::Model;
-use super::model::apply::undo;
-use super::model::command::Command;
+use super::model::apply::{exposure, undo};
+use super::model::command::{Command, SceneCommand};
 use super::model::message::Message;
 use super::model::settings::options::ViewerOptions;
 use super::ui::WindowUi;
@@ -98,6 +98,8 @@ impl App {
         }
         commands.into_iter().for_each(|command| self.apply(ctx, command));
         self.parts.model.keep_visible();
+        // In the same frame: it is no step of its own to undo.
+        exposure::follow(&mut self.parts.model);
     }
 
     /// One frame: input, commands, model, picture. What a gesture changes is in the frame that read it; what is clicked in a panel is
@@ -116,6 +118,7 @@ impl App {
         if self.parts.model.animate(f64::from(ctx.input(|i| i.stable_dt))) {
             ctx.request_repaint();
         }
+        exposure::follow(&mut self.parts.model);
         self.follow(&ctx);
         #[cfg(feature = "testing")]
         self.lose_for_test(&ctx);
@@ -144,7 +147,7 @@ impl App {
         }
         match findings.worst {
             Some(Ok(worst)) => {
-                self.parts.model.view.scene = worst.scene;
+                self.apply(ctx, SceneCommand::Choose(worst.scene).into());
                 ctx.request_repaint();
             }
             Some(Err(error)) => self.parts.model.report([Message::Failed(error)]),

@@ -133,6 +133,25 @@ impl Level {
         Self(fearless_simd::Level::new())
     }
 
+    /// Its name, as [`Level::all`] lists it.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Avx512(_) => "avx512",
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Avx2(_) => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Sse4_2(_) => "sse4.2",
+            #[cfg(target_arch = "x86_64")]
+            fearless_simd::Level::Sse2(_) => "sse2",
+            #[cfg(target_arch = "aarch64")]
+            fearless_simd::Level::Neon(_) => "neon",
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            fearless_simd::Level::WasmSimd128(_) => "simd128",
+            _ => "scalar",
+        }
+    }
+
     /// Every instruction set that the kernel supports on this architecture, scalar first; `None` where this machine
     /// lacks it.
     pub fn all() -> Vec<(&'static str, Option<Self>)> {

@@ -14,6 +14,7 @@ use super::gestures::{self, Gesture, PaneTarget};
 use super::handles;
 use super::hovered::Hovered;
 use super::marks::Placed;
+use super::scale::Scale;
 use super::scenery::{Content, PhotographUse, Scenery};
 use super::texels::texels;
 use super::title::title_bar;
@@ -230,11 +231,14 @@ impl Viewport {
         };
         gpu.paint(&painter, rect, number, drawn, params);
         self.paint_marks(&painter, scenery, content, rect, &camera);
-        if state.display.quantity == Quantity::Rendering {
+        if state.display.quantity == Quantity::Rendering && scenery.handles {
             handles::paint_endpoints(&painter, rect, &camera, state, scenery.view_handle);
         }
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
+        }
+        if let Some(scale) = Scale::of(scenery, content) {
+            scale.paint(&painter, rect);
         }
         if gpu.reduction() > 1 {
             paint_hint(&painter, rect, &reduced(gpu.reduction()));
