@@ -25,7 +25,7 @@ pub fn limit() -> u64 {
 }
 
 /// Memory that is put aside until this is dropped.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq)]
 #[must_use = "the memory is put aside until this is dropped"]
 pub struct Reserved(u64);
 
