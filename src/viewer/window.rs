@@ -46,6 +46,7 @@ fn native_options() -> eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("svbrdf")
             .with_app_id("svbrdf")
+            .with_icon(icon())
             .with_inner_size([1360.0, 860.0])
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
@@ -56,4 +57,9 @@ fn native_options() -> eframe::NativeOptions {
     };
     options.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);
     options
+}
+
+fn icon() -> egui::IconData {
+    // A window without an icon is a window.
+    eframe::icon_data::from_png_bytes(include_bytes!("../../packaging/icons/64.png")).unwrap_or_default()
 }
