@@ -35,6 +35,8 @@ PREFERRED = {
 }
 # Of fonts, whose texts are printed as they are.
 FONT_LICENCES = {"OFL-1.1", "Ubuntu-font-1.0"}
+# Of fonts whose crates do not say it: the crate, and the licence of the font within.
+FONTS_WITHIN = {"egui_material_icons": ("Material Symbols Rounded, by Google", "Apache-2.0")}
 LICENCE_FILE = re.compile(r"(licen[cs]e|copying|copyright|notice|unlicense)", re.IGNORECASE)
 COPYRIGHT = re.compile(r"^\W*(copyright\b.*(\d{4}|\bby\b|\(c\)|©).*|©.*)$", re.IGNORECASE)
 
@@ -117,6 +119,9 @@ def main() -> None:
     for (name, version), package in crates().items():
         expression = package["license"] or sys.exit(f"{name} {version} states no licence")
         table.append(f"{name} {version}: {expression}")
+        if name in FONTS_WITHIN:
+            font, licence = FONTS_WITHIN[name]
+            without.append((licence, font, f"(in {name} {version})", []))
         files = licence_files(package)
         notices = [text for text in files if not any(words(mark) in words(text) for mark in PREFERRED.values())]
         for identifier in chosen(expression):
@@ -143,7 +148,7 @@ def main() -> None:
         if not bodies[identifier]:
             sys.exit(f"{name} {version}: no crate has the text of {identifier}")
         key = bodies[identifier].most_common(1)[0][0]
-        rights = [f"by {', '.join(authors)}"] if authors else [f"by the authors of {name}"]
+        rights = [f"by {', '.join(authors)}"] if authors else [] if ", by " in name else [f"by the authors of {name}"]
         users[key].append((f"{name} {version}", rights))
     show(table, texts, users)
     for package in {package["name"]: package for package in fonts}.values():

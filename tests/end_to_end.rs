@@ -1,6 +1,7 @@
 //! The real program in a real window on a display without a screen (Xvfb), with a simulated mouse and keyboard.
 
 mod arguments;
+mod device_loss;
 mod dialogs;
 mod sessions;
 

@@ -17,6 +17,7 @@ mod formats;
 mod fused;
 mod golden_loss;
 mod golden_points;
+mod golden_requests;
 #[cfg(feature = "gpu")]
 mod gpu_parity;
 mod layering;

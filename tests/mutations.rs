@@ -6,6 +6,7 @@
 mod listings;
 mod names;
 mod pictures;
+mod seeds;
 
 use std::io::Cursor;
 use std::path::Path;

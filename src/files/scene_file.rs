@@ -53,7 +53,7 @@ pub fn destination(path: &Path) -> Result<Destination<()>, Error> {
 /// Those of [`read`].
 pub fn read_named(path: &Path) -> Result<FileScenes, Error> {
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-    Ok(FileScenes { name, scenes: read(path)? })
+    Ok(FileScenes { name, path: path.to_owned(), scenes: read(path)? })
 }
 
 /// Reads the only one of some scene files; `None` without any.

@@ -75,6 +75,25 @@ pub struct Framing {
     pub centre: [f32; 2],
 }
 
+/// Whether the exposure follows the ground truth: the brightest 1% of its rendering just clip.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum AutoExposure {
+    /// It was set by hand.
+    Off,
+    /// It follows when materials are opened and a scene is chosen, and stays while light and view are moved.
+    #[default]
+    Once,
+    /// It follows light, view and convention.
+    Follow,
+}
+
+impl AutoExposure {
+    /// That of sessions which do not say it: their exposure was set.
+    fn of_older_sessions() -> Self {
+        Self::Off
+    }
+}
+
 /// What the panes show of the materials, and how. Every field has a default, so that the sessions of older versions open.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -86,6 +105,8 @@ pub struct Display {
     pub differences: Differences,
     pub layout: Layout,
     pub projection: Projection,
+    #[serde(default = "AutoExposure::of_older_sessions")]
+    pub auto_exposure: AutoExposure,
     pub show_clipping: bool,
     /// Whether the material is repeated 2 x 2 times, shifted by half of itself: shows its seams.
     pub tiled: bool,
@@ -111,6 +132,7 @@ impl Default for Display {
             differences: Differences::default(),
             layout: Layout::SideBySide,
             projection: Projection::Flat,
+            auto_exposure: AutoExposure::Once,
             show_clipping: false,
             tiled: false,
             false_colour: false,

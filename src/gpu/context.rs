@@ -52,6 +52,19 @@ impl Gpu {
         Ok(adapter)
     }
 
+    /// As [`Gpu::select_adapter`], with adapters that compute on the CPU first: for drivers that fail again and again.
+    ///
+    /// # Errors
+    /// As [`Gpu::select_adapter`].
+    pub fn select_software(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter, String> {
+        let is_software = |adapter: &&Adapter| adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        let software: Vec<Adapter> = adapters.iter().filter(is_software).cloned().collect();
+        match select(&software, surface) {
+            Some((adapter, _)) => Ok(adapter),
+            None => Self::select_adapter(adapters, surface),
+        }
+    }
+
     /// Asks for all that the adapter can do in size, and for no feature that is not everywhere.
     pub fn device_descriptor(adapter: &Adapter) -> DeviceDescriptor<'static> {
         DeviceDescriptor {
@@ -64,6 +77,23 @@ impl Gpu {
     /// The first failure since the last call that no function could return: of drawing, or of the driver.
     pub fn take_fault(&self) -> Option<Error> {
         self.faults.take()
+    }
+
+    /// Why the device was lost, for example by a reset of its driver. Nothing is drawn from then on.
+    pub fn loss(&self) -> Option<&str> {
+        self.faults.loss()
+    }
+
+    /// Calls `then` once the device is lost, on any thread. Only the first call has an effect.
+    pub fn at_loss(&self, then: impl Fn() + Send + Sync + 'static) {
+        self.faults.at_loss(then);
+    }
+
+    /// Loses the device, as a fault of its driver does. For tests.
+    #[doc(hidden)]
+    pub fn lose(&self) {
+        self.device.destroy();
+        let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
     }
 
     fn new(adapter: &Adapter, device: Device, queue: Queue, reason: String) -> Result<Self, Error> {

@@ -1,6 +1,10 @@
-//! Window of the system: opened with the adapter that the panes need, and closed with the error of a panic.
+//! Window of the system: opened with the adapter that the panes need, again after its device was lost, and closed with the error
+//! of a panic.
 
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
@@ -8,46 +12,115 @@ use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 use svbrdf_core::error::Error;
 use svbrdf_gpu::Gpu;
 
+use super::app::device_loss::{Adapters, DeviceLosses, given_up};
 use super::app::{App, CrashGuard, Stop, outcome};
 use super::jobs::work::{panics, priority};
 use super::model::settings::options::ViewerOptions;
+
+/// How long a driver has to recover before the next device is asked for.
+const PAUSE_AFTER_LOSS: Duration = Duration::from_millis(300);
 
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
 /// [`Error::NoWindow`] without a display or the libraries of the window system, [`Error::NoAdapter`] without a
-/// graphics adapter that can draw into it, [`Error::Cancelled`] where a signal closed it, [`Error::Internal`] after a panic.
+/// graphics adapter that can draw into it, [`Error::Gpu`] where its devices are lost again and again, [`Error::Cancelled`] where a
+/// signal closed it, [`Error::Internal`] after a panic.
 pub fn run(options: ViewerOptions) -> Result<(), Error> {
     // Panics become errors, which are printed at the end.
     panics::print(false);
-    let (stop, crash) = (Stop::default(), CrashGuard::default());
-    let (signals, guard) = (stop.clone(), crash.clone());
+    let stop = Stop::default();
     priority::yield_to_window();
-    let create = move |cc: &eframe::CreationContext<'_>| {
-        let mut app = App::new(cc, options);
-        app.stop_at_signals(&cc.egui_ctx, &signals);
-        app.guard(&guard);
-        app
-    };
-    // The window system's layer panics where a library of it is missing.
-    let result = panics::caught(|| {
-        Ok(eframe::run_native("svbrdf", native_options(), Box::new(|cc| Ok(Box::new(create(cc))))))
-    });
+    let result = windows(options, &stop);
     panics::print(true);
-    outcome(&crash, result)?;
+    result?;
     if stop.is_stopped() { Err(Error::Cancelled) } else { Ok(()) }
 }
 
-fn native_options() -> eframe::NativeOptions {
+/// The application, which outlives the window of a lost device.
+#[derive(Clone, Default)]
+struct Surviving(Rc<RefCell<Option<App>>>);
+
+/// Opens the window, and opens it again where its device was lost.
+fn windows(options: ViewerOptions, stop: &Stop) -> Result<(), Error> {
+    let (app, crash) = (Surviving::default(), CrashGuard::default());
+    let (mut losses, mut adapters) = (DeviceLosses::default(), Adapters::All);
+    loop {
+        // The window system's layer panics where a library of it is missing.
+        let result = panics::caught(|| Ok(open(&app, adapters, &options, stop, &crash)));
+        let loss = app.0.borrow().as_ref().and_then(|app| app.loss().map(str::to_owned));
+        let Some(loss) = loss.filter(|_| !stop.is_stopped()) else {
+            return outcome(&crash, result);
+        };
+        // A panic of the library leaves its event loop unusable.
+        let next = result.ok().and_then(|_| losses.next(Instant::now()));
+        adapters = next.ok_or_else(|| given_up(&loss))?;
+        std::thread::sleep(PAUSE_AFTER_LOSS);
+    }
+}
+
+/// Opens a window for `app`, which is created in the first one, and returns when it is closed.
+fn open(
+    app: &Surviving,
+    adapters: Adapters,
+    options: &ViewerOptions,
+    stop: &Stop,
+    crash: &CrashGuard,
+) -> Result<(), eframe::Error> {
+    let create = |cc: &eframe::CreationContext<'_>| -> Box<dyn eframe::App> {
+        let mut place = app.0.borrow_mut();
+        match &mut *place {
+            Some(app) => app.resume(cc),
+            None => {
+                let mut new = App::new(cc, options.clone());
+                new.stop_at_signals(stop);
+                new.guard(crash);
+                *place = Some(new);
+            }
+        }
+        Box::new(app.clone())
+    };
+    eframe::run_native("svbrdf", native_options(adapters), Box::new(|cc| Ok(create(cc))))
+}
+
+impl Surviving {
+    fn with(&self, work: impl FnOnce(&mut App)) {
+        self.0.borrow_mut().iter_mut().next().map(work);
+    }
+}
+
+impl eframe::App for Surviving {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        self.with(|app| app.ui(ui, frame));
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        App::background(visuals)
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        self.with(|app| app.save(storage));
+    }
+
+    fn on_exit(&mut self) {
+        self.with(eframe::App::on_exit);
+    }
+}
+
+fn native_options(adapters: Adapters) -> eframe::NativeOptions {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
-    setup.native_adapter_selector = Some(Arc::new(Gpu::select_adapter));
+    setup.native_adapter_selector = Some(match adapters {
+        Adapters::All => Arc::new(Gpu::select_adapter),
+        Adapters::Software => Arc::new(Gpu::select_software),
+    });
     setup.device_descriptor = Arc::new(Gpu::device_descriptor);
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("svbrdf")
             .with_app_id("svbrdf")
-            .with_icon(icon())
-            .with_inner_size([1360.0, 860.0])
+.with_icon(icon())
+            // With its title bar it fits a screen of 1366 x 768.
+            .with_inner_size([1340.0, 700.0])
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
         renderer: eframe::Renderer::Wgpu,

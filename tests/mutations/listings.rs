@@ -3,7 +3,7 @@
 use super::*;
 use crate::scene_files::{GLTF_PBR, STANDARD_SURFACE, glb, gltf_text, mtl};
 
-const OPEN_PBR: &str = r#"<materialx version="1.39" colorspace="lin_rec709">
+pub const OPEN_PBR: &str = r#"<materialx version="1.39" colorspace="lin_rec709">
   <image name="base" type="color3" colorspace="srgb_texture"><input name="file" value="base colour.png"/></image>
   <open_pbr_surface name="wall" type="surfaceshader"><input name="base_color" nodename="base"/>
     <input name="base_weight" value="0.9"/><input name="specular_weight" value="0.5"/>
@@ -11,12 +11,12 @@ const OPEN_PBR: &str = r#"<materialx version="1.39" colorspace="lin_rec709">
     <input name="coat_weight" value="0.2"/></open_pbr_surface>
 </materialx>"#;
 
-const USD: &str = r#"<materialx version="1.39"><UsdPreviewSurface name="wall" type="surfaceshader">
+pub const USD: &str = r#"<materialx version="1.39"><UsdPreviewSurface name="wall" type="surfaceshader">
     <input name="useSpecularWorkflow" value="1"/><input name="specularColor" value="0.1, 0.2, 0.3"/>
     <input name="diffuseColor" value="0.5, 0.4, 0.3"/><input name="roughness" value="0.4"/></UsdPreviewSurface>
 </materialx>"#;
 
-const GLTF_OF_EXTENSIONS: &str = r#"{"asset": {"version": "2.0"},
+pub const GLTF_OF_EXTENSIONS: &str = r#"{"asset": {"version": "2.0"},
   "extensionsUsed": ["KHR_materials_specular", "KHR_materials_ior", "KHR_texture_transform"],
   "images": [{"uri": "base%20colour.png"}, {"uri": "n.png"}],
   "textures": [{"source": 0}, {"source": 1}, {"extensions": {"EXT_texture_webp": {"source": 0}}}],
@@ -27,7 +27,7 @@ const GLTF_OF_EXTENSIONS: &str = r#"{"asset": {"version": "2.0"},
     "extensions": {"KHR_materials_ior": {"ior": 1.4}, "KHR_materials_clearcoat": {"clearcoatFactor": 0.5},
       "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0.5, 2]}}}]}"#;
 
-const GLTF_OF_GLOSS: &str = r#"{"asset": {"version": "2.0"}, "images": [{"uri": "base%20colour.png"}],
+pub const GLTF_OF_GLOSS: &str = r#"{"asset": {"version": "2.0"}, "images": [{"uri": "base%20colour.png"}],
   "textures": [{"source": 0}], "materials": [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {
     "diffuseTexture": {"index": 0}, "specularGlossinessTexture": {"index": 0}, "glossinessFactor": 0.5,
     "specularFactor": [1, 0.9, 0.8]}}}]}"#;

@@ -26,7 +26,7 @@ fn damaged_pictures_never_panic() {
 }
 
 /// An interlaced PNG of a palette of 256 grays.
-fn palette() -> Vec<u8> {
+pub fn palette() -> Vec<u8> {
     let chunks = [(*b"PLTE", (0..=255).flat_map(|k| [k; 3]).collect()), (*b"gAMA", vec![0, 0, 0xb1, 0x8f])];
     let (size, colour) = ([4 * SIDE, SIDE], png::PALETTE);
     let png = Png { size, depth: 8, colour, interlaced: true, chunks: &chunks };
@@ -46,7 +46,7 @@ fn damaged_png_with_right_checksums_never_panics() {
 }
 
 /// Makes the checksum of every chunk of a PNG right, as far as there are chunks.
-fn sign(png: &mut [u8]) {
+pub fn sign(png: &mut [u8]) {
     let mut start = 8;
     while let Some(length) = png.get(start..start + 4) {
         let length = u32::from_be_bytes([length[0], length[1], length[2], length[3]]) as usize;
@@ -143,7 +143,7 @@ fn tga_of_runs(pixels: &[u8]) -> Vec<u8> {
 }
 
 /// A BMP of 8 bits with a palette of grays, 64 x 16 pixels.
-fn palette_bmp() -> Vec<u8> {
+pub fn palette_bmp() -> Vec<u8> {
     const HEAD: u32 = 14 + 40 + 4 * 256;
     let [width, height] = [4 * SIDE as u32, SIDE as u32];
     let mut file = b"BM".to_vec();

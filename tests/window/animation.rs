@@ -7,6 +7,7 @@ use super::*;
 fn the_turntable_turns_the_view_until_space_pauses_it() {
     let mut window = built_in();
     let before = window.state().parts.model.view.scene;
+    more(&mut window);
     let place = window.get_by_label("Turntable").rect();
     window.get_by_label("Turntable").click();
     window.run_steps(4);

@@ -1,15 +1,22 @@
 //! The bar at the top, in windows of all sizes.
 
 use svbrdf::viewer::model::command::{DisplayCommand, WindowCommand};
+use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 use super::*;
 
 /// The labels of the bar that are visible now.
 fn in_bar(window: &Window<'_>) -> Vec<(&'static str, egui::Rect)> {
-    const ALL: [&str; 19] = [
+    const ALL: &[&str] = &[
         "Open",
         "Save",
         "Copy",
+        "Layout side by side",
+        "Layout wipe",
+        "Layout single",
+        "Show rendering",
+        "Show normal",
+        "Show roughness",
         "Value",
         "Difference",
         "Histogram",
@@ -17,10 +24,13 @@ fn in_bar(window: &Window<'_>) -> Vec<(&'static str, egui::Rect)> {
         "Tile",
         "False colour",
         "Swap",
+        "Darker",
+        "Brighter",
         "Auto EV",
-        "Clip",
+        "Exposure follows",
+        "Clipped pixels",
         "Fit",
-        "1:1",
+        "One texel per pixel",
         "Reset",
         "Undo",
         "Redo",
@@ -56,18 +66,19 @@ fn the_bar_is_one_line_in_every_window_and_what_it_has_no_room_for_is_in_the_men
             }
         }
         let visible = in_bar(&window).len();
-        assert_eq!(visible >= 17, width >= 1350.0, "{visible} in {width}");
+        assert_eq!(visible == 28, width >= 1330.0, "{visible} in {width}");
     }
     // Undo is in the menu of a narrow window, and works there.
     window.set_size(vec2(900.0, 600.0));
+    let before = window.state().parts.model.view.exposure_ev;
     press(&mut window, egui::Key::E);
-    assert_eq!(window.state().parts.model.view.exposure_ev, 0.5);
+    assert_eq!(window.state().parts.model.view.exposure_ev, before + 0.5);
     assert!(window.query_by_label("Undo").is_none());
     window.get_by_label("Menu").click();
     window.run_steps(6);
     window.get_by_label("Undo").click();
     window.run_steps(3);
-    assert_eq!(window.state().parts.model.view.exposure_ev, 0.0);
+    assert_eq!(window.state().parts.model.view.exposure_ev, before);
 }
 
 #[test]
@@ -92,8 +103,8 @@ fn panes_stay_in_their_places_when_a_texel_is_pinned() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");
     let size = window.state().picture_size();
-    let (ctx, what) = (window.ctx.clone(), svbrdf::viewer::model::settings::save_kind::SaveKind::View);
-    let command = WindowCommand::Save { what, path: path.clone(), size };
+    let (ctx, what) = (window.ctx.clone(), SaveKind::View);
+    let command = WindowCommand::Save(SaveRequest { kind: what, path: path.clone(), size, handles: true });
     window.state_mut().apply(&ctx, command.into());
     wait(&mut window, "the file", |app| !app.messages().is_empty());
     let saved = image::open(&path).unwrap().to_rgb8();
@@ -110,8 +121,10 @@ fn panes_stay_in_their_places_when_a_texel_is_pinned() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     let mut window = built_in();
-    // The range of the difference beside the panes is there.
+    // The range of the difference beside the panes is there, and the losses in their titles.
     wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
+    wait(&mut window, "the losses", |app| app.losses().is_some());
+    window.run_steps(2);
     let size = window.state().picture_size();
     let key = egui::Key::C;
     let modifiers = egui::Modifiers::COMMAND | egui::Modifiers::SHIFT;
@@ -135,11 +148,92 @@ fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     // The same pixels as a saved view has.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");
-    let (ctx, what) = (window.ctx.clone(), svbrdf::viewer::model::settings::save_kind::SaveKind::View);
+    let (ctx, what) = (window.ctx.clone(), SaveKind::View);
     window.state_mut().apply(&ctx, WindowCommand::DismissMessages.into());
-    window.state_mut().apply(&ctx, WindowCommand::Save { what, path: path.clone(), size }.into());
+    window.state_mut().apply(
+        &ctx,
+        WindowCommand::Save(SaveRequest { kind: what, path: path.clone(), size, handles: true }).into(),
+    );
     wait(&mut window, "the file", |app| !app.messages().is_empty());
     let saved = image::open(&path).unwrap().to_rgb8();
     let differ = saved.pixels().zip(&copied.pixels).filter(|(a, b)| a.0 != [b.r(), b.g(), b.b()]).count();
     assert_eq!(differ, 0, "pixels differ");
+}
+
+/// The tooltip under the pointer at `at`, if one appears.
+fn tooltip(window: &mut Window<'_>, at: egui::Pos2) -> bool {
+    window.event(egui::Event::PointerMoved(at));
+    // Longer than it takes to appear.
+    window.run_steps(60);
+    let open = window.ctx.memory(|memory| {
+        let mut layers = memory.layer_ids();
+        layers.any(|layer| layer.order == egui::Order::Tooltip && memory.areas().is_visible(&layer))
+    });
+    window.event(egui::Event::PointerMoved(egui::pos2(1.0, 1.0)));
+    window.run_steps(3);
+    open
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn every_control_of_the_bar_and_of_the_panel_has_a_tooltip() {
+    use egui::accesskit::Role;
+    let mut window = built_in();
+    window.set_size(vec2(1360.0, 1000.0));
+    for name in ["Loss", "Why", "Files"] {
+        tab(&mut window, name);
+        window.run_steps(30);
+        let roles = [Role::Button, Role::CheckBox, Role::ComboBox, Role::SpinButton, Role::Slider, Role::Tab];
+        let mut controls: Vec<(String, egui::Pos2)> = Vec::new();
+        for role in roles {
+            for node in window.query_all_by_role(role) {
+                let label = egui_kittest::kittest::NodeT::accesskit_node(&node).label().unwrap_or_default();
+                controls.push((format!("{role:?} {label}"), node.rect().center()));
+            }
+        }
+        assert!(controls.len() > 30, "{name}: {}", controls.len());
+        let inside = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1360.0, 1000.0));
+        let without: Vec<String> = controls
+            .into_iter()
+            .filter(|(label, at)| inside.contains(*at) && !label.contains("Title "))
+            .filter_map(|(label, at)| (!tooltip(&mut window, at)).then_some(label))
+            .collect();
+        assert!(without.is_empty(), "{name}: no tooltip for {without:#?}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_exposure_is_automatic_once_follows_and_stays_where_a_hand_puts_it() {
+    let mut window = built_in();
+    let exposure = |window: &Window<'_>| window.state().parts.model.view.exposure_ev;
+    let start = exposure(&window);
+    assert_ne!(start, 0.0, "it is automatic once at the start");
+    let rect = pane(&window, GROUND_TRUTH);
+    let move_light = |window: &mut Window<'_>| {
+        drag(window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.85, 0.8));
+    };
+    move_light(&mut window);
+    assert_eq!(exposure(&window), start, "a drag leaves it");
+    // A preset of the light is a scene that is chosen.
+    more(&mut window);
+    window.get_by_label("Grazing left").click();
+    window.run_steps(4);
+    press(&mut window, egui::Key::Escape);
+    let chosen = exposure(&window);
+    assert_ne!(chosen, start);
+    window.get_by_label("Exposure follows").click();
+    window.run_steps(4);
+    assert_eq!(exposure(&window), chosen, "for the same light it is the same");
+    move_light(&mut window);
+    assert_ne!(exposure(&window), chosen, "it follows");
+    window.get_by_label("Brighter").click();
+    window.run_steps(4);
+    let by_hand = exposure(&window);
+    more(&mut window);
+    window.get_by_label("Grazing left").click();
+    window.run_steps(4);
+    press(&mut window, egui::Key::Escape);
+    move_light(&mut window);
+    assert_eq!(exposure(&window), by_hand, "a hand has set it");
 }

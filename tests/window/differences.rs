@@ -71,7 +71,7 @@ fn the_statistics_of_a_rendering_are_those_of_the_core_in_f64_and_their_mean_is_
         assert!(!are_those_of(got, log_differences(&scene, 2 - index), 1e-4));
         assert!(!are_those_of(got, expected.iter().map(|v| v * 1.001 + 1e-3).collect(), 1e-4));
     }
-    window.get_by_label("mean = loss");
+    window.get_by_label("this scene");
     let mean = format!("{:.4}", got[0].mean);
     assert!(window.query_all_by_label(&mean).next().is_some(), "{mean} is in the strip");
 }

@@ -1,6 +1,6 @@
 //! What the keys do.
 
-use svbrdf::viewer::model::view::state::{Layout, Projection};
+use svbrdf::viewer::model::view::state::{AutoExposure, Layout, Projection};
 use svbrdf::viewer::ui::input::keys;
 use svbrdf_core::picture::quantity::Quantity;
 
@@ -25,17 +25,22 @@ fn every_letter_does_what_the_help_says() {
     expect(&mut window, egui::Key::P, "perspective", &|a| {
         a.parts.model.view.display.projection == Projection::Perspective
     });
-    expect(&mut window, egui::Key::E, "brighter", &|a| a.parts.model.view.exposure_ev == 0.5);
+    let automatic = window.state().parts.model.view.exposure_ev;
+    expect(&mut window, egui::Key::E, "brighter", &|a| a.parts.model.view.exposure_ev == automatic + 0.5);
     expect(&mut window, egui::Key::Num2, "second prediction", &|a| {
         a.parts.model.view.display.prediction == 1
     });
     expect(&mut window, egui::Key::L, "clipping", &|a| a.parts.model.view.display.show_clipping);
     expect(&mut window, egui::Key::H, "highlight", &|a| a.parts.model.settings.highlight_follows);
     expect(&mut window, egui::Key::R, "reset", &|a| {
-        a.parts.model.view.exposure_ev == 0.0 && !a.parts.model.view.display.show_clipping
+        a.parts.model.view.exposure_ev == automatic && !a.parts.model.view.display.show_clipping
     });
     expect(&mut window, egui::Key::B, "no panel", &|a| !a.parts.model.settings.side_panel);
-    expect(&mut window, egui::Key::N, "automatic exposure", &|a| a.parts.model.view.exposure_ev != 0.0);
+    press(&mut window, egui::Key::E);
+    expect(&mut window, egui::Key::N, "automatic exposure", &|a| {
+        a.parts.model.view.exposure_ev == automatic
+            && a.parts.model.view.display.auto_exposure == AutoExposure::Once
+    });
     expect(&mut window, egui::Key::T, "repeated", &|a| a.parts.model.view.display.tiled);
     expect(&mut window, egui::Key::J, "histograms", &|a| a.parts.model.settings.histograms);
     expect(&mut window, egui::Key::V, "false colours", &|a| a.parts.model.view.display.false_colour);
@@ -83,6 +88,7 @@ fn the_page_of_the_window_lists_every_key() {
 fn undo_and_redo_go_through_the_changes() {
     let mut window = built_in();
     window.run_steps(30);
+    let before = window.state().parts.model.view.exposure_ev;
     press(&mut window, egui::Key::E);
     window.run_steps(30);
     let redo = [
@@ -92,10 +98,10 @@ fn undo_and_redo_go_through_the_changes() {
     for (modifiers, key) in redo {
         window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
         window.run_steps(3);
-        assert_eq!(window.state().parts.model.view.exposure_ev, 0.0);
+        assert_eq!(window.state().parts.model.view.exposure_ev, before);
         window.key_press_modifiers(modifiers, key);
         window.run_steps(3);
-        assert_eq!(window.state().parts.model.view.exposure_ev, 0.5, "{key:?}");
+        assert_eq!(window.state().parts.model.view.exposure_ev, before + 0.5, "{key:?}");
     }
 }
 
@@ -119,11 +125,11 @@ fn escape_closes_an_open_drop_down_and_nothing_else() {
     let (ctx, command) = (window.ctx.clone(), svbrdf::viewer::model::command::LossCommand::ShowStudy(true));
     window.state_mut().apply(&ctx, command.into());
     window.run_steps(3);
-    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Show").click();
+    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Convention").click();
     window.run_steps(4);
-    window.get_by_label("roughness");
+    window.get_by_label("guided-2020");
     press(&mut window, egui::Key::Escape);
-    assert!(window.query_by_label("roughness").is_none(), "the drop-down is closed");
+    assert!(window.query_by_label("guided-2020").is_none(), "the drop-down is closed");
     window.get_by_label("Cancel study");
     press(&mut window, egui::Key::Escape);
     assert!(window.query_by_label("Cancel study").is_none(), "then the study");

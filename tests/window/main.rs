@@ -8,6 +8,7 @@ mod assumptions;
 mod bar;
 mod corners;
 mod crash;
+mod device_loss;
 mod differences;
 mod files;
 mod files_tab;
@@ -18,9 +19,11 @@ mod panels;
 mod photograph;
 mod quantities;
 mod reading;
+mod reduced;
 mod saving;
 mod scene_files;
 mod screenshots;
+mod soak;
 mod stillness;
 mod study;
 mod texels;
@@ -88,6 +91,12 @@ fn by_scenes<'a>() -> Window<'a> {
     window.get_by_label("Scenes").click();
     window.run_steps(4);
     window
+}
+
+/// Opens the menu of light and view.
+fn more(window: &mut Window<'_>) {
+    window.get_by_label("More of light and view").click();
+    window.run_steps(4);
 }
 
 /// Opens a tab of the side panel.

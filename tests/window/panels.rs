@@ -7,7 +7,7 @@ use super::*;
 fn a_double_click_on_a_number_puts_back_its_default() {
     let mut window = built_in();
     press(&mut window, egui::Key::E);
-    assert_eq!(window.state().parts.model.view.exposure_ev, 0.5);
+    assert_ne!(window.state().parts.model.view.exposure_ev, 0.0);
     let at = window.get_by_role_and_label(egui::accesskit::Role::SpinButton, "Exposure").rect().center();
     for pressed in [true, false, true, false] {
         let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
@@ -72,24 +72,31 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
     let mut window = built_in();
     window.set_size(vec2(900.0, 600.0));
     let path =
-        |i| format!("/runs/of/a/very/long/name/that/does/not/fit/into/one/line/of/the/window/epoch_{i:04}");
-    window.state_mut().parts.model.settings.recent = (0..12).map(|i| path(i).into()).collect();
+        |i| format!("/runs/a/very/long/name/that/does/not/fit/into/one/line/of/the/window/epoch_{i:04}");
+    let comparison = |i| {
+        let mut session = window.state().parts.model.session();
+        session.materials.truncate(2);
+        for (one, name) in session.materials.iter_mut().zip(["ground truth", "a prediction with a long name"])
+        {
+            (one.path, one.built_in) = (Some(format!("{}/{name}", path(i)).into()), None);
+        }
+        session
+    };
+    let recent = (0..12).map(comparison).collect();
+    window.state_mut().parts.model.recent = recent;
     window.get_by_label("Open").click();
     window.run_steps(6);
     let button = window.get_by_label("Open these").rect();
     assert!(button.bottom() < 600.0 && button.top() > 0.0, "{button:?}");
-    let end = window.get_by_label_contains("epoch_0001").rect();
-    assert!(end.right() < 700.0, "{end:?}");
-    window.get_by_label_contains("epoch_0001").click();
+    let name = "ground truth | a prediction with a long name";
+    assert_eq!(window.get_all_by_label(name).count(), 12);
+    window.get_all_by_label(name).nth(1).unwrap().click();
     window.run_steps(3);
-    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Enter);
     wait(&mut window, "the end of reading", |app| !app.is_reading());
-    window.get_by_label_contains(&format!("cannot read {}", path(1)));
-    assert_eq!(
-        window.state().parts.model.settings.recent.len(),
-        12,
-        "what could not be opened is not remembered"
-    );
+    let problem = format!("cannot read {}/ground truth", path(1));
+    assert!(window.query_all_by_label_contains(&problem).next().is_some());
+    let recent = &window.state().parts.model.recent;
+    assert_eq!(recent.len(), 12, "what could not be opened is not remembered");
 }
 
 #[test]
@@ -102,7 +109,7 @@ fn the_side_panel_stands_beside_the_panes_in_the_smallest_window() {
         window.set_size(size);
         window.run_steps(8);
         // Narrow windows start without it.
-        if window.query_by_label("Copy scene").is_none() {
+        if window.query_by_label("Near-field").is_none() {
             assert!(size.x < 900.0);
             press(&mut window, egui::Key::B);
             window.run_steps(20);
@@ -110,7 +117,7 @@ fn the_side_panel_stands_beside_the_panes_in_the_smallest_window() {
         let panes =
             ["GROUND TRUTH  worn tiles", "1  blurred normals"].map(|title| pane(&window, title).right());
         let panes = panes.into_iter().fold(0.0, f32::max);
-        for label in ["Near-field", "Copy scene", "Compute loss"] {
+        for label in ["Near-field", "Distant", "Compute loss"] {
             let rect = window.get_by_label(label).rect();
             assert!(
                 rect.left() >= panes && rect.right() <= size.x,
@@ -118,4 +125,47 @@ fn the_side_panel_stands_beside_the_panes_in_the_smallest_window() {
             );
         }
     }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn return_opens_what_is_typed_and_shift_return_begins_a_line() {
+    let mut window = built_in();
+    window.get_by_label("Open").click();
+    window.run_steps(4);
+    let field = "Files, folders or name prefixes, one a line:";
+    let text =
+        |window: &Window<'_>| window.state().parts.ui.dialogs.open.as_ref().map(|open| open.text.clone());
+    window.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field).type_text("no");
+    window.key_press_modifiers(egui::Modifiers::SHIFT, egui::Key::Enter);
+    window.run_steps(2);
+    assert_eq!(text(&window).as_deref(), Some("no\n"));
+    window.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field).type_text("such file");
+    press(&mut window, egui::Key::Enter);
+    wait(&mut window, "the end of reading", |app| !app.is_reading());
+    window.run_steps(3);
+    window.get_by_label_contains("cannot read");
+    assert_eq!(text(&window).as_deref(), Some("no\nsuch file"), "the text stays");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_drag_on_the_hemisphere_moves_the_nearer_endpoint_and_keeps_its_distance() {
+    let mut window = built_in();
+    let before = window.state().parts.model.view.scene;
+    let rect = window.get_by_label("Directions of light and view").rect();
+    let length = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
+    // The view is straight above: in the middle.
+    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.3, 0.5));
+    let after = window.state().parts.model.view.scene;
+    assert_eq!((after.light, after.kind), (before.light, before.kind));
+    assert!(after.view[0] < -0.3 * length(before.view), "{after:?}");
+    assert!((length(after.view) - length(before.view)).abs() < 1e-9);
+    let radius = 0.5 * (rect.width() - 24.0);
+    let [x, y, _] = before.light.map(|c| (c / length(before.light)) as f32);
+    let at = vec2(0.5, 0.5) + vec2(x, -y) * radius / rect.width();
+    drag(&mut window, egui::PointerButton::Primary, rect, at, vec2(0.5, 0.2));
+    let moved = window.state().parts.model.view.scene;
+    assert_eq!(moved.view, after.view);
+    assert!(moved.light[1] > after.light[1] && (length(moved.light) - length(before.light)).abs() < 1e-9);
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use svbrdf::viewer::model::command::{
     Command, DisplayCommand, PhotographCommand, PhotographLight, WindowCommand,
 };
-use svbrdf::viewer::model::settings::save_kind::SaveKind;
+use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::colour_map::difference_to_display;
@@ -201,7 +201,10 @@ fn saved_differences_are_those_from_the_photograph_and_a_session_keeps_it() {
     wait_for_it(&mut window);
     let mut save = |what, name: &str| {
         let path = folder.path().join(name);
-        apply(&mut window, WindowCommand::Save { what, path: path.clone(), size: [0; 2] });
+        apply(
+            &mut window,
+            WindowCommand::Save(SaveRequest { kind: what, path: path.clone(), size: [0; 2], handles: true }),
+        );
         wait(&mut window, "the file", |app| !app.messages().is_empty());
         assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
         apply(&mut window, WindowCommand::DismissMessages);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use svbrdf::viewer::model::command::{
     Command, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
 };
-use svbrdf::viewer::model::settings::save_kind::SaveKind;
+use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf::viewer::model::view::state::{Layout, Projection};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
@@ -23,7 +23,10 @@ fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
 }
 
 fn save(window: &mut Window<'_>, what: SaveKind, path: &Path, size: [u32; 2]) {
-    apply(window, WindowCommand::Save { what, path: path.to_owned(), size });
+    apply(
+        window,
+        WindowCommand::Save(SaveRequest { kind: what, path: path.to_owned(), size, handles: true }),
+    );
     wait(window, "the file", |app| !app.messages().is_empty());
     assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
     apply(window, WindowCommand::DismissMessages);
@@ -161,7 +164,7 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     later.run_steps(3);
     apply(&mut later, MaterialsCommand::OpenBuiltIn);
     wait(&mut later, "the built-in pair", |app| app.names().len() == 3 && !app.is_reading());
-    apply(&mut later, MaterialsCommand::ReopenLast);
+    apply(&mut later, MaterialsCommand::Reopen(0));
     wait(&mut later, "the last materials", |app| app.names() == ["gt", "p"] && !app.is_reading());
     same(&later);
 }
@@ -198,6 +201,7 @@ fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
     window.event(egui::Event::PointerMoved(at));
     window.run_steps(2);
     press(&mut window, egui::Key::I);
+    more(&mut window);
     let mut height = |button: &str, message: &str| {
         window.get_by_label(button).click();
         window.run_steps(4);
@@ -205,4 +209,36 @@ fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
     };
     let short = height("Copy scene", "Copied the scene as JSON");
     assert_eq!(height("Copy as CSV", "Copied the pinned texels as CSV"), short);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [gt, p] = strips(folder.path());
+    let scenes = folder.path().join("scenes.json");
+    let text = r#"{"scenes": [{"kind": "near", "view": [0, 0, 2], "light": [0.1, 0, 2]}]}"#;
+    std::fs::write(&scenes, text).unwrap();
+    let [ground_truth, predictions] = [gt.clone(), p.clone()];
+    let mut window = window(ViewerOptions {
+        ground_truth: Some(ground_truth),
+        predictions: vec![predictions],
+        scenes: Some(svbrdf_files::scene_file::read_named(&scenes).unwrap()),
+        ..ViewerOptions::default()
+    });
+    let all = [gt, p, scenes];
+    let before: Vec<_> = all.iter().map(|path| std::fs::read(path).unwrap()).collect();
+    let size = window.state().picture_size();
+    for (number, kind) in [SaveKind::View, SaveKind::Strip, SaveKind::Scenes].into_iter().enumerate() {
+        let path = all[number].clone();
+        apply(
+            &mut window,
+            Command::from(WindowCommand::Save(SaveRequest { kind, path, size, handles: true })),
+        );
+        wait(&mut window, "the refusal", |app| app.messages().len() > number);
+        let message = window.state().messages().last().unwrap().clone();
+        assert!(message.contains("which the result is made from"), "{message}");
+    }
+    let after: Vec<_> = all.iter().map(|path| std::fs::read(path).unwrap()).collect();
+    assert!(before == after, "a file was replaced");
 }

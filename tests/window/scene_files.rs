@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::viewer::model::command::{DisplayCommand, LossCommand, MaterialsCommand, WindowCommand};
-use svbrdf::viewer::model::settings::save_kind::SaveKind;
+use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf_core::loss::{Comparison, Outcome, Request};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::Scene;
@@ -104,7 +104,15 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
     let ranked = window.state().listed_scenes().unwrap().0.to_vec();
     let path = folder.path().join("scenes.json");
-    apply(&mut window, WindowCommand::Save { what: SaveKind::Scenes, path: path.clone(), size: [0; 2] });
+    apply(
+        &mut window,
+        WindowCommand::Save(SaveRequest {
+            kind: SaveKind::Scenes,
+            path: path.clone(),
+            size: [0; 2],
+            handles: true,
+        }),
+    );
     wait(&mut window, "the file", |app| app.messages().iter().any(|text| text.starts_with("Saved")));
     let saved = scene_file::read(&path).unwrap();
     assert_eq!(saved, ranked.iter().map(|ranked| ranked.scene).collect::<Vec<_>>());
@@ -116,7 +124,15 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     open(&mut window, &path);
     wait(&mut window, "the scenes of the file", |app| app.parts.model.settings.loss.file_scenes().is_some());
     let session = folder.path().join("a.svbrdf-session.json");
-    apply(&mut window, WindowCommand::Save { what: SaveKind::Session, path: session.clone(), size: [0; 2] });
+    apply(
+        &mut window,
+        WindowCommand::Save(SaveRequest {
+            kind: SaveKind::Session,
+            path: session.clone(),
+            size: [0; 2],
+            handles: true,
+        }),
+    );
     wait(&mut window, "the session", |_| session.exists());
     let session = svbrdf_files::session::Session::read(&session).unwrap();
     let mut other = super::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });

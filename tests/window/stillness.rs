@@ -115,8 +115,14 @@ fn bar(window: &Window<'_>) -> Vec<(String, egui::Rect)> {
         "Open",
         "Save",
         "Copy",
-        "Layout",
-        "Show",
+        "Layout side by side",
+        "Layout wipe",
+        "Layout single",
+        "Show rendering",
+        "Show normal",
+        "Show diffuse",
+        "Show specular",
+        "Show roughness",
         "Value",
         "Difference",
         "Histogram",
@@ -125,10 +131,13 @@ fn bar(window: &Window<'_>) -> Vec<(String, egui::Rect)> {
         "False colour",
         "Swap",
         "Exposure",
+        "Darker",
+        "Brighter",
         "Auto EV",
-        "Clip",
+        "Exposure follows",
+        "Clipped pixels",
         "Fit",
-        "1:1",
+        "One texel per pixel",
         "Reset",
         "Undo",
         "Redo",
@@ -210,4 +219,95 @@ fn the_automatic_range_is_that_of_the_predictions_also_of_a_mixture() {
         mixed.iter().any(|range| *range != before),
         "a planted fault: a mixture's own range is another one"
     );
+}
+
+/// Writes a packed material of `side` x `side` texels: normal, diffuse, roughness, specular.
+fn write_packed(path: &std::path::Path, side: u32, value: impl Fn(usize, u32, u32) -> [u8; 3]) {
+    let pixel = |x, y| image::Rgb(value((x / side) as usize, x % side, y));
+    image::RgbImage::from_fn(4 * side, side, pixel).save(path).unwrap();
+}
+
+/// The ground truth of a pair of this kind, and its prediction: equal, one texel a step apart, black and white, mirror and
+/// matte, noise, normals to either side.
+fn write_pair(folder: &std::path::Path, kind: usize, side: u32) -> Vec<std::path::PathBuf> {
+    let noise = |tile: usize, x: u32, y: u32| {
+        (x.wrapping_mul(73) ^ y.wrapping_mul(151) ^ tile as u32 * 97).wrapping_mul(2_654_435_761) >> 24
+    };
+    let plain = |tile: usize| [[128, 128, 255], [120, 90, 60], [140; 3], [20; 3]][tile];
+    let value = |is_prediction: bool| {
+        move |tile: usize, x: u32, y: u32| match (kind, tile, is_prediction) {
+            (1, 1, true) if (x, y) == (0, 0) => [121, 90, 60],
+            (2, 1, _) => [if is_prediction { 255 } else { 0 }; 3],
+            (3, 2, _) => [if is_prediction { 255 } else { 0 }; 3],
+            (4, 1.., _) => [noise(tile + usize::from(is_prediction), x, y) as u8; 3],
+            (5, 0, _) => {
+                if is_prediction {
+                    [250, 128, 160]
+                } else {
+                    [6, 128, 160]
+                }
+            }
+            _ => plain(tile),
+        }
+    };
+    let names =
+        ["ground truth.png", "a prediction whose name is too long for every place it is shown in.png"];
+    [false, true]
+        .into_iter()
+        .zip(names)
+        .map(|(is_prediction, name)| {
+            let path = folder.join(format!("{kind} {side} {name}"));
+            write_packed(&path, side, value(is_prediction));
+            path
+        })
+        .collect()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_layout_is_the_same_over_100_frames_of_30_kinds_of_pairs() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = built_in();
+    window.set_size(vec2(1000.0, 640.0));
+    window.run_steps(4);
+    let controls = |window: &Window<'_>| {
+        let names = ["Tab Why", " loss", "Seed", "Copy losses", "Near-field", "Convention", "?", "Range"];
+        // The button is "Compute loss" or "Cancel loss".
+        let rect = |name: &str| match name {
+            " loss" => {
+                let either = ["Compute loss", "Cancel loss"];
+                either.into_iter().find_map(|name| Some(window.query_by_label(name)?.rect()))
+            }
+            _ => window.query_all_by_label(name).map(|node| node.rect()).next(),
+        };
+        let rects = names.map(|name| rect(name).unwrap_or_else(|| panic!("no {name}")));
+        let panes: Vec<egui::Rect> = window.query_all_by_label_contains("Pane ").map(|n| n.rect()).collect();
+        (rects, panes)
+    };
+    let mut layouts = Vec::new();
+    for side in [1, 2, 16, 24, 40] {
+        for kind in 0..6 {
+            let paths = write_pair(folder.path(), kind, side);
+            let ctx = window.ctx.clone();
+            let open = svbrdf::viewer::model::command::MaterialsCommand::Open {
+                paths,
+                replace: true,
+                read: svbrdf_files::read::ReadOptions::AUTO,
+            };
+            window.state_mut().apply(&ctx, open.into());
+            wait(&mut window, "the pair", |app| {
+                !app.is_reading() && app.names()[0].starts_with(&format!("{kind} {side} "))
+            });
+            let before = controls(&window);
+            for frame in 0..100 {
+                window.step();
+                assert_eq!(controls(&window), before, "kind {kind}, {side} texels, frame {frame}");
+            }
+            layouts.push(before);
+        }
+    }
+    assert_eq!(layouts.len(), 30);
+    for (kind, layout) in layouts.iter().enumerate() {
+        assert_eq!(*layout, layouts[0], "all pairs have one layout: {kind}");
+    }
 }

@@ -36,8 +36,10 @@ fn the_wipe_line_wins_over_the_handle_of_the_view() {
 fn a_hidden_handle_of_the_view_is_not_grabbed() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
+    more(&mut window);
     window.get_by_label("View handle").click();
     window.run_steps(4);
+    press(&mut window, egui::Key::Escape);
     let before = window.state().parts.model.view.scene;
     drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.4, 0.4));
     let after = window.state().parts.model.view.scene;
@@ -94,7 +96,7 @@ fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
     let mut window = built_in();
     window.set_size(vec2(700.0, 500.0));
     window.run_steps(20);
-    assert!(window.query_by_label("Copy scene").is_none());
+    assert!(window.query_by_label("Near-field").is_none());
     let rect = pane(&window, GROUND_TRUTH);
     window.event(egui::Event::PointerMoved(rect.center()));
     window.run_steps(3);
@@ -103,10 +105,10 @@ fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
     column(&window, "1 ");
     press(&mut window, egui::Key::B);
     window.run_steps(20);
-    window.get_by_label("Copy scene");
+    window.get_by_label("Near-field");
     window.set_size(vec2(1200.0, 800.0));
     window.run_steps(20);
-    window.get_by_label("Copy scene");
+    window.get_by_label("Near-field");
     assert!(window.state().parts.model.settings.side_panel, "the choice of wide windows is their own");
 }
 

@@ -54,6 +54,16 @@ impl Request {
             Self::Accuracy { .. } | Self::Time { .. } => None,
         }
     }
+
+    /// What names the scenes; `None` where they are listed.
+    pub fn seed(&self) -> Option<u64> {
+        match self {
+            Self::Scenes(Sampling { seed, .. }) | Self::Accuracy { seed, .. } | Self::Time { seed, .. } => {
+                Some(*seed)
+            }
+            Self::Listed(_) => None,
+        }
+    }
 }
 
 impl Default for Request {

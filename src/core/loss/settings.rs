@@ -1,5 +1,6 @@
 //! Saved settings of a loss: the fields of the window's loss section.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -28,6 +29,9 @@ pub enum Ask {
 pub struct FileScenes {
     /// The name of the file.
     pub name: String,
+    /// The file itself, where it has been read; empty in a session, which holds its scenes.
+    #[serde(skip)]
+    pub path: PathBuf,
     /// At least one.
     pub scenes: Vec<Scene>,
 }
@@ -167,7 +171,8 @@ mod tests {
     #[test]
     fn the_scenes_of_a_file_are_asked_for_until_they_are_removed() {
         let scenes = Sampler::Random.scenes(1, 2, 1, &crate::model::convention::PRINTED);
-        let file = FileScenes { name: "render.json".to_owned(), scenes: scenes.clone() };
+        let file =
+            FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes: scenes.clone() };
         let settings = LossSettings { seed: 5, ..LossSettings::default() };
         let with = settings.with_file(Some(file.clone()));
         assert_eq!(

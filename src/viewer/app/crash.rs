@@ -42,6 +42,11 @@ impl CrashGuard {
         self.problem.lock().unwrap_or_else(PoisonError::into_inner).is_some()
     }
 
+    /// Forgets a panic that a lost device has caused.
+    pub fn forgive(&self) {
+        self.take();
+    }
+
     fn take(&self) -> Option<Error> {
         self.problem.lock().unwrap_or_else(PoisonError::into_inner).take()
     }

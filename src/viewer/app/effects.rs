@@ -44,7 +44,7 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::MoveStep(by) => training::move_step(parts, by),
         Effect::Loss(effect) => carry_out_on_losses(parts, effect),
         Effect::Dialog(effect) => carry_out_on_dialogs(parts, effect),
-        Effect::Save { kind, path, size } => saving::save_file(parts, ctx, kind, path, size),
+        Effect::Save(request) => saving::save_file(parts, ctx, request),
         Effect::CopyPicture => saving::copy_picture(parts, ctx),
         Effect::CopyText { text, what } => copy_text(parts, ctx, text, what),
         Effect::CopyLosses => {

@@ -38,8 +38,6 @@ fn take_materials(parts: &mut Parts) {
     for path in std::mem::take(&mut parts.model.materials.read) {
         parts.model.messages.settle(&path);
     }
-    let opened = std::mem::take(&mut parts.model.materials.opened);
-    opened.iter().rev().for_each(|path| parts.model.settings.remember(path));
     report_problems(parts, problems);
     parts.model.report(errors.into_iter().map(Message::Failed));
 }

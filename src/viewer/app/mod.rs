@@ -1,6 +1,8 @@
 //! Application: the frame of the window, which holds the model, the jobs and the user interface together.
 
+pub mod context;
 pub mod crash;
+pub mod device_loss;
 pub mod effects;
 pub mod events;
 #[cfg(feature = "testing")]
@@ -15,6 +17,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
+use context::CurrentContext;
 pub use crash::{CrashGuard, outcome};
 use parts::Parts;
 pub use stop::Stop;
@@ -25,8 +28,8 @@ use super::jobs::displayed::Displayed;
 use super::jobs::follow::DisplayedParts;
 use super::jobs::work::waker::Waker;
 use super::model::Model;
-use super::model::apply::undo;
-use super::model::command::Command;
+use super::model::apply::{exposure, undo};
+use super::model::command::{Command, SceneCommand};
 use super::model::message::Message;
 use super::model::settings::options::ViewerOptions;
 use super::ui::WindowUi;
@@ -39,6 +42,11 @@ pub struct App {
     pub parts: Parts,
     stored: Stored,
     crash: CrashGuard,
+    context: CurrentContext,
+    /// The time of the model when its window was opened: each counts from 0.
+    opened_at: f64,
+    /// What egui remembered of a window whose device was lost.
+    memory: Option<egui::Memory>,
 }
 
 impl App {
@@ -48,22 +56,21 @@ impl App {
         let mut model = Model::default();
         let stored = Stored::load(cc.storage, eframe::storage_dir("svbrdf").as_deref(), &mut model);
         cc.egui_ctx.set_zoom_factor(model.settings.ui_scale);
-        let gpu = match cc.wgpu_render_state.as_ref().map(GpuView::new) {
-            Some(Ok(gpu)) => Some(gpu),
-            Some(Err(error)) => {
-                model.report([Message::Failed(error)]);
-                None
-            }
-            None => None,
-        };
-        gpu.iter().for_each(|gpu| theme::suit(&cc.egui_ctx, &gpu.gpu.report));
-        let ctx = cc.egui_ctx.clone();
-        let waker = Waker::new(move |after: Duration| ctx.request_repaint_after(after));
+        let context = CurrentContext::new(&cc.egui_ctx);
+        let gpu = adapter(cc, &mut model, &context);
+        let woken = context.clone();
+        let waker = Waker::new(move |after: Duration| woken.get().request_repaint_after(after));
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
         let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu, stop: Stop::default() };
         let start = parts.model.start(options);
         effects::carry_out(&mut parts, &cc.egui_ctx, start);
-        Self { parts, stored, crash: CrashGuard::default() }
+        let crash = CrashGuard::default();
+        Self { parts, stored, crash, context, opened_at: 0.0, memory: None }
+    }
+
+    /// The colour below everything that is drawn.
+    pub fn background(visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     /// Reports panics of the frames to this guard.
@@ -72,8 +79,8 @@ impl App {
     }
 
     /// Closes the window at a signal, and cancels what is being written.
-    pub fn stop_at_signals(&mut self, ctx: &egui::Context, stop: &Stop) {
-        stop.listen(ctx);
+    pub fn stop_at_signals(&mut self, stop: &Stop) {
+        stop.listen(&self.context);
         self.parts.stop = stop.clone();
     }
 
@@ -91,6 +98,8 @@ impl App {
         }
         commands.into_iter().for_each(|command| self.apply(ctx, command));
         self.parts.model.keep_visible();
+        // In the same frame: it is no step of its own to undo.
+        exposure::follow(&mut self.parts.model);
     }
 
     /// One frame: input, commands, model, picture. What a gesture changes is in the frame that read it; what is clicked in a panel is
@@ -101,7 +110,7 @@ impl App {
         theme::choose(&ctx, self.parts.model.settings.dark);
         // Ctrl with plus, minus or 0 changes it, too.
         self.parts.model.settings.ui_scale = ctx.zoom_factor();
-        self.parts.model.time = ctx.input(|i| i.time);
+        self.parts.model.time = self.opened_at + ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
         events::take_results(&mut self.parts, &ctx);
         let commands = self.parts.ui.input(&ctx, Displayed::of(&self.parts.model, &self.parts.jobs));
@@ -109,7 +118,10 @@ impl App {
         if self.parts.model.animate(f64::from(ctx.input(|i| i.stable_dt))) {
             ctx.request_repaint();
         }
+        exposure::follow(&mut self.parts.model);
         self.follow(&ctx);
+        #[cfg(feature = "testing")]
+        self.lose_for_test(&ctx);
         let displayed = Displayed::of(&self.parts.model, &self.parts.jobs);
         let commands = self.parts.ui.draw(ui, displayed, self.parts.gpu.as_mut());
         self.apply_all(&ctx, commands);
@@ -135,7 +147,7 @@ impl App {
         }
         match findings.worst {
             Some(Ok(worst)) => {
-                self.parts.model.view.scene = worst.scene;
+                self.apply(ctx, SceneCommand::Choose(worst.scene).into());
                 ctx.request_repaint();
             }
             Some(Err(error)) => self.parts.model.report([Message::Failed(error)]),
@@ -147,7 +159,10 @@ impl App {
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let crash = self.crash.clone();
-        if crash.frame(|| self.frame(ui)) {
+        let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui));
+        if self.loss().is_some() {
+            self.leave(ui.ctx());
+        } else if is_drawn {
             self.stored.store_changes(&self.parts.model, ui.ctx(), frame.storage_mut());
         } else {
             // The state is stored as the window closes.
@@ -156,7 +171,7 @@ impl eframe::App for App {
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        visuals.panel_fill.to_normalized_gamma_f32()
+        Self::background(visuals)
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
@@ -166,9 +181,27 @@ impl eframe::App for App {
     }
 
     fn on_exit(&mut self) {
+        if self.loss().is_some() {
+            return;
+        }
         // A file that is being written is completed, or cancelled by the signal that closed the window.
         if let Some(saving) = self.parts.jobs.saving.take() {
             let _ = saving.wait();
         }
     }
+}
+
+/// The adapter of a window, and its limits for the user interface; a message where its driver fails.
+fn adapter(cc: &eframe::CreationContext<'_>, model: &mut Model, context: &CurrentContext) -> Option<GpuView> {
+    let gpu = match GpuView::new(cc.wgpu_render_state.as_ref()?) {
+        Ok(gpu) => gpu,
+        Err(error) => {
+            model.report([Message::Failed(error)]);
+            return None;
+        }
+    };
+    theme::suit(&cc.egui_ctx, &gpu.gpu.report);
+    let context = context.clone();
+    gpu.gpu.at_loss(move || context.get().request_repaint());
+    Some(gpu)
 }

@@ -99,10 +99,10 @@ impl App {
         Some((&list.ranked, &thumbnails?.pixels))
     }
 
-    /// The map over directions that is shown for the current scene, and the same before it is final.
+    /// The map over directions of all predictions that is shown for the current scene, and the same before it is final.
     pub fn direction_map(&self) -> Option<&Hemisphere> {
         let (map, current) = self.parts.jobs.why.directions.get(
-            &self.pair()?,
+            &ComparedPair::all(&self.parts.model.materials.all, &self.parts.model.view),
             self.parts.model.why.moved,
             &self.parts.model.view.scene,
         )?;

@@ -15,21 +15,19 @@ use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::saving;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::model::message::Message;
-use crate::viewer::model::settings::save_kind::SaveKind;
+use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
-/// Starts to save; `size` is the size of a picture of the view.
+/// Starts to save.
 pub(super) fn save_file(
     parts: &mut Parts,
     ctx: &egui::Context,
-    kind: SaveKind,
-    path: PathBuf,
-    size: [u32; 2],
+    SaveRequest { kind, path, size, handles }: SaveRequest,
 ) {
     if let Err(error) = check_output(&path, parts.model.files()) {
         parts.model.report([Message::Failed(error)]);
         return;
     }
-    let picture = (kind == SaveKind::View).then(|| picture(parts, ctx, size));
+    let picture = (kind == SaveKind::View).then(|| picture(parts, ctx, size, handles));
     let (displayed, view) = (parts.displayed(), &parts.model.view);
     let job = match (kind, picture) {
         (SaveKind::View, Some(Ok(picture))) => save_view(parts, picture, path),
@@ -67,7 +65,7 @@ fn save_view(parts: &Parts, picture: egui::ColorImage, path: PathBuf) -> Job<Pat
 
 /// Puts the view on the clipboard as a picture of the size that it has in the window.
 pub(super) fn copy_picture(parts: &mut Parts, ctx: &egui::Context) {
-    match picture(parts, ctx, parts.model.geometry.picture) {
+    match picture(parts, ctx, parts.model.geometry.picture, true) {
         Ok(picture) => {
             ctx.copy_image(picture);
             parts.model.report([Message::Copied("the view as a picture")]);
@@ -76,9 +74,14 @@ pub(super) fn copy_picture(parts: &mut Parts, ctx: &egui::Context) {
     }
 }
 
-fn picture(parts: &mut Parts, ctx: &egui::Context, pixels: [u32; 2]) -> Result<egui::ColorImage, Error> {
+fn picture(
+    parts: &mut Parts,
+    ctx: &egui::Context,
+    pixels: [u32; 2],
+    handles: bool,
+) -> Result<egui::ColorImage, Error> {
     let displayed = Displayed::of(&parts.model, &parts.jobs);
-    parts.ui.picture(ctx, displayed, parts.gpu.as_mut(), pixels)
+    parts.ui.picture(ctx, displayed, parts.gpu.as_mut(), pixels, handles)
 }
 
 /// How the view is displayed, as (keyword, text).

@@ -8,6 +8,7 @@ use eframe::egui;
 
 use svbrdf_core::progress::Progress;
 
+use super::context::CurrentContext;
 use crate::signals;
 
 /// How long the window may take to close after a signal.
@@ -24,13 +25,14 @@ pub struct Stop {
 
 impl Stop {
     /// Listens for signals; a second one ends the program at once.
-    pub fn listen(&self, ctx: &egui::Context) {
-        let (stop, ctx) = (self.clone(), ctx.clone());
+    pub fn listen(&self, window: &CurrentContext) {
+        let (stop, window) = (self.clone(), window.clone());
         signals::on_end(move || {
             if stop.stopped.swap(true, Ordering::SeqCst) {
                 std::process::exit(INTERRUPTED);
             }
             stop.cancel();
+            let ctx = window.get();
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             ctx.request_repaint();
             // A window that hangs does not close.

@@ -14,7 +14,9 @@ use crate::viewer::model::settings::Settings;
 
 /// The key of the settings in the storage.
 const SETTINGS: &str = "settings";
-/// The key of the session of the last materials from files.
+/// The key of the sessions of the last comparisons.
+const RECENT: &str = "recent";
+/// The key under which earlier versions stored the last session.
 const SESSION: &str = "session";
 
 /// The name that eframe gives the file of the storage.
@@ -24,10 +26,10 @@ const FILE: &str = "app.ron";
 #[derive(Debug)]
 pub struct Stored {
     settings: Settings,
-    session: Option<Session>,
+    recent: Vec<Session>,
 }
 
-/// The session where earlier versions stored it.
+/// The session where still earlier versions stored it.
 #[derive(Deserialize)]
 struct EarlierSettings {
     last: Option<Session>,
@@ -45,9 +47,10 @@ impl Stored {
             let out_of_range = bring_into_range(model).map(Message::OutOfRange);
             model.report(out_of_range);
             let earlier = || eframe::get_value::<EarlierSettings>(storage, SETTINGS)?.last;
-            model.last_session = eframe::get_value(storage, SESSION).or_else(earlier);
+            let last = || eframe::get_value(storage, SESSION).or_else(earlier).into_iter().collect();
+            model.recent = eframe::get_value(storage, RECENT).unwrap_or_else(last);
         }
-        Self { settings: model.settings.clone(), session: model.last_session.clone() }
+        Self { settings: model.settings.clone(), recent: model.recent.clone() }
     }
 
     /// Stores changed settings at once: a program that is killed stores nothing at its end.
@@ -57,12 +60,12 @@ impl Stored {
         ctx: &egui::Context,
         storage: Option<&mut (dyn eframe::Storage + 'static)>,
     ) {
-        let is_stored = model.settings == self.settings && model.last_session == self.session;
+        let is_stored = model.settings == self.settings && model.recent == self.recent;
         if is_stored || ctx.input(|i| i.pointer.any_down()) {
             return;
         }
         self.settings = model.settings.clone();
-        self.session = model.last_session.clone();
+        self.recent = model.recent.clone();
         if let Some(storage) = storage {
             self.store(model, storage);
             storage.flush();
@@ -72,9 +75,7 @@ impl Stored {
     /// Stores settings and session.
     pub fn store(&self, model: &Model, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, SETTINGS, &model.settings.for_next_start());
-        if let Some(session) = &model.last_session {
-            eframe::set_value(storage, SESSION, session);
-        }
+        eframe::set_value(storage, RECENT, &model.recent);
     }
 }
 
@@ -123,17 +124,16 @@ mod tests {
     #[test]
     fn stored_settings_and_sessions_load_unchanged() {
         let loss = LossSettings { ask: Ask::Time, seed: 7, ..LossSettings::default() };
-        let recent = vec!["a b.png".into()];
         let mut model = Model::default();
-        model.settings = Settings { dark: false, recent, loss, ..Settings::default() };
-        model.last_session = Some(model.session());
+        model.settings = Settings { dark: false, loss, ..Settings::default() };
+        model.recent = vec![model.session()];
         let next = restarted(&model);
-        assert_eq!((next.settings, next.last_session), (model.settings, model.last_session));
+        assert_eq!((next.settings, next.recent), (model.settings, model.recent));
     }
 
     #[test]
     fn the_next_start_begins_without_the_scenes_of_a_file() {
-        let file = FileScenes { name: "render.json".to_owned(), scenes: Vec::new() };
+        let file = FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes: Vec::new() };
         let loss = LossSettings { seed: 7, ..LossSettings::default() };
         let mut model = Model::default();
         model.settings.loss = loss.with_file(Some(file));
@@ -147,12 +147,12 @@ mod tests {
             dark: bool,
             last: Option<Session>,
         }
-        let last = Some(Model::default().session());
+        let last = Model::default().session();
         let mut memory = Memory::default();
-        eframe::set_value(&mut memory, SETTINGS, &Earlier { dark: false, last: last.clone() });
+        eframe::set_value(&mut memory, SETTINGS, &Earlier { dark: false, last: Some(last.clone()) });
         let mut next = Model::default();
         Stored::load(Some(&memory), None, &mut next);
-        assert_eq!((next.settings.dark, next.last_session), (false, last));
+        assert_eq!((next.settings.dark, next.recent), (false, vec![last]));
     }
 
     #[test]

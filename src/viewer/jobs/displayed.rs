@@ -22,12 +22,14 @@ pub struct Displayed<'a> {
     pub jobs: &'a Jobs,
     /// Whether panes show a photograph as it is compared even while its corners are edited: in pictures that are saved.
     pub hides_corners: bool,
+    /// Whether panes are without sun and eye: in pictures that are saved so.
+    pub hides_handles: bool,
 }
 
 impl<'a> Displayed<'a> {
     /// What the panes of the window display.
     pub fn of(model: &'a Model, jobs: &'a Jobs) -> Self {
-        Self { model, jobs, hides_corners: false }
+        Self { model, jobs, hides_corners: false, hides_handles: false }
     }
 
     /// The materials in the panes, the ground truth first: with a mixture in the place of the chosen prediction where one is

@@ -38,6 +38,9 @@ impl Jobs {
         let mut findings = Findings::default();
         self.follow_losses(model);
         self.follow_mixture(model, &mut findings);
+        if let Some(gpu) = &self.gpu {
+            self.uploads.send_missing(&self.waker, gpu, &model.materials.all);
+        }
         self.follow_why(model, &mut findings);
         self.follow_panes(model, parts, &mut findings);
         let Self { uploads, openings, panes, .. } = self;

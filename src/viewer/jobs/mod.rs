@@ -30,6 +30,8 @@ use loss::LossJob;
 use loss::scene::SceneLossJob;
 use loss::study::StudyJob;
 use panes::PaneJobs;
+use panes::error_map::ErrorMapJob;
+use panes::mixture::MixtureJob;
 use photograph::PhotographJobs;
 use reading::opening::Openings;
 use reading::read::Reader;
@@ -67,6 +69,15 @@ pub struct Jobs {
 impl Jobs {
     pub fn new(waker: Waker, gpu: Option<Gpu>) -> Self {
         Self { waker, gpu, ..Self::default() }
+    }
+
+    /// Continues on another device. What the last one had is computed again, and the maps of the materials are sent again.
+    pub fn replace_device(&mut self, gpu: Option<Gpu>) {
+        self.gpu = gpu;
+        self.uploads = Uploads::default();
+        self.panes.mixture = MixtureJob::default();
+        self.panes.error_map = ErrorMapJob::default();
+        self.photograph.forget_device();
     }
 
     /// Starts to read materials; the number of the opening.

@@ -6,7 +6,7 @@ use svbrdf_core::loss::FileScenes;
 use svbrdf_files::session::SessionPhotograph;
 
 use super::material::source::Source;
-use super::view::state::ViewState;
+use super::view::state::{AutoExposure, ViewState};
 
 /// How long nothing changes, in seconds, before it becomes a moment to return to.
 const STABLE: f64 = 0.4;
@@ -36,12 +36,15 @@ impl Parts for Moment {
     fn changed(&self, other: &Self) -> u32 {
         let (a, b) = (&self.view, &other.view);
         let (c, d) = (&a.display, &b.display);
+        // An exposure that follows the light is no step of its own.
+        let follows = c.auto_exposure == AutoExposure::Follow;
+        let exposed = c.auto_exposure != d.auto_exposure || !follows && a.exposure_ev != b.exposure_ev;
         let parts = [
             a.scene.light != b.scene.light,
             a.scene.view != b.scene.view,
             a.scene.kind != b.scene.kind,
             a.convention != b.convention,
-            a.exposure_ev != b.exposure_ev,
+            exposed,
             c.quantity != d.quantity,
             c.difference != d.difference,
             c.differences != d.differences,

@@ -20,6 +20,7 @@ use svbrdf_core::loss::FileScenes;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
+use apply::exposure::Exposed;
 use history::History;
 use inspection::Inspection;
 use material::list::MaterialList;
@@ -42,13 +43,15 @@ pub struct Model {
     pub view: ViewState,
     /// What persists from one start to the next.
     pub settings: Settings,
-    /// The session of the last materials from files, for the next start.
-    pub last_session: Option<Session>,
+    /// The sessions of the last comparisons of materials from files, the latest first, for the next start.
+    pub recent: Vec<Session>,
     pub materials: MaterialList,
     pub photograph: PhotographState,
     pub training: TrainingState,
     pub inspection: Inspection,
     pub why: WhyState,
+    /// What the automatic exposure was last computed for.
+    pub exposed: Exposed,
     pub animation: Animation,
     pub history: History,
     pub messages: MessageList,
@@ -79,11 +82,12 @@ impl Model {
         LossQuery { request: self.settings.loss.request(), convention: self.view.convention() }
     }
 
-    /// The files of the materials and of the photograph, which nothing that is saved may replace.
+    /// The files of the materials, of the photograph and of the scenes, which nothing that is saved may replace.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
         let materials = self.materials.all.iter().flat_map(|material| &material.read.files);
         let photograph = self.photograph.source().map(|photograph| photograph.path.as_path());
-        materials.map(|(file, _)| file.as_path()).chain(photograph)
+        let scenes = self.settings.loss.file_scenes().map(|file| file.path.as_path());
+        materials.map(|(file, _)| file.as_path()).chain(photograph).chain(scenes)
     }
 
     /// Adds messages.

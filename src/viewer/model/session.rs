@@ -1,5 +1,7 @@
 //! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
 
+use std::path::PathBuf;
+
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
@@ -10,6 +12,7 @@ use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::RunId;
 
 use super::Model;
+use super::apply::exposure::Exposed;
 use super::command::effect::Effect;
 use super::material::read::Rules;
 use super::material::request::{ReadRequest, Target};
@@ -18,6 +21,9 @@ use super::message::Message;
 use super::ranges::bring_into_range;
 use super::view::state::ViewState;
 use crate::viewer::model::settings::options::ViewerOptions;
+
+/// Number of comparisons that are remembered.
+const RECENT: usize = 12;
 
 impl Model {
     /// Takes in what the window starts with; the request that reads its materials.
@@ -75,6 +81,7 @@ impl Model {
             exposure_ev: session.exposure,
             display: session.window.display.clone().unwrap_or_default(),
         };
+        self.exposed = Exposed::Restored;
         if let Some(loss) = &session.window.loss {
             self.settings.loss = loss.clone();
         }
@@ -109,12 +116,26 @@ impl Model {
         }
     }
 
-    /// Remembers the session for the next start, unless there are only built-in materials, or some are still being read.
+    /// Remembers the comparison for the next start, unless there are only built-in materials, or some are still being read.
     pub fn remember_session(&mut self, are_materials_settled: bool) {
         if are_materials_settled && !self.materials.only_built_in() {
-            self.last_session = Some(self.session());
+            let session = self.session();
+            let files = compared_files(&session);
+            self.recent.retain(|one| compared_files(one) != files);
+            self.recent.insert(0, session);
+            self.recent.truncate(RECENT);
         }
     }
+}
+
+/// The files of a comparison; of a training run, whichever step is shown.
+fn compared_files(session: &Session) -> Vec<PathBuf> {
+    let file = |material: &SessionMaterial| {
+        let path = material.path.clone()?;
+        let run = RunId::of_step(&path).filter(|_| material.steps);
+        Some(run.map_or(path, |(run, _)| run.folder))
+    };
+    session.materials.iter().filter_map(file).collect()
 }
 
 fn source(material: &SessionMaterial) -> Option<Source> {

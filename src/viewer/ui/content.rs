@@ -79,6 +79,7 @@ pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, view: &'a View
         state: view,
         dark: model.settings.dark,
         highlight_follows: model.settings.highlight_follows,
+        handles: !displayed.hides_handles,
         view_handle: model.settings.view_handle,
         peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
         swapped: model.swapped,

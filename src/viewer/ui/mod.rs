@@ -53,6 +53,12 @@ pub struct WindowUi {
 }
 
 impl WindowUi {
+    /// Begins again in a new window on another device; dialogs and text that was typed stay.
+    pub fn forget_device(&mut self) {
+        self.textures = PanelTextures::default();
+        self.viewport = Viewport::default();
+    }
+
     /// What the last frame measured.
     pub fn geometry(&self, ctx: &egui::Context) -> WindowGeometry {
         WindowGeometry {

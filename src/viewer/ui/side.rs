@@ -24,7 +24,10 @@ pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextu
     bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
         let header = egui::CollapsingHeader::new("Light and view").default_open(true);
         let scene = ScenePanel { state: &model.view, settings: &model.settings, animation: &model.animation };
-        header.show_unindented(ui, |ui| commands.extend(scene.ui(ui)));
+        let header = header.show_unindented(ui, |ui| commands.extend(scene.ui(ui)));
+        header
+            .header_response
+            .on_hover_text("The scene of the panes, and the convention of renderings and loss");
     });
     if let Some(photograph) = jobs.photograph.displayed(&model.photograph, displayed.materials()) {
         let is_compared = displayed.photograph().is_some();
@@ -122,7 +125,7 @@ fn why_tab(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelText
         state: &model.view,
         losses: jobs.scene_loss.get(&model.materials.all, &model.view),
         names: model.materials.predictions().iter().map(LoadedMaterial::name).collect(),
-        pair: ComparedPair::of(&model.materials.all, &model.view),
+        pairs: ComparedPair::all(&model.materials.all, &model.view),
         why: model.why,
         jobs: &jobs.why,
         sections: model.settings.why,

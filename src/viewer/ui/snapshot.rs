@@ -12,7 +12,7 @@ use super::shading::snapshot::{Size, snapshot};
 use crate::viewer::jobs::displayed::Displayed;
 
 impl WindowUi {
-    /// The panes and the legend in a picture of this size, in pixels.
+    /// The panes and the legend in a picture of this size, in pixels, with or without the handles of light and view.
     ///
     /// # Errors
     /// [`Error::Gpu`] where the adapter cannot make a picture of this size, [`Error::Internal`] without an adapter.
@@ -22,6 +22,7 @@ impl WindowUi {
         displayed: Displayed<'_>,
         gpu: Option<&mut GpuView>,
         pixels: [u32; 2],
+        handles: bool,
     ) -> Result<egui::ColorImage, Error> {
         let window = self.picture_size;
         // A larger picture has larger text.
@@ -37,7 +38,7 @@ impl WindowUi {
             uploaded.into_iter().for_each(|uploaded| uploaded.complete(&gpu, material.material()));
         }
         // Gestures and corner handles stay in the window.
-        let displayed = Displayed { hides_corners: true, ..displayed };
+        let displayed = Displayed { hides_corners: true, hides_handles: !handles, ..displayed };
         let mut viewport = Viewport::exact();
         // A larger picture shows the same part of the material.
         let mut magnified = displayed.model.view.clone();

@@ -6,9 +6,11 @@ use svbrdf_core::why::{Hemisphere, hemisphere};
 
 use super::*;
 
-fn expected(prediction: usize, moved: Endpoint, fixed: [f64; 3]) -> Hemisphere {
+/// The map of these predictions.
+fn expected(predictions: &[usize], moved: Endpoint, fixed: [f64; 3]) -> Hemisphere {
     let materials = materials();
-    let comparison = Comparison::new(&materials[0], &[&materials[prediction]], PRINTED).unwrap();
+    let predictions: Vec<_> = predictions.iter().map(|index| &materials[*index]).collect();
+    let comparison = Comparison::new(&materials[0], &predictions, PRINTED).unwrap();
     hemisphere(&comparison, moved, fixed, 64, &Progress::default(), |_| ()).unwrap()
 }
 
@@ -35,15 +37,18 @@ fn unit(p: [f64; 3]) -> [f64; 3] {
 fn the_map_is_that_of_the_core_over_lights_and_over_views() {
     let mut window = opened();
     let over_lights = wait_for_map(&mut window);
-    assert!(is_same(&over_lights, &expected(1, Endpoint::Light, [0.0, 0.0, 1.0])));
+    assert!(is_same(&over_lights, &expected(&[1, 2], Endpoint::Light, [0.0, 0.0, 1.0])));
+    // Each prediction has the map that it has alone.
+    for (index, losses) in over_lights.losses.iter().enumerate() {
+        let alone = expected(&[index + 1], Endpoint::Light, [0.0, 0.0, 1.0]);
+        assert!(losses.iter().zip(&alone.losses[0]).all(|(a, b)| a.to_bits() == b.to_bits()), "{index}");
+    }
     window.get_by_label("Over views").click();
     window.run_steps(3);
     let over_views = wait_for_map(&mut window);
     let fixed = unit(window.state().parts.model.view.scene.light);
-    assert!(is_same(&over_views, &expected(1, Endpoint::View, fixed)));
+    assert!(is_same(&over_views, &expected(&[1, 2], Endpoint::View, fixed)));
     assert!(!is_same(&over_views, &over_lights), "a planted fault");
-    press(&mut window, egui::Key::Num2);
-    assert!(is_same(&wait_for_map(&mut window), &expected(2, Endpoint::View, fixed)));
 }
 
 #[test]
@@ -81,4 +86,44 @@ fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of
     }
     // The map of the lights does not depend on the light.
     assert!(is_same(&wait_for_map(&mut window), &map));
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn predictions_are_side_by_side_with_their_difference_and_choosing_one_turns_its_sign() {
+    let mut window = opened();
+    let map = wait_for_map(&mut window);
+    let rects = |window: &Window<'_>| {
+        let of = |text: &str| window.get_by_label(&format!("Loss over light directions{text}")).rect();
+        [of(""), of(" of 2"), of(" of the difference to 2")]
+    };
+    let [first, second, difference] = rects(&window);
+    assert!(
+        (first.top() - second.top()).abs() < 1.0 && first.right() < second.left(),
+        "{first:?} {second:?}"
+    );
+    assert_eq!([first.size(), first.size()], [second.size(), difference.size()]);
+    let (column, row) = (40, 20);
+    let cell = row * map.side + column;
+    let apart = map.losses[0][cell] - map.losses[1][cell];
+    assert!(apart.abs() > 1e-3, "they differ there");
+    let at = |rect: egui::Rect| {
+        let share = vec2(column as f32 + 0.5, row as f32 + 0.5) / map.side as f32;
+        rect.min + share * rect.size()
+    };
+    let sign = |value: f64| if value < 0.0 { "\u{2212}" } else { "+" };
+    for (rect, text) in [
+        (first, format!(": {:.4} ± ", map.losses[0][cell])),
+        (second, format!(": {:.4} ± ", map.losses[1][cell])),
+        (difference, format!(": {}{:.4}", sign(apart), apart.abs())),
+    ] {
+        window.event(egui::Event::PointerMoved(at(rect)));
+        window.run_steps(2);
+        window.get_by_label_contains(&text);
+    }
+    press(&mut window, egui::Key::Num2);
+    let difference = window.get_by_label("Loss over light directions of the difference to 1").rect();
+    window.event(egui::Event::PointerMoved(at(difference)));
+    window.run_steps(2);
+    window.get_by_label_contains(&format!(": {}{:.4}", sign(-apart), apart.abs()));
 }

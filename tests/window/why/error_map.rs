@@ -1,7 +1,7 @@
 //! The error map: the log difference of each texel, averaged over the scenes of the loss.
 
 use svbrdf::viewer::model::command::{Command, DisplayCommand, WindowCommand};
-use svbrdf::viewer::model::settings::save_kind::SaveKind;
+use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::{Request, Sampling, Texels};
 use svbrdf_core::model::sampler::Sampler;
@@ -62,7 +62,8 @@ fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
         assert!((found.mean / loss - 1.0).abs() < 1e-5, "{}, expected {loss}", found.mean);
         assert!((found.mean / other - 1.0).abs() > 0.1, "a planted fault");
     }
-    for label in ["Title 1  blurred normals: error map", "Title 2  wrong roughness: error map", "mean = loss"]
+    for label in
+        ["Title 1  blurred normals: error map", "Title 2  wrong roughness: error map", "over 192 scenes"]
     {
         window.get_by_label(label);
     }
@@ -125,7 +126,15 @@ fn a_saved_error_map_has_its_numbers_and_says_what_it_is() {
     let mut window = shown();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("map.exr");
-    apply(&mut window, WindowCommand::Save { what: SaveKind::Renderings, path: path.clone(), size: [0; 2] });
+    apply(
+        &mut window,
+        WindowCommand::Save(SaveRequest {
+            kind: SaveKind::Renderings,
+            path: path.clone(),
+            size: [0; 2],
+            handles: true,
+        }),
+    );
     wait(&mut window, "the file", |app| !app.messages().is_empty());
     assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
     let saved = exr::prelude::read_first_rgba_layer_from_file(

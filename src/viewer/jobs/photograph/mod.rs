@@ -111,6 +111,11 @@ impl PhotographJobs {
         [None, error.or_else(|| self.draw(work, state, longest))]
     }
 
+    /// Lets everything that is on the adapter be sent again.
+    pub fn forget_device(&mut self) {
+        self.compared = Latest::default();
+    }
+
     /// The photograph as it was taken, while the corners are edited.
     fn draw(&mut self, work: &JobContext<'_>, state: &PhotographState, longest: usize) -> Option<Error> {
         let photograph = self.photograph(state).filter(|_| state.edits_corners()).cloned();

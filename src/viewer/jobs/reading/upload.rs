@@ -3,35 +3,57 @@
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
+use eframe::wgpu;
+
+use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::memory::{self, Reserved};
 use svbrdf_gpu::{Gpu, MaterialTextures};
 
-use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::waker::Waker;
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::read::{MaterialId, ReadMaterial};
 
 /// Texels that a slow adapter sends or shades within a frame.
 pub const BAND: usize = 1 << 19;
+
+/// Strides that are tried in turn where the adapter cannot hold all texels.
+const REDUCTIONS: [usize; 5] = [2, 4, 8, 16, 32];
+/// Bytes of a texel in the three textures of a material.
+const TEXEL_BYTES: u64 = 48;
 
 /// Every n-th texel of a material along both axes.
 #[derive(Debug)]
 pub struct DraftTextures {
     pub stride: usize,
     pub textures: MaterialTextures,
+    /// Textures of an adapter that computes on the CPU are in the memory of the machine.
+    _reserved: Option<Reserved>,
 }
 
 /// The maps of a material on the adapter.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Uploaded {
+    device: wgpu::Device,
     draft: Option<DraftTextures>,
-    /// A text for the pane where the adapter cannot hold them.
-    whole: OnceLock<Result<MaterialTextures, String>>,
+    /// All texels, or why the adapter cannot hold them.
+    whole: OnceLock<Result<DraftTextures, String>>,
+    /// As many texels as the adapter can hold, where it cannot hold all.
+    reduced: OnceLock<DraftTextures>,
 }
 
 impl Uploaded {
     /// Sends all of `material`.
     pub fn all(gpu: &Gpu, material: &Material<f32>) -> Self {
-        let uploaded = Self::default();
+        let uploaded = Self::new(gpu, None);
         uploaded.complete(gpu, material);
         uploaded
+    }
+
+    fn new(gpu: &Gpu, draft: Option<DraftTextures>) -> Self {
+        Self { device: gpu.device.clone(), draft, whole: OnceLock::new(), reduced: OnceLock::new() }
     }
 
     /// Sends a draft where `material` is large and the adapter computes on the CPU: the rest, which takes a while there, is for
@@ -42,46 +64,110 @@ impl Uploaded {
         if !gpu.report.software || stride <= 1 {
             return Self::all(gpu, material);
         }
-        match MaterialTextures::upload_reduced(gpu, material, stride) {
-            Ok(textures) => Self { draft: Some(DraftTextures { stride, textures }), whole: OnceLock::new() },
-            Err(error) => Self { draft: None, whole: OnceLock::from(Err(error.to_string())) },
-        }
+        Self::new(gpu, send(gpu, material, stride).ok())
     }
 
     /// Sends what is missing. Where another thread does so, waits for it.
     pub fn complete(&self, gpu: &Gpu, material: &Material<f32>) {
-        self.whole.get_or_init(|| MaterialTextures::upload(gpu, material).map_err(|error| error.to_string()));
+        self.complete_by(|stride| send(gpu, material, stride));
+    }
+
+    /// As [`Uploaded::complete`], on an adapter that has no room for all texels.
+    #[cfg(feature = "testing")]
+    pub fn too_large(gpu: &Gpu, material: &Material<f32>) -> Self {
+        let uploaded = Self::new(gpu, None);
+        uploaded.complete_by(|stride| match stride {
+            1 => Err(Error::Internal("no room".to_owned())),
+            stride => send(gpu, material, stride),
+        });
+        uploaded
+    }
+
+    fn complete_by(&self, send: impl Fn(usize) -> Result<DraftTextures, Error>) {
+        self.whole.get_or_init(|| {
+            send(1).map_err(|error| {
+                let reduced = REDUCTIONS.into_iter().find_map(|stride| send(stride).ok());
+                reduced.into_iter().for_each(|reduced| drop(self.reduced.set(reduced)));
+                error.to_string()
+            })
+        });
     }
 
     /// All of it, or why the adapter cannot hold it; `None` until it is there.
-    pub fn whole(&self) -> Option<&Result<MaterialTextures, String>> {
-        self.whole.get()
+    pub fn whole(&self) -> Option<Result<&MaterialTextures, &str>> {
+        self.whole.get().map(|whole| whole.as_ref().map(|all| &all.textures).map_err(String::as_str))
     }
 
-    /// What is there before.
+    /// What is there before, or instead.
     pub fn draft(&self) -> Option<&DraftTextures> {
-        self.draft.as_ref()
+        self.reduced.get().or(self.draft.as_ref())
     }
+}
+
+/// Sends every `stride`-th texel.
+fn send(gpu: &Gpu, material: &Material<f32>, stride: usize) -> Result<DraftTextures, Error> {
+    let texels: usize = material.size().into_iter().map(|side| side.div_ceil(stride)).product();
+    let _reserved = reserve_for(gpu, texels, TEXEL_BYTES)?;
+    let textures = match stride {
+        1 => MaterialTextures::upload(gpu, material)?,
+        stride => MaterialTextures::upload_reduced(gpu, material, stride)?,
+    };
+    Ok(DraftTextures { stride, textures, _reserved })
+}
+
+/// Puts memory aside for textures of this many texels, where the adapter takes that of the machine.
+///
+/// # Errors
+/// [`Error::Memory`].
+pub fn reserve_for(gpu: &Gpu, texels: usize, bytes: u64) -> Result<Option<Reserved>, Error> {
+    let what = || format!("drawing {texels} texels");
+    gpu.report.software.then(|| memory::reserve(bytes * texels as u64, what)).transpose()
 }
 
 /// The maps on the adapter of all materials in the window.
 #[derive(Debug, Default)]
-pub struct Uploads(HashMap<MaterialId, Arc<Uploaded>>);
+pub struct Uploads {
+    all: HashMap<MaterialId, Arc<Uploaded>>,
+    /// Those that a lost device had, sent to the new one.
+    again: Option<Job<(), (MaterialId, Arc<Uploaded>)>>,
+}
 
 impl Uploads {
     /// Adds those of a material; `None` without an adapter.
     pub fn add(&mut self, id: MaterialId, uploaded: Option<Arc<Uploaded>>) {
-        self.0.extend(uploaded.map(|uploaded| (id, uploaded)));
+        self.all.extend(uploaded.map(|uploaded| (id, uploaded)));
     }
 
     /// Those of a material.
     pub fn get(&self, id: MaterialId) -> Option<&Arc<Uploaded>> {
-        self.0.get(&id)
+        self.all.get(&id)
+    }
+
+    /// Sends the maps of `materials` that the device of `gpu` does not have: after another one was lost.
+    pub fn send_missing(&mut self, waker: &Waker, gpu: &Gpu, materials: &[LoadedMaterial]) {
+        for (id, uploaded) in self.again.iter().flat_map(Job::updates) {
+            self.all.insert(id, uploaded);
+        }
+        self.all.retain(|_, one| one.device == gpu.device);
+        if self.again.as_ref().is_some_and(|job| job.poll().is_none()) {
+            return;
+        }
+        self.again = None;
+        let missing: Vec<_> =
+            materials.iter().filter(|one| self.get(one.id()).is_none()).map(|one| one.read.clone()).collect();
+        if missing.is_empty() {
+            return;
+        }
+        let gpu = gpu.clone();
+        self.again = Some(Job::stream(waker, Progress::default(), move |worker| {
+            let send = |read: &Arc<ReadMaterial>| Arc::new(Uploaded::all(&gpu, &read.material));
+            missing.iter().try_for_each(|read| worker.report((read.id, send(read))))
+        }));
     }
 
     /// Frees those of all other materials.
     pub fn keep_only(&mut self, is_wanted: impl Fn(MaterialId) -> bool) {
-        self.0.retain(|id, _| is_wanted(*id));
+        self.all.retain(|id, _| is_wanted(*id));
     }
 }
 
@@ -97,12 +183,30 @@ mod tests {
         let small: Material<f32> = samples::load().unwrap().ground_truth.material;
         let large = small.clone().resized([1024, 515]).unwrap();
         let uploaded = Uploaded::start(&gpu, &small);
-        assert!(uploaded.draft().is_none() && uploaded.whole().is_some_and(Result::is_ok));
+        assert!(uploaded.draft().is_none() && uploaded.whole().is_some_and(|whole| whole.is_ok()));
         let uploaded = Uploaded::start(&gpu, &large);
         assert_eq!(uploaded.whole().is_none(), gpu.report.software);
         assert_eq!(uploaded.draft().map(|draft| draft.stride), gpu.report.software.then_some(2));
         uploaded.complete(&gpu, &large);
-        assert!(uploaded.whole().is_some_and(Result::is_ok));
+        assert!(uploaded.whole().is_some_and(|whole| whole.is_ok()));
         assert!(Uploaded::all(&gpu, &large).draft().is_none());
+    }
+
+    #[test]
+    #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+    fn where_all_texels_do_not_fit_as_many_as_fit_are_there() {
+        let gpu = Gpu::headless().unwrap();
+        let material: Material<f32> = samples::load().unwrap().ground_truth.material;
+        for fitting in [1, 2, 4, 32, 33] {
+            let uploaded = Uploaded::new(&gpu, None);
+            uploaded.complete_by(|stride| match stride {
+                small if small < fitting => Err(Error::Internal("planted".to_owned())),
+                stride => send(&gpu, &material, stride),
+            });
+            let is_whole = uploaded.whole().unwrap().is_ok();
+            let stride = uploaded.draft().map(|draft| draft.stride);
+            let expected = (fitting == 1, [2, 4, 32].contains(&fitting).then_some(fitting));
+            assert_eq!((is_whole, stride), expected, "{fitting}");
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Attribution of the loss of the chosen prediction to its maps.
+//! Attributions of the losses of the predictions to their maps.
 
 use std::time::{Duration, Instant};
 
@@ -28,26 +28,35 @@ pub struct Attributed {
     pub elapsed: Duration,
 }
 
-/// The attribution of the chosen prediction.
+/// The attributions of the predictions, computed one by one.
 #[derive(Debug, Default)]
-pub struct AttributionJob(Latest<AttributionKey, Attributed>);
+pub struct AttributionJob {
+    latest: Latest<AttributionKey, Attributed>,
+    /// Those of present predictions that are there.
+    done: Vec<(AttributionKey, Attributed)>,
+}
 
 impl AttributionJob {
-    /// Takes over a result, and computes what is wanted now; where it is not `displayed`, the latest result stays.
+    /// Takes over a result, and computes the next one that is missing: of the `chosen` pair first. Where they are not
+    /// `displayed`, those that are there stay.
     pub fn follow(
         &mut self,
         waker: &Waker,
         displayed: bool,
-        pair: Option<&ComparedPair>,
+        pairs: &[ComparedPair],
+        chosen: usize,
         seed: u64,
     ) -> Option<Error> {
-        let Some(pair) = pair.filter(|_| displayed) else {
-            self.0.pause();
+        if !displayed {
+            self.latest.pause();
             return None;
-        };
+        }
+        self.done.retain(|(key, _)| key.seed == seed && pairs.iter().any(|pair| pair.key == key.pair));
+        let missing = |pair: &&ComparedPair| self.get(pair, seed).is_none();
+        let pair = pairs.get(chosen).into_iter().chain(pairs).find(missing)?;
         let wanted = AttributionKey { pair: pair.key, seed };
-        self.0.drop_other(&wanted);
-        self.0.follow(Some(wanted), |_| {
+        self.latest.drop_other(&wanted);
+        let error = self.latest.follow(Some(wanted), |_| {
             let pair = pair.clone();
             Job::start(waker, move |progress| {
                 let (start, request) =
@@ -56,17 +65,25 @@ impl AttributionJob {
                 let attribution = attribute(ground_truth, prediction, &pair.convention, &request, progress)?;
                 Ok(Attributed { attribution, elapsed: start.elapsed() })
             })
-        })
+        });
+        if let Some((key, attributed)) = self.latest.get()
+            && *key == wanted
+        {
+            self.done.push((wanted, attributed.clone()));
+            // For the next one that is missing.
+            waker.wake();
+        }
+        error
     }
 
     /// The attribution of this pair.
     pub fn get(&self, pair: &ComparedPair, seed: u64) -> Option<&Attributed> {
-        let (of, attributed) = self.0.get()?;
-        (*of == AttributionKey { pair: pair.key, seed }).then_some(attributed)
+        let wanted = AttributionKey { pair: pair.key, seed };
+        self.done.iter().find(|(key, _)| *key == wanted).map(|(_, attributed)| attributed)
     }
 
-    /// The share of the work that is done and its time, while it goes on.
+    /// The share of the work on a pair that is done and its time, while it goes on.
     pub fn busy(&self) -> Option<(f32, Duration)> {
-        self.0.running().map(|job| (job.fraction(), job.elapsed()))
+        self.latest.running().map(|job| (job.fraction(), job.elapsed()))
     }
 }

@@ -1,4 +1,4 @@
-//! Jobs of the tab *Why*: where and by what the chosen prediction is wrong.
+//! Jobs of the tab *Why*: where and by what the predictions are wrong.
 
 pub mod attribution;
 pub mod directions;
@@ -16,7 +16,7 @@ use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::model::settings::why::{WhySection, WhySections};
 
 pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
-pub use directions::{DirectionMap, DirectionsJob};
+pub use directions::{DirectionMaps, DirectionsJob, ScaledPicture};
 pub use pair::ComparedPair;
 pub use scenes::{SceneList, ScenesJob};
 pub use search::SearchJob;
@@ -47,13 +47,13 @@ pub struct WhyJobs {
 impl WhyJobs {
     /// Takes over results, and computes what is wanted now; nothing new where the tab is not `displayed`.
     pub fn follow(&mut self, work: &JobContext<'_>, displayed: bool, query: WhyQuery) -> Vec<Error> {
-        let pair = ComparedPair::of(work.materials, work.view);
-        let (waker, pair, scene) = (work.waker, pair.as_ref(), &work.view.scene);
+        let pairs = ComparedPair::all(work.materials, work.view);
+        let (waker, chosen, scene) = (work.waker, work.view.display.prediction, &work.view.scene);
         let is_open = |section| displayed && query.sections.is_open(section);
         let errors = [
-            self.attribution.follow(waker, is_open(WhySection::Maps), pair, query.seed),
-            self.scenes.follow(waker, is_open(WhySection::Scenes), pair, query.scenes),
-            self.directions.follow(waker, is_open(WhySection::Directions), pair, query.moved, scene),
+            self.attribution.follow(waker, is_open(WhySection::Maps), &pairs, chosen, query.seed),
+            self.scenes.follow(waker, is_open(WhySection::Scenes), pairs.get(chosen), query.scenes),
+            self.directions.follow(waker, is_open(WhySection::Directions), &pairs, query.moved, scene),
         ];
         errors.into_iter().flatten().collect()
     }

@@ -1,4 +1,4 @@
-//! Pair of ground truth and chosen prediction, which the questions of the tab *Why* are about.
+//! Pairs of the ground truth and a prediction, which the questions of the tab *Why* are about.
 
 use std::sync::Arc;
 
@@ -31,8 +31,17 @@ pub struct ComparedPair {
 impl ComparedPair {
     /// The pair of the chosen prediction, if there is one.
     pub fn of(materials: &[LoadedMaterial], view: &ViewState) -> Option<Self> {
-        let pair = [materials.first()?, materials.get(view.display.prediction + 1)?];
+        Self::new(materials, view.display.prediction, view.convention())
+    }
+
+    /// The pairs of all predictions.
+    pub fn all(materials: &[LoadedMaterial], view: &ViewState) -> Vec<Self> {
         let convention = view.convention();
+        (0..materials.len()).map_while(|prediction| Self::new(materials, prediction, convention)).collect()
+    }
+
+    fn new(materials: &[LoadedMaterial], prediction: usize, convention: Convention) -> Option<Self> {
+        let pair = [materials.first()?, materials.get(prediction + 1)?];
         let key = PairKey { ids: pair.map(LoadedMaterial::id), convention: convention.name };
         Some(Self { key, materials: pair.map(|one| one.read.clone()), convention })
     }
@@ -50,6 +59,16 @@ impl ComparedPair {
     /// # Errors
     /// [`Error::SizesDiffer`].
     pub fn comparison(&self) -> Result<Comparison<'_, f32>, Error> {
-        Ok(Comparison::new(self.ground_truth(), &[self.prediction()], self.convention)?.without_pilot())
+        comparison(std::slice::from_ref(self))
     }
+}
+
+/// The comparison of the predictions of pairs with one ground truth, without a pilot.
+///
+/// # Errors
+/// [`Error::NoPrediction`], [`Error::SizesDiffer`].
+pub fn comparison(pairs: &[ComparedPair]) -> Result<Comparison<'_, f32>, Error> {
+    let first = pairs.first().ok_or(Error::NoPrediction)?;
+    let predictions: Vec<_> = pairs.iter().map(ComparedPair::prediction).collect();
+    Ok(Comparison::new(first.ground_truth(), &predictions, first.convention)?.without_pilot())
 }

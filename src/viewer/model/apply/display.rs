@@ -1,12 +1,9 @@
 //! Commands about what the panes show, and how.
 
-use svbrdf_core::material::Material;
-use svbrdf_core::model::brdf::Model as BrdfModel;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::render::render_texel;
-use svbrdf_core::statistics::quantile;
 use svbrdf_files::session_window::Framing;
 
+use super::exposure::Exposed;
 use super::undo;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::DisplayCommand;
@@ -14,10 +11,7 @@ use crate::viewer::model::command::effect::Effect;
 use crate::viewer::model::ranges::STOPS;
 use crate::viewer::model::view::endpoint::{self, Endpoint};
 use crate::viewer::model::view::framing::{self, Framed};
-use crate::viewer::model::view::state::{Layout, Projection, ViewState};
-
-/// Most texels that are rendered to find the automatic exposure.
-const AUTO_EXPOSURE_TEXELS: usize = 20_000;
+use crate::viewer::model::view::state::{AutoExposure, Layout, Projection, ViewState};
 
 pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
     let state = &mut model.view;
@@ -33,15 +27,11 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
         DisplayCommand::SetLayout(layout) => state.display.layout = layout,
         DisplayCommand::CycleLayout => state.display.layout = cycled(&Layout::ALL, state.display.layout, 1),
         DisplayCommand::ToggleProjection => state.display.projection = state.display.projection.other(),
-        DisplayCommand::SetExposure(ev) => state.exposure_ev = ev.clamp(-STOPS, STOPS),
-        DisplayCommand::StepExposure(by) => {
-            state.exposure_ev = (state.exposure_ev + by).clamp(-STOPS, STOPS);
-        }
-        DisplayCommand::AutoExposure => {
-            if let Some(ground_truth) = model.materials.ground_truth() {
-                let ev = auto_exposure(ground_truth.material(), state);
-                state.exposure_ev = ev.clamp(-STOPS, STOPS);
-            }
+        DisplayCommand::SetExposure(ev) => set_exposure(state, ev),
+        DisplayCommand::StepExposure(by) => set_exposure(state, state.exposure_ev + by),
+        DisplayCommand::AutoExposure(auto) => {
+            state.display.auto_exposure = auto;
+            model.exposed = Exposed::Pending;
         }
         DisplayCommand::ToggleClipping => state.display.show_clipping = !state.display.show_clipping,
         DisplayCommand::ToggleTiled => state.display.tiled = !state.display.tiled,
@@ -63,11 +53,20 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
         DisplayCommand::Pan(by) => frame(model, |framed| framed.panned(by)),
         DisplayCommand::Fit => fit(state),
         DisplayCommand::OneToOne => frame(model, |framed| framed.at_scale(1.0)),
-        DisplayCommand::Reset => *state = state.reset(),
+        DisplayCommand::Reset => {
+            *state = state.reset();
+            model.exposed = Exposed::Pending;
+        }
         DisplayCommand::Undo => return undo::undo(model),
         DisplayCommand::Redo => return undo::redo(model),
     }
     Vec::new()
+}
+
+/// Sets the exposure by hand.
+fn set_exposure(state: &mut ViewState, ev: f32) {
+    state.exposure_ev = ev.clamp(-STOPS, STOPS);
+    state.display.auto_exposure = AutoExposure::Off;
 }
 
 /// Changes the part of the ground truth that the panes show.
@@ -90,24 +89,6 @@ fn fit(state: &mut ViewState) {
 fn cycled<T: Copy + PartialEq>(all: &[T], value: T, by: isize) -> T {
     let index = all.iter().position(|x| *x == value).unwrap_or(0) as isize;
     all[(index + by).rem_euclid(all.len() as isize) as usize]
-}
-
-/// The exposure at which the brightest 1% of the rendering's texels just clip.
-fn auto_exposure(material: &Material<f32>, state: &ViewState) -> f32 {
-    let model = BrdfModel::from(&state.convention());
-    let rays = state.scene.rays();
-    let texels = material.width() * material.height();
-    let mut brightest: Vec<f32> = (0..texels)
-        .step_by(texels.div_ceil(AUTO_EXPOSURE_TEXELS))
-        .map(|i| {
-            let rgb = render_texel(material, &model, &rays, i % material.width(), i / material.width());
-            rgb.into_iter().fold(0.0, f32::max)
-        })
-        .collect();
-    match quantile(&mut brightest, 0.99) {
-        Some(white) if white > 0.0 => -(white as f32).log2(),
-        _ => 0.0,
-    }
 }
 
 #[cfg(test)]

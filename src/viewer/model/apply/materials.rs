@@ -22,7 +22,7 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
         }
         MaterialsCommand::OpenBuiltIn => vec![Effect::Read(ReadRequest::built_in())],
         MaterialsCommand::CancelReading(number) => vec![Effect::CancelReading(number)],
-        MaterialsCommand::ReopenLast => reopen_last(model),
+        MaterialsCommand::Reopen(index) => reopen(model, index),
         MaterialsCommand::Reload => {
             let readings = materials.reload(None).into_iter().map(Effect::Read);
             readings.chain([Effect::RescanTraining]).collect()
@@ -71,8 +71,9 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     vec![Effect::ReadForDialog(ReadRequest::new(sources, target))]
 }
 
-fn reopen_last(model: &mut Model) -> Vec<Effect> {
-    let Some(session) = model.last_session.clone() else {
+/// Opens a recent comparison as it was shown.
+fn reopen(model: &mut Model, index: usize) -> Vec<Effect> {
+    let Some(session) = model.recent.get(index).cloned() else {
         model.report([Message::NothingToReopen]);
         return Vec::new();
     };

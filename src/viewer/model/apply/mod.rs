@@ -1,6 +1,7 @@
 //! Commands, carried out on the model.
 
 mod display;
+pub mod exposure;
 mod inspection;
 mod materials;
 mod photograph;
@@ -72,7 +73,7 @@ fn apply_to_window(model: &mut Model, command: WindowCommand) -> Vec<Effect> {
         WindowCommand::Browse { folder } => Effect::Dialog(DialogEffect::Browse { folder }),
         WindowCommand::ShowSave(on) => Effect::Dialog(DialogEffect::ShowSave(on.then(SaveKind::default))),
         WindowCommand::SaveScenes => Effect::Dialog(DialogEffect::ShowSave(Some(SaveKind::Scenes))),
-        WindowCommand::Save { what, path, size } => Effect::Save { kind: what, path, size },
+        WindowCommand::Save(request) => Effect::Save(request),
         WindowCommand::CopyPicture => Effect::CopyPicture,
         WindowCommand::SetScale(scale) => Effect::SetScale(scale),
         other => {
@@ -98,7 +99,7 @@ fn change_window(model: &mut Model, command: WindowCommand) {
         | WindowCommand::Browse { .. }
         | WindowCommand::ShowSave(_)
         | WindowCommand::SaveScenes
-        | WindowCommand::Save { .. }
+        | WindowCommand::Save(_)
         | WindowCommand::CopyPicture
         | WindowCommand::SetScale(_) => {}
     }

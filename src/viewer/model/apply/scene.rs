@@ -1,7 +1,6 @@
 //! Commands about light, view and convention.
 
-use svbrdf_files::read::ReadOptions;
-
+use super::exposure;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::effect::Effect;
 use crate::viewer::model::command::{MaterialsCommand, SceneCommand};
@@ -13,6 +12,10 @@ pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
     let scene = &mut model.view.scene;
     match command {
         SceneCommand::Set(new) => *scene = new,
+        SceneCommand::Choose(new) => {
+            *scene = new;
+            exposure::choose_scene(model);
+        }
         SceneCommand::SetKind(kind) => endpoint::set_kind(scene, kind),
         SceneCommand::MoveOverPlane(endpoint, at) => endpoint::move_over_plane(scene, endpoint, at),
         SceneCommand::PutHighlight(at) => endpoint::put_highlight(scene, at),
@@ -23,7 +26,10 @@ pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
         }
         SceneCommand::ToggleHighlightFollows => model.settings.highlight_follows ^= true,
         SceneCommand::ToggleViewHandle => model.settings.view_handle ^= true,
-        SceneCommand::Preset(preset) => preset.apply(scene),
+        SceneCommand::Preset(preset) => {
+            preset.apply(scene);
+            exposure::choose_scene(model);
+        }
         SceneCommand::Animate(animation) => {
             let current = &mut model.animation;
             let starts = animation.light && (!current.light || animation.path != current.path);
@@ -44,10 +50,11 @@ pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
 
 fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
     match pasted(text) {
-        Ok(Pasted::Scene(scene)) => model.view.scene = scene,
+        Ok(Pasted::Scene(scene)) => return model.apply(SceneCommand::Choose(scene).into()),
         Ok(Pasted::Files(paths)) => {
             let replace = model.materials.only_built_in();
-            let open = MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO };
+            let read = model.materials.read_of_added();
+            let open = MaterialsCommand::Open { paths, replace, read };
             return model.apply(open.into());
         }
         Err(problem) => model.report([Message::NotPasted(problem)]),

@@ -2,6 +2,7 @@
 
 use svbrdf_files::stamp::Stamp;
 
+use super::exposure::Exposed;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::effect::Effect;
 use crate::viewer::model::history::Moment;
@@ -45,6 +46,7 @@ fn moment(model: &Model) -> Moment {
 fn return_to(model: &mut Model, moment: Option<Moment>) -> Vec<Effect> {
     let Some(Moment { view, materials, scenes, photograph }) = moment else { return Vec::new() };
     model.view = view;
+    model.exposed = Exposed::Restored;
     if scenes.as_ref() != model.settings.loss.file_scenes() {
         model.settings.loss = model.settings.loss.with_file(scenes);
     }

@@ -6,7 +6,7 @@ use svbrdf_files::session::SessionPhotograph;
 
 use super::PhotographLight;
 use crate::viewer::model::material::request::ReadRequest;
-use crate::viewer::model::settings::save_kind::SaveKind;
+use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 /// One effect of a command.
 #[derive(Clone, Debug)]
@@ -39,12 +39,8 @@ pub enum Effect {
     MoveStep(isize),
     Loss(LossEffect),
     Dialog(DialogEffect),
-    /// Writes to a file; `size` is the size of a picture of the view, in pixels.
-    Save {
-        kind: SaveKind,
-        path: PathBuf,
-        size: [u32; 2],
-    },
+    /// Writes to a file.
+    Save(SaveRequest),
     /// Puts the view on the clipboard as a picture.
     CopyPicture,
     /// Puts a text on the clipboard; `what` names it in the message.

@@ -19,10 +19,10 @@ use svbrdf_files::read::ReadOptions;
 use super::inspection::Region;
 use super::material::source::Source;
 use super::settings::Tab;
-use super::settings::save_kind::SaveKind;
+use super::settings::save_kind::SaveRequest;
 use super::settings::why::WhySection;
 use super::view::animation::{Animation, Preset};
-use super::view::state::Layout;
+use super::view::state::{AutoExposure, Layout};
 use svbrdf_core::model::scene::Endpoint;
 
 /// One act. Nothing else changes the model.
@@ -54,8 +54,8 @@ pub enum MaterialsCommand {
     OpenBuiltIn,
     /// Cancels the opening of this number.
     CancelReading(u64),
-    /// Opens the session of the last materials from files.
-    ReopenLast,
+    /// Opens the recent comparison in this place.
+    Reopen(usize),
     /// Reads all files again.
     Reload,
     /// Reads the material at this index again under other assumptions.
@@ -81,6 +81,8 @@ pub enum MaterialsCommand {
 #[derive(Clone, Debug, PartialEq)]
 pub enum SceneCommand {
     Set(Scene),
+    /// Shows a scene that was picked from a list, and exposes for it where the exposure is automatic.
+    Choose(Scene),
     /// Makes the scene near-field or distant; light and view keep their directions and distances.
     SetKind(Kind),
     /// Moves an endpoint so that its projection onto the plane is at (x, y).
@@ -130,8 +132,8 @@ pub enum DisplayCommand {
     ToggleProjection,
     SetExposure(f32),
     StepExposure(f32),
-    /// Sets the exposure at which the brightest 1% of the ground truth just clips.
-    AutoExposure,
+    /// Whether the exposure is automatic; it is computed at once.
+    AutoExposure(AutoExposure),
     ToggleClipping,
     /// Repeats the material 2 x 2 times, or not.
     ToggleTiled,
@@ -192,12 +194,8 @@ pub enum WindowCommand {
     ShowSave(bool),
     /// Shows the dialog that saves the scenes of the loss.
     SaveScenes,
-    /// Writes to this file; `size` is the size of a picture of the view, in pixels.
-    Save {
-        what: SaveKind,
-        path: PathBuf,
-        size: [u32; 2],
-    },
+    /// Writes to a file.
+    Save(SaveRequest),
     /// Puts the view on the clipboard as a picture.
     CopyPicture,
     SetDark(bool),

@@ -18,8 +18,6 @@ pub struct MaterialList {
     /// The ground truth first, then the predictions.
     pub all: Vec<LoadedMaterial>,
     pub rules: Rules,
-    /// The paths that have been opened since they were last taken.
-    pub opened: Vec<PathBuf>,
     /// The paths that have been read, whether for the first time or again, since they were last taken.
     pub read: Vec<PathBuf>,
 }
@@ -36,6 +34,12 @@ impl MaterialList {
     /// Whether there are only built-in materials, which the first opened material replaces.
     pub fn only_built_in(&self) -> bool {
         self.all.iter().all(|one| matches!(one.read.origin, Origin::BuiltIn(_)))
+    }
+
+    /// How materials are read that are added to those in the window: as the last of them that comes from a file.
+    pub fn read_of_added(&self) -> ReadOptions {
+        let from_files = self.all.iter().rev().find(|one| matches!(one.read.origin, Origin::Path(_)));
+        from_files.map_or(ReadOptions::AUTO, |one| ReadOptions { exemplar: None, ..one.read.options })
     }
 
     /// Whether the files of a material hold something else by now, so that results of the materials are stale.
@@ -127,7 +131,6 @@ impl MaterialList {
             return problems.push(MaterialProblem::Refused(Box::new(sizes)));
         }
         if let Origin::Path(path) = &read.origin {
-            self.opened.push(read.run.as_ref().map_or(path, |run| &run.folder).clone());
             self.read.push(path.clone());
         }
         self.all.push(LoadedMaterial::new(read));

@@ -39,6 +39,11 @@ pub enum Message {
     OutOfRange(String),
     /// The settings of the last start cannot be read; they were moved to this file.
     SettingsDamaged(PathBuf),
+    /// The graphics device was lost, and the window continues on this adapter.
+    DeviceReplaced {
+        reason: String,
+        adapter: String,
+    },
 }
 
 /// Why the clipboard's text was not taken.
@@ -60,9 +65,10 @@ impl Message {
     pub fn severity(&self) -> Severity {
         match self {
             Self::Saved(_) | Self::Copied(_) | Self::ScenesOpened(..) => Severity::Success,
-            Self::Material(MaterialProblem::Closed(_)) | Self::OutOfRange(_) | Self::SettingsDamaged(_) => {
-                Severity::Warning
-            }
+            Self::Material(MaterialProblem::Closed(_))
+            | Self::OutOfRange(_)
+            | Self::SettingsDamaged(_)
+            | Self::DeviceReplaced { .. } => Severity::Warning,
             Self::Material(_) | Self::NotPasted(_) | Self::NothingToReopen | Self::Failed(_) => {
                 Severity::Error
             }
@@ -108,6 +114,9 @@ impl fmt::Display for Message {
             Self::ScenesOpened(name, count) => write!(f, "The loss is over the {count} scenes of {name}"),
             Self::Failed(error) => error.fmt(f),
             Self::OutOfRange(numbers) => write!(f, "Settings out of range: {numbers}."),
+            Self::DeviceReplaced { reason, adapter } => {
+                write!(f, "The graphics device was lost ({reason}). The window continues on {adapter}.")
+            }
             Self::SettingsDamaged(path) => write!(
                 f,
                 "The settings of the last start cannot be read. They are in {}; the window has the default ones.",

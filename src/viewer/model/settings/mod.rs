@@ -5,16 +5,11 @@ pub mod options;
 pub mod save_kind;
 pub mod why;
 
-use std::path::{Path, PathBuf};
-
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::loss::LossSettings;
 
 use why::WhySections;
-
-/// Number of recent materials.
-const RECENT: usize = 12;
 
 /// The questions that the side panel answers, one at a time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -62,8 +57,6 @@ pub struct Settings {
     pub loss: LossSettings,
     /// Whether files that change on disk are read again.
     pub watch: bool,
-    /// Recently opened materials, the latest first.
-    pub recent: Vec<PathBuf>,
 }
 
 impl Default for Settings {
@@ -81,7 +74,6 @@ impl Default for Settings {
             auto_loss: true,
             loss: LossSettings::default(),
             watch: false,
-            recent: Vec::new(),
         }
     }
 }
@@ -92,13 +84,5 @@ impl Settings {
     #[must_use]
     pub fn for_next_start(&self) -> Self {
         Self { loss: self.loss.with_file(None), ..self.clone() }
-    }
-
-    /// Puts `path` first among the recent materials, as an absolute path.
-    pub fn remember(&mut self, path: &Path) {
-        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        self.recent.retain(|p| *p != path);
-        self.recent.insert(0, path);
-        self.recent.truncate(RECENT);
     }
 }

@@ -1,5 +1,18 @@
 //! Kinds of files that the window saves.
 
+use std::path::PathBuf;
+
+/// A file that is written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SaveRequest {
+    pub kind: SaveKind,
+    pub path: PathBuf,
+    /// Size of a picture of the view, in pixels.
+    pub size: [u32; 2],
+    /// Whether a picture of the view has the handles of light and view.
+    pub handles: bool,
+}
+
 /// What is saved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SaveKind {

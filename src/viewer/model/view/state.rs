@@ -7,7 +7,7 @@ use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_files::session_window::Display;
 
-pub use svbrdf_files::session_window::{Layout, Projection};
+pub use svbrdf_files::session_window::{AutoExposure, Layout, Projection};
 
 /// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,8 +68,8 @@ impl ViewState {
     /// The default light, view and display, with the current prediction, layout and convention.
     #[must_use]
     pub fn reset(&self) -> Self {
-        let Display { wipe, framing, show_clipping, .. } = Display::default();
-        let display = Display { wipe, framing, show_clipping, ..self.display.clone() };
+        let Display { wipe, framing, show_clipping, auto_exposure, .. } = Display::default();
+        let display = Display { wipe, framing, show_clipping, auto_exposure, ..self.display.clone() };
         Self { convention: self.convention.clone(), display, ..Self::default() }
     }
 }

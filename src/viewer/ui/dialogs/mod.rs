@@ -45,7 +45,7 @@ impl Dialogs {
             commands.extend(StudyWindow::new(displayed).ui(ctx));
         }
         if let Some(dialog) = &mut self.open {
-            commands.extend(dialog.ui(ctx, &model.settings.recent, model.last_session.as_ref()));
+            commands.extend(dialog.ui(ctx, &model.recent));
         }
         if let Some(dialog) = &mut self.photograph {
             commands.extend(dialog.ui(ctx));

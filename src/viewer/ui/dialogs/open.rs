@@ -30,27 +30,24 @@ pub struct OpenDialog {
 const BELOW_RECENT: f32 = 230.0;
 const LEAST_RECENT: f32 = 60.0;
 
-/// The end of a path that fits into a line: paths of one run differ in their ends.
-fn ending(ui: &egui::Ui, path: &str) -> String {
-    let font = egui::TextStyle::Button.resolve(ui.style());
-    let room = ui.available_width() - 2.0 * ui.spacing().button_padding.x - 8.0;
-    let width = |text: &str| {
-        ui.ctx().fonts_mut(|f| f.layout_no_wrap(text.to_owned(), font.clone(), egui::Color32::WHITE).size().x)
-    };
-    if width(path) <= room {
-        return path.to_owned();
+/// The materials of a comparison, the ground truth first.
+fn compared(session: &Session) -> String {
+    let names = session.materials.iter().map(|one| match (&one.path, one.built_in) {
+        (Some(path), _) => file_name(path),
+        (None, _) => "built-in material".to_owned(),
+    });
+    let names: Vec<String> = names.collect();
+    match names.split_first() {
+        Some((first, [])) => first.clone(),
+        Some((first, others)) => format!("{first} | {}", others.join(", ")),
+        None => String::new(),
     }
-    let starts = path.char_indices().map(|(at, _)| format!("...{}", &path[at..]));
-    starts.skip(1).find(|end| width(end) <= room).unwrap_or_else(|| path.to_owned())
 }
 
-/// The button that opens the last materials again.
-fn reopen(ui: &mut egui::Ui, last: &Session, commands: &mut Vec<Command>) {
-    let names: Vec<String> = last.materials.iter().filter_map(|m| m.path.as_deref()).map(file_name).collect();
-    let hover = format!("{}, as they were shown (Ctrl+Shift+O)", names.join(", "));
-    if ui.button("Reopen last").on_hover_text(hover).clicked() {
-        commands.push(MaterialsCommand::ReopenLast.into());
-    }
+/// The paths of a comparison, one a line.
+fn paths(session: &Session) -> String {
+    let paths = session.materials.iter().filter_map(|one| one.path.as_deref());
+    paths.map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n")
 }
 
 impl From<ReadOptions> for OpenDialog {
@@ -60,20 +57,17 @@ impl From<ReadOptions> for OpenDialog {
 }
 
 impl OpenDialog {
-    pub fn ui(&mut self, ctx: &egui::Context, recent: &[PathBuf], last: Option<&Session>) -> Vec<Command> {
+    pub fn ui(&mut self, ctx: &egui::Context, recent: &[Session]) -> Vec<Command> {
         let mut commands = Vec::new();
         let open = dialog(ctx, "Open materials", 460.0, |ui| {
-            self.paths(ui, &mut commands);
-            if let Some(last) = last {
-                reopen(ui, last, &mut commands);
-            }
+            let entered = self.paths(ui, &mut commands);
             // The buttons stay visible, however long the list is.
             let room = ui.ctx().content_rect().bottom() - ui.cursor().top() - BELOW_RECENT;
             egui::ScrollArea::vertical()
                 .max_height(room.max(LEAST_RECENT))
-                .show(ui, |ui| self.recent(ui, recent));
+                .show(ui, |ui| recent_comparisons(ui, recent, &mut commands));
             ui.separator();
-            self.choices(ui, &mut commands);
+            self.choices(ui, entered, &mut commands);
         });
         if !open {
             commands.push(WindowCommand::ShowOpen(false).into());
@@ -87,10 +81,17 @@ impl OpenDialog {
         (self.submitted, self.opening) = (false, None);
     }
 
-    fn paths(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let field =
-            egui::TextEdit::multiline(&mut self.text).desired_rows(3).hint_text("materials/brick.png");
-        self.field.ui(ui, "Files, folders or name prefixes, one a line:", field);
+    /// The field of the paths; whether Return was pressed in it.
+    fn paths(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) -> bool {
+        let new_line = egui::KeyboardShortcut::new(egui::Modifiers::SHIFT, egui::Key::Enter);
+        let field = egui::TextEdit::multiline(&mut self.text)
+            .desired_rows(3)
+            .hint_text("materials/brick.png")
+            .return_key(new_line);
+        let field = self.field.ui(ui, "Files, folders or name prefixes, one a line:", field);
+        let entered =
+            field.has_focus() && ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Enter));
+        field.on_hover_text("Return opens them; Shift + Return begins a new line");
         self.field.problem(ui);
         ui.horizontal(|ui| {
             if ui.button("Browse files...").clicked() {
@@ -100,20 +101,7 @@ impl OpenDialog {
                 commands.push(WindowCommand::Browse { folder: true }.into());
             }
         });
-    }
-
-    fn recent(&mut self, ui: &mut egui::Ui, recent: &[PathBuf]) {
-        if recent.is_empty() {
-            return;
-        }
-        ui.label(RichText::new("Recent").weak());
-        for path in recent {
-            let path = path.display().to_string();
-            let end = ending(ui, &path);
-            if ui.selectable_label(false, end).on_hover_text(&path).clicked() {
-                self.add(&path);
-            }
-        }
+        entered
     }
 
     /// Adds a path as a line of its own.
@@ -124,7 +112,7 @@ impl OpenDialog {
         self.text += path;
     }
 
-    fn choices(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn choices(&mut self, ui: &mut egui::Ui, entered: bool, commands: &mut Vec<Command>) {
         ui.radio_value(
             &mut self.as_predictions,
             false,
@@ -139,13 +127,55 @@ impl OpenDialog {
         let ready = !paths.is_empty() && !self.submitted;
         let text = if self.submitted { "Reading..." } else { "Open these" };
         let button = ui.add_enabled(ready, egui::Button::new(text));
-        let entered = ui.input_mut(|i| i.consume_key(egui::Modifiers::COMMAND, egui::Key::Enter));
-        if button.on_hover_text("Ctrl+Enter").clicked() || (entered && ready) {
+        let entered = entered || ui.input_mut(|i| i.consume_key(egui::Modifiers::COMMAND, egui::Key::Enter));
+        if button.on_hover_text("Return in the field, or Ctrl+Return").clicked() || (entered && ready) {
             self.submitted = true;
             self.field.clear();
             commands.push(
                 MaterialsCommand::Open { paths, replace: !self.as_predictions, read: self.read }.into(),
             );
         }
+    }
+}
+
+/// The last comparisons; a click opens one as it was shown.
+fn recent_comparisons(ui: &mut egui::Ui, recent: &[Session], commands: &mut Vec<Command>) {
+    if recent.is_empty() {
+        return;
+    }
+    ui.label(RichText::new("Recent comparisons").weak());
+    for (index, session) in recent.iter().enumerate() {
+        let button = egui::Button::selectable(false, compared(session)).truncate();
+        let key = if index == 0 { " (Ctrl+Shift+O)" } else { "" };
+        let hover = format!("Opens these as they were shown{key}:\n{}", paths(session));
+        if ui.add(button).on_hover_text(hover).clicked() {
+            commands.push(MaterialsCommand::Reopen(index).into());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use svbrdf_core::model::scene::{Kind, Scene};
+    use svbrdf_files::session::SessionMaterial;
+
+    #[test]
+    fn a_comparison_is_named_by_its_files() {
+        let material = |path: &str| SessionMaterial {
+            path: Some(path.into()),
+            built_in: None,
+            read: ReadOptions::AUTO,
+            fit: false,
+            steps: false,
+        };
+        let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.0, 0.0, 2.0] };
+        let of = |paths: &[&str]| {
+            let materials = paths.iter().map(|path| material(path)).collect();
+            Session::new(materials, scene, "printed".to_owned(), 0.0)
+        };
+        assert_eq!(compared(&of(&["/a/gt.png", "/a/l1.png", "/b/rend.png"])), "gt.png | l1.png, rend.png");
+        assert_eq!(compared(&of(&["/a/gt.png"])), "gt.png");
+        assert_eq!(paths(&of(&["/a/gt.png", "/a/l1.png"])), "/a/gt.png\n/a/l1.png");
     }
 }

@@ -6,7 +6,7 @@ use eframe::egui::{self, RichText};
 
 use super::path_field::{PathField, dialog};
 use crate::viewer::model::command::{Command, WindowCommand};
-use crate::viewer::model::settings::save_kind::SaveKind;
+use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use crate::viewer::ui::widgets::number;
 use crate::viewer::ui::widgets::theme;
 
@@ -17,6 +17,8 @@ pub struct SaveDialog {
     pub what: SaveKind,
     /// Size of a picture of the view, in pixels.
     size: [u32; 2],
+    /// Whether a picture of the view has the handles of light and view.
+    handles: bool,
     /// The path of an existing file, once the dialog has said that it exists.
     replaces: Option<String>,
     /// Whether the button gets the focus, so that Return presses it.
@@ -34,6 +36,7 @@ impl SaveDialog {
             path,
             what,
             size,
+            handles: true,
             replaces: None,
             focus_button: false,
             saving: false,
@@ -58,6 +61,8 @@ impl SaveDialog {
         ui.label(RichText::new(self.what.explanation()).small().weak());
         if self.what == SaveKind::View {
             self.sizes(ui, view_size);
+            ui.checkbox(&mut self.handles, "With handles")
+                .on_hover_text("The sun and the eye, which mark light and view");
         }
         let replaces = self.replaces.as_deref() == Some(self.path.trim());
         if replaces {
@@ -125,6 +130,7 @@ impl SaveDialog {
         }
         self.saving = true;
         self.field.clear();
-        commands.push(WindowCommand::Save { what: self.what, path, size: self.size }.into());
+        let request = SaveRequest { kind: self.what, path, size: self.size, handles: self.handles };
+        commands.push(WindowCommand::Save(request).into());
     }
 }

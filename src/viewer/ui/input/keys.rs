@@ -7,6 +7,8 @@ use crate::viewer::model::command::{
     WindowCommand,
 };
 
+use crate::viewer::model::view::state::AutoExposure;
+
 /// A gesture or keys, and what they do.
 pub type HelpLine = (&'static str, &'static str);
 
@@ -63,7 +65,10 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
         &[
             ("M / Shift + M", "next / previous of rendering and maps"),
             ("E / Shift + E", "exposure up / down by 0.5 EV"),
-            ("N", "automatic exposure: the brightest 1% of the ground truth clips"),
+            (
+                "N / Shift + N",
+                "automatic exposure, once / following light and view: the brightest 1% of the ground truth clips",
+            ),
             ("T", "repeat the material 2 x 2 times to show its seams, on / off"),
             ("J", "histograms of the values, on / off"),
             ("V", "false colours for roughness, on / off"),
@@ -149,7 +154,7 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
     let none = Modifiers::NONE;
     let mut table: Vec<(Modifiers, Key, Command)> = vec![
         (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, DisplayCommand::Redo.into()),
-        (Modifiers::COMMAND | Modifiers::SHIFT, Key::O, MaterialsCommand::ReopenLast.into()),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::O, MaterialsCommand::Reopen(0).into()),
         (Modifiers::COMMAND | Modifiers::SHIFT, Key::C, WindowCommand::CopyPicture.into()),
         (Modifiers::COMMAND, Key::Z, DisplayCommand::Undo.into()),
         (Modifiers::COMMAND, Key::Y, DisplayCommand::Redo.into()),
@@ -162,7 +167,8 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (Modifiers::SHIFT, Key::E, DisplayCommand::StepExposure(-0.5).into()),
         (none, Key::M, DisplayCommand::CycleQuantity(1).into()),
         (none, Key::E, DisplayCommand::StepExposure(0.5).into()),
-        (none, Key::N, DisplayCommand::AutoExposure.into()),
+        (Modifiers::SHIFT, Key::N, DisplayCommand::AutoExposure(AutoExposure::Follow).into()),
+        (none, Key::N, DisplayCommand::AutoExposure(AutoExposure::Once).into()),
         (none, Key::C, DisplayCommand::CycleLayout.into()),
         (none, Key::D, DisplayCommand::ShowDifference(!now.difference).into()),
         (none, Key::P, DisplayCommand::ToggleProjection.into()),

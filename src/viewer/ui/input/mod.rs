@@ -7,8 +7,6 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
-use svbrdf_files::read::ReadOptions;
-
 use super::dialogs::Dialogs;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::{
@@ -87,6 +85,7 @@ fn dropped(ctx: &egui::Context, displayed: Displayed<'_>, dialogs: &Dialogs) -> 
     }
     let replace = displayed.model.materials.only_built_in();
     let is_empty = paths.is_empty();
-    let open = MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO };
+    let read = displayed.model.materials.read_of_added();
+    let open = MaterialsCommand::Open { paths, replace, read };
     (!is_empty).then(|| open.into())
 }

@@ -7,7 +7,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::panes::histograms::{Channel, Values};
 use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::ui::legend::strip::outline;
+use crate::viewer::ui::legend::strip::{beyond, outline};
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::theme;
 
@@ -72,7 +72,9 @@ impl<'a> ValueStrip<'a> {
             let line = outline(&one.histogram, area.shrink(2.0));
             let stroke = Stroke::new(width, colour(slot, ui.visuals()));
             painter.extend(theme::series_line(&line, slot.saturating_sub(1), stroke));
+            painter.extend(beyond(&one.histogram, area.shrink(2.0), stroke.color));
         }
+        key(&painter, area, channel.len(), ui.visuals());
         if let Some(first) = channel.first() {
             let font = FontId::monospace(11.0);
             let (low, high) = (digits(first.histogram.low), digits(first.histogram.high));
@@ -102,6 +104,17 @@ impl<'a> ValueStrip<'a> {
                 ui.end_row();
             }
         });
+    }
+}
+
+/// The numbers of the materials in their colours, in the upper right corner; "gt" is the ground truth.
+fn key(painter: &egui::Painter, area: egui::Rect, count: usize, visuals: &egui::Visuals) {
+    let font = FontId::monospace(11.0);
+    let mut at = area.right_top() + vec2(-5.0, 3.0);
+    for slot in (0..count).rev() {
+        let text = if slot == 0 { "gt".to_owned() } else { slot.to_string() };
+        let place = painter.text(at, Align2::RIGHT_TOP, text, font.clone(), colour(slot, visuals));
+        at.x = place.left() - 5.0;
     }
 }
 

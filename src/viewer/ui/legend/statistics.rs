@@ -37,25 +37,28 @@ impl LegendStrip<'_> {
         if !self.current {
             ui.set_opacity(0.5);
         }
-        let loss = match self.error_map {
-            Some(_) => "Mean over the texels: the rendering loss over these scenes",
-            None => "Mean over the texels: the rendering loss of this scene",
-        };
         let is_loss = self.kind == Difference::Log && self.quantity == Quantity::Rendering && self.first == 1;
-        let mean = match is_loss {
-            true => ("mean = loss", loss),
-            false if self.first == 0 => {
-                ("mean", "Mean over the texels that are not clipped in the photograph")
+        // The scenes that the numbers are of: the loss over all scenes is another one.
+        let (of, mean) = match self.error_map {
+            Some(ErrorMapSummary { scenes, .. }) => (
+                format!("over {scenes} scenes"),
+                "Mean over the texels: the loss over the scenes of this error map",
+            ),
+            None if is_loss => ("this scene".to_owned(), "Mean over the texels: the loss in this scene"),
+            None if self.first == 0 => {
+                ("this scene".to_owned(), "Mean over the texels that are not clipped in the photograph")
             }
-            false => ("mean", "Mean over the texels"),
+            None if self.quantity == Quantity::Rendering => ("this scene".to_owned(), "Mean over the texels"),
+            None => ("all texels".to_owned(), "Mean over the texels"),
         };
+        let heads =
+            [("mean", mean), ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
         let short = shortened(&self.names, CHARACTERS);
-        let heads = [mean, ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
         egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {
             // Low rows: three of them are seen at once.
             let grid = egui::Grid::new("difference statistics").num_columns(5).min_row_height(0.0);
             grid.spacing([10.0, 2.0]).show(ui, |ui| {
-                ui.label("");
+                ui.label(RichText::new(of).small().weak());
                 for (head, hover) in heads {
                     ui.label(RichText::new(head).small().weak()).on_hover_text(hover);
                 }

@@ -27,6 +27,9 @@ const STEPS: usize = 128;
 /// Widths of the controls and of the statistics, in points.
 const CONTROLS: f32 = 184.0;
 pub const STATISTICS: f32 = 396.0;
+/// Least height of a count that is not 0, and side of the mark of what lies beyond the axis, in points.
+const LEAST_MARK: f32 = 4.0;
+const BEYOND: f32 = 6.0;
 /// How far from 0 the axis goes in units of the range, before there are histograms.
 const AXIS: f64 = 1.5;
 
@@ -103,7 +106,7 @@ impl<'a> LegendStrip<'a> {
             }
             if self.quantity == Quantity::Rendering {
                 let label = ui.selectable_label(self.error_map.is_some(), ERROR_MAP);
-                let hover = "The log difference of each texel, averaged over the scenes of the loss: its mean is the loss";
+                let hover = "The log difference of each texel, averaged over scenes of the loss: its mean is the loss over these scenes";
                 if label.on_hover_text(hover).clicked() {
                     commands.push(DisplayCommand::ChooseErrorMap.into());
                 }
@@ -182,8 +185,9 @@ impl<'a> LegendStrip<'a> {
         for (index, histogram) in histograms.iter().enumerate() {
             let colour = theme::series(self.series(index), ui.visuals().dark_mode).gamma_multiply(fade);
             let stroke = Stroke::new(if index == self.chosen { 2.0 } else { 1.0 }, colour);
-            let line = outline(histogram, area.with_max_y(bar.top()));
-            painter.extend(theme::series_line(&line, self.series(index), stroke));
+            let curve = area.with_max_y(bar.top());
+            painter.extend(theme::series_line(&outline(histogram, curve), self.series(index), stroke));
+            painter.extend(beyond(histogram, curve, colour));
         }
         let handles = if self.kind.is_signed() { vec![-self.range, self.range] } else { vec![self.range] };
         for value in handles {
@@ -237,21 +241,47 @@ impl<'a> LegendStrip<'a> {
     }
 }
 
-/// The logarithms of the counts as a line over `area`.
+/// The logarithms of the counts as a line over `area`. A single texel leaves a mark that is seen.
 pub fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
     let log = |count: u64| (1.0 + count as f64).ln() as f32;
     let highest = histogram.counts.iter().map(|count| log(*count)).fold(f32::MIN_POSITIVE, f32::max);
     let step = area.width() / histogram.counts.len() as f32;
     let point = |(i, count): (usize, &u64)| {
-        let height = log(*count) / highest * (area.height() - 4.0);
+        let mark = if *count > 0 { LEAST_MARK } else { 0.0 };
+        let height = mark + log(*count) / highest * (area.height() - 4.0 - LEAST_MARK);
         pos2(area.left() + (i as f32 + 0.5) * step, area.bottom() - height)
     };
     histogram.counts.iter().enumerate().map(point).collect()
 }
 
+/// A triangle at each end of the axis beyond which there are texels.
+pub fn beyond(histogram: &Histogram, area: Rect, colour: Color32) -> Vec<egui::Shape> {
+    let triangle = |x: f32, outwards: f32| {
+        let tip = pos2(x, area.bottom() - BEYOND);
+        let base = [vec2(-outwards * BEYOND, -0.6 * BEYOND), vec2(-outwards * BEYOND, 0.6 * BEYOND)];
+        egui::Shape::convex_polygon(vec![tip, tip + base[0], tip + base[1]], colour, Stroke::NONE)
+    };
+    let low = (histogram.below > 0).then(|| triangle(area.left(), -1.0));
+    let high = (histogram.above > 0).then(|| triangle(area.right(), 1.0));
+    low.into_iter().chain(high).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn one_texel_among_millions_and_texels_beyond_the_axis_leave_a_mark() {
+        let counts = vec![0, 40_000_000, 0, 1, 0];
+        let histogram = Histogram { low: 0.0, high: 5.0, counts, below: 0, above: 1 };
+        let area = Rect::from_min_size(pos2(0.0, 0.0), vec2(50.0, 54.0));
+        let points = outline(&histogram, area);
+        assert!(points[4].y - points[3].y >= 4.0, "{points:?}");
+        assert!(points[1].y >= area.top());
+        assert_eq!(beyond(&histogram, area, Color32::WHITE).len(), 1);
+        let inside = Histogram { above: 0, ..histogram };
+        assert!(beyond(&inside, area, Color32::WHITE).is_empty());
+    }
 
     #[test]
     fn the_outline_is_highest_where_most_texels_are() {

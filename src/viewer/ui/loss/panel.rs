@@ -166,7 +166,7 @@ fn missed(request: &Request, relative_error: f64, elapsed: Duration) -> Option<S
 
 /// A button of the width of the one that replaces it.
 fn button(text: &str) -> egui::Button<'_> {
-    egui::Button::new(text).min_size(egui::vec2(90.0, 0.0))
+    egui::Button::new(text).min_size(egui::vec2(96.0, 0.0))
 }
 
 /// The settings of the loss: first what decides the number of scenes, then the fields of that choice.
@@ -232,11 +232,13 @@ fn scenes(ui: &mut egui::Ui, settings: &mut LossSettings) {
     let default = LossSettings::default();
     ui.horizontal_wrapped(|ui| {
         ui.label("Near");
-        number(ui, "Near-field scenes", &mut settings.near, default.near, |d| d.speed(0.2).range(0..=MOST));
+        number(ui, "Near-field scenes", &mut settings.near, default.near, |d| d.speed(0.2).range(0..=MOST))
+            .on_hover_text("Number of near-field scenes");
         ui.label("Distant");
         number(ui, "Distant scenes", &mut settings.distant, default.distant, |d| {
             d.speed(0.2).range(0..=MOST)
-        });
+        })
+        .on_hover_text("Number of distant scenes");
         texels(ui, &mut settings.texels);
     });
 }
@@ -260,28 +262,32 @@ fn texels(ui: &mut egui::Ui, texels: &mut Texels) {
 fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
     let default = LossSettings::default().target_percent;
     ui.horizontal_wrapped(|ui| {
-        slider(ui, "Accuracy slider", Slider::new(target, PERCENT).max_decimals(2));
+        let hover = "Half the width of the 95% interval of every loss, relative to the loss";
+        slider(ui, "Accuracy slider", Slider::new(target, PERCENT).max_decimals(2)).on_hover_text(hover);
         number(ui, "Accuracy", target, default, |d| {
             d.speed(0.01).range(PERCENT).max_decimals(2).prefix("±").suffix("%")
-        });
-        ui.label("at 95%")
-            .on_hover_text("Half the width of the 95% interval of every loss, relative to the loss");
+        })
+        .on_hover_text(hover);
+        ui.label("at 95%").on_hover_text(hover);
     });
 }
 
 fn time(ui: &mut egui::Ui, milliseconds: &mut u64) {
     let default = LossSettings::default().time_ms;
     ui.horizontal_wrapped(|ui| {
-        slider(ui, "Time slider", Slider::new(milliseconds, MILLISECONDS));
-        number(ui, "Time", milliseconds, default, |d| d.range(MILLISECONDS).suffix(" ms"));
+        let hover = "The loss takes as many scenes as fit into this time";
+        slider(ui, "Time slider", Slider::new(milliseconds, MILLISECONDS)).on_hover_text(hover);
+        number(ui, "Time", milliseconds, default, |d| d.range(MILLISECONDS).suffix(" ms"))
+            .on_hover_text(hover);
     });
 }
 
 /// A logarithmic slider without its number.
-fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) {
+fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) -> egui::Response {
     ui.spacing_mut().slider_width = 80.0;
     let response = ui.add(slider.logarithmic(true).show_value(false));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, name));
+    response
 }
 
 #[cfg(test)]

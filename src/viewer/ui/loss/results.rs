@@ -295,7 +295,8 @@ fn summary(latest: &Losses) -> String {
         "convention {}, epsilon {}, {sampler} scenes{}, {} on the {}",
         report.convention.name,
         report.convention.epsilon,
-        report.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
+        // The one that was asked for: a first estimate has scenes of another one.
+        latest.key.query.request.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
         report.precision,
         report.backend,
     )

@@ -40,13 +40,15 @@ impl MaterialsPanel<'_> {
             if fit != self.materials.rules.fit {
                 commands.push(MaterialsCommand::SetFit(fit).into());
             }
-            if ui.button("Built-in pair").clicked() {
+            let built_in = ui.button("Built-in pair");
+            if built_in.on_hover_text("Show the materials that come with the program").clicked() {
                 commands.push(MaterialsCommand::OpenBuiltIn.into());
             }
         });
         for opening in self.openings.iter() {
             ui.add(egui::ProgressBar::new(opening.fraction()).text(opening.text()));
-            if ui.small_button("Cancel reading").clicked() {
+            let cancel = ui.small_button("Cancel reading");
+            if cancel.on_hover_text("What is in the window stays").clicked() {
                 commands.push(MaterialsCommand::CancelReading(opening.number()).into());
             }
         }
@@ -128,10 +130,11 @@ fn section(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands:
     ui.horizontal(|ui| {
         ui.label(RichText::new(role).color(colour).small());
         if index > 0 {
-            if ui.small_button("Make ground truth").clicked() {
+            let swap = ui.small_button("Make ground truth");
+            if swap.on_hover_text("Compare the others with this one").clicked() {
                 commands.push(MaterialsCommand::MakeGroundTruth(index).into());
             }
-            if ui.small_button("Close").clicked() {
+            if ui.small_button("Close").on_hover_text("Take it out of the comparison").clicked() {
                 commands.push(MaterialsCommand::Close(index).into());
             }
         }
@@ -159,17 +162,19 @@ fn section(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands:
     if matches!(loaded.origin, Origin::Path(_)) {
         let mut read = loaded.options;
         chooser(ui, material, &mut read);
-        ui.collapsing("Change...", |ui| {
+        let change = ui.collapsing("Change...", |ui| {
             read_options(ui, material.name(), &mut read, &loaded.assumptions);
         });
+        change.header_response.on_hover_text("Say how its files are to be read");
         if read != loaded.options {
             commands.push(MaterialsCommand::ReadAs { index, read }.into());
         }
         save_button(ui, index, material, commands);
     }
-    ui.collapsing("As stored", |ui| {
+    let stored = ui.collapsing("As stored", |ui| {
         for map in &loaded.maps {
             ui.label(RichText::new(map.to_string()).small());
         }
     });
+    stored.header_response.on_hover_text("Which file is which map, and what it holds");
 }

@@ -5,6 +5,7 @@ pub mod gestures;
 pub mod handles;
 pub mod hovered;
 pub mod marks;
+pub mod scale;
 pub mod scenery;
 pub mod texels;
 pub mod title;

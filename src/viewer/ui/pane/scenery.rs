@@ -18,6 +18,8 @@ pub struct Scenery<'a> {
     pub state: &'a ViewState,
     pub dark: bool,
     pub highlight_follows: bool,
+    /// Whether light and view have handles, sun and eye.
+    pub handles: bool,
     /// Whether the handle of the view is shown.
     pub view_handle: bool,
     /// Whether every pane shows the ground truth, as long as a key is held.

@@ -14,6 +14,7 @@ use super::gestures::{self, Gesture, PaneTarget};
 use super::handles;
 use super::hovered::Hovered;
 use super::marks::Placed;
+use super::scale::Scale;
 use super::scenery::{Content, PhotographUse, Scenery};
 use super::texels::texels;
 use super::title::title_bar;
@@ -230,13 +231,18 @@ impl Viewport {
         };
         gpu.paint(&painter, rect, number, drawn, params);
         self.paint_marks(&painter, scenery, content, rect, &camera);
-        if state.display.quantity == Quantity::Rendering {
+        if state.display.quantity == Quantity::Rendering && scenery.handles {
             handles::paint_endpoints(&painter, rect, &camera, state, scenery.view_handle);
         }
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
         }
-        if let Some(text) = hint(scenery, self.pane_pixels()) {
+        if let Some(scale) = Scale::of(scenery, content) {
+            scale.paint(&painter, rect);
+        }
+        if gpu.reduction() > 1 {
+            paint_hint(&painter, rect, &reduced(gpu.reduction()));
+        } else if let Some(text) = hint(scenery, self.pane_pixels()) {
             paint_hint(&painter, rect, text);
         }
     }
@@ -332,6 +338,13 @@ impl Viewport {
     pub fn pane_pixels(&self) -> [f32; 2] {
         self.pane_pixels.into()
     }
+}
+
+/// The badge of a pane whose adapter has no room for all texels.
+fn reduced(stride: usize) -> String {
+    format!(
+        "Reduced display: one of {stride} x {stride} texels. The adapter's memory is full. Losses use all texels."
+    )
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.

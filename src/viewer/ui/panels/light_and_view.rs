@@ -1,6 +1,8 @@
 //! Light, view and convention.
 
-use eframe::egui;
+use eframe::egui::containers::menu::{MenuButton, MenuConfig};
+use eframe::egui::{self, PopupCloseBehavior, Role, Sense, Stroke, Vec2, WidgetInfo, vec2};
+use glam::DVec3;
 
 use svbrdf_core::model::convention;
 use svbrdf_core::model::scene::{Kind, Scene};
@@ -10,6 +12,8 @@ use crate::viewer::model::settings::Settings;
 use crate::viewer::model::view::animation::{Animation, Path, Preset};
 use crate::viewer::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
 use crate::viewer::model::view::state::ViewState;
+use crate::viewer::ui::pane::handles;
+use crate::viewer::ui::widgets::hemisphere::{direction_at, pos_of, unit};
 use crate::viewer::ui::widgets::number;
 
 /// What the section shows.
@@ -20,39 +24,64 @@ pub struct ScenePanel<'a> {
     pub animation: &'a Animation,
 }
 
+/// Share of the radius that a drag reaches: sin of 89 degrees.
+const RIM: f64 = 0.999_847_695;
+/// Side of the hemisphere, and widths of a number and of the name of an endpoint, in points.
+const HEMISPHERE: f32 = 94.0;
+const NUMBER: f32 = 56.0;
+const NAME: f32 = 14.0;
+
 impl ScenePanel<'_> {
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut scene = self.state.scene;
-        ui.horizontal(|ui| {
-            for (kind, name, hover) in [
-                (
-                    Kind::Near,
-                    "Near-field",
-                    "Light and view at positions: each texel sees them in its own directions",
-                ),
-                (
-                    Kind::Distant,
-                    "Distant",
-                    "Light and view infinitely far away: the same directions at every texel",
-                ),
-            ] {
-                let choice = ui.selectable_label(scene.kind == kind, name).on_hover_text(hover);
-                if choice.clicked() && scene.kind != kind {
-                    commands.push(SceneCommand::SetKind(kind).into());
-                }
-            }
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
+            hemisphere(ui, &mut scene);
+            ui.vertical(|ui| {
+                ui.horizontal(|ui| {
+                    self.kinds(ui, &mut commands);
+                    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+                    let menu = MenuButton::new("\u{2026}").config(config);
+                    let (more, _) = menu.ui(ui, |ui| {
+                        self.presets(ui, &mut commands);
+                        ui.separator();
+                        self.motion(ui, &mut commands);
+                        ui.separator();
+                        self.buttons(ui, &mut commands);
+                    });
+                    more.widget_info(|| WidgetInfo::labeled(Role::Button, true, "More of light and view"));
+                    more.on_hover_text("Presets of the light, what moves by itself, handles, copy");
+                });
+                coordinates(ui, "Light", &mut scene, Endpoint::Light);
+                coordinates(ui, "View", &mut scene, Endpoint::View);
+                self.convention(ui, &mut commands);
+            });
         });
-        coordinates(ui, "Light", &mut scene, Endpoint::Light);
-        coordinates(ui, "View", &mut scene, Endpoint::View);
         if scene != self.state.scene {
             commands.push(SceneCommand::Set(scene).into());
         }
-        self.presets(ui, &mut commands);
-        self.motion(ui, &mut commands);
-        self.buttons(ui, &mut commands);
-        self.convention(ui, &mut commands);
         commands
+    }
+
+    fn kinds(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        for (kind, name, hover) in [
+            (
+                Kind::Near,
+                "Near-field",
+                "Light and view at positions: each texel sees them in its own directions",
+            ),
+            (
+                Kind::Distant,
+                "Distant",
+                "Light and view infinitely far away: the same directions at every texel",
+            ),
+        ] {
+            let is_chosen = self.state.scene.kind == kind;
+            if ui.selectable_label(is_chosen, name).on_hover_text(hover).clicked() && !is_chosen {
+                commands.push(SceneCommand::SetKind(kind).into());
+            }
+        }
     }
 
     fn presets(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
@@ -132,20 +161,59 @@ impl ScenePanel<'_> {
     fn convention(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let now = self.state.convention();
         ui.horizontal(|ui| {
-            let label = ui.label("Convention");
-            let combo =
-                egui::ComboBox::from_id_salt("convention").selected_text(now.name).show_ui(ui, |ui| {
-                    for one in convention::ALL {
-                        if ui.selectable_label(one.name == now.name, one.name).clicked() {
-                            commands.push(SceneCommand::SetConvention(one.name).into());
-                        }
+            let combo = egui::ComboBox::from_id_salt("convention").selected_text(now.name).width(140.0);
+            let combo = combo.show_ui(ui, |ui| {
+                for one in convention::ALL {
+                    if ui.selectable_label(one.name == now.name, one.name).clicked() {
+                        commands.push(SceneCommand::SetConvention(one.name).into());
                     }
-                });
-            combo.response.labelled_by(label.id).on_hover_text(
-                "Light intensity, clamps and epsilon: they differ between the papers and their released code",
+                }
+            });
+            combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Convention"));
+            combo.response.on_hover_text(
+                "Convention: light intensity, clamps and epsilon: they differ between the papers and their released code",
             );
         });
     }
+}
+
+/// The directions of light and view, seen from above. A drag moves the nearer of the two; its distance stays.
+fn hemisphere(ui: &mut egui::Ui, scene: &mut Scene) {
+    let (all, response) = ui.allocate_exact_size(Vec2::splat(HEMISPHERE), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Directions of light and view"));
+    // The handles stay inside at the rim.
+    let area = all.shrink(12.0);
+    let at = |scene: &Scene, which| pos_of(area, unit(scene, which));
+    let grabbed = response.id.with("grabbed");
+    if let Some(origin) = ui.input(|i| i.pointer.press_origin()).filter(|_| response.drag_started()) {
+        let distance = |which| at(scene, which).distance(origin);
+        let which = match distance(Endpoint::Light) <= distance(Endpoint::View) {
+            true => Endpoint::Light,
+            false => Endpoint::View,
+        };
+        ui.data_mut(|data| data.insert_temp(grabbed, which));
+    }
+    if let (Some(pos), Some(which)) = (
+        response.interact_pointer_pos().filter(|_| response.dragged()),
+        ui.data(|data| data.get_temp::<Endpoint>(grabbed)),
+    ) {
+        let length = DVec3::from(endpoint(scene, which)).length();
+        let direction = DVec3::from(direction_at(area, pos, RIM));
+        set_endpoint(scene, which, (direction * length).to_array());
+    }
+    let (painter, visuals) = (ui.painter_at(all), ui.visuals());
+    let thin = Stroke::new(1.0, visuals.weak_text_color());
+    let radius = 0.5 * area.width();
+    painter.circle(area.center(), radius, visuals.extreme_bg_color, thin);
+    // 60 degrees off the normal.
+    let faint = Stroke::new(1.0, visuals.weak_text_color().gamma_multiply(0.4));
+    painter.circle_stroke(area.center(), radius * 3.0_f32.sqrt() / 2.0, faint);
+    handles::paint_eye(&painter, at(scene, Endpoint::View), false);
+    handles::paint_sun(&painter, at(scene, Endpoint::Light), false);
+    response.on_hover_text(
+        "The directions of light (sun) and view (eye) from the middle of the material, seen from above: straight above in the \
+         middle, 60 degrees off the normal at the inner circle. A drag moves one; its distance stays.",
+    );
 }
 
 /// Three numbers for one endpoint of the scene.
@@ -153,7 +221,11 @@ fn coordinates(ui: &mut egui::Ui, name: &str, scene: &mut Scene, which: Endpoint
     let mut p = endpoint(scene, which);
     let default = endpoint(&ViewState::default().scene, which);
     ui.horizontal(|ui| {
-        ui.add_sized([36.0, 18.0], egui::Label::new(name));
+        let (area, icon) = ui.allocate_exact_size(vec2(NAME, 18.0), Sense::hover());
+        let letter = if which == Endpoint::Light { "L" } else { "V" };
+        let (font, ink) = (egui::FontId::proportional(13.0), ui.visuals().text_color());
+        ui.painter().text(area.left_center(), egui::Align2::LEFT_CENTER, letter, font, ink);
+        icon.on_hover_text(name);
         for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
             let lowest = if axis == 2 { LOWEST } else { -FARTHEST };
             number(ui, &format!("{name} {letter}"), &mut p[axis], default[axis], |drag| {
@@ -161,8 +233,12 @@ fn coordinates(ui: &mut egui::Ui, name: &str, scene: &mut Scene, which: Endpoint
                     .range(lowest..=FARTHEST)
                     .fixed_decimals(3)
                     .prefix(format!("{letter} "))
-                    .min_size(egui::vec2(74.0, 18.0))
-            });
+                    .min_size(vec2(NUMBER, 18.0))
+            })
+            .on_hover_text(format!(
+                "{letter} of the {}: drag, or click to type; double-click for its default",
+                name.to_lowercase()
+            ));
         }
     });
     if p != endpoint(scene, which) {

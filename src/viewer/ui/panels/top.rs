@@ -1,15 +1,21 @@
 //! Bar at the top: open, save, layout, map or rendering, exposure, projection.
 
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{self, PopupCloseBehavior};
+use eframe::egui::{self, PopupCloseBehavior, RichText, Role, WidgetInfo};
+use egui_material_icons::icons;
 
 use svbrdf_core::picture::quantity::Quantity;
 
 use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::model::command::{Command, DisplayCommand, LossCommand, PhotographCommand, WindowCommand};
-use crate::viewer::model::view::state::{Layout, Projection, ViewState};
+use crate::viewer::model::view::state::{AutoExposure, Layout, Projection, ViewState};
 use crate::viewer::ui::panels::bar_item::{BarItem, Room};
 use crate::viewer::ui::widgets::number;
+
+/// Height of every control, gap between two of them, and width of the exposure, in points.
+const HEIGHT: f32 = 24.0;
+const GAP: f32 = 3.0;
+const EXPOSURE: f32 = 62.0;
 
 /// What the bar shows.
 #[derive(Debug)]
@@ -46,162 +52,214 @@ impl<'a> TopBar<'a> {
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let room = Room::of(ui.available_width());
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 4.0;
+        ui.spacing_mut().item_spacing.x = GAP;
+        ui.horizontal(|ui| {
             self.files(ui, room, &mut commands);
             ui.separator();
-            self.choices(ui, &mut commands);
-            let shown = [BarItem::Histogram, BarItem::Perspective, BarItem::Tile, BarItem::FalseColour];
-            self.items(ui, room, &shown, &mut commands);
-            self.items(ui, room, &[BarItem::Swap], &mut commands);
+            self.layouts(ui, &mut commands);
+            ui.separator();
+            self.quantities(ui, &mut commands);
+            self.differences(ui, &mut commands);
+            ui.separator();
+            let toggles = [
+                BarItem::Histogram,
+                BarItem::Perspective,
+                BarItem::Tile,
+                BarItem::FalseColour,
+                BarItem::Swap,
+            ];
+            self.items(ui, room, &toggles, &mut commands);
             if room > Room::Little {
                 ui.separator();
-                let exposure = [BarItem::Exposure, BarItem::AutoExposure, BarItem::Clip];
-                self.items(ui, room, &exposure, &mut commands);
+                self.exposure(ui, &mut commands);
+                self.items(ui, room, &[BarItem::Clip], &mut commands);
                 ui.separator();
                 let position =
                     [BarItem::Fit, BarItem::OneToOne, BarItem::Reset, BarItem::Undo, BarItem::Redo];
                 self.items(ui, room, &position, &mut commands);
             }
-            ui.separator();
-            self.window(ui, room, &mut commands);
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                self.window(ui, room, &mut commands);
+            });
         });
         commands
     }
 
     fn files(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
-        button(ui, "Open", "Open materials (Ctrl+O)", commands, WindowCommand::ShowOpen(true).into());
-        button(
-            ui,
-            "Save",
-            "Save view, renderings, strip or session (Ctrl+S)",
-            commands,
-            WindowCommand::ShowSave(true).into(),
-        );
+        let open = Face::Icon.button(ui, icons::ICON_FOLDER_OPEN.codepoint, "Open", true, false);
+        if open.on_hover_text("Open materials (Ctrl+O)").clicked() {
+            commands.push(WindowCommand::ShowOpen(true).into());
+        }
+        let save = Face::Icon.button(ui, icons::ICON_SAVE.codepoint, "Save", true, false);
+        if save.on_hover_text("Save view, renderings, strip or session (Ctrl+S)").clicked() {
+            commands.push(WindowCommand::ShowSave(true).into());
+        }
         self.items(ui, room, &[BarItem::Copy], commands);
     }
 
-    fn choices(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let mut layout = self.state.display.layout;
-        choice(ui, "Layout", "Layout (C)", &mut layout, &Layout::ALL, Layout::name);
-        if layout != self.state.display.layout {
-            commands.push(DisplayCommand::SetLayout(layout).into());
-        }
-        let mut quantity = self.state.display.quantity;
-        choice(ui, "Show", "Rendering or map (M, Shift+M)", &mut quantity, &Quantity::ALL, Quantity::name);
-        if quantity != self.state.display.quantity {
-            commands.push(DisplayCommand::SetQuantity(quantity).into());
-        }
-        for (difference, name) in [(false, "Value"), (true, "Difference")] {
-            let label = ui.selectable_label(self.state.display.difference == difference, name);
-            let hover = "Show the value, or the difference of predictions from the ground truth (D)";
-            if label.on_hover_text(hover).clicked() && self.state.display.difference != difference {
-                commands.push(DisplayCommand::ShowDifference(difference).into());
+    fn layouts(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        segments(ui, |ui| {
+            for (layout, icon, hover) in [
+                (
+                    Layout::SideBySide,
+                    icons::ICON_VIEW_COLUMN_2,
+                    "Ground truth and every prediction side by side (C)",
+                ),
+                (
+                    Layout::Wipe,
+                    icons::ICON_COMPARE,
+                    "Ground truth left and chosen prediction right of a line (C)",
+                ),
+                (Layout::Single, icons::ICON_CROP_SQUARE, "The chosen prediction alone (C)"),
+            ] {
+                let on = self.state.display.layout == layout;
+                let name = format!("Layout {}", layout.name());
+                let button = Face::Icon.button(ui, icon.codepoint, &name, true, on);
+                if button.on_hover_text(hover).clicked() && !on {
+                    commands.push(DisplayCommand::SetLayout(layout).into());
+                }
             }
-        }
+        });
+    }
+
+    fn quantities(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        segments(ui, |ui| {
+            for quantity in Quantity::ALL {
+                let name = quantity.name();
+                // The maps by their first letters.
+                let text = match quantity {
+                    Quantity::Rendering => "Rendering".to_owned(),
+                    _ => name.chars().take(1).flat_map(char::to_uppercase).collect(),
+                };
+                let on = self.state.display.quantity == quantity;
+                let button = Face::Text.button(ui, &text, &format!("Show {name}"), true, on);
+                let hover = match quantity {
+                    Quantity::Rendering => "Rendering under the light and view (M, Shift+M)".to_owned(),
+                    _ => format!("Map of {name} (M, Shift+M)"),
+                };
+                if button.on_hover_text(hover).clicked() && !on {
+                    commands.push(DisplayCommand::SetQuantity(quantity).into());
+                }
+            }
+        });
+    }
+
+    fn differences(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        segments(ui, |ui| {
+            for (difference, name) in [(false, "Value"), (true, "Difference")] {
+                let on = self.state.display.difference == difference;
+                let button = Face::Text.button(ui, name, name, true, on);
+                let hover = "Show the value, or the difference of predictions from the ground truth (D)";
+                if button.on_hover_text(hover).clicked() && !on {
+                    commands.push(DisplayCommand::ShowDifference(difference).into());
+                }
+            }
+        });
     }
 
     /// Those of `items` that have room.
     fn items(&self, ui: &mut egui::Ui, room: Room, items: &[BarItem], commands: &mut Vec<Command>) {
         for item in items.iter().filter(|item| item.needs() <= room) {
-            self.item(ui, *item, commands);
+            self.item(ui, *item, Face::Icon, commands);
         }
     }
 
-    fn item(&self, ui: &mut egui::Ui, item: BarItem, commands: &mut Vec<Command>) {
-        let (text, hover, command): (&str, &str, Command) = match item {
-            BarItem::Copy => {
-                ("Copy", "Copy the view as a picture (Ctrl+Shift+C)", WindowCommand::CopyPicture.into())
-            }
-            BarItem::Fit => ("Fit", "Fit the material into its pane (F)", DisplayCommand::Fit.into()),
-            BarItem::OneToOne => ("1:1", "One texel per pixel (0)", DisplayCommand::OneToOne.into()),
-            BarItem::Reset => {
-                let hover = "Reset light, view, zoom, exposure and clipping marks (R)";
-                ("Reset", hover, DisplayCommand::Reset.into())
-            }
-            BarItem::Undo => ("Undo", "Undo (Ctrl+Z)", DisplayCommand::Undo.into()),
-            BarItem::Redo => ("Redo", "Redo (Ctrl+Shift+Z)", DisplayCommand::Redo.into()),
-            BarItem::AutoExposure => {
-                let hover = "The exposure at which the brightest 1% of the ground truth just clips (N)";
-                ("Auto EV", hover, DisplayCommand::AutoExposure.into())
-            }
-            BarItem::Exposure => return self.exposure(ui, commands),
-            _ => return self.toggle(ui, item, commands),
-        };
-        button(ui, text, hover, commands, command);
-    }
-
-    fn toggle(&self, ui: &mut egui::Ui, item: BarItem, commands: &mut Vec<Command>) {
-        let state = self.state;
-        let (on, text, hover, command): (bool, &str, &str, Command) = match item {
-            BarItem::Histogram => {
-                let hover = "Histograms of the values, per channel, of every material (J)";
-                (self.histograms, "Histogram", hover, WindowCommand::ToggleHistograms.into())
-            }
-            BarItem::Perspective => {
-                let on = state.display.projection == Projection::Perspective;
-                let hover = "The plane seen from the view position, or the flat texture (P)";
-                (on, "3D", hover, DisplayCommand::ToggleProjection.into())
-            }
-            BarItem::Tile => {
-                let hover = "Repeat the material 2 x 2 times, shifted by half of itself: shows its seams; for display only (T)";
-                (state.display.tiled, "Tile", hover, DisplayCommand::ToggleTiled.into())
-            }
-            BarItem::FalseColour => {
-                let hover = "Roughness from 0 (black) to 1 (light yellow) (V)";
-                (state.display.false_colour, "False colour", hover, DisplayCommand::ToggleFalseColour.into())
-            }
-            BarItem::Swap => {
-                let hover =
-                    "Swap prediction and ground truth (X); hold G to show the ground truth in every pane";
-                (self.swapped, "Swap", hover, DisplayCommand::Swap.into())
-            }
-            BarItem::Clip => {
-                let hover = "Mark clipped pixels: too bright (magenta) or black (blue) (L)";
-                (state.display.show_clipping, "Clip", hover, DisplayCommand::ToggleClipping.into())
-            }
-            _ => return,
+    fn item(&self, ui: &mut egui::Ui, item: BarItem, face: Face, commands: &mut Vec<Command>) {
+        let display = &self.state.display;
+        let on = match item {
+            BarItem::Histogram => self.histograms,
+            BarItem::Perspective => display.projection == Projection::Perspective,
+            BarItem::Tile => display.tiled,
+            BarItem::FalseColour => display.false_colour,
+            BarItem::Swap => self.swapped,
+            BarItem::Clip => display.show_clipping,
+            _ => false,
         };
         // Nothing comes and goes in the bar: what has no effect now is disabled.
         let applies = match item {
-            BarItem::Histogram => !state.display.difference,
-            BarItem::FalseColour => state.display.quantity == Quantity::Roughness,
+            BarItem::Histogram => !display.difference,
+            BarItem::FalseColour => display.quantity == Quantity::Roughness,
             _ => true,
         };
-        let button = ui.add_enabled(applies, egui::Button::selectable(on && applies, text));
-        if button.on_hover_text(hover).on_disabled_hover_text(hover).clicked() {
-            commands.push(command);
+        let button = face.button(ui, item.icon(), item.name(), applies, on && applies);
+        if button.on_hover_text(item.hover()).on_disabled_hover_text(item.hover()).clicked() {
+            commands.push(item.command());
         }
     }
 
     fn exposure(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let mut ev = self.state.exposure_ev;
-        number(ui, "Exposure", &mut ev, 0.0, |drag| {
-            drag.speed(0.05).range(-20.0..=20.0).fixed_decimals(1).prefix("EV ")
-        })
-        .on_hover_text("Exposure in stops: E raises it by 0.5, Shift+E lowers it; double-click for 0");
-        if ev != self.state.exposure_ev {
-            commands.push(DisplayCommand::SetExposure(ev).into());
-        }
+        segments(ui, |ui| {
+            let darker = Face::Text.button(ui, "\u{2212}", "Darker", true, false);
+            if darker.on_hover_text("Exposure lower by 0.5 stops (Shift+E)").clicked() {
+                commands.push(DisplayCommand::StepExposure(-0.5).into());
+            }
+            let mut ev = self.state.exposure_ev;
+            number(ui, "Exposure", &mut ev, 0.0, |drag| {
+                drag.speed(0.05)
+                    .range(-20.0..=20.0)
+                    .fixed_decimals(1)
+                    .prefix("EV ")
+                    .min_size(egui::vec2(EXPOSURE, HEIGHT))
+            })
+            .on_hover_text("Exposure in stops; double-click for 0");
+            if ev != self.state.exposure_ev {
+                commands.push(DisplayCommand::SetExposure(ev).into());
+            }
+            let brighter = Face::Text.button(ui, "+", "Brighter", true, false);
+            if brighter.on_hover_text("Exposure higher by 0.5 stops (E)").clicked() {
+                commands.push(DisplayCommand::StepExposure(0.5).into());
+            }
+            let now = self.state.display.auto_exposure;
+            for (auto, text, name, hover) in [
+                (
+                    AutoExposure::Once,
+                    "Auto",
+                    "Auto EV",
+                    "The brightest 1% of the ground truth just clip: now, and when materials are opened or a scene is \
+                     chosen (N)",
+                ),
+                (
+                    AutoExposure::Follow,
+                    "Follow",
+                    "Exposure follows",
+                    "The brightest 1% of the ground truth just clip, under every light and view (Shift+N)",
+                ),
+            ] {
+                let button = Face::Text.button(ui, text, name, true, now == auto);
+                if button.on_hover_text(hover).clicked() {
+                    commands.push(DisplayCommand::AutoExposure(auto).into());
+                }
+            }
+        });
     }
 
+    /// From the right.
     fn window(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
+        let help = Face::Icon.button(ui, icons::ICON_HELP.codepoint, "?", true, false);
+        if help.on_hover_text("Keys and mouse (?)").clicked() {
+            commands.push(WindowCommand::ShowHelp(true).into());
+        }
+        let panel = Face::Icon.button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, self.side_panel);
+        if panel.on_hover_text("Side panel (B)").clicked() {
+            commands.push(WindowCommand::ToggleSidePanel.into());
+        }
         // Several of its controls may be used in a row.
         let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-        let (menu, _) = MenuButton::new("Menu").config(config).ui(ui, |ui| self.menu(ui, room, commands));
+        let face = Face::Icon.shaped(icons::ICON_MENU.codepoint, false);
+        let (menu, _) =
+            MenuButton::from_button(face).config(config).ui(ui, |ui| self.menu(ui, room, commands));
+        menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
         menu.on_hover_text(
             "Study, photograph, theme, size of the window's text, and what does not fit into this line",
         );
-        let panel = ui.selectable_label(self.side_panel, "Panel").on_hover_text("Side panel (B)");
-        if panel.clicked() {
-            commands.push(WindowCommand::ToggleSidePanel.into());
-        }
-        button(ui, "?", "Keys and mouse (?)", commands, WindowCommand::ShowHelp(true).into());
     }
 
     fn menu(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
         let hidden: Vec<BarItem> = BarItem::ALL.into_iter().filter(|item| item.needs() > room).collect();
-        hidden.iter().for_each(|item| self.item(ui, *item, commands));
+        if room == Room::Little {
+            self.exposure(ui, commands);
+        }
+        hidden.iter().for_each(|item| self.item(ui, *item, Face::Name, commands));
         if !hidden.is_empty() {
             ui.separator();
         }
@@ -224,7 +282,9 @@ impl<'a> TopBar<'a> {
         }
         ui.separator();
         let theme = if self.dark { "Light theme" } else { "Dark theme" };
-        button(ui, theme, "Colours of the window", commands, WindowCommand::SetDark(!self.dark).into());
+        if ui.button(theme).on_hover_text("Colours of the window").clicked() {
+            commands.push(WindowCommand::SetDark(!self.dark).into());
+        }
         ui.menu_button("UI scale", |ui| {
             for percent in [75, 100, 125, 150, 175, 200, 250, 300] {
                 let scale = percent as f32 / 100.0;
@@ -239,29 +299,38 @@ impl<'a> TopBar<'a> {
     }
 }
 
-fn button(ui: &mut egui::Ui, text: &str, hover: &str, commands: &mut Vec<Command>, command: Command) {
-    if ui.button(text).on_hover_text(hover).clicked() {
-        commands.push(command);
+/// What a button shows.
+#[derive(Clone, Copy, Debug)]
+enum Face {
+    Icon,
+    Text,
+    /// Its name, in the menu.
+    Name,
+}
+
+impl Face {
+    /// A button that is named `name` for assistive software.
+    fn button(self, ui: &mut egui::Ui, text: &str, name: &str, enabled: bool, on: bool) -> egui::Response {
+        let shown = if matches!(self, Self::Name) { name } else { text };
+        let response = ui.add_enabled(enabled, self.shaped(shown, on));
+        response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, on, name));
+        response
+    }
+
+    fn shaped(self, text: &str, on: bool) -> egui::Button<'static> {
+        let (size, width) = match self {
+            Self::Icon if text.is_ascii() => (13.0, HEIGHT + 4.0),
+            Self::Icon => (17.0, HEIGHT + 4.0),
+            Self::Text | Self::Name => (13.0, 0.0),
+        };
+        egui::Button::selectable(on, RichText::new(text).size(size)).min_size(egui::vec2(width, HEIGHT))
     }
 }
 
-/// A drop-down of named values.
-fn choice<T: Copy + PartialEq>(
-    ui: &mut egui::Ui,
-    name: &str,
-    hover: &str,
-    value: &mut T,
-    all: &[T],
-    text: impl Fn(T) -> &'static str,
-) {
-    let response = egui::ComboBox::from_id_salt(name)
-        .selected_text(text(*value))
-        .show_ui(ui, |ui| {
-            for one in all {
-                ui.selectable_value(value, *one, text(*one));
-            }
-        })
-        .response;
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, name));
-    response.on_hover_text(hover);
+/// Buttons without gaps, of which usually one is on.
+fn segments(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui)) {
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.x = 1.0;
+        contents(ui);
+    });
 }

@@ -16,6 +16,17 @@ use crate::viewer::model::material::read::MaterialId;
 /// What a pane shows where a draft of a material will not do, until all of it is there.
 const SENDING: &str = "Sending the material to the graphics adapter...";
 
+/// Greatest stride for lack of memory of the adapter.
+const MOST_REDUCED: usize = 32;
+
+/// Why materials are not shaded, as a text for the pane.
+enum ShadingError {
+    /// The adapter has no room for their pictures.
+    NoRoom(String),
+    /// Their maps are not on the adapter.
+    NotThere(String),
+}
+
 /// The texels of a pane, or those that they are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PaneTexels {
@@ -52,6 +63,10 @@ pub struct GpuView {
     display: Display,
     blit: Arc<Blit>,
     shaded: HashMap<MaterialId, ShadedMaterial>,
+    /// The smallest stride of pictures for which the adapter has room, and the materials for which that was found.
+    least_stride: usize,
+    reduced_for: Vec<MaterialId>,
+    reduction: usize,
     /// Differences that were computed elsewhere, of materials by their ids, each with its version.
     given: HashMap<MaterialId, (Arc<Shaded>, u64)>,
     /// The photograph at the exposure of materials by their ids, each with its version.
@@ -75,6 +90,9 @@ impl GpuView {
             display,
             blit,
             shaded: HashMap::new(),
+            least_stride: 1,
+            reduced_for: Vec::new(),
+            reduction: 1,
             given: HashMap::new(),
             photographs: HashMap::new(),
             versions: 0,
@@ -83,7 +101,7 @@ impl GpuView {
     }
 
     /// Shades what is requested of these materials, and is not there yet. Returns whether another frame is needed to
-    /// show all texels of all of them.
+    /// show all texels of all of them. Where the adapter has no room for all texels, every n-th is shown: [`Self::reduction`].
     ///
     /// # Errors
     /// A text for the pane, where the adapter cannot hold a material.
@@ -93,37 +111,68 @@ impl GpuView {
         uploads: &Uploads,
         request: ShadingRequest,
     ) -> Result<bool, String> {
+        loop {
+            match self.shade_at_reduction(materials, uploads, request) {
+                Err(ShadingError::NoRoom(_)) if !request.exact && self.least_stride < MOST_REDUCED => {
+                    self.least_stride *= 2;
+                    self.shaded.clear();
+                }
+                Err(ShadingError::NoRoom(text) | ShadingError::NotThere(text)) => return Err(text),
+                Ok(is_left) => return Ok(is_left),
+            }
+        }
+    }
+
+    /// Every how many texels along an axis one is shown, for lack of memory of the adapter: 1 where all are.
+    pub fn reduction(&self) -> usize {
+        self.reduction
+    }
+
+    fn shade_at_reduction(
+        &mut self,
+        materials: &[&LoadedMaterial],
+        uploads: &Uploads,
+        request: ShadingRequest,
+    ) -> Result<bool, ShadingError> {
         let uploads: Vec<&Arc<Uploaded>> = materials
             .iter()
-            .map(|one| uploads.get(one.id()).ok_or("This material is not on the adapter: reload it"))
+            .map(|one| uploads.get(one.id()).ok_or(ShadingError::NotThere(SENDING.to_owned())))
             .collect::<Result<_, _>>()?;
         // A pane compares texels of one size: all materials are shown in full, or none.
-        let draft = uploads.iter().filter(|one| one.whole().is_none()).find_map(|one| one.draft());
+        let is_partial = |one: &&&Arc<Uploaded>| !matches!(one.whole(), Some(Ok(_)));
+        let draft =
+            uploads.iter().filter(is_partial).filter_map(|one| one.draft()).map(|one| one.stride).max();
+        let has_refused = |one: &&Arc<Uploaded>| matches!(one.whole(), Some(Err(_)));
+        self.reduction =
+            self.least_stride.max(draft.filter(|_| uploads.iter().any(has_refused)).unwrap_or(1));
+        let stride = draft.unwrap_or(1).max(self.least_stride);
         let is_whole = |one: &&LoadedMaterial| {
             self.shaded.get(&one.id()).is_some_and(|one| one.is_whole(request.params))
         };
-        let is_left = draft.is_none() && request.sharpens && !materials.iter().all(is_whole);
-        let part = match draft {
-            Some(_) if request.exact => return Err(SENDING.to_owned()),
-            Some(draft) => ShadedPart::EveryNth(draft.stride),
-            None if request.sharpens && !is_left => ShadedPart::Whole,
-            None => request.part,
+        let is_left = stride == 1 && request.sharpens && !materials.iter().all(is_whole);
+        let part = match stride {
+            1 if request.sharpens && !is_left => ShadedPart::Whole,
+            1 => request.part,
+            stride => ShadedPart::EveryNth(stride),
         };
         let sharpens = is_left && !request.waits;
-        let request = ShadingRequest { part, sharpens, ..request };
+        let part_request = ShadingRequest { part, sharpens, ..request };
         for (material, uploaded) in materials.iter().zip(uploads) {
             let (textures, are_reduced) = match (uploaded.whole(), uploaded.draft()) {
                 (Some(Ok(textures)), _) => (textures, false),
-                (Some(Err(problem)), _) => return Err(problem.clone()),
-                (None, Some(draft)) => (&draft.textures, true),
-                (None, None) => return Err(SENDING.to_owned()),
+                (Some(Err(problem)), _) if request.exact => {
+                    return Err(ShadingError::NotThere(problem.to_owned()));
+                }
+                (_, Some(draft)) if draft.stride == stride && !request.exact => (&draft.textures, true),
+                (Some(Err(problem)), _) => return Err(ShadingError::NotThere(problem.to_owned())),
+                (None, _) => return Err(ShadingError::NotThere(SENDING.to_owned())),
             };
             let Self { gpu, shading, versions, .. } = self;
             let mut device = ShadingDevice { gpu, shading, textures, are_reduced, versions };
             let shaded = self.shaded.entry(material.id()).or_default();
             let size = material.material().size();
-            let shaded = shaded.shade(&mut device, size, request);
-            shaded.map_err(|error| error.to_string())?;
+            let shaded = shaded.shade(&mut device, size, part_request);
+            shaded.map_err(|error| ShadingError::NoRoom(error.to_string()))?;
         }
         Ok(sharpens)
     }
@@ -153,6 +202,9 @@ impl GpuView {
 
     /// Frees the shaded pictures of closed materials, and the pixels of all but the first `panes` panes.
     pub fn keep_only(&mut self, materials: &[LoadedMaterial], panes: usize) {
+        if !materials.iter().map(LoadedMaterial::id).eq(self.reduced_for.iter().copied()) {
+            (self.least_stride, self.reduced_for) = (1, materials.iter().map(LoadedMaterial::id).collect());
+        }
         let is_here = |id: &MaterialId| materials.iter().any(|one| one.id() == *id);
         self.shaded.retain(|id, _| is_here(id));
         self.given.retain(|id, _| is_here(id));

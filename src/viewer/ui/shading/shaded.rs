@@ -1,10 +1,14 @@
 //! Shaded texels of one material, and how much of them is shaded in a frame.
 
 use svbrdf_core::error::Error;
+use svbrdf_files::memory::Reserved;
 use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 
-use crate::viewer::jobs::reading::upload::BAND;
+use crate::viewer::jobs::reading::upload::{BAND, reserve_for};
 use crate::viewer::model::inspection::Region;
+
+/// Bytes of a shaded texel.
+const TARGET_BYTES: u64 = 16;
 
 /// How much of a material is shaded before it is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +49,7 @@ pub struct ShadingDevice<'a> {
 #[derive(Debug)]
 pub struct ShadedTexels {
     pub shaded: Shaded,
+    _reserved: Option<Reserved>,
     /// The maps at these texels alone, where they are not all of the material.
     reduced: Option<MaterialTextures>,
     /// With a region, only its texels.
@@ -170,10 +175,12 @@ fn with_stride<'a>(
         Some(texels) => texels,
         None => {
             let ShadingDevice { gpu, shading, textures, .. } = device;
+            let texels = size.map(|side| side.div_ceil(stride)).into_iter().product();
+            let _reserved = reserve_for(gpu, texels, TARGET_BYTES)?;
             let shaded = shading.reduced_target(gpu, size, stride)?;
             let reduce = || shading.reduced_textures(gpu, textures, size, stride);
             let reduced = (stride > 1 && !device.are_reduced).then(reduce).transpose()?;
-            ShadedTexels { shaded, reduced, drawn: None, version: 0 }
+            ShadedTexels { shaded, _reserved, reduced, drawn: None, version: 0 }
         }
     };
     Ok(place.insert(texels))

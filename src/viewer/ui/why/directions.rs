@@ -1,7 +1,7 @@
-//! The loss of the chosen prediction over the directions of the light or the view.
+//! The losses of the predictions over the directions of the light or the view, and the difference of two of them.
 
 use eframe::egui::{
-    self, Align2, Color32, FontId, Pos2, Rect, RichText, Sense, Stroke, TextureId, TextureOptions, pos2, vec2,
+    self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke, TextureId, TextureOptions, pos2, vec2,
 };
 use glam::DVec3;
 
@@ -9,24 +9,42 @@ use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::colour_map::difference_to_display;
 
-use crate::viewer::jobs::why::{ComparedPair, DirectionMap};
+use crate::viewer::jobs::why::{DirectionMaps, ScaledPicture};
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand};
 use crate::viewer::ui::pane::handles;
 use crate::viewer::ui::why::WhyPanel;
-use crate::viewer::ui::widgets::numbers::digits;
+use crate::viewer::ui::widgets::hemisphere::{direction_at, pos_of, unit};
+use crate::viewer::ui::widgets::names::shortened;
+use crate::viewer::ui::widgets::numbers::{digits, signed};
 use crate::viewer::ui::widgets::texture::PanelTextures;
+use crate::viewer::ui::widgets::theme;
 
-/// Largest side of the map, and width of what stands beside it, in points.
+/// Largest side of a map, and gap between maps, in points.
 const MOST: f32 = 230.0;
-const BESIDE: f32 = 96.0;
-/// Colours in the bar.
+const GAP: f32 = 8.0;
+/// Height of the line above a map, and of a colour bar with its numbers, in points.
+const CAPTION: f32 = 16.0;
+const BAR: f32 = 10.0;
+/// Colours in a bar.
 const STEPS: usize = 64;
+/// Characters of a name above a map.
+const NAME: usize = 12;
+
+/// What a map shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shown {
+    /// The losses of a prediction.
+    Loss(usize),
+    /// The losses of the chosen prediction minus those of another.
+    Difference(usize),
+}
 
 impl WhyPanel<'_> {
+    /// The maps of all predictions, which reach to the share `rim` of the radius, and the difference of the best two.
     pub fn directions(
         &self,
         ui: &mut egui::Ui,
-        pair: &ComparedPair,
+        rim: f64,
         textures: &mut PanelTextures,
         commands: &mut Vec<Command>,
     ) {
@@ -41,43 +59,155 @@ impl WhyPanel<'_> {
                 }
             }
         });
-        let side = (ui.available_width() - BESIDE).clamp(80.0, MOST);
-        let found = self.jobs.directions.get(pair, moved, &self.state.scene);
-        let texture = found
-            .map(|(map, current)| (textures.id(ui.ctx(), &map.picture, TextureOptions::NEAREST), current));
-        let mut direction = None;
-        ui.horizontal_top(|ui| {
-            let (area, response) = ui.allocate_exact_size(vec2(side, side), Sense::click_and_drag());
-            let name = if moved == Endpoint::Light { "light" } else { "view" };
-            let label = format!("Loss over {name} directions");
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
-            let rim = pair.convention.u1_max.sqrt();
-            self.paint(ui, area, rim, texture);
-            if let Some(pos) =
-                response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())
-            {
-                let scene = put(self.state.scene, moved, direction_at(area, pos, rim));
-                commands.push(SceneCommand::Set(scene).into());
-            }
-            let hovered = response.hover_pos().map(|pos| direction_at(area, pos, rim));
-            direction = Some(hovered.unwrap_or_else(|| unit(&self.state.scene, moved)));
-            response.on_hover_cursor(egui::CursorIcon::Crosshair);
-            if let Some((map, _)) = found {
-                legend(ui, side, map);
+        let found = self.jobs.directions.get(&self.pairs, moved, &self.state.scene);
+        let chosen = self.state.display.prediction;
+        let other = found.and_then(|(maps, _)| Some(maps.differences.get(chosen)?.0));
+        let losses = (0..self.pairs.len()).map(Shown::Loss);
+        let all: Vec<Shown> = losses.chain(other.map(Shown::Difference)).collect();
+        let columns = all.len().min(2) as f32;
+        let side = ((ui.available_width() - GAP * (columns - 1.0)) / columns).clamp(80.0, MOST);
+        let mut read = None;
+        ui.scope(|ui| {
+            ui.spacing_mut().item_spacing = vec2(GAP, 4.0);
+            for row in all.chunks(2) {
+                ui.horizontal_top(|ui| {
+                    for shown in row {
+                        let hovered = self.map(ui, side, rim, *shown, found, textures, commands);
+                        read = hovered.map(|direction| (*shown, direction)).or(read);
+                    }
+                });
             }
         });
-        if let Some(direction) = direction {
-            ui.label(
-                RichText::new(reading(moved, direction, found.map(|(map, _)| map))).monospace().size(11.5),
-            );
+        let (shown, direction) = read.unwrap_or((Shown::Loss(chosen), unit(&self.state.scene, moved)));
+        let text = self.reading(shown, direction, found.map(|(maps, _)| maps));
+        ui.add(egui::Label::new(RichText::new(text).monospace().size(11.5)).truncate());
+        if let Some((maps, _)) = found {
+            self.legends(ui, maps);
         }
-        let [x, y, z] = unit(&self.state.scene, other(moved));
+        let [x, y, z] = unit(&self.state.scene, other_endpoint(moved));
         let fixed = if moved == Endpoint::Light { "view" } else { "light" };
         let text = format!("distant scenes, {fixed} fixed at ({x:.2}, {y:.2}, {z:.2})");
         ui.label(RichText::new(text).small().weak()).on_hover_text(
             "Seen from above: x to the right, y up, straight above in the middle. It covers the directions that the loss \
              samples. A click or drag shows the distant scene of that direction.",
         );
+    }
+
+    /// One map below its caption; the direction under the pointer.
+    #[expect(clippy::too_many_arguments, reason = "one for each thing that the map is drawn from")]
+    fn map(
+        &self,
+        ui: &mut egui::Ui,
+        side: f32,
+        rim: f64,
+        shown: Shown,
+        found: Option<(&DirectionMaps, bool)>,
+        textures: &mut PanelTextures,
+        commands: &mut Vec<Command>,
+    ) -> Option<[f64; 3]> {
+        let moved = self.why.moved;
+        let (all, _) = ui.allocate_exact_size(vec2(side, side + CAPTION), Sense::hover());
+        let area = all.with_min_y(all.top() + CAPTION);
+        self.caption(ui, all.with_max_y(area.top()), shown, found.map(|(maps, _)| maps));
+        let response =
+            ui.interact(area, ui.scope_id().with(("directions", label(shown))), Sense::click_and_drag());
+        let name = if moved == Endpoint::Light { "light" } else { "view" };
+        let of = match shown {
+            Shown::Loss(index) if index == self.state.display.prediction => String::new(),
+            _ => format!(" of {}", label(shown)),
+        };
+        let label = format!("Loss over {name} directions{of}");
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
+        let texture = found.and_then(|(maps, current)| {
+            let scaled = match shown {
+                Shown::Loss(index) => maps.losses.get(index)?,
+                Shown::Difference(_) => &maps.differences.get(self.state.display.prediction)?.1,
+            };
+            Some((textures.id(ui.ctx(), &scaled.picture, TextureOptions::NEAREST), current))
+        });
+        self.paint(ui, area, rim, texture);
+        let pressed = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked());
+        if let Some(pos) = pressed {
+            let scene = put(self.state.scene, moved, direction_at(area, pos, rim));
+            commands.push(SceneCommand::Set(scene).into());
+        }
+        let direction = response.hover_pos().map(|pos| direction_at(area, pos, rim));
+        response.on_hover_cursor(egui::CursorIcon::Crosshair);
+        direction
+    }
+
+    /// The number, name and mean of a prediction, or the numbers of two.
+    fn caption(&self, ui: &mut egui::Ui, area: Rect, shown: Shown, found: Option<&DirectionMaps>) {
+        let chosen = self.state.display.prediction;
+        let (text, mean, hover) = match shown {
+            Shown::Loss(index) => {
+                let name = shortened(&self.names, NAME).swap_remove(index);
+                let mean = found.map(|maps| digits(maps.map.mean(index)));
+                (format!("{}  {name}", index + 1), mean, self.names[index].to_owned())
+            }
+            Shown::Difference(other) => {
+                let mean = found.map(|maps| {
+                    let apart = maps.map.mean(chosen) - maps.map.mean(other);
+                    signed(&digits(apart))
+                });
+                let text = format!("{} \u{2212} {}", chosen + 1, other + 1);
+                let hover = format!(
+                    "The loss of {} minus that of {}: where it is below 0, {} is better",
+                    self.names[chosen], self.names[other], self.names[chosen]
+                );
+                (text, mean, hover)
+            }
+        };
+        let ink = match shown {
+            Shown::Loss(index) => theme::series(index, ui.visuals().dark_mode),
+            Shown::Difference(_) => ui.visuals().text_color(),
+        };
+        let (font, painter) = (FontId::proportional(12.0), ui.painter_at(area));
+        painter.text(area.left_center(), Align2::LEFT_CENTER, text, font, ink);
+        if let Some(mean) = mean {
+            let weak = ui.visuals().weak_text_color();
+            painter.text(area.right_center(), Align2::RIGHT_CENTER, mean, FontId::monospace(11.0), weak);
+        }
+        let id = ui.scope_id().with(("caption", label(shown)));
+        ui.interact(area, id, Sense::hover())
+            .on_hover_text(format!("{hover}\nThe number is the mean over all directions of the map"));
+    }
+
+    /// The colours of the losses, and those of their difference.
+    fn legends(&self, ui: &mut egui::Ui, maps: &DirectionMaps) {
+        let chosen = self.state.display.prediction;
+        if let Some(losses) = maps.losses.first() {
+            bar(ui, "loss", ["0".to_owned(), digits(losses.range)], false);
+        }
+        if let Some((other, ScaledPicture { range, .. })) = maps.differences.get(chosen) {
+            let ends = [signed(&digits(-range)), signed(&digits(*range))];
+            bar(ui, &format!("{} \u{2212} {}", chosen + 1, other + 1), ends, true);
+        }
+        let text = format!("standard error {}", digits(maps.map.standard_error(chosen)));
+        ui.label(RichText::new(text).small().weak())
+            .on_hover_text("Of a direction, from the choice of the compared texels; neighbours share it");
+    }
+
+    /// The loss in a direction, with its standard error; or the difference of two losses.
+    fn reading(&self, shown: Shown, direction: [f64; 3], found: Option<&DirectionMaps>) -> String {
+        let name = if self.why.moved == Endpoint::Light { "light" } else { "view" };
+        let [x, y, z] = direction;
+        let place = format!("{name} {x:5.2} {y:5.2} {z:4.2}");
+        let read = |maps: &DirectionMaps| {
+            let cell = maps.map.nearest_cell(direction)?;
+            let of = |index: usize| maps.map.losses.get(index).map(|losses| losses[cell]);
+            Some(match shown {
+                Shown::Loss(index) => {
+                    format!("{:.4} ± {:.4}", of(index)?, maps.map.standard_errors[index][cell])
+                }
+                Shown::Difference(other) => {
+                    let apart = of(self.state.display.prediction)? - of(other)?;
+                    signed(&format!("{apart:.4}"))
+                }
+            })
+        };
+        let number = found.and_then(read).unwrap_or_else(|| "-".to_owned());
+        format!("{place}: {number}")
     }
 
     fn paint(&self, ui: &egui::Ui, area: Rect, rim: f64, texture: Option<(TextureId, bool)>) {
@@ -112,20 +242,11 @@ impl WhyPanel<'_> {
     }
 }
 
-fn other(moved: Endpoint) -> Endpoint {
+fn other_endpoint(moved: Endpoint) -> Endpoint {
     match moved {
         Endpoint::Light => Endpoint::View,
         Endpoint::View => Endpoint::Light,
     }
-}
-
-/// The direction of light or view from the middle of the material.
-fn unit(scene: &Scene, which: Endpoint) -> [f64; 3] {
-    let endpoint = match which {
-        Endpoint::Light => scene.light,
-        Endpoint::View => scene.view,
-    };
-    DVec3::from(endpoint).normalize().to_array()
 }
 
 /// The distant scene with light or view in this direction. Both keep their distances, for when the scene is made near-field
@@ -138,77 +259,40 @@ fn put(scene: Scene, moved: Endpoint, direction: [f64; 3]) -> Scene {
     }
 }
 
-/// Where a unit direction is on the map.
-fn pos_of(area: Rect, [x, y, _]: [f64; 3]) -> Pos2 {
-    area.center() + vec2(x as f32, -y as f32) * (area.width() / 2.0)
+/// The number of a prediction, or the difference of two.
+fn label(shown: Shown) -> String {
+    match shown {
+        Shown::Loss(index) => (index + 1).to_string(),
+        Shown::Difference(other) => format!("the difference to {}", other + 1),
+    }
 }
 
-/// The unit direction at a point of the map; beyond the rim, the nearest on it.
-fn direction_at(area: Rect, pos: Pos2, rim: f64) -> [f64; 3] {
-    let at = (pos - area.center()) / (area.width() / 2.0);
-    let [x, y] = [f64::from(at.x), f64::from(-at.y)];
-    let shrink = (rim / x.hypot(y)).min(1.0);
-    let [x, y] = [x * shrink, y * shrink];
-    [x, y, (1.0 - x * x - y * y).max(0.0).sqrt()]
-}
-
-/// The loss in a direction, with its standard error.
-fn reading(moved: Endpoint, direction: [f64; 3], found: Option<&DirectionMap>) -> String {
-    let name = if moved == Endpoint::Light { "light" } else { "view" };
-    let [x, y, z] = direction;
-    let place = format!("{name} {x:5.2} {y:5.2} {z:4.2}");
-    let read = |map: &DirectionMap| {
-        let index = map.map.nearest_cell(direction)?;
-        let [loss, error] = [map.map.losses[0][index], map.map.standard_errors[0][index]];
-        Some(format!("{place}: {loss:.4} ± {error:.4}"))
-    };
-    found.and_then(read).unwrap_or_else(|| format!("{place}: -"))
-}
-
-/// The colour bar, and the numbers of the whole map.
-fn legend(ui: &mut egui::Ui, height: f32, found: &DirectionMap) {
-    ui.vertical(|ui| {
-        ui.spacing_mut().item_spacing.y = 2.0;
-        let ink = ui.visuals().text_color();
-        let (area, _) = ui.allocate_exact_size(vec2(BESIDE - 20.0, height * 0.5), Sense::hover());
-        let bar = area.with_max_x(area.left() + 12.0).shrink2(vec2(0.0, 5.0));
-        let step = bar.height() / STEPS as f32;
-        for i in 0..STEPS {
-            let [r, g, b] = difference_to_display((i as f32 + 0.5) / STEPS as f32, 1.0, false);
-            let bottom = bar.bottom() - i as f32 * step;
-            let part = Rect::from_x_y_ranges(bar.x_range(), bottom - step..=bottom + 0.5);
-            ui.painter().rect_filled(part.intersect(bar), 0.0, Color32::from_rgb(r, g, b));
-        }
-        let font = FontId::monospace(11.0);
-        for (value, y) in [(found.largest, bar.top()), (0.0, bar.bottom())] {
-            let text = if value > 0.0 { digits(value) } else { "0".to_owned() };
-            ui.painter().text(pos2(bar.right() + 4.0, y), Align2::LEFT_CENTER, text, font.clone(), ink);
-        }
-        let small = |text: String| RichText::new(text).monospace().size(11.0);
-        ui.label(small(format!("mean\n{}", digits(found.map.mean(0)))))
-            .on_hover_text("Over all directions of the map");
-        ui.label(small(format!("std. err.\n{}", digits(found.map.standard_error(0)))))
-            .on_hover_text("Of a direction, from the choice of the compared texels; neighbours share it");
-    });
+/// A name, and a colour bar between the numbers of its ends.
+fn bar(ui: &mut egui::Ui, name: &str, [low, high]: [String; 2], is_signed: bool) {
+    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), BAR + 4.0), Sense::hover());
+    let painter = ui.painter_at(area);
+    let (ink, font) = (ui.visuals().text_color(), FontId::monospace(11.0));
+    let middle = area.center().y;
+    painter.text(pos2(area.left(), middle), Align2::LEFT_CENTER, name, font.clone(), ink);
+    let colours = Rect::from_x_y_ranges(area.left() + 100.0..=area.right() - 56.0, area.y_range())
+        .shrink2(vec2(0.0, 2.0));
+    painter.text(pos2(colours.left() - 4.0, middle), Align2::RIGHT_CENTER, low, font.clone(), ink);
+    painter.text(pos2(colours.right() + 4.0, middle), Align2::LEFT_CENTER, high, font, ink);
+    let step = colours.width() / STEPS as f32;
+    for i in 0..STEPS {
+        let share = (i as f32 + 0.5) / STEPS as f32;
+        let amount = if is_signed { 2.0 * share - 1.0 } else { share };
+        let [r, g, b] = difference_to_display(amount, 1.0, is_signed);
+        let left = colours.left() + i as f32 * step;
+        let part = Rect::from_x_y_ranges(left..=left + step + 0.5, colours.y_range());
+        painter.rect_filled(part.intersect(colours), 0.0, Color32::from_rgb(r, g, b));
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::viewer::model::view::state::ViewState;
-
-    #[test]
-    fn a_point_of_the_map_is_where_its_direction_is_drawn() {
-        let area = Rect::from_min_size(pos2(10.0, 20.0), vec2(200.0, 200.0));
-        for pos in [pos2(110.0, 120.0), pos2(60.0, 90.0), pos2(150.0, 180.0)] {
-            let direction = direction_at(area, pos, 0.97);
-            assert!(pos_of(area, direction).distance(pos) < 1e-3, "{direction:?}");
-            assert!((DVec3::from(direction).length() - 1.0).abs() < 1e-12);
-        }
-        // The upper left corner: x to the left, y up, on the rim.
-        let [x, y, _] = direction_at(area, area.min, 0.97);
-        assert!(x < 0.0 && y > 0.0 && (x.hypot(y) - 0.97).abs() < 1e-12);
-    }
 
     #[test]
     fn what_is_put_somewhere_keeps_its_distance_and_leaves_the_other() {

@@ -13,10 +13,15 @@ use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::numbers::{accuracy, seconds, significant};
 use crate::viewer::ui::widgets::theme;
 
-/// Height of a row, and widths of its name and of its numbers, in points.
-const ROW: f32 = 20.0;
-const NAME: f32 = 74.0;
-const NUMBERS: f32 = 114.0;
+/// Most predictions that have numbers in every row.
+const WITH_NUMBERS: usize = 4;
+/// Heights of rows with and without numbers, in points.
+const ROW: f32 = 18.0;
+const LOW: f32 = 8.0;
+/// Widths of the name of a map, of the number of a prediction and of its amounts, in points.
+const NAME: f32 = 72.0;
+const NUMBER: f32 = 16.0;
+const AMOUNTS: f32 = 114.0;
 
 /// The section, with what it depends on.
 #[derive(Debug)]
@@ -24,19 +29,39 @@ pub struct MapsSection<'a> {
     pub state: &'a ViewState,
     pub jobs: &'a WhyJobs,
     pub settings: &'a LossSettings,
+    /// The ground truth and each prediction, and the names of the predictions.
+    pub pairs: &'a [ComparedPair],
+    pub names: &'a [&'a str],
 }
 
 impl MapsSection<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
-        let attributed = self.jobs.attribution.get(pair, self.settings.seed);
-        let axis = attributed.map_or([0.0, 1.0], axis);
+    pub fn ui(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let of = |pair| self.jobs.attribution.get(pair, self.settings.seed);
+        let all: Vec<Option<&Attributed>> = self.pairs.iter().map(of).collect();
+        let chosen = self.state.display.prediction;
+        let axis = axis(all.iter().copied().flatten());
         for map in Map::ALL {
-            let row = MapRow { map, attributed, axis, chosen: self.state.display.prediction };
-            let isolated = self.state.display.isolated == Some(map);
-            if row.ui(ui, isolated, self.state.display.only_right).clicked() {
-                commands.push(DisplayCommand::Isolate((!isolated).then_some(map)).into());
-            }
+            ui.scope(|ui| {
+                ui.spacing_mut().item_spacing.y = 1.0;
+                for (index, attributed) in all.iter().enumerate() {
+                    let row = MapRow {
+                        map,
+                        index,
+                        name: self.names.get(index).copied().unwrap_or_default(),
+                        count: all.len(),
+                        attributed: *attributed,
+                        axis,
+                        is_chosen: index == chosen,
+                    };
+                    let is_isolated = row.is_chosen && self.state.display.isolated == Some(map);
+                    if row.ui(ui, is_isolated, self.state.display.only_right).clicked() {
+                        commands.push(DisplayCommand::ChoosePrediction(index).into());
+                        commands.push(DisplayCommand::Isolate((!is_isolated).then_some(map)).into());
+                    }
+                }
+            });
         }
+        let attributed = all.get(chosen).copied().flatten();
         self.state_line(ui, attributed);
         if let Some(note) = attributed.and_then(|attributed| attributed.attribution.note()) {
             ui.label(RichText::new(note).small());
@@ -80,8 +105,8 @@ impl MapsSection<'_> {
     fn pane_choice(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         ui.horizontal_wrapped(|ui| {
             ui.label("A click shows").on_hover_text(
-                "A click on a map shows the chosen prediction with this map alone wrong, or alone right, in its pane. \
-                 Another click, or Esc, shows the prediction itself.",
+                "A click on a bar chooses the prediction and shows it with this map alone wrong, or alone right, in its \
+                 pane. Another click, or Esc, shows the prediction itself.",
             );
             for (right, name, hover) in [
                 (false, "only it wrong", "The ground truth with this map of the prediction"),
@@ -96,53 +121,70 @@ impl MapsSection<'_> {
     }
 }
 
-/// One map.
+/// One map of one prediction.
 struct MapRow<'a> {
     map: Map,
+    /// The prediction, its name, and the number of predictions.
+    index: usize,
+    name: &'a str,
+    count: usize,
     attributed: Option<&'a Attributed>,
     /// The values at both ends of the bars.
     axis: [f64; 2],
-    /// The chosen prediction.
-    chosen: usize,
+    is_chosen: bool,
 }
 
 impl MapRow<'_> {
     fn ui(&self, ui: &mut egui::Ui, isolated: bool, only_right: bool) -> egui::Response {
-        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+        let has_numbers = self.is_chosen || self.count <= WITH_NUMBERS;
+        let height = if has_numbers { ROW } else { LOW };
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
         let share = self.attributed.map(|attributed| attributed.attribution.of(self.map));
         let text = self.attributed.map_or_else(String::new, |attributed| percent(attributed, self.map));
-        let label = format!("{}: {text} of the loss", self.map.name());
+        let of = if self.is_chosen { String::new() } else { format!(" of {}", self.name) };
+        let label = format!("{}{of}: {text} of the loss", self.map.name());
         response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, isolated, &label));
         let visuals = ui.visuals();
         let painter = ui.painter();
+        // The name of the map is that of all its rows.
+        let row = area.with_min_x(area.left() + NAME);
         if isolated {
-            painter.rect_filled(area, 3.0, visuals.selection.bg_fill);
+            painter.rect_filled(row, 3.0, visuals.selection.bg_fill);
         } else if response.hovered() {
-            painter.rect_filled(area, 3.0, visuals.widgets.hovered.weak_bg_fill);
+            painter.rect_filled(row, 3.0, visuals.widgets.hovered.weak_bg_fill);
         }
         if response.has_focus() {
-            painter.rect_stroke(area, 3.0, visuals.selection.stroke, egui::StrokeKind::Inside);
+            painter.rect_stroke(row, 3.0, visuals.selection.stroke, egui::StrokeKind::Inside);
         }
         let ink = visuals.text_color();
         let (middle, font) = (area.center().y, FontId::monospace(12.0));
-        let name = pos2(area.left() + 4.0, middle);
-        painter.text(name, Align2::LEFT_CENTER, self.map.name(), FontId::proportional(13.0), ink);
-        let bars = Rect::from_x_y_ranges(area.left() + NAME..=area.right() - NUMBERS, area.y_range());
+        if self.index == 0 {
+            let name = pos2(area.left() + 4.0, area.top() + 0.5 * ROW);
+            painter.text(name, Align2::LEFT_CENTER, self.map.name(), FontId::proportional(13.0), ink);
+        }
+        let bars = Rect::from_x_y_ranges(row.left() + NUMBER..=area.right() - AMOUNTS, area.y_range());
         if let Some(share) = share {
             self.bar(ui, bars, share);
-            let value = format!("{:.4}", share.shapley.mean);
-            painter.text(pos2(area.right() - 4.0, middle), Align2::RIGHT_CENTER, value, font.clone(), ink);
         }
-        painter.text(pos2(area.right() - 64.0, middle), Align2::RIGHT_CENTER, text, font, ink);
+        if has_numbers {
+            if self.count > 1 {
+                let at = pos2(row.left() + 4.0, middle);
+                painter.text(at, Align2::LEFT_CENTER, (self.index + 1).to_string(), font.clone(), ink);
+            }
+            let value = share.map_or_else(|| "...".to_owned(), |share| format!("{:.4}", share.shapley.mean));
+            painter.text(pos2(area.right() - 4.0, middle), Align2::RIGHT_CENTER, value, font.clone(), ink);
+            painter.text(pos2(area.right() - 64.0, middle), Align2::RIGHT_CENTER, text, font, ink);
+        }
         let side = if only_right { "right" } else { "wrong" };
-        let name = self.map.name();
+        let map = self.map.name();
         response.on_hover_ui(|ui| {
+            ui.strong(format!("{}  {}: {map}", self.index + 1, self.name));
             if let Some(share) = share {
                 ui.label(numbers(share));
             }
             ui.label(match isolated {
                 true => "Click to show the prediction itself (Esc)".to_owned(),
-                false => format!("Click to show the prediction with only its {name} {side}"),
+                false => format!("Click to show the prediction with only its {map} {side}"),
             });
         })
     }
@@ -151,16 +193,17 @@ impl MapRow<'_> {
         let [low, high] = self.axis;
         let x = |value: f64| area.left() + area.width() * ((value - low) / (high - low)) as f32;
         let (zero, end, middle) = (x(0.0), x(share.shapley.mean), area.center().y);
-        let bar = Rect::from_x_y_ranges(zero.min(end)..=zero.max(end), middle - 4.0..=middle + 4.0);
+        let half = (0.5 * area.height() - 1.0).min(4.0);
+        let bar = Rect::from_x_y_ranges(zero.min(end)..=zero.max(end), middle - half..=middle + half);
         let painter = ui.painter();
-        painter.rect_filled(bar, 1.0, theme::series(self.chosen, ui.visuals().dark_mode));
+        painter.rect_filled(bar, 1.0, theme::series(self.index, ui.visuals().dark_mode));
         let thin = Stroke::new(1.0, ui.visuals().weak_text_color());
-        painter.line_segment([pos2(zero, area.top() + 3.0), pos2(zero, area.bottom() - 3.0)], thin);
+        painter.line_segment([pos2(zero, area.top()), pos2(zero, area.bottom())], thin);
         if let Some([low, high]) = share.shapley.interval95 {
             let stroke = Stroke::new(1.5, ui.visuals().text_color());
             painter.line_segment([pos2(x(low), middle), pos2(x(high), middle)], stroke);
             for at in [x(low), x(high)] {
-                painter.line_segment([pos2(at, middle - 4.0), pos2(at, middle + 4.0)], stroke);
+                painter.line_segment([pos2(at, middle - half), pos2(at, middle + half)], stroke);
             }
         }
     }
@@ -184,10 +227,10 @@ fn numbers(share: &MapShare) -> String {
     format!("Shapley value {shapley}\nLoss with only it wrong {wrong}\nLoss with only it right {right}")
 }
 
-/// From 0, or the least value where errors of maps cancel, to the largest.
-fn axis(Attributed { attribution, .. }: &Attributed) -> [f64; 2] {
+/// From 0, or the least value where errors of maps cancel, to the largest: one axis for all predictions.
+fn axis<'a>(all: impl Iterator<Item = &'a Attributed>) -> [f64; 2] {
     let ends = |share: &MapShare| share.shapley.interval95.unwrap_or([share.shapley.mean; 2]);
-    let low = attribution.maps.iter().map(|share| ends(share)[0]).fold(0.0, f64::min);
-    let high = attribution.maps.iter().map(|share| ends(share)[1]).fold(f64::MIN_POSITIVE, f64::max);
-    [low, high]
+    all.flat_map(|one| &one.attribution.maps)
+        .map(ends)
+        .fold([0.0, f64::MIN_POSITIVE], |[low, high], ends| [low.min(ends[0]), high.max(ends[1])])
 }

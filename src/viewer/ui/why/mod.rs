@@ -1,4 +1,4 @@
-//! Tab *Why*: maps, scenes and directions from which the loss of the chosen prediction comes.
+//! Tab *Why*: maps, scenes and directions from which the losses of the predictions come.
 
 pub mod directions;
 pub mod maps;
@@ -30,8 +30,8 @@ pub struct WhyPanel<'a> {
     pub losses: Option<(&'a [f64], bool)>,
     /// Of the predictions.
     pub names: Vec<&'a str>,
-    /// The ground truth and the chosen prediction.
-    pub pair: Option<ComparedPair>,
+    /// The ground truth and each prediction.
+    pub pairs: Vec<ComparedPair>,
     pub why: WhyState,
     pub jobs: &'a WhyJobs,
     pub sections: WhySections,
@@ -42,7 +42,7 @@ pub struct WhyPanel<'a> {
 impl WhyPanel<'_> {
     pub fn ui(&self, ui: &mut egui::Ui, textures: &mut PanelTextures) -> Vec<Command> {
         let mut commands = Vec::new();
-        let Some(pair) = &self.pair else {
+        let Some(pair) = self.pairs.get(self.state.display.prediction) else {
             ui.label("Open a prediction to compare with the ground truth.");
             return commands;
         };
@@ -77,11 +77,13 @@ impl WhyPanel<'_> {
             let header = egui::CollapsingHeader::new(RichText::new(title).strong()).open(Some(open));
             let header = header.show_unindented(ui, |ui| match section {
                 WhySection::Maps => {
-                    let Self { state, jobs, settings, .. } = *self;
-                    MapsSection { state, jobs, settings }.ui(ui, pair, &mut commands);
+                    let Self { state, jobs, settings, pairs, names, .. } = self;
+                    MapsSection { state, jobs, settings, pairs, names }.ui(ui, &mut commands);
                 }
                 WhySection::Scenes => self.scenes(ui, pair, textures, &mut commands),
-                WhySection::Directions => self.directions(ui, pair, textures, &mut commands),
+                WhySection::Directions => {
+                    self.directions(ui, pair.convention.u1_max.sqrt(), textures, &mut commands)
+                }
             });
             if header.header_response.on_hover_text(question).clicked() {
                 commands.push(WhyCommand::ShowSection(section, !open).into());

@@ -82,10 +82,16 @@ impl WhyPanel<'_> {
         painter.text(area.left_bottom(), Align2::LEFT_TOP, "0", font.clone(), weak);
         painter.text(area.right_bottom(), Align2::RIGHT_TOP, digits(*high), font.clone(), weak);
         let mean = pos2(x(list.mean).clamp(area.left() + 60.0, area.right() - 90.0), area.bottom());
-        painter.text(mean, Align2::CENTER_TOP, format!("mean {}", digits(list.mean)), font, ink);
+        painter.text(
+            mean,
+            Align2::CENTER_TOP,
+            format!("mean of {} {}", list.ranked.len(), digits(list.mean)),
+            font,
+            ink,
+        );
         let [mean, current] = if ui.visuals().dark_mode { ["White", "orange"] } else { ["Black", "brown"] };
         response.on_hover_text(format!(
-            "Number of scenes by their loss, on all texels. {mean}: the mean; {current}: the current scene"
+            "Number of scenes by their loss, on all texels. {mean}: their mean; {current}: the current scene"
         ));
     }
 
@@ -105,7 +111,7 @@ impl WhyPanel<'_> {
                     Some((texture, Rect::from_min_max(least.into(), greatest.into())))
                 });
                 if thumbnail(ui, ranked, rank, part, ranked.scene == self.state.scene).clicked() {
-                    commands.push(SceneCommand::Set(ranked.scene).into());
+                    commands.push(SceneCommand::Choose(ranked.scene).into());
                 }
             }
         });
@@ -117,7 +123,9 @@ impl WhyPanel<'_> {
                     commands.push(WhyCommand::ListScenes(listed + MORE).into());
                 }
             }
-            if listed > MORE / 2 && ui.small_button("Fewer scenes").clicked() {
+            if listed > MORE / 2
+                && ui.small_button("Fewer scenes").on_hover_text("List the worst ones only").clicked()
+            {
                 commands.push(WhyCommand::ListScenes(MORE / 2).into());
             }
             let save = ui.small_button("Save scenes...");
@@ -157,7 +165,7 @@ impl WhyPanel<'_> {
                 let chosen = worst.scene == self.state.scene;
                 let label = ui.selectable_label(chosen, times(worst));
                 if label.on_hover_text(found(worst)).clicked() {
-                    commands.push(SceneCommand::Set(worst.scene).into());
+                    commands.push(SceneCommand::Choose(worst.scene).into());
                 }
             }
         });

@@ -1,0 +1,4 @@
+//! glTF files in JSON.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| svbrdf_fuzz::material("fuzzed.gltf", bytes));

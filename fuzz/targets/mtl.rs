@@ -1,0 +1,4 @@
+//! MTL files.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| svbrdf_fuzz::material("fuzzed.mtl", bytes));

@@ -1,0 +1,113 @@
+//! Loss of the graphics device: everything goes on in a new window on another device.
+
+use svbrdf::viewer::model::command::DisplayCommand;
+
+use super::*;
+
+/// Losses of the device, each in the middle of a drag.
+const LOSSES: usize = 100;
+
+/// The application in a window with a device of its own, after the device of the last one was lost.
+fn resumed<'a>(last: Window<'a>) -> Window<'a> {
+    let mut app = last.into_state();
+    let mut window = Harness::builder()
+        .with_size(vec2(1200.0, 800.0))
+        .with_max_steps(16)
+        .with_step_dt(1.0 / 30.0)
+        .wgpu()
+        .build_eframe(|cc| {
+            app.resume(cc);
+            app
+        });
+    window.set_render_cursor(false);
+    window
+}
+
+/// Loses the device, as a fault of the driver does.
+fn lose(window: &mut Window<'_>) {
+    window.state().parts.gpu.as_ref().unwrap().gpu.lose();
+    window.step();
+    assert!(window.state().loss().is_some() && !window.state().has_crashed());
+    let output = window.output();
+    assert!(output.shapes.is_empty(), "nothing is drawn on a lost device");
+    let commands = &output.viewport_output[&egui::ViewportId::ROOT].commands;
+    assert!(commands.contains(&egui::ViewportCommand::Close), "{commands:?}");
+}
+
+fn button(pos: Pos2, pressed: bool) -> egui::Event {
+    let (button, modifiers) = (egui::PointerButton::Primary, egui::Modifiers::NONE);
+    egui::Event::PointerButton { pos, button, pressed, modifiers }
+}
+
+/// The pixels of a pane at rest, with no pointer over it.
+fn still(window: &mut Window<'_>, rect: egui::Rect) -> image::RgbaImage {
+    window.event(egui::Event::PointerGone);
+    window.run_steps(12);
+    pixels(window, rect)
+}
+
+/// What a person would miss: view with light, pins, materials and messages but that of the loss.
+fn state(window: &Window<'_>) -> String {
+    let model = &window.state().parts.model;
+    let pins = &model.inspection.pins;
+    format!("{:?} {pins:?} {:?} {:?}", model.view, window.state().names(), model.settings)
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_device_that_is_lost_in_a_drag_a_hundred_times_loses_nothing_else() {
+    let mut window = built_in();
+    let rect = pane(&window, GROUND_TRUTH);
+    hover(&mut window, rect.center());
+    press(&mut window, egui::Key::I);
+    assert_eq!(window.state().parts.model.inspection.pins.len(), 1, "a pin");
+    for loss in 0..LOSSES {
+        let compares_pixels = loss % 20 == 0;
+        let at = rect.center() + vec2(-80.0 + 1.5 * loss as f32, 40.0);
+        window.event(egui::Event::PointerMoved(rect.center()));
+        window.event(button(rect.center(), true));
+        window.event(egui::Event::PointerMoved(at));
+        window.run_steps(3);
+        // The crosshair of the pointer is not drawn in a drag, which the new window does not continue.
+        let before = compares_pixels.then(|| {
+            window.event(button(at, false));
+            still(&mut window, rect)
+        });
+        let expected = state(&window);
+        lose(&mut window);
+        window = resumed(window);
+        window.event(egui::Event::PointerMoved(at));
+        wait(&mut window, "the materials to be sent", |app| {
+            let materials = &app.parts.model.materials.all;
+            materials.iter().all(|one| app.parts.jobs.uploads.get(one.id()).is_some())
+        });
+        assert_eq!(state(&window), expected, "loss {loss}");
+        if let Some(before) = before {
+            assert!(still(&mut window, rect) == before, "loss {loss}: other pixels");
+        }
+    }
+    let messages = window.state().messages();
+    assert_eq!(messages.len(), 1, "one line for all of them: {messages:?}");
+    assert!(messages[0].starts_with("The graphics device was lost ("), "{messages:?}");
+    let moved = window.state().parts.model.view.scene.light;
+    window.run_steps(30);
+    let context = window.ctx.clone();
+    window.state_mut().apply(&context, DisplayCommand::Undo.into());
+    assert_ne!(window.state().parts.model.view.scene.light, moved, "undo goes back beyond the losses");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn differences_error_maps_and_mixtures_are_displayed_again_after_a_loss() {
+    let mut window = built_in();
+    press(&mut window, egui::Key::D);
+    let rect = pane(&window, GROUND_TRUTH);
+    let before = still(&mut window, rect);
+    lose(&mut window);
+    window = resumed(window);
+    wait(&mut window, "the materials to be sent", |app| {
+        let materials = &app.parts.model.materials.all;
+        materials.iter().all(|one| app.parts.jobs.uploads.get(one.id()).is_some())
+    });
+    assert!(still(&mut window, rect) == before, "the differences have other pixels");
+}

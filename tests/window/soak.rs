@@ -1,0 +1,323 @@
+//! Long use: a seeded monkey presses, drags, scrolls, types and clicks everything, while files change underneath.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::{Key, Modifiers, PointerButton};
+use egui_kittest::kittest::NodeT as _;
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng as _, SeedableRng as _};
+
+use super::*;
+
+/// Events of the usual run.
+const EVENTS: usize = 500;
+/// Most pixels of textures of panels and fonts, of which an egui window of this size needs a few million.
+const MOST_TEXTURE_PIXELS: usize = 40_000_000;
+
+const KEYS: [Key; 42] = [
+    Key::M,
+    Key::E,
+    Key::N,
+    Key::C,
+    Key::D,
+    Key::P,
+    Key::T,
+    Key::J,
+    Key::V,
+    Key::L,
+    Key::H,
+    Key::B,
+    Key::X,
+    Key::F,
+    Key::R,
+    Key::I,
+    Key::Q,
+    Key::G,
+    Key::Z,
+    Key::Y,
+    Key::O,
+    Key::S,
+    Key::F1,
+    Key::Comma,
+    Key::Period,
+    Key::Escape,
+    Key::Enter,
+    Key::Tab,
+    Key::Space,
+    Key::Num0,
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Plus,
+    Key::Minus,
+    Key::ArrowUp,
+    Key::ArrowDown,
+    Key::ArrowLeft,
+    Key::ArrowRight,
+    Key::Home,
+    Key::Backspace,
+    Key::Delete,
+];
+
+/// What a person types into fields.
+const TEXTS: [&str; 8] = ["0.5", "-1e9", "NaN", "12", "no/such/file.png", "\u{202e}abc", "", "1, 2, 3"];
+
+/// The materials on disk, which change.
+struct Files {
+    folder: tempfile::TempDir,
+    names: Vec<PathBuf>,
+}
+
+impl Files {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let names = ["truth.png", "a.png", "b.png"].map(|name| folder.path().join(name)).into();
+        let files = Self { folder, names };
+        (0..3).for_each(|index| files.write(index, index as f64));
+        files
+    }
+
+    /// Writes a material whose albedo depends on `shift`.
+    fn write(&self, index: usize, shift: f64) {
+        let strip = pictures::packed("NDRS", 4, |map, value| match map {
+            'D' => (value + 0.03 * shift).fract(),
+            _ => value,
+        });
+        strip.save(&self.names[index]).unwrap();
+    }
+
+    /// Changes one file as programs do: other pixels, another size, half of it, gone, or back.
+    fn change(&self, random: &mut ChaCha8Rng) {
+        let index = below(random, 3);
+        let path = &self.names[index];
+        match below(random, 6) {
+            0 => std::fs::write(path, b"no picture").unwrap(),
+            1 => drop(std::fs::remove_file(path)),
+            2 => image::RgbImage::from_pixel(128, 32, image::Rgb([128, 128, 255])).save(path).unwrap(),
+            3 => {
+                self.write(index, 1.0);
+                let bytes = std::fs::read(path).unwrap();
+                std::fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
+            }
+            _ => self.write(index, below(random, 20) as f64),
+        }
+    }
+}
+
+fn below(random: &mut ChaCha8Rng, limit: usize) -> usize {
+    random.next_u32() as usize % limit.max(1)
+}
+
+/// A point of the window.
+fn place(window: &Window<'_>, random: &mut ChaCha8Rng) -> Pos2 {
+    let size = window.ctx.content_rect().size();
+    let mut share = || (random.next_u32() as f32 / u32::MAX as f32).clamp(0.001, 0.999);
+    egui::pos2(size.x * share(), size.y * share())
+}
+
+/// The middle of a control.
+fn control(window: &Window<'_>, random: &mut ChaCha8Rng) -> Pos2 {
+    use egui::accesskit::Role;
+    let is_control = |role: Role| {
+        matches!(
+            role,
+            Role::Button
+                | Role::CheckBox
+                | Role::RadioButton
+                | Role::ComboBox
+                | Role::Slider
+                | Role::SpinButton
+                | Role::TextInput
+                | Role::MultilineTextInput
+                | Role::Link
+                | Role::Tab
+        )
+    };
+    let controls = window.root().children_recursive().filter(|node| is_control(node.accesskit_node().role()));
+    let all: Vec<Pos2> = controls.map(|node| node.rect().center()).collect();
+    if all.is_empty() { place(window, random) } else { all[below(random, all.len())] }
+}
+
+fn modifiers(random: &mut ChaCha8Rng) -> Modifiers {
+    match below(random, 8) {
+        0 | 1 => Modifiers::COMMAND,
+        2 => Modifiers::SHIFT,
+        3 => Modifiers::COMMAND | Modifiers::SHIFT,
+        4 => Modifiers::ALT,
+        _ => Modifiers::NONE,
+    }
+}
+
+fn pointer(window: &mut Window<'_>, pos: Pos2, button: PointerButton, pressed: bool) {
+    let modifiers = Modifiers::NONE;
+    window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
+}
+
+fn click(window: &mut Window<'_>, at: Pos2, button: PointerButton) {
+    window.event(egui::Event::PointerMoved(at));
+    pointer(window, at, button, true);
+    window.step();
+    pointer(window, at, button, false);
+}
+
+/// One event, and its name.
+fn event(window: &mut Window<'_>, files: &Files, random: &mut ChaCha8Rng) -> String {
+    let button =
+        [PointerButton::Primary, PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle]
+            [below(random, 4)];
+    match below(random, 20) {
+        0..=5 => {
+            let (key, with) = (KEYS[below(random, KEYS.len())], modifiers(random));
+            window.key_press_modifiers(with, key);
+            format!("{with:?} {key:?}")
+        }
+        6..=9 => {
+            let at = control(window, random);
+            click(window, at, PointerButton::Primary);
+            format!("control at {at:?}")
+        }
+        10 => {
+            let at = place(window, random);
+            click(window, at, button);
+            format!("{button:?} at {at:?}")
+        }
+        11..=14 => {
+            let (from, to) = (place(window, random), place(window, random));
+            window.event(egui::Event::PointerMoved(from));
+            pointer(window, from, button, true);
+            for share in [0.3, 0.7, 1.0] {
+                window.step();
+                window.event(egui::Event::PointerMoved(from + (to - from) * share));
+            }
+            window.step();
+            pointer(window, to, button, false);
+            format!("drag {button:?} {from:?} {to:?}")
+        }
+        15 | 16 => {
+            let at = place(window, random);
+            window.event(egui::Event::PointerMoved(at));
+            let delta = vec2(0.0, [-120.0, -10.0, 10.0, 120.0][below(random, 4)]);
+            window.event(egui::Event::MouseWheel {
+                unit: egui::MouseWheelUnit::Point,
+                delta,
+                phase: egui::TouchPhase::Move,
+                source: egui::MouseWheelSource::Wheel,
+                modifiers: modifiers(random),
+            });
+            format!("wheel {delta:?}")
+        }
+        17 => {
+            let text = TEXTS[below(random, TEXTS.len())];
+            window.event(egui::Event::Text(text.to_owned()));
+            format!("text {text:?}")
+        }
+        18 => {
+            let size = [vec2(1200.0, 800.0), vec2(640.0, 420.0), vec2(1500.0, 500.0)][below(random, 3)];
+            window.set_size(size);
+            format!("size {size:?}")
+        }
+        _ => {
+            files.change(random);
+            "a file changes".to_owned()
+        }
+    }
+}
+
+/// Opens the materials again, as a person does after the window has lost all of them.
+fn reopen(window: &mut Window<'_>, files: &Files) {
+    (0..3).for_each(|index| files.write(index, 0.0));
+    window.input_mut().dropped_files =
+        files.names.iter().map(|path| Arc::new(Dropped(path.clone())) as _).collect();
+}
+
+/// What must not grow.
+fn check(window: &Window<'_>) {
+    let app = window.state();
+    assert!(!app.has_crashed(), "a frame has panicked");
+    let textures = window.ctx.tex_manager();
+    let pixels: usize = textures.read().allocated().map(|(_, meta)| meta.size[0] * meta.size[1]).sum();
+    assert!(pixels < MOST_TEXTURE_PIXELS, "{pixels} pixels in textures");
+    assert!(app.messages().len() < 60, "{} messages", app.messages().len());
+}
+
+/// A window on files that nothing is saved beside but what the monkey saves itself.
+fn opened<'a>(files: &Files) -> Window<'a> {
+    let [truth, predictions @ ..] = &files.names[..] else { unreachable!() };
+    window(ViewerOptions {
+        ground_truth: Some(truth.clone()),
+        predictions: predictions.to_vec(),
+        ..ViewerOptions::default()
+    })
+}
+
+/// Plays `count` events; `look` is called after each.
+fn play(seed: u64, count: usize, mut look: impl FnMut(&mut Window<'_>, usize)) {
+    let files = Files::new();
+    let mut window = opened(&files);
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut last = Vec::new();
+    for number in 0..count {
+        last.push(event(&mut window, &files, &mut random));
+        if last.len() > 8 {
+            last.remove(0);
+        }
+        window.run_steps(1 + below(&mut random, 3));
+        assert!(!window.state().has_crashed(), "event {number} of seed {seed}: {last:#?}");
+        // Nothing is written where the tests run.
+        window.state_mut().parts.ui.dialogs.save = None;
+        if number % 100 == 99 {
+            check(&window);
+            if window.state().names().len() < 2 {
+                reopen(&mut window, &files);
+            }
+        }
+        if number % 25 == 24 {
+            window.render().unwrap();
+        }
+        look(&mut window, number + 1);
+    }
+    let inside = |path: &Path| path.starts_with(files.folder.path());
+    assert!(files.names.iter().all(|path| inside(path)));
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn five_hundred_events_of_a_monkey_crash_nothing() {
+    play(1, EVENTS, |_, _| ());
+}
+
+/// Resident memory of this process in MB.
+fn resident() -> f64 {
+    let statm = std::fs::read_to_string("/proc/self/statm").unwrap_or_default();
+    let pages: f64 = statm.split(' ').nth(1).and_then(|field| field.parse().ok()).unwrap_or(0.0);
+    pages * 4096.0 / 1e6
+}
+
+#[test]
+#[ignore = "takes an hour: `SVBRDF_SOAK=20000 cargo test --package window-tests soak -- --ignored --nocapture`"]
+fn memory_reaches_a_plateau_in_long_use() {
+    let events = std::env::var("SVBRDF_SOAK").ok().and_then(|n| n.parse().ok()).unwrap_or(20_000);
+    let start = std::time::Instant::now();
+    let mut measured = Vec::new();
+    play(7, events, |window, number| {
+        if number % 250 == 0 {
+            let app = window.state();
+            let textures = window.ctx.tex_manager();
+            let pixels: usize =
+                textures.read().allocated().map(|(_, meta)| meta.size[0] * meta.size[1]).sum();
+            let memory = resident();
+            println!(
+                "{number} events, {:.0} s: {memory:.0} MB, {:.1} million pixels of textures, {} materials, {} messages",
+                start.elapsed().as_secs_f64(),
+                pixels as f64 / 1e6,
+                app.names().len(),
+                app.messages().len(),
+            );
+            measured.push(memory);
+        }
+    });
+    let most = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
+    let [before, after] = [&measured[..measured.len() / 2], &measured[measured.len() / 2..]].map(most);
+    assert!(after < 1.1 * before, "{before:.0} MB in the first half, {after:.0} MB in the second");
+}
