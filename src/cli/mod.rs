@@ -50,7 +50,7 @@ Examples:
   svbrdf convert gt.png gt.exr            writes the material as one layered EXR
 
 Environment:
-  RUST_LOG      messages of the libraries of window and graphics: error, warn, info, debug; or by library, as wgpu=info
+  RUST_LOG      messages of window and graphics libraries: warn, info, debug, or wgpu=info
   WGPU_BACKEND  graphics interfaces that may be used: vulkan, metal, dx12, gl
 
 Exit codes:
@@ -127,8 +127,8 @@ pub fn main() -> ExitCode {
 
 /// The parser of the command line stops at `--version`, wherever `--verbose` stands.
 fn print_version() -> Result<(), CommandError> {
-    let is_verbose = std::env::args_os().any(|argument| argument == "--verbose");
-    Ok(put(&version::text(is_verbose))?)
+    let is_verbose = |argument: String| argument == "--verbose" || argument == "-v";
+    Ok(put(&version::text(std::env::args().any(is_verbose)))?)
 }
 
 impl Cli {

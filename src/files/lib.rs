@@ -23,6 +23,7 @@ pub mod export;
 pub mod inputs;
 mod lfs;
 pub mod memory;
+mod npy;
 pub mod open;
 mod panics;
 mod paths;

@@ -9,7 +9,6 @@ use exr::prelude::{
     Layer, LayerAttributes, Text, WritableImage, f16,
 };
 use image::{DynamicImage, ImageFormat, RgbImage};
-use npyz::WriterBuilder;
 use smallvec::SmallVec;
 
 /// Side of the maps.
@@ -172,14 +171,13 @@ pub fn rgb_exr(path: &Path, image: &image::Rgb32FImage) {
     exr(path, vec![(None, ["R", "G", "B"].iter().enumerate().map(|(c, n)| channel(n, plane(c))).collect())]);
 }
 
-/// An npy array of this shape.
+/// An npy array of this shape, by the definition of the format: version 1, low bytes first.
 pub fn npy(shape: impl AsRef<[u64]>, values: &[f32]) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let options = npyz::WriteOptions::new().default_dtype().shape(shape.as_ref());
-    let mut writer = options.writer(&mut bytes).begin_nd().unwrap();
-    writer.extend(values.iter().copied()).unwrap();
-    writer.finish().unwrap();
-    bytes
+    let sides: String = shape.as_ref().iter().map(|side| format!("{side},")).collect();
+    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({sides}), }}\n");
+    let length = u16::try_from(header.len()).unwrap().to_le_bytes();
+    let values = values.iter().flat_map(|value| value.to_le_bytes());
+    b"\x93NUMPY\x01\x00".iter().copied().chain(length).chain(header.into_bytes()).chain(values).collect()
 }
 
 /// A material as an npz of named arrays.

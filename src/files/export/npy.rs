@@ -1,15 +1,14 @@
 //! NumPy files: pictures as one array.
 
-use std::io;
+use std::io::{BufWriter, Write};
 use std::path::Path;
-
-use npyz::WriterBuilder;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::progress::Progress;
 
 use crate::atomic::{check_place, replace};
+use crate::npy::Header;
 
 /// Writes pictures of one size into a file of NumPy: number x height x width x 3, 32-bit floats. It appears when it is complete,
 /// or not at all.
@@ -19,13 +18,13 @@ use crate::atomic::{check_place, replace};
 pub fn write_npy(path: &Path, pictures: &[Image<f32>], progress: &Progress) -> Result<(), Error> {
     check_place(path)?;
     let [width, height] = pictures.first().map_or([0; 2], |picture| [picture.width, picture.height]);
-    let shape = [pictures.len(), height, width, 3].map(|count| count as u64);
+    let shape = [pictures.len(), height, width, 3];
     replace(path, progress, |file| {
-        let options = npyz::WriteOptions::<f32>::new().default_dtype().shape(&shape);
-        let mut array = options.writer(file).begin_nd().map_err(io::Error::other)?;
-        for picture in pictures {
-            array.extend(picture.pixels.iter().flatten().copied())?;
+        let mut file = BufWriter::new(file);
+        file.write_all(&Header::of_floats(&shape))?;
+        for value in pictures.iter().flat_map(|picture| picture.pixels.as_flattened()) {
+            file.write_all(&value.to_le_bytes())?;
         }
-        array.finish()
+        file.flush()
     })
 }

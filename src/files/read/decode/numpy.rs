@@ -1,18 +1,21 @@
-//! npy arrays and npz archives of them, through the `npyz` library.
+//! npy arrays and npz archives of them.
 
-use std::io::{BufRead, ErrorKind, Read, Seek};
+use std::io::{self, BufRead, ErrorKind, Read, Seek};
 
 use exr::prelude::f16;
-use npyz::{NpyFile, Order};
 
 use svbrdf_core::error::Error;
 
 use super::layout::{self, Axes};
 use super::place::{Decoded, Layer, MAX_BYTES, Place, alone};
+use crate::npy::Header;
 use crate::read::raster::{Buffer, Raster, Samples};
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
+
+/// Values that are read at a time: memory grows with what is there, not with what a header claims.
+const VALUES_AT_A_TIME: usize = 1 << 13;
 
 /// Every array of an archive, by its name.
 pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
@@ -45,8 +48,8 @@ pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> R
     let _reserved = place.reserve(unpacked)?;
     let mut shapes = Vec::new();
     for file in &names {
-        let header = NpyFile::new(archive.by_name(file).map_err(invalid)?);
-        shapes.push(header.map_err(|e| broken(&e, stem(file), place))?.shape().to_vec());
+        let header = Header::read(archive.by_name(file).map_err(invalid)?);
+        shapes.push(header.map_err(|e| broken(&e, stem(file), place))?.shape);
     }
     let chosen = layout::chosen(&shapes);
     let mut decoded = Decoded::default();
@@ -71,9 +74,7 @@ fn stem(file: &str) -> &str {
 
 /// A file of one array.
 pub(crate) fn decode_array(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
-    let header = NpyFile::new(&mut reader).map_err(|e| broken(&e, "", place))?;
-    let shape = header.shape().to_vec();
-    drop(header);
+    let shape = Header::read(&mut reader).map_err(|e| broken(&e, "", place))?.shape;
     reader.rewind().map_err(|source| Error::unreadable(place.path, source))?;
     let axes = layout::chosen(std::slice::from_ref(&shape)).next().flatten();
     let layer = decode(reader, "", axes, place)?;
@@ -85,7 +86,7 @@ fn whose(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("array {name}: ") }
 }
 
-fn broken(error: &std::io::Error, name: &str, place: Place<'_>) -> Error {
+fn broken(error: &io::Error, name: &str, place: Place<'_>) -> Error {
     match error.kind() {
         ErrorKind::UnexpectedEof => place.truncated(),
         _ => place.invalid("npy", format!("{}{error}", whose(name))),
@@ -93,24 +94,24 @@ fn broken(error: &std::io::Error, name: &str, place: Place<'_>) -> Error {
 }
 
 /// The array `name`, its axes read as `axes`; `None` where its shape is that of no picture.
-fn decode(reader: impl Read, name: &str, axes: Option<Axes>, place: Place<'_>) -> Result<Layer, Error> {
+fn decode(mut reader: impl Read, name: &str, axes: Option<Axes>, place: Place<'_>) -> Result<Layer, Error> {
     let whose = whose(name);
-    let invalid = |e: std::io::Error| broken(&e, name, place);
-    let file = NpyFile::new(reader).map_err(invalid)?;
+    let header = Header::read(&mut reader).map_err(|e| broken(&e, name, place))?;
     let Axes { height, width, count, planar, .. } = axes.ok_or_else(|| {
         place.bad(
-            format!("{whose}expected the shape (h, w) or (h, w, 1 to 4), found {:?}", file.shape()),
+            format!("{whose}expected the shape (h, w) or (h, w, 1 to 4), found {:?}", header.shape),
             "save each map as an array of rows, columns and channels",
         )
     })?;
     let bytes = width.checked_mul(height).and_then(|n| n.checked_mul(8 * count));
     let _reserved = place.check_size(width, height, bytes.unwrap_or(u64::MAX).min(MAX_BYTES + 1))?;
-    if file.order() == Order::Fortran {
+    if header.is_fortran {
         return Err(
             place.bad(format!("{whose}expected rows first, found Fortran order"), "save a C-ordered copy")
         );
     }
-    let (values, depth) = values(file, invalid, || {
+    let samples = values(reader, &header).map_err(|e| broken(&e, name, place))?;
+    let (values, depth) = samples.ok_or_else(|| {
         place.bad(
             format!("{whose}expected float16, float32, float64, uint8 or uint16"),
             "convert it with astype",
@@ -122,37 +123,35 @@ fn decode(reader: impl Read, name: &str, axes: Option<Axes>, place: Place<'_>) -
     Ok(Layer { name: name.to_owned(), raster: Raster::with_alpha(width, height, depth, channels) })
 }
 
-fn values<R: Read>(
-    file: NpyFile<R>,
-    invalid: impl Fn(std::io::Error) -> Error,
-    other: impl Fn() -> Error,
-) -> Result<(Buffer, &'static str), Error> {
-    let count = file.len() as usize;
-    // Grows with what is really there, not with what the header claims.
-    fn take<T, E>(values: impl Iterator<Item = Result<T, E>>) -> Result<Vec<T>, E> {
-        values.collect()
+/// The values of an array and the name of their type; `None` of a type that is no sample of a picture.
+fn values(reader: impl Read, header: &Header) -> io::Result<Option<(Buffer, &'static str)>> {
+    Ok(Some(match header.kind.as_str() {
+        "f2" => (numbers(reader, header, |bytes| f16::from_le_bytes(bytes).to_f32())?.into(), "half"),
+        "f4" => (numbers(reader, header, f32::from_le_bytes)?.into(), "float"),
+        "f8" => (numbers(reader, header, |bytes| f64::from_le_bytes(bytes) as f32)?.into(), "double"),
+        "u1" => (numbers(reader, header, u8::from_le_bytes)?.into(), "8-bit"),
+        "u2" => (numbers(reader, header, u16::from_le_bytes)?.into(), "16-bit"),
+        _ => return Ok(None),
+    }))
+}
+
+/// The values of an array, each of `N` bytes, of which `of` takes the low one first.
+fn numbers<T, const N: usize>(
+    mut reader: impl Read,
+    header: &Header,
+    of: impl Fn([u8; N]) -> T,
+) -> io::Result<Vec<T>> {
+    let count = header.count().and_then(|count| usize::try_from(count).ok());
+    let count = count.ok_or(ErrorKind::UnexpectedEof)?;
+    let mut numbers = Vec::new();
+    let mut bytes = vec![[0; N]; VALUES_AT_A_TIME.min(count)];
+    while numbers.len() < count {
+        let next = &mut bytes[..VALUES_AT_A_TIME.min(count - numbers.len())];
+        reader.read_exact(next.as_flattened_mut())?;
+        if header.is_big_endian {
+            next.iter_mut().for_each(|bytes| bytes.reverse());
+        }
+        numbers.extend(next.iter().map(|&bytes| of(bytes)));
     }
-    let floats = |values: &mut dyn Iterator<Item = std::io::Result<f32>>| -> Result<Buffer, Error> {
-        Ok(take(values).map_err(&invalid)?.into())
-    };
-    let (samples, depth) = match file.try_data::<f32>() {
-        Ok(data) => (take(data).map_err(&invalid)?.into(), "float"),
-        Err(file) => match file.try_data::<f16>() {
-            Ok(data) => (floats(&mut data.map(|x| x.map(f32::from)))?, "half"),
-            Err(file) => match file.try_data::<f64>() {
-                Ok(data) => (floats(&mut data.map(|x| x.map(|x| x as f32)))?, "double"),
-                Err(file) => match file.try_data::<u8>() {
-                    Ok(data) => (take(data).map_err(&invalid)?.into(), "8-bit"),
-                    Err(file) => {
-                        let data = file.try_data::<u16>().map_err(|_| other())?;
-                        (take(data).map_err(&invalid)?.into(), "16-bit")
-                    }
-                },
-            },
-        },
-    };
-    if samples.len() != count {
-        return Err(invalid(ErrorKind::UnexpectedEof.into()));
-    }
-    Ok((samples, depth))
+    Ok(numbers)
 }
