@@ -6,7 +6,7 @@ use std::path::Path;
 use image::{Rgb, RgbImage};
 use serde_json::Value;
 
-use super::{fail, folder, succeed, write_material};
+use super::{fail, folder, succeed, text, write_material};
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap()
