@@ -118,7 +118,7 @@ fn native_options(adapters: Adapters) -> eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("svbrdf")
             .with_app_id("svbrdf")
-.with_icon(icon())
+            .with_icon(icon())
             // With its title bar it fits a screen of 1366 x 768.
             .with_inner_size([1340.0, 700.0])
             .with_min_inner_size([640.0, 420.0])
