@@ -22,16 +22,12 @@ const SIZE: Vec2 = vec2(1240.0, 760.0);
 /// Quality of the pictures.
 const QUALITY: u8 = 76;
 
-/// The differences of the built-in pair, and a pinned texel.
+/// The differences of the built-in pair.
 fn differences() {
     let mut window = built_in();
     window.set_size(SIZE);
     window.run_steps(4);
     press(&mut window, egui::Key::D);
-    let at = pane(&window, GROUND_TRUTH).center() + vec2(40.0, 30.0);
-    window.event(egui::Event::PointerMoved(at));
-    window.run_steps(2);
-    press(&mut window, egui::Key::I);
     wait(&mut window, "the losses", |app| app.losses().is_some());
     wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
     write(&mut window, "window.jpg");
