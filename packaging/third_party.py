@@ -21,7 +21,6 @@ WORKSPACES = {ROOT: {"svbrdf"}, ROOT / "python": {"svbrdf-python"}}
 # The licences that `deny.toml` allows, the preferred ones first; each with words that only its text has.
 PREFERRED = {
     "MIT": "Permission is hereby granted, free of charge, to any person obtaining a copy of this software",
-    "MIT-0": "Permission is hereby granted, free of charge, to any person obtaining a copy of this software",
     "Apache-2.0": "Apache License Version 2.0",
     "BSD-2-Clause": "Redistribution and use in source and binary forms",
     "BSD-3-Clause": "Neither the name",
@@ -30,7 +29,6 @@ PREFERRED = {
     "BSL-1.0": "Boost Software License",
     "0BSD": "Permission to use, copy, modify, and/or distribute this software for any purpose",
     "Unlicense": "This is free and unencumbered software",
-    "CC0-1.0": "CC0 1.0 Universal",
     "Unicode-3.0": "UNICODE LICENSE V3",
 }
 # Of fonts, whose texts are printed as they are.
