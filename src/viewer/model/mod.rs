@@ -5,6 +5,7 @@
 
 pub mod apply;
 pub mod command;
+pub mod exposed;
 pub mod history;
 pub mod inspection;
 pub mod material;
@@ -20,7 +21,7 @@ use svbrdf_core::loss::FileScenes;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
-use apply::exposure::Exposed;
+use exposed::Exposed;
 use history::History;
 use inspection::Inspection;
 use material::list::MaterialList;

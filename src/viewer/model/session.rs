@@ -12,8 +12,8 @@ use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::RunId;
 
 use super::Model;
-use super::apply::exposure::Exposed;
 use super::command::effect::Effect;
+use super::exposed::Exposed;
 use super::material::read::Rules;
 use super::material::request::{ReadRequest, Target};
 use super::material::source::{Origin, Source, sources};

@@ -3,11 +3,11 @@
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session_window::Framing;
 
-use super::exposure::Exposed;
 use super::undo;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::DisplayCommand;
 use crate::viewer::model::command::effect::Effect;
+use crate::viewer::model::exposed::Exposed;
 use crate::viewer::model::ranges::STOPS;
 use crate::viewer::model::view::endpoint::{self, Endpoint};
 use crate::viewer::model::view::framing::{self, Framed};

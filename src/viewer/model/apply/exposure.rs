@@ -2,32 +2,17 @@
 
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Model as BrdfModel;
-use svbrdf_core::model::scene::Scene;
 use svbrdf_core::render::render_texel;
 use svbrdf_core::statistics::quantile;
 
 use crate::viewer::model::Model;
+use crate::viewer::model::exposed::Exposed;
 use crate::viewer::model::material::source::Origin;
 use crate::viewer::model::ranges::STOPS;
 use crate::viewer::model::view::state::{AutoExposure, ViewState};
 
 /// Most texels that are rendered to find the exposure.
 const TEXELS: usize = 20_000;
-
-/// What the exposure was last computed for.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Exposed {
-    /// It is to be computed as soon as there is a ground truth.
-    #[default]
-    Pending,
-    /// It was saved with a session or a moment of the history, and holds for the materials of that.
-    Restored,
-    For {
-        ground_truth: Origin,
-        scene: Scene,
-        convention: String,
-    },
-}
 
 /// Computes the exposure where its state asks for it. Called in every frame.
 pub fn follow(model: &mut Model) {

@@ -2,9 +2,9 @@
 
 use svbrdf_files::stamp::Stamp;
 
-use super::exposure::Exposed;
 use crate::viewer::model::Model;
 use crate::viewer::model::command::effect::Effect;
+use crate::viewer::model::exposed::Exposed;
 use crate::viewer::model::history::Moment;
 
 /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.

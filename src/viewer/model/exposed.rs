@@ -1,0 +1,20 @@
+//! What the automatic exposure was last computed for.
+
+use svbrdf_core::model::scene::Scene;
+
+use super::material::source::Origin;
+
+/// What the exposure was last computed for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Exposed {
+    /// It is to be computed as soon as there is a ground truth.
+    #[default]
+    Pending,
+    /// It was saved with a session or a moment of the history, and holds for the materials of that.
+    Restored,
+    For {
+        ground_truth: Origin,
+        scene: Scene,
+        convention: String,
+    },
+}
