@@ -161,7 +161,7 @@ def main():
             first, last = until_still(screen, start)
             if materials:
                 print(f"first picture {first:.2f} s (reading it alone {alone[0]:.2f} s), all {last:.2f} s ({sum(alone):.2f} s)")
-            subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "svbrdf", "windowfocus"], env=environment, check=True, stdout=subprocess.DEVNULL)
+            subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "svbrdf", "windowsize", str(WIDTH), str(HEIGHT), "windowmove", "0", "0", "windowfocus"], env=environment, check=True, stdout=subprocess.DEVNULL)
             print(f"load {os.getloadavg()[0]:.1f} before the measurement")
             pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
             latency(screen, environment, "motions of the light", pane, 90)

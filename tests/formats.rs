@@ -4,6 +4,7 @@ mod arrays;
 mod conventions;
 pub mod decoders;
 mod killed;
+mod named_sets;
 mod normals;
 mod options;
 mod packed;

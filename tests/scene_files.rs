@@ -4,6 +4,7 @@ mod declared;
 mod extensions;
 mod materialx;
 pub mod mtl;
+mod pictures;
 
 use std::path::Path;
 

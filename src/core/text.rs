@@ -34,6 +34,11 @@ pub fn printable(text: &str) -> String {
     shown
 }
 
+/// The text in one line of a readable length, in which nothing steers what follows: a name from a file, for a label.
+pub fn line(text: &str) -> String {
+    printable(&shortened(text)).replace('\n', "\\u{a}")
+}
+
 /// The text without its middle where it is too long to be read.
 pub fn shortened(text: &str) -> String {
     let count = text.chars().count();
@@ -62,6 +67,7 @@ mod tests {
         let long = shortened(&"é".repeat(1_000_000));
         assert!(long.chars().count() < 2100 && long.contains("... 998000 characters ..."), "{long}");
         assert_eq!(shortened("short"), "short");
+        assert_eq!(line("two\nlines \u{202e}x"), "two\\u{a}lines \\u{202e}x");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use sysinfo::{MemoryRefreshKind, System};
+use sysinfo::{CGroupLimits, MemoryRefreshKind, System};
 
 use svbrdf_core::error::Error;
 
@@ -25,7 +25,7 @@ pub fn limit() -> u64 {
 }
 
 /// Memory that is put aside until this is dropped.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq)]
 #[must_use = "the memory is put aside until this is dropped"]
 pub struct Reserved(u64);
 
@@ -53,8 +53,13 @@ fn available() -> u64 {
     let mut system = System::new();
     system.refresh_memory_specifics(MemoryRefreshKind::nothing().with_ram());
     let machine = Some(system.available_memory()).filter(|bytes| *bytes > 0);
-    let group = system.cgroup_limits().map(|limits| limits.free_memory);
+    let group = system.cgroup_limits().map(of_group);
     [machine, group, of_process()].into_iter().flatten().min().unwrap_or(UNKNOWN)
+}
+
+/// The memory that a control group leaves. It counts cached files as used, whose memory the system gives back.
+fn of_group(limits: CGroupLimits) -> u64 {
+    limits.total_memory.saturating_sub(limits.rss)
 }
 
 /// The limit of the address space of this process (`ulimit -v`).
@@ -71,6 +76,12 @@ fn of_process() -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn cached_files_of_a_control_group_do_not_count() {
+        let limits = CGroupLimits { total_memory: 8 << 30, free_memory: 1 << 20, free_swap: 0, rss: 2 << 30 };
+        assert_eq!(of_group(limits), 6 << 30);
+    }
 
     #[test]
     fn no_more_is_put_aside_than_the_limit() {

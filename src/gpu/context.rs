@@ -70,6 +70,8 @@ impl Gpu {
         DeviceDescriptor {
             label: Some("svbrdf"),
             required_limits: adapter.limits(),
+            // Textures change their size with the window: large blocks of memory would be kept for small ones.
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..DeviceDescriptor::default()
         }
     }

@@ -120,13 +120,18 @@ pub(super) fn begin<'a>(
 /// The constants of a pipeline: what its shader overrides, and with what.
 pub(super) type Constants = Vec<(&'static str, u32)>;
 
-/// Pipelines that cover their target with one triangle and run the fragment function called like their shader; one for each choice
-/// of the shader's constants, compiled when it is first needed.
+/// Most choices of constants whose pipelines are kept: a frame needs a few of the hundreds, and each takes about a megabyte on
+/// adapters that compute on the CPU.
+const MOST_PIPELINES: usize = 24;
+
+/// Pipelines that cover their target with one triangle and run the fragment function called like their shader; one for each of the
+/// latest choices of the shader's constants, compiled when it is needed.
 #[derive(Debug)]
 pub(super) struct Fullscreen {
     shader: &'static Shader,
     pub layout: BindGroupLayout,
     target: TextureFormat,
+    /// The latest used last.
     compiled: Mutex<Vec<(Constants, RenderPipeline)>>,
 }
 
@@ -148,11 +153,13 @@ impl Fullscreen {
     /// The pipeline with these constants.
     pub(super) fn with(&self, device: &Device, constants: Constants) -> RenderPipeline {
         let mut compiled = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, pipeline)) = compiled.iter().find(|(of, _)| *of == constants) {
-            return pipeline.clone();
-        }
-        let pipeline = self.compile(device, &constants);
+        let pipeline = match compiled.iter().position(|(of, _)| *of == constants) {
+            Some(place) => compiled.remove(place).1,
+            None => self.compile(device, &constants),
+        };
         compiled.push((constants, pipeline.clone()));
+        let oldest = compiled.len().saturating_sub(MOST_PIPELINES);
+        compiled.drain(..oldest);
         pipeline
     }
 
@@ -184,5 +191,36 @@ impl Fullscreen {
             multiview_mask: None,
             cache: None,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Gpu, shaders};
+
+    #[test]
+    fn the_latest_pipelines_are_kept_and_no_more() {
+        let gpu = match Gpu::headless() {
+            Ok(gpu) => gpu,
+            Err(error) => return eprintln!("NOT TESTED: {error}"),
+        };
+        let types = [buffer_type(BufferBindingType::Uniform), texture_type()];
+        let format = gpu.report.shading_format;
+        let all = Fullscreen::new(&gpu.device, &shaders::REDUCE, &types, format, Constants::new());
+        let count = || all.compiled.lock().unwrap().len();
+        // The shader has no such constants, which is a fault of the device, but none of the list.
+        let with = |number: usize| {
+            let _ = crate::fault::scoped(&gpu.device, "testing", || {
+                all.with(&gpu.device, vec![("NONE", number as u32)]);
+            });
+        };
+        (0..2 * MOST_PIPELINES).for_each(with);
+        assert_eq!(count(), MOST_PIPELINES);
+        let first = |number: usize| all.compiled.lock().unwrap()[number].0.clone();
+        let oldest = first(0)[0].1 as usize;
+        with(oldest);
+        assert_eq!(first(MOST_PIPELINES - 1), [("NONE", oldest as u32)], "it was used last");
+        assert_eq!(count(), MOST_PIPELINES);
     }
 }

@@ -126,6 +126,17 @@ fn an_exponent_stands_for_roughness_and_heights_for_nothing_in_mtl() {
 }
 
 #[test]
+fn a_bump_map_of_colours_is_called_neither_normals_nor_heights() {
+    let (_folder, path) = wall("newmtl wall\nmap_Kd base colour.png\nPr 0.5\nbump base colour.png\n");
+    let read = open(&path);
+    assert!(
+        says(&read, "base colour.png is not used: its pixels do not look like normals"),
+        "{:?}",
+        read.notes
+    );
+}
+
+#[test]
 fn an_mtl_without_what_is_needed_is_refused() {
     for (text, expected) in [
         ("Kd 1 1 1\n", "expected a material (newmtl NAME), found none"),

@@ -233,3 +233,38 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
         "the first prediction is the chosen one"
     );
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn every_pane_in_false_colours_has_a_scale_and_no_other() {
+    use svbrdf::viewer::ui::pane::scale::Scale;
+    let mut window = built_in();
+    let scales = |window: &Window<'_>| {
+        let parts = &window.state().parts;
+        let displayed = svbrdf::viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
+        let scenery = svbrdf::viewer::ui::content::scenery(&window.ctx, displayed, &parts.model.view);
+        let contents = scenery.contents();
+        contents.into_iter().map(|content| Scale::of(&scenery, content)).collect::<Vec<_>>()
+    };
+    assert_eq!(scales(&window), [None, None, None], "values have their own colours");
+    press(&mut window, egui::Key::D);
+    statistics(&mut window);
+    let range = window.state().difference_range();
+    let log = Scale { is_signed: false, range, unit: "" };
+    assert_eq!(scales(&window), [None, Some(log.clone()), Some(log.clone())]);
+    press(&mut window, egui::Key::C);
+    assert_eq!(scales(&window), [Some(log)], "a wipe");
+    press(&mut window, egui::Key::C);
+    press(&mut window, egui::Key::C);
+    press(&mut window, egui::Key::M);
+    statistics(&mut window);
+    let angle = Scale { is_signed: false, range: window.state().difference_range(), unit: "\u{b0}" };
+    assert_eq!(scales(&window)[1], Some(angle));
+    // The roughness itself, in false colours.
+    press(&mut window, egui::Key::D);
+    for key in [egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::V] {
+        press(&mut window, key);
+    }
+    let roughness = Scale { is_signed: false, range: 1.0, unit: "" };
+    assert_eq!(scales(&window), vec![Some(roughness); 3]);
+}

@@ -17,11 +17,11 @@ fn the_window_starts_on_the_built_in_pair() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn dropped_files_replace_the_built_in_pair() {
     let mut window = built_in();
-    let assets = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets");
+    let assets = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples");
     let mut strips: Vec<_> = std::fs::read_dir(assets)
         .unwrap()
         .map(|entry| entry.unwrap().path())
-        .filter(|path| path.to_string_lossy().contains("tiles") || path.to_string_lossy().contains("blurred"))
+        .filter(|path| path.ends_with("worn_tiles.png") || path.ends_with("blurred_normals.png"))
         .collect();
     strips.sort();
     assert_eq!(strips.len(), 2);

@@ -15,6 +15,7 @@ mod files_tab;
 mod gestures;
 mod key_presses;
 mod loss_panel;
+mod outside;
 mod panels;
 mod photograph;
 mod quantities;

@@ -195,6 +195,24 @@ fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
 
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_view_is_saved_with_or_without_the_sun_and_the_eye() {
+    let mut window = built_in();
+    let folder = tempfile::tempdir().unwrap();
+    let size = window.state().picture_size();
+    let suns = [true, false].map(|handles| {
+        let path = folder.path().join(format!("{handles}.png"));
+        let request = SaveRequest { kind: SaveKind::View, path: path.clone(), size, handles };
+        apply(&mut window, WindowCommand::DismissMessages);
+        apply(&mut window, WindowCommand::Save(request));
+        wait(&mut window, "the file", |app| !app.messages().is_empty());
+        let picture = image::open(&path).unwrap().to_rgb8();
+        picture.pixels().filter(|pixel| pixel.0 == [0xff, 0xd2, 0x4a]).count()
+    });
+    assert!(suns[0] > 100 && suns[1] == 0, "{suns:?}");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
     let mut window = built_in();
     let at = pane(&window, GROUND_TRUTH).center();

@@ -311,3 +311,33 @@ fn the_layout_is_the_same_over_100_frames_of_30_kinds_of_pairs() {
         assert_eq!(*layout, layouts[0], "all pairs have one layout: {kind}");
     }
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn titles_of_many_predictions_keep_what_tells_them_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let names = ["alpha", "bravo", "charlie", "delta", "echo", "foxtrot", "golf", "hotel", "india"];
+    let path = |name: &str| folder.path().join(format!("{name}.png"));
+    write_packed(&path("gt"), 8, |_, _, _| [128, 128, 255]);
+    for (index, name) in names.iter().enumerate() {
+        let diffuse = 20 * index as u8;
+        write_packed(&path(&format!("model_of_a_run_{name}")), 8, |tile, _, _| {
+            if tile == 0 { [128, 128, 255] } else { [diffuse; 3] }
+        });
+    }
+    let predictions = names.iter().map(|name| path(&format!("model_of_a_run_{name}"))).collect();
+    let options = ViewerOptions { ground_truth: Some(path("gt")), predictions, ..ViewerOptions::default() };
+    let mut window = super::window(options);
+    wait(&mut window, "the materials", |app| app.names().len() == 10);
+    let scenery = |window: &Window<'_>| {
+        let parts = &window.state().parts;
+        let displayed = svbrdf::viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
+        let scenery = svbrdf::viewer::ui::content::scenery(&window.ctx, displayed, &parts.model.view);
+        scenery.contents().into_iter().map(|content| scenery.name_of(content, 9)).collect::<Vec<_>>()
+    };
+    let found = scenery(&window);
+    assert_eq!(found[0], "GROUND TRUTH  gt");
+    for (index, name) in names.iter().enumerate() {
+        assert_eq!(found[index + 1], format!("{}  \u{2026}{name}", index + 1));
+    }
+}

@@ -1,12 +1,14 @@
 //! The materials of a command: resolved to their sources, then opened.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::report::distinct_names;
 use svbrdf_files::inputs::check_output;
+use svbrdf_files::memory::Reserved;
 use svbrdf_files::open::is_pipe_at;
 use svbrdf_files::read::{self, Assumption, Binding, Certainty, Read, What};
 use svbrdf_files::samples;
@@ -104,6 +106,7 @@ impl MaterialJob {
         let mut files: Vec<PathBuf> =
             self.paths.iter().filter(|path| Session::is_named(path)).cloned().collect();
         let names = distinct_names(&named);
+        let memory = read.iter().map(|read| read.memory.clone()).collect();
         for ((mut read, name), source) in read.into_iter().zip(names).zip(&self.sources) {
             read.material = read.material.renamed(name);
             files.append(&mut read.files);
@@ -119,7 +122,7 @@ impl MaterialJob {
         let Some(ground_truth) = materials.next() else {
             return Err(Error::Internal("there is no ground truth".to_owned()).into());
         };
-        Ok(Opened { ground_truth, predictions: materials.collect(), files })
+        Ok(Opened { ground_truth, predictions: materials.collect(), files, _memory: memory })
     }
 
     fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {
@@ -139,6 +142,8 @@ pub struct Opened<T> {
     pub predictions: Vec<Material<T>>,
     /// Every file that was read.
     pub files: Vec<PathBuf>,
+    /// The memory of the materials. It counts towards the limit while this lives.
+    _memory: Vec<Arc<Reserved>>,
 }
 
 impl<T> Opened<T> {

@@ -90,8 +90,8 @@ fn rounded(value: f64, levels: f64) -> f64 {
     (value * levels).round() / levels
 }
 
-/// Normals that are halves and, once they have been normalized and rounded to halves again, the same halves.
-pub fn half_normals(normal: &[Vec<f32>; 3]) -> [Vec<f16>; 3] {
+/// As [`half_normal`], of planes.
+fn half_normals(normal: &[Vec<f32>; 3]) -> [Vec<f16>; 3] {
     const CHUNK: usize = 1 << 14;
     let mut planes = normal.each_ref().map(|plane| vec![f16::ZERO; plane.len()]);
     let [xs, ys, zs] = planes.each_mut().map(|plane| plane.par_chunks_mut(CHUNK));
@@ -104,7 +104,8 @@ pub fn half_normals(normal: &[Vec<f32>; 3]) -> [Vec<f16>; 3] {
     planes
 }
 
-fn half_normal(normal: [f32; 3]) -> [f16; 3] {
+/// The normal in halves which, once they have been normalized and rounded to halves again, are the same.
+pub fn half_normal(normal: [f32; 3]) -> [f16; 3] {
     const MOST_ROUNDS: usize = 16;
     let again =
         |n: [f16; 3]| DVec3::from(n.map(f64::from)).normalize().to_array().map(|x| f16::from_f32(x as f32));

@@ -20,7 +20,7 @@ mod grid;
 mod mix;
 pub mod resize;
 
-pub use depth::{Depth, half_normals};
+pub use depth::{Depth, half_normal};
 pub use grid::Grid;
 pub use mix::Map;
 

@@ -29,6 +29,7 @@ mod stored;
 
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::Arc;
 
 pub use assemble::Read;
 pub use gather::map_report::MapReport;
@@ -179,7 +180,7 @@ fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read
     let [width, height] = stored.colour.raster.size();
     // Three planes each of normals, diffuse and specular, one of roughness.
     let bytes = (width as u64).saturating_mul(height as u64).saturating_mul(10 * size_of::<T>() as u64);
-    let _reserved = memory::reserve(bytes, || format!("the material {}", stored.name))?;
+    let memory = memory::reserve(bytes, || format!("the material {}", stored.name))?;
     let maps = map_report::reports(&stored);
     let evidence = gather::evidences(&stored, options);
     let mut linear = interpret::interpret(stored, evidence, options)?;
@@ -193,5 +194,6 @@ fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read
         maps,
         options: *options,
         saved: ReadOptions::AUTO,
+        memory: Arc::new(memory),
     })
 }

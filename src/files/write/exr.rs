@@ -1,12 +1,16 @@
 //! Materials as EXR, the project's own form: one part with the layers diffuse, specular, normal and roughness.
 
 use std::io::{self, Seek, Write};
+use std::ops::Range;
 
-use exr::image::{AnyChannel, AnyChannels, FlatSamples};
-use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, WritableImage, f16};
-use rayon::prelude::*;
+use exr::block::BlockIndex;
+use exr::image::write::channels::{ChannelsWriter, WritableChannels};
+use exr::math::RoundingMode;
+use exr::meta::attribute::{ChannelDescription, ChannelList, LevelMode, SampleType};
+use exr::meta::header::Header;
+use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, Vec2, WritableImage, f16};
 
-use svbrdf_core::material::{Material, Planes, half_normals};
+use svbrdf_core::material::{Material, Planes, half_normal};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
@@ -27,28 +31,7 @@ pub(crate) fn write(
     half: bool,
     preview: bool,
 ) -> io::Result<()> {
-    let Planes { normal, diffuse, specular, roughness } = material.planes();
-    let samples = |plane: &Vec<f32>| match half {
-        true => FlatSamples::F16(plane.par_iter().map(|&x| f16::from_f32(x)).collect()),
-        false => FlatSamples::F32(plane.clone()),
-    };
-    let normals = match half {
-        true => half_normals(normal).map(FlatSamples::F16),
-        false => normal.each_ref().map(samples),
-    };
-    let colours = |planes: &[Vec<f32>; 3]| planes.each_ref().map(samples);
     let rendering = if preview { Some(rendering(material)?) } else { None };
-    let layers = [
-        Some(("diffuse.", ["R", "G", "B"], colours(diffuse))),
-        Some(("specular.", ["R", "G", "B"], colours(specular))),
-        Some(("normal.", ["X", "Y", "Z"], normals)),
-        rendering.map(|planes| ("", ["R", "G", "B"], colours(&planes))),
-    ];
-    let named = layers.into_iter().flatten().flat_map(|(layer, names, planes)| {
-        names.into_iter().zip(planes).map(move |(name, plane)| (format!("{layer}{name}"), plane))
-    });
-    let all = named.chain([("roughness.Y".to_owned(), samples(roughness))]);
-    let channels = all.map(|(name, plane)| AnyChannel::new(text(&name), plane)).collect();
     let attributes = LayerAttributes {
         software_name: Text::new_or_none(SOFTWARE),
         comments: Text::new_or_none(format!("{NATIVE}{MEANING}")),
@@ -58,7 +41,7 @@ pub(crate) fn write(
         (material.width(), material.height()),
         attributes,
         Encoding::SMALL_LOSSLESS,
-        AnyChannels::sort(channels),
+        MaterialChannels { material, half, rendering },
     );
     Image::from_layer(layer).write().to_buffered(file).map_err(io::Error::other)
 }
@@ -70,7 +53,96 @@ fn rendering(material: &Material<f32>) -> io::Result<[Vec<f32>; 3]> {
     Ok([0, 1, 2].map(|c| image.pixels.iter().map(|rgb| rgb[c].min(most)).collect()))
 }
 
-/// Text of the ASCII that is written here.
-fn text(name: &str) -> Text {
-    Text::new_or_none(name).unwrap_or_else(|| Text::from("?"))
+/// The channels of a material. They become halves block by block: planes of them would take half of its memory again.
+struct MaterialChannels<'a> {
+    material: &'a Material<f32>,
+    half: bool,
+    /// The planes of a preview.
+    rendering: Option<[Vec<f32>; 3]>,
+}
+
+/// The channels of these names.
+fn three<'a>(names: [&'static str; 3], planes: &'a [Vec<f32>; 3]) -> impl Iterator<Item = Channel<'a>> {
+    names.into_iter().zip(planes).map(|(name, plane)| Channel { name, plane, normal: None })
+}
+
+/// A channel of the file.
+struct Channel<'a> {
+    name: &'static str,
+    plane: &'a [f32],
+    /// Which component of the normals it is.
+    normal: Option<usize>,
+}
+
+impl MaterialChannels<'_> {
+    /// All channels in the order of their names, as they are in a file.
+    fn channels(&self) -> Vec<Channel<'_>> {
+        let Planes { normal, diffuse, specular, roughness } = self.material.planes();
+        let preview = self.rendering.iter().flat_map(|planes| three(["R", "G", "B"], planes));
+        let diffuse = three(["diffuse.R", "diffuse.G", "diffuse.B"], diffuse);
+        let specular = three(["specular.R", "specular.G", "specular.B"], specular);
+        let normal = three(["normal.X", "normal.Y", "normal.Z"], normal);
+        let normal = normal.enumerate().map(|(c, channel)| Channel { normal: Some(c), ..channel });
+        let roughness = Channel { name: "roughness.Y", plane: roughness, normal: None };
+        let mut all: Vec<_> =
+            preview.chain(diffuse).chain(specular).chain(normal).chain([roughness]).collect();
+        all.sort_by_key(|channel| channel.name);
+        all
+    }
+}
+
+impl<'a> WritableChannels<'a> for MaterialChannels<'_> {
+    type Writer = ChannelRows<'a>;
+
+    fn infer_channel_list(&self) -> ChannelList {
+        let kind = if self.half { SampleType::F16 } else { SampleType::F32 };
+        let channels = self.channels().into_iter();
+        ChannelList::new(channels.map(|channel| ChannelDescription::named(channel.name, kind)).collect())
+    }
+
+    fn infer_level_modes(&self) -> (LevelMode, RoundingMode) {
+        (LevelMode::Singular, RoundingMode::Down)
+    }
+
+    fn create_writer(&'a self, _: &Header) -> ChannelRows<'a> {
+        ChannelRows { channels: self.channels(), material: self.material, half: self.half }
+    }
+}
+
+/// The channels of a file while it is written.
+struct ChannelRows<'a> {
+    channels: Vec<Channel<'a>>,
+    material: &'a Material<f32>,
+    half: bool,
+}
+
+impl ChannelsWriter for ChannelRows<'_> {
+    fn extract_uncompressed_block(&self, header: &Header, block: BlockIndex) -> Vec<u8> {
+        let (Vec2(left, top), Vec2(width, height)) = (block.pixel_position, block.pixel_size);
+        let mut bytes = Vec::with_capacity(width * height * header.channels.bytes_per_pixel);
+        for row in top..top + height {
+            let first = row * self.material.width() + left;
+            let texels = first..first + width;
+            let normals = if self.half { self.half_normals(texels.clone()) } else { Vec::new() };
+            for Channel { plane, normal, .. } in &self.channels {
+                let plane = &plane[texels.clone()];
+                match normal {
+                    Some(c) if self.half => bytes.extend(normals.iter().flat_map(|n| n[*c].to_ne_bytes())),
+                    _ if self.half => {
+                        bytes.extend(plane.iter().flat_map(|&x| f16::from_f32(x).to_ne_bytes()));
+                    }
+                    _ => bytes.extend(plane.iter().flat_map(|x| x.to_ne_bytes())),
+                }
+            }
+        }
+        bytes
+    }
+}
+
+impl ChannelRows<'_> {
+    /// The normals of these texels.
+    fn half_normals(&self, texels: Range<usize>) -> Vec<[f16; 3]> {
+        let [x, y, z] = self.material.planes().normal.each_ref().map(|plane| &plane[texels.clone()]);
+        x.iter().zip(y).zip(z).map(|((&x, &y), &z)| half_normal([x, y, z])).collect()
+    }
 }

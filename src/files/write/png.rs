@@ -16,6 +16,9 @@ use crate::atomic::{self, SOFTWARE};
 use crate::read::options::transfer::{encoded, encoded_roughness, linear, roughness};
 use crate::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
 
+/// About how many bytes of a picture are computed before they are compressed.
+const BAND_BYTES: usize = 1 << 20;
+
 /// The map in a picture.
 #[derive(Clone, Copy, Debug)]
 enum WrittenMap {
@@ -168,7 +171,6 @@ pub(crate) fn packed(
 ) -> io::Result<()> {
     let (order, encoding) = (like.order().unwrap_or(Order::NDRS), MapEncoding::from(like));
     let tiles = order.to_string();
-    let [width, height] = material.size();
     let map = |letter| match letter {
         'n' => WrittenMap::Normal,
         'd' => WrittenMap::Diffuse,
@@ -176,9 +178,13 @@ pub(crate) fn packed(
         _ => WrittenMap::Specular,
     };
     let maps: Vec<WrittenMap> = tiles.chars().map(map).collect();
-    let bytes = pixels(material, &maps, encoding, sixteen, progress)?;
+    let rows = Rows { material, tiles: &maps, encoding, curves: encoding.curves(sixteen), sixteen, progress };
     let meaning = format!("packed {order}, {}", encoding.text());
-    write(file, [tiles.len() * width, height], sixteen, &meaning, &bytes)
+    // One picture: the other cores compute its rows.
+    rows.write(file, &meaning, |first, band| {
+        let bytes = rows.row_bytes();
+        band.par_chunks_mut(bytes).enumerate().try_for_each(|(row, bytes)| rows.put(first + row, bytes))
+    })
 }
 
 /// Fills a temporary folder beside `path` and renames it.
@@ -192,9 +198,14 @@ pub(crate) fn folder(
     let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(atomic::folder_of(path))?;
     files.par_iter().try_for_each(|Picture { name, map, encoding }| {
         let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
-        let bytes = pixels(material, &[*map], *encoding, sixteen, progress)?;
+        let (tiles, curves) = (&[*map][..], encoding.curves(sixteen));
+        let rows = Rows { material, tiles, encoding: *encoding, curves, sixteen, progress };
         let buffer = io::BufWriter::new(atomic::Watched::new(&mut file, progress));
-        write(buffer, material.size(), sixteen, &encoding.text(), &bytes)?;
+        rows.write(buffer, &encoding.text(), |first, band| {
+            band.chunks_mut(rows.row_bytes())
+                .enumerate()
+                .try_for_each(|(row, bytes)| rows.put(first + row, bytes))
+        })?;
         file.sync_all()
     })?;
     atomic::check(progress)?;
@@ -206,29 +217,64 @@ pub(crate) fn folder(
     Ok(())
 }
 
-/// The samples of all rows, on all cores; in each row one tile beside the other.
-fn pixels(
-    material: &Material<f32>,
-    tiles: &[WrittenMap],
+/// The rows of a picture; in each row one tile beside the other.
+struct Rows<'a> {
+    material: &'a Material<f32>,
+    tiles: &'a [WrittenMap],
     encoding: MapEncoding,
+    curves: Curves,
     sixteen: bool,
-    progress: &Progress,
-) -> io::Result<Vec<u8>> {
-    let [width, height] = material.size();
-    let pixel = if sixteen { 6 } else { 3 };
-    let row_bytes = tiles.len() * width * pixel;
-    let mut bytes = vec![0; row_bytes * height];
-    let curves = encoding.curves(sixteen);
-    bytes.par_chunks_mut(row_bytes).enumerate().try_for_each(|(row, bytes)| {
-        atomic::check(progress)?;
-        for (map, tile) in tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
+    progress: &'a Progress,
+}
+
+impl Rows<'_> {
+    fn pixel_bytes(&self) -> usize {
+        if self.sixteen { 6 } else { 3 }
+    }
+
+    fn row_bytes(&self) -> usize {
+        self.tiles.len() * self.material.width() * self.pixel_bytes()
+    }
+
+    /// Puts the samples of row number `row` into `bytes`.
+    fn put(&self, row: usize, bytes: &mut [u8]) -> io::Result<()> {
+        atomic::check(self.progress)?;
+        let (width, pixel) = (self.material.width(), self.pixel_bytes());
+        for (map, tile) in self.tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
             for (index, out) in (row * width..).zip(tile.chunks_exact_mut(pixel)) {
-                put(encoding.of(material, *map, index, &curves), out);
+                put(self.encoding.of(self.material, *map, index, &self.curves), out);
             }
         }
-        io::Result::Ok(())
-    })?;
-    Ok(bytes)
+        Ok(())
+    }
+
+    /// Writes the picture band by band; `fill` puts the rows from number `first` on into a band.
+    fn write(
+        &self,
+        file: impl Write,
+        meaning: &str,
+        fill: impl Fn(usize, &mut [u8]) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let [width, height] = self.material.size();
+        let [columns, rows] =
+            [self.tiles.len() * width, height].map(|side| u32::try_from(side).map_err(io::Error::other));
+        let mut encoder = Encoder::new(file, columns?, rows?);
+        encoder.set_color(ColorType::Rgb);
+        encoder.set_depth(if self.sixteen { BitDepth::Sixteen } else { BitDepth::Eight });
+        encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+        encoder.add_text_chunk("svbrdf".to_owned(), meaning.to_owned())?;
+        let mut writer = encoder.write_header()?;
+        let mut stream = writer.stream_writer()?;
+        let rows_of_band = (BAND_BYTES / self.row_bytes()).clamp(1, height);
+        let mut band = vec![0; rows_of_band * self.row_bytes()];
+        for first in (0..height).step_by(rows_of_band) {
+            let band = &mut band[..rows_of_band.min(height - first) * self.row_bytes()];
+            fill(first, band)?;
+            stream.write_all(band)?;
+        }
+        stream.finish()?;
+        Ok(writer.finish()?)
+    }
 }
 
 /// The samples of a pixel into 3 bytes, or into 6.
@@ -240,16 +286,4 @@ fn put(rgb: [u16; 3], out: &mut [u8]) {
     } else {
         rgb.into_iter().zip(out).for_each(|(code, out)| *out = code as u8);
     }
-}
-
-fn write(file: impl Write, size: [usize; 2], sixteen: bool, meaning: &str, bytes: &[u8]) -> io::Result<()> {
-    let [width, height] = size.map(|side| u32::try_from(side).map_err(io::Error::other));
-    let mut encoder = Encoder::new(file, width?, height?);
-    encoder.set_color(ColorType::Rgb);
-    encoder.set_depth(if sixteen { BitDepth::Sixteen } else { BitDepth::Eight });
-    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
-    encoder.add_text_chunk("svbrdf".to_owned(), meaning.to_owned())?;
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(bytes)?;
-    Ok(writer.finish()?)
 }

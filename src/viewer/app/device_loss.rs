@@ -81,10 +81,11 @@ impl App {
     pub fn resume(&mut self, cc: &eframe::CreationContext<'_>) {
         let reason = self.loss().unwrap_or("no reason is known").trim().to_owned();
         self.context.set(&cc.egui_ctx);
-        super::theme::install(&cc.egui_ctx);
         if let Some(memory) = self.memory.take() {
             cc.egui_ctx.memory_mut(|now| *now = memory);
         }
+        // After the memory, which holds the fonts that are to be loaded.
+        super::theme::install(&cc.egui_ctx);
         cc.egui_ctx.set_zoom_factor(self.parts.model.settings.ui_scale);
         self.opened_at = self.parts.model.time;
         self.parts.ui.forget_device();

@@ -6,6 +6,7 @@ use eframe::egui;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_files::open::allow_outside;
 use svbrdf_files::photograph::flash;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::{Session, SessionPhotograph};
@@ -35,6 +36,7 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
             }
         }
         Effect::CancelReading(number) => parts.jobs.openings.cancel(number),
+        Effect::AllowOutside => allow_outside(),
         Effect::ReadScenes(paths) => parts.jobs.read_scenes(paths),
         Effect::ReadSession(paths) => read_session(parts, &paths),
         Effect::OpenPhotograph { photograph, light } => open_photograph(parts, photograph, &light),
@@ -115,8 +117,14 @@ fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
             let request = parts.model.open_session(&session);
             parts.jobs.read(&parts.model, request);
         }
-        (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
-        (Err(error), None) => parts.model.report([Message::Failed(error)]),
+        (Err(error), Some(dialog)) if !matches!(error, Error::Outside { .. }) => {
+            dialog.fail(error.to_string())
+        }
+        (Err(error), _) => {
+            // Asked in the window, where it can be allowed.
+            parts.ui.dialogs.open = None;
+            parts.model.report([Message::Failed(error)]);
+        }
     }
 }
 

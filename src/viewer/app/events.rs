@@ -2,6 +2,8 @@
 
 use eframe::egui;
 
+use svbrdf_core::error::Error;
+
 use super::parts::Parts;
 use super::training;
 use crate::viewer::jobs::reading::watch::Change;
@@ -48,7 +50,9 @@ fn report_problems(parts: &mut Parts, problems: Vec<MaterialProblem>) {
     let mut is_told = false;
     for problem in problems {
         match (&problem, &mut parts.ui.dialogs.open) {
-            (MaterialProblem::NotRead { error, opening, .. }, Some(dialog)) if asked == Some(*opening) => {
+            (MaterialProblem::NotRead { error, opening, .. }, Some(dialog))
+                if asked == Some(*opening) && !matches!(error, Error::Outside { .. }) =>
+            {
                 dialog.fail(error.to_string());
                 is_told = true;
             }

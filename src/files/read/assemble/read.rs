@@ -1,10 +1,12 @@
 //! A material that was read, and the record of how.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 
+use crate::memory::Reserved;
 use crate::read::gather::map_report::MapReport;
 use crate::read::options::ReadOptions;
 use crate::read::record::{Assumption, Certainty, Note};
@@ -25,6 +27,8 @@ pub struct Read<T> {
     pub options: ReadOptions,
     /// The options of the sidecar file.
     pub saved: ReadOptions,
+    /// The memory of the material. It counts towards the limit while this lives.
+    pub memory: Arc<Reserved>,
 }
 
 impl<T> Read<T> {

@@ -27,7 +27,7 @@ pub(super) fn separated<T: Real>(
         |i: usize| level.as_ref().map_or(dielectric.value(), |level| MOST_DIELECTRIC * level[i].f64());
     match (metallic, specular) {
         (Some(metallic), _) => {
-            from_base(colour, &metallic, reflectance, options.preset == Some(Preset::MatFusion))
+            from_base(colour, metallic, reflectance, options.preset == Some(Preset::MatFusion))
         }
         (None, Some(specular)) => (colour, specular),
         (None, None) => {
@@ -35,8 +35,8 @@ pub(super) fn separated<T: Real>(
                 found.assumptions.push(missing_specular(options.dielectric));
             }
             let [width, height] = found.size;
-            let plane: Vec<T> = (0..width * height).map(|i| T::of(reflectance(i))).collect();
-            (colour, [plane.clone(), plane.clone(), plane])
+            let plane = |_| (0..width * height).into_par_iter().map(|i| T::of(reflectance(i))).collect();
+            (colour, [0, 1, 2].map(plane))
         }
     }
 }
@@ -52,24 +52,34 @@ fn missing_specular(given: Option<Reflectance>) -> Assumption {
 }
 
 /// d = b (1 - m) and s = f (1 - m) + b m, or s = f + b m where the reflectance f is `added`.
+///
+/// Diffuse takes the place of the base colour, and a channel of specular that of metallic.
 fn from_base<T: Real>(
-    mut base: [Vec<T>; 3],
-    metallic: &[T],
+    mut base: Colour<T>,
+    mut metallic: Vec<T>,
     reflectance: impl Fn(usize) -> f64 + Sync,
     added: bool,
-) -> ([Vec<T>; 3], [Vec<T>; 3]) {
-    let specular = base.each_mut().map(|plane| {
-        let pairs = plane.par_iter_mut().zip(metallic).enumerate();
-        pairs
-            .map(|(i, (value, &m))| {
-                let (b, m) = (value.f64(), m.f64());
-                *value = T::of(b * (1.0 - m));
-                let share = if added { 1.0 } else { 1.0 - m };
-                T::of((reflectance(i) * share + b * m).min(1.0))
-            })
-            .collect()
+) -> (Colour<T>, Colour<T>) {
+    const CHUNK: usize = 1 << 14;
+    let [mut red, mut green] = [0; 2].map(|_| vec![T::zero(); metallic.len()]);
+    let diffuse = base.each_mut().map(|plane| plane.par_chunks_mut(CHUNK));
+    let specular = [&mut red, &mut green, &mut metallic].map(|plane| plane.par_chunks_mut(CHUNK));
+    let ([d0, d1, d2], [s0, s1, s2]) = (diffuse, specular);
+    let chunks = d0.zip(d1).zip(d2).zip(s0.zip(s1).zip(s2)).enumerate();
+    chunks.for_each(|(number, (((d0, d1), d2), ((s0, s1), s2)))| {
+        let separate = |index: usize, m: f64, value: &mut T| {
+            let b = value.f64();
+            *value = T::of(b * (1.0 - m));
+            let share = if added { 1.0 } else { 1.0 - m };
+            T::of((reflectance(number * CHUNK + index) * share + b * m).min(1.0))
+        };
+        let texels = d0.iter_mut().zip(d1).zip(d2).zip(s0.iter_mut().zip(s1).zip(s2)).enumerate();
+        for (index, (((d0, d1), d2), ((s0, s1), s2))) in texels {
+            let m = s2.f64();
+            [*s0, *s1, *s2] = [d0, d1, d2].map(|value| separate(index, m, value));
+        }
     });
-    (base, specular)
+    (base, [red, green, metallic])
 }
 
 /// d / (1 - s), at most 1, where the renderer that these maps were made for does not scale diffuse by (1 - s).

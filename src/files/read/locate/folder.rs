@@ -37,7 +37,8 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
         names.sort();
         names.dedup();
     }
-    let (mut files, _) = grouping::choose(path, &names, Wanted::All, bound)?;
+    let wanted = if prefix.is_empty() { Wanted::All } else { Wanted::Named(prefix) };
+    let (mut files, _) = grouping::choose(path, &names, wanted, bound)?;
     files.documents = documents::beside(folder, &names, &files);
     if prefix.is_empty() && files.files.is_empty() && bound.is_empty() && !files.unlabelled.is_empty() {
         let picture = lone_picture(path, folder, &names, &files.unlabelled)?;

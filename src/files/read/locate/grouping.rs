@@ -21,6 +21,8 @@ type Groups = BTreeMap<Vec<String>, Vec<LabelledFile>>;
 pub(crate) enum Wanted<'a> {
     /// The one material whose files these are.
     All,
+    /// The material of this name, or else the one whose files these are: all that begin with the name.
+    Named(&'a str),
     /// The material that this file belongs to.
     SetOf(&'a str),
 }
@@ -61,14 +63,19 @@ pub(crate) fn choose(
         set.unlabelled.retain(|name| !numbered.values().flatten().any(|n| n.file == *name));
         groups.extend(numbered);
     }
-    let (stem, files) = match (wanted, complete.as_slice()) {
-        (Wanted::SetOf(file), _) => {
-            let stem = stem_of(file, &groups, &lone);
-            (stem.clone(), groups.remove(&stem).unwrap_or_default())
-        }
-        (Wanted::All, [only]) => (only.clone(), groups.remove(only).unwrap_or_default()),
-        (Wanted::All, []) => (Vec::new(), std::mem::take(&mut groups).into_values().flatten().collect()),
-        (Wanted::All, several) => {
+    let stem = match wanted {
+        Wanted::SetOf(file) => Some(stem_of(file, &groups, &lone)),
+        Wanted::Named(name) => Some(words(name)).filter(|stem| match complete.is_empty() {
+            true => groups.contains_key(stem),
+            false => complete.contains(stem),
+        }),
+        Wanted::All => None,
+    };
+    let (stem, files) = match (stem, complete.as_slice()) {
+        (Some(stem), _) => (stem.clone(), groups.remove(&stem).unwrap_or_default()),
+        (None, [only]) => (only.clone(), groups.remove(only).unwrap_or_default()),
+        (None, []) => (Vec::new(), std::mem::take(&mut groups).into_values().flatten().collect()),
+        (None, several) => {
             let found = several.iter().map(|stem| stem.join("_")).collect::<Vec<_>>();
             return Err(Error::NotAMaterial {
                 path: path.to_owned(),
@@ -82,7 +89,7 @@ pub(crate) fn choose(
     let (files, normals) = best(path, files, bound, &mut set.notes)?;
     (set.files, set.other_normals) = (files, normals);
     let others = groups.into_iter().filter(|(stem, _)| !complete.contains(stem)).chain(lone);
-    set.leave(others.flat_map(|(_, files)| files).collect(), &stem, matches!(wanted, Wanted::All));
+    set.leave(others.flat_map(|(_, files)| files).collect(), &stem, !matches!(wanted, Wanted::SetOf(_)));
     Ok((set, stem))
 }
 

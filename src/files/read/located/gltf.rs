@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::picture::LocatedPicture;
+use crate::open::NamedFile;
 use crate::read::options::NormalY;
 
 /// A material of a glTF, its textures located.
@@ -18,8 +19,8 @@ pub(crate) struct LocatedGltf {
     pub normal_scale: f32,
     /// Where y of the normals points.
     pub normal_y: NormalY,
-    /// Buffers outside of the folder of the file.
-    pub outside: Vec<PathBuf>,
+    /// The files of its buffers: pictures, vertex colours and meshes.
+    pub buffers: Vec<NamedFile>,
     /// Features that change the look and are not modelled.
     pub not_modelled: Vec<String>,
     /// The names of all materials of the file, and which of them this is.

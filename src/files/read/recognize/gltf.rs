@@ -32,7 +32,7 @@ pub(super) fn material(
         surface,
         textures,
         normal_scale,
-        outside,
+        buffers,
         not_modelled,
         materials,
         normal_y,
@@ -53,7 +53,11 @@ pub(super) fn material(
     };
     let is_linear = textures.add_to(&mut maps, surface);
     let mut found = maps.material(&path, name, "", options)?;
-    found.notes.extend(outside.into_iter().map(|file| Note::OutsideFolder { file, by: path.clone() }));
+    for file in buffers {
+        let outside = file.outside().map(Path::to_owned);
+        found.notes.extend(outside.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
+        found.add_file(file.path().to_owned());
+    }
     found.add_file(path);
     let roughness = match surface {
         GltfSurface::SpecularGlossiness { .. } => Roughness::Gloss,

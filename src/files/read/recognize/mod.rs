@@ -36,7 +36,7 @@ pub(super) fn candidate(
     bound: &[(Role, StoredMap)],
     options: &ReadOptions,
 ) -> Result<StoredMaterial, Error> {
-    let outside = outside(&candidate);
+    let noticed = noticed(&candidate);
     let mut found = match candidate {
         DecodedCandidate::Set(set, pictures) => return set::material(&set, pictures, bound, options),
         DecodedCandidate::Picture(located, decoded) => picture::material(located, decoded, options)?,
@@ -44,7 +44,7 @@ pub(super) fn candidate(
         DecodedCandidate::Mtl(located, pictures) => mtl::material(&located, pictures, options)?,
         DecodedCandidate::Mtlx(located, pictures) => mtlx::material(&located, pictures, options)?,
     };
-    let new: Vec<Note> = outside.into_iter().filter(|note| !found.notes.contains(note)).collect();
+    let new: Vec<Note> = noticed.into_iter().filter(|note| !found.notes.contains(note)).collect();
     found.notes.extend(new);
     for (role, map) in bound {
         found.notes.push(Note::MapSpecified { map: *role, file: map.file.clone(), by: SpecifiedBy::Caller });
@@ -53,16 +53,18 @@ pub(super) fn candidate(
     Ok(found)
 }
 
-/// The notes about pictures outside of the folder of the document that names them, each once.
-fn outside(candidate: &DecodedCandidate) -> Vec<Note> {
-    let pictures = match candidate {
-        DecodedCandidate::Gltf(_, pictures) => pictures,
-        DecodedCandidate::Mtl(_, pictures) | DecodedCandidate::Mtlx(_, pictures) => pictures,
+/// What the decoders of the pictures that a document names noticed, each once.
+fn noticed(candidate: &DecodedCandidate) -> Vec<Note> {
+    // glTF specifies how colours are stored, whatever its pictures declare (glTF 2.0, 5.19).
+    let (pictures, is_specified) = match candidate {
+        DecodedCandidate::Gltf(_, pictures) => (pictures, true),
+        DecodedCandidate::Mtl(_, pictures) | DecodedCandidate::Mtlx(_, pictures) => (pictures, false),
         DecodedCandidate::Picture(..) | DecodedCandidate::Set(..) => return Vec::new(),
     };
+    let is_void = |note: &Note| is_specified && matches!(note, Note::LinearGamma(_) | Note::Profile(_));
     let mut notes: Vec<Note> = Vec::new();
     for note in pictures.iter().flat_map(|picture| &picture.notes) {
-        if matches!(note, Note::OutsideFolder { .. }) && !notes.contains(note) {
+        if !is_void(note) && !notes.contains(note) {
             notes.push(note.clone());
         }
     }

@@ -11,8 +11,12 @@ use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlTexture, NORMALS, names_pi
 use crate::read::measure::{NORMAL_AT_LEAST, normal_score};
 use crate::read::names::Label;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
+use crate::read::raster::channel_spread;
 use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+
+/// Channels of a gray picture differ by no more: compression and rounding.
+const GRAY: f64 = 12.0 / 255.0;
 
 /// The material `located`, whose textures are `pictures`.
 ///
@@ -208,7 +212,9 @@ impl<'a> MtlMaps<'a> {
             return Some(bump);
         }
         let what = bump.file.display().to_string();
-        self.notes.push(Note::Unused { what, why: Unused::Heights });
+        let is_gray = channel_spread(&bump.raster.channels) <= GRAY;
+        let why = if is_gray { Unused::Heights } else { Unused::NotNormals };
+        self.notes.push(Note::Unused { what, why });
         None
     }
 

@@ -143,7 +143,7 @@ impl MapsByRole {
         if normal.is_none() && colour.is_none() && roughness.is_none() {
             return Err(missing(Role::Normal));
         }
-        let colour = colour.ok_or_else(|| missing(Role::Diffuse))?;
+        let colour = colour.ok_or_else(|| missing(if use_metallic { Role::Base } else { Role::Diffuse }))?;
         let roughness = roughness.ok_or_else(|| missing(Role::Roughness))?;
         let chosen = if use_metallic { Workflow::Metallic } else { Workflow::Specular };
         assumptions.push(workflow(chosen, specular.is_some(), is_ambiguous, options));

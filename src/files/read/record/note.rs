@@ -30,6 +30,8 @@ pub enum Unused {
     Workflow(Workflow),
     /// It holds heights, not normals.
     Heights,
+    /// Its pixels are neither normals nor heights.
+    NotNormals,
     /// A factor of 0 would leave nothing of the map.
     FactorZero { map: Role },
     /// Blender writes this factor, and uses the picture alone.
@@ -138,7 +140,9 @@ impl Note {
             Self::ChannelsDiffer { .. } | Self::Anisotropic { .. } | Self::SpecularMedian { .. } => true,
             Self::LinearGamma(_) | Self::Profile(_) | Self::Primaries | Self::Gamut { .. } => true,
             Self::DataWindow { .. } | Self::PartialData { .. } | Self::OptionsUnused { .. } => true,
-            Self::Unused { why, .. } => matches!(why, Unused::FactorZero { .. } | Unused::Heights),
+            Self::Unused { why, .. } => {
+                matches!(why, Unused::FactorZero { .. } | Unused::Heights | Unused::NotNormals)
+            }
             _ => false,
         }
     }

@@ -217,6 +217,7 @@ impl fmt::Display for Unused {
             Self::Constant { other } => write!(f, ": it is constant, and {other} is not"),
             Self::Workflow(workflow) => write!(f, ": the workflow is {workflow}"),
             Self::Heights => f.write_str(": it holds heights, not normals"),
+            Self::NotNormals => f.write_str(": its pixels do not look like normals"),
             Self::FactorZero { map } => write!(f, ": nothing would be left of the {} map", map.name()),
             Self::Blender => f.write_str(": Blender, which wrote it, uses the picture alone"),
         }

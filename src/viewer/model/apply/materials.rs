@@ -20,6 +20,10 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
         MaterialsCommand::OpenAgain(source) => {
             vec![Effect::Read(ReadRequest::new(vec![*source], Target::Predictions))]
         }
+        MaterialsCommand::AllowOutside { paths, read } => {
+            let opened = open(model, paths, false, read);
+            std::iter::once(Effect::AllowOutside).chain(opened).collect()
+        }
         MaterialsCommand::OpenBuiltIn => vec![Effect::Read(ReadRequest::built_in())],
         MaterialsCommand::CancelReading(number) => vec![Effect::CancelReading(number)],
         MaterialsCommand::Reopen(index) => reopen(model, index),

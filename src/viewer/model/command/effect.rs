@@ -17,6 +17,8 @@ pub enum Effect {
     ReadForDialog(ReadRequest),
     /// Cancels the opening of this number.
     CancelReading(u64),
+    /// Lets files name others by absolute paths from now on.
+    AllowOutside,
     /// Reads scene files.
     ReadScenes(Vec<PathBuf>),
     /// Reads a session file, which stands alone, and opens it.

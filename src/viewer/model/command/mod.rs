@@ -51,6 +51,11 @@ pub enum MaterialsCommand {
     },
     /// Opens a prediction that was refused or closed.
     OpenAgain(Box<Source>),
+    /// Lets files name others by absolute paths from now on, and opens these, which were refused for that.
+    AllowOutside {
+        paths: Vec<PathBuf>,
+        read: ReadOptions,
+    },
     OpenBuiltIn,
     /// Cancels the opening of this number.
     CancelReading(u64),

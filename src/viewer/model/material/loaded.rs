@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::report::distinct_names;
+use svbrdf_core::text::line;
 
 use super::problem::SizeMismatch;
 use super::read::{MaterialId, ReadMaterial};
@@ -20,13 +21,13 @@ pub struct LoadedMaterial {
 
 impl LoadedMaterial {
     pub fn new(read: Arc<ReadMaterial>) -> Self {
-        let name = read.material.name().to_owned();
+        let name = line(read.material.name());
         Self { read, problem: None, name }
     }
 
     /// A material made of others, with this name.
     pub fn named(read: Arc<ReadMaterial>, problem: Option<String>, name: String) -> Self {
-        Self { read, problem, name }
+        Self { read, problem, name: line(&name) }
     }
 
     /// What identifies its maps: every reading of every version of its files has another one.
@@ -67,7 +68,7 @@ pub fn ids(materials: &[LoadedMaterial]) -> Vec<MaterialId> {
 pub fn rename(materials: &mut [LoadedMaterial]) {
     let named: Vec<_> = materials.iter().map(|one| (one.material().name(), one.read.path())).collect();
     let names = distinct_names(&named);
-    materials.iter_mut().zip(names).for_each(|(material, name)| material.name = name);
+    materials.iter_mut().zip(names).for_each(|(material, name)| material.name = line(&name));
 }
 
 /// The two sizes, where `prediction` has another size than the ground truth.
@@ -80,4 +81,29 @@ pub fn mismatch(ground_truth: &LoadedMaterial, prediction: &ReadMaterial) -> Opt
         ground_truth_size: gt.size(),
         source: prediction.source(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::viewer::model::material::source::Source;
+
+    #[test]
+    fn names_that_steer_the_text_after_them_or_fill_the_window_are_shown_and_do_neither() {
+        let read = svbrdf_files::samples::load::<f32>().unwrap().ground_truth;
+        let material = |name: String| {
+            let mut read = read.clone();
+            read.material = read.material.renamed(name);
+            LoadedMaterial::new(Arc::new(ReadMaterial::new(Source::built_in(0), read)))
+        };
+        let hostile = ["a\u{202e}gnp.b".to_owned(), "\u{1b}[2J".to_owned(), "long ".repeat(100_000)];
+        let mut all: Vec<_> = hostile.into_iter().map(material).collect();
+        let check = |all: &[LoadedMaterial]| {
+            assert_eq!([all[0].name(), all[1].name()], ["a\\u{202e}gnp.b", "\\u{1b}[2J"]);
+            assert!(all[2].name().chars().count() < 2100);
+        };
+        check(&all);
+        rename(&mut all);
+        check(&all);
+    }
 }

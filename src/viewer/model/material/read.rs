@@ -1,10 +1,12 @@
 //! Read material: the four maps of a material, with all that was learnt in reading them.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
+use svbrdf_files::memory::Reserved;
 use svbrdf_files::read::{Assumption, MapReport, Note, Read, ReadOptions};
 use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::RunId;
@@ -57,6 +59,8 @@ pub struct ReadMaterial {
     pub maps: Vec<MapReport>,
     /// The files that were read, each with its stamp.
     pub files: Vec<(PathBuf, Option<Stamp>)>,
+    /// The memory of the material. It counts towards the limit while this lives.
+    pub memory: Arc<Reserved>,
 }
 
 impl ReadMaterial {
@@ -64,10 +68,24 @@ impl ReadMaterial {
     pub fn new(source: Source, read: Read<f32>) -> Self {
         let files: Vec<_> =
             read.files.into_iter().map(|path| (Stamp::of(&path), path)).map(|(s, p)| (p, s)).collect();
-        let Read { material, assumptions, notes, maps, options, saved, .. } = read;
+        let Read { material, assumptions, notes, maps, options, saved, memory, .. } = read;
         let Source { origin, specified, fit, run, .. } = source;
         let id = MaterialId::new(&files);
-        Self { id, origin, specified, options, saved, fit, run, material, notes, assumptions, maps, files }
+        Self {
+            id,
+            origin,
+            specified,
+            options,
+            saved,
+            fit,
+            run,
+            material,
+            notes,
+            assumptions,
+            maps,
+            files,
+            memory,
+        }
     }
 
     /// The path it was read from; empty for a built-in one.
@@ -94,6 +112,7 @@ impl ReadMaterial {
             assumptions: Vec::new(),
             maps: Vec::new(),
             files: Vec::new(),
+            memory: self.memory.clone(),
         }
     }
 

@@ -7,6 +7,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
+use svbrdf_files::read::ReadOptions;
 
 use super::command::{Command, MaterialsCommand};
 use super::material::problem::MaterialProblem;
@@ -82,6 +83,11 @@ impl Message {
                 let source = Source { fit: true, ..sizes.source.clone() };
                 Some(("Fit and open", MaterialsCommand::OpenAgain(Box::new(source)).into()))
             }
+            Self::Material(MaterialProblem::NotRead { source, error: Error::Outside { .. }, .. }) => {
+                let path = self.path()?.to_owned();
+                Some(allow_outside(path, source.specified))
+            }
+            Self::Failed(Error::Outside { by, .. }) => Some(allow_outside(by.clone(), ReadOptions::AUTO)),
             _ => None,
         }
     }
@@ -93,6 +99,11 @@ impl Message {
             _ => None,
         }
     }
+}
+
+/// The question whether the file `path` may name others by absolute paths.
+fn allow_outside(path: PathBuf, read: ReadOptions) -> (&'static str, Command) {
+    ("Allow absolute paths", MaterialsCommand::AllowOutside { paths: vec![path], read }.into())
 }
 
 impl fmt::Display for Message {
@@ -130,7 +141,6 @@ impl fmt::Display for Message {
 mod tests {
     use super::*;
     use crate::viewer::model::material::problem::SizeMismatch;
-    use svbrdf_files::read::ReadOptions;
 
     #[test]
     fn only_what_went_wrong_is_an_error() {

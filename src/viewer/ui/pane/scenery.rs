@@ -180,7 +180,10 @@ impl Scenery<'_> {
     fn title(&self, index: usize, most: usize) -> String {
         let labels: Vec<String> = self.materials.iter().map(LoadedMaterial::label).collect();
         let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
-        let name = &shortened(&labels, most)[index];
-        if index == 0 { format!("GROUND TRUTH  {name}") } else { format!("{index}  {name}") }
+        let (ground_truth, predictions) = labels.split_at(labels.len().min(1));
+        match index.checked_sub(1) {
+            None => format!("GROUND TRUTH  {}", shortened(ground_truth, most).concat()),
+            Some(prediction) => format!("{index}  {}", shortened(predictions, most)[prediction]),
+        }
     }
 }

@@ -2,6 +2,8 @@
 
 use eframe::egui::{self, Align2, RichText};
 
+use svbrdf_core::text::{printable, shortened};
+
 use crate::viewer::model::command::{Command, WindowCommand};
 use crate::viewer::model::message::list::MessageList;
 use crate::viewer::model::message::{Message, Severity};
@@ -39,7 +41,7 @@ pub fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) -> Vec<
             .show(ctx, |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_max_width(widest);
-                    ui.label(message.to_string());
+                    ui.label(shown(message));
                 });
             });
     }
@@ -74,11 +76,16 @@ fn list(ui: &mut egui::Ui, messages: &[(usize, &Message)], commands: &mut Vec<Co
     }
 }
 
+/// The text of a message, in which names from files steer nothing.
+fn shown(message: &Message) -> String {
+    printable(&shortened(&message.to_string()))
+}
+
 fn text(ui: &egui::Ui, message: &Message) -> RichText {
     let colour = match message.severity() {
         Severity::Success => ui.visuals().text_color(),
         Severity::Warning => ui.visuals().warn_fg_color,
         Severity::Error => theme::problem(ui.visuals()),
     };
-    RichText::new(message.to_string()).color(colour)
+    RichText::new(shown(message)).color(colour)
 }

@@ -19,6 +19,8 @@ use crate::viewer::ui::widgets::theme;
 
 use maps::MapsSection;
 
+/// Most predictions with high rows.
+const LONG: usize = 4;
 /// Characters of a name in a row.
 const NAME: usize = 30;
 
@@ -94,6 +96,10 @@ impl WhyPanel<'_> {
 
     fn rows(&self, ui: &mut egui::Ui, losses: &[f64], commands: &mut Vec<Command>) {
         let most = losses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        // Many rows are low ones.
+        let is_long = losses.len() > LONG;
+        ui.spacing_mut().item_spacing.y = if is_long { 1.0 } else { 4.0 };
+        let height = if is_long { 2.0 } else { 6.0 };
         for (index, (loss, name)) in losses.iter().zip(shortened(&self.names, NAME)).enumerate() {
             let left = |ui: &mut egui::Ui| {
                 ui.selectable_label(index == self.state.display.prediction, format!("{}  {name}", index + 1))
@@ -106,7 +112,7 @@ impl WhyPanel<'_> {
             if response.clicked() {
                 commands.push(DisplayCommand::ChoosePrediction(index).into());
             }
-            let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), 6.0), Sense::hover());
+            let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
             let bar = Rect::from_min_size(area.min, vec2(area.width() * (loss / most) as f32, area.height()));
             ui.painter().rect_filled(bar, 1.0, theme::series(index, ui.visuals().dark_mode));
         }

@@ -80,7 +80,7 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
         textures,
         normal_scale: material.normal_texture().map_or(1.0, |texture| texture.scale()),
         normal_y: normal_y(&file.declared),
-        outside: file.buffers_outside(),
+        buffers: file.buffers(),
         not_modelled,
         materials: (names, index),
     })

@@ -82,16 +82,13 @@ impl GltfFile {
         }
     }
 
-    /// The buffers that lie outside of the folder of the file.
-    pub(super) fn buffers_outside(&self) -> Vec<PathBuf> {
-        let outside = |buffer: gltf::Buffer<'_>| match buffer.source() {
-            gltf::buffer::Source::Uri(uri) if !uri.starts_with("data:") => {
-                let file = self.beside(uri);
-                (file.exists() && file.outside().is_some()).then(|| file.path().to_owned())
-            }
+    /// The files of the buffers, as far as they are there.
+    pub(super) fn buffers(&self) -> Vec<NamedFile> {
+        let file = |buffer: gltf::Buffer<'_>| match buffer.source() {
+            gltf::buffer::Source::Uri(uri) if !uri.starts_with("data:") => Some(self.beside(uri)),
             _ => None,
         };
-        self.document.buffers().filter_map(outside).collect()
+        self.document.buffers().filter_map(file).filter(NamedFile::exists).collect()
     }
 
     /// A file by the URI that names it, `%20` and the like resolved.
