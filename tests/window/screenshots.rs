@@ -1,4 +1,4 @@
-//! The pictures of the window in the README and docs. `pngquant 192 --speed 1 --strip --ext .png --force assets/*.png` makes them small.
+//! The pictures of the window in the README and docs.
 
 use std::path::Path;
 
