@@ -72,34 +72,22 @@ impl fmt::Display for Note {
                 f,
                 "The image holds {count} materials, one in each row; this is number {index} from 0."
             ),
-            Self::Materials { names, index } => write!(f, "{}", materials(names, *index)),
-            Self::NotModelled { features } => {
-                write!(f, "These change the look and are not modelled: {}.", features.join(", "))
-            }
-            Self::ListedBy { file } => {
-                write!(f, "{file} lists these pictures: open it to read them as it specifies.")
-            }
-            Self::Gamut { spaces } => write!(
-                f,
-                "Rec. 709 does not have some of the colours in {}; they are clipped to [0, 1].",
-                spaces.join(", ")
-            ),
             Self::SpecularFactor { file } => {
                 write!(f, "{file} is read as a factor on 0.04, as OpenSVBRDF writes it.")
             }
             Self::Preview => f.write_str("The unnamed layer is taken as a preview and ignored."),
-            Self::Substituted { file, by } => write!(f, "{file} is absent; {} is used.", by.display()),
-            Self::OptionsUnused { map, options } => {
-                write!(f, "Options of the {} map that are not used: {}.", map.name(), options.join(", "))
-            }
-            Self::StatementsUnused(all) => {
-                write!(f, "Statements of the .mtl that are not used: {}.", all.join(", "))
-            }
             Self::Resized { from, to } => write!(
                 f,
                 "Resized from {} x {} to the {} x {} of the ground truth.",
                 from[0], from[1], to[0], to[1]
             ),
+            Self::Materials { .. }
+            | Self::NotModelled { .. }
+            | Self::ListedBy { .. }
+            | Self::Gamut { .. }
+            | Self::Substituted { .. }
+            | Self::OptionsUnused { .. }
+            | Self::StatementsUnused(_) => self.of_documents(f),
             Self::AlphaIgnored { .. }
             | Self::ChannelsLast { .. }
             | Self::ChannelsDiffer { .. }
@@ -116,6 +104,32 @@ impl fmt::Display for Note {
 }
 
 impl Note {
+    /// The sentences of notes about documents that list their textures.
+    fn of_documents(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Materials { names, index } => write!(f, "{}", materials(names, *index)),
+            Self::NotModelled { features } => {
+                write!(f, "These change the look and are not modelled: {}.", features.join(", "))
+            }
+            Self::ListedBy { file } => {
+                write!(f, "{file} lists these pictures: open it to read them as it specifies.")
+            }
+            Self::Gamut { spaces } => write!(
+                f,
+                "Rec. 709 does not have some of the colours in {}; they are clipped to [0, 1].",
+                spaces.join(", ")
+            ),
+            Self::Substituted { file, by } => write!(f, "{file} is absent; {} is used.", by.display()),
+            Self::OptionsUnused { map, options } => {
+                write!(f, "Options of the {} map that are not used: {}.", map.name(), options.join(", "))
+            }
+            Self::StatementsUnused(all) => {
+                write!(f, "Statements of the .mtl that are not used: {}.", all.join(", "))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The sentences of notes about pixels.
     fn of_pixels(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
