@@ -211,7 +211,8 @@ mod tests {
         let window =
             read(r#"{"view": {"wipe": 0.25}, "loss": {"seed": 7}, "of a newer version": 1}"#).unwrap();
         let loss = LossSettings { seed: 7, ..LossSettings::default() };
-        let expected = Display { wipe: 0.25, ..Display::default() };
+        // A session that does not say how it was exposed has an exposure that was set.
+        let expected = Display { wipe: 0.25, auto_exposure: AutoExposure::Off, ..Display::default() };
         assert_eq!((window.display.clone(), window.loss.clone()), (Some(expected), Some(loss)));
         assert_eq!(read(&serde_json::to_string(&window).unwrap()), Ok(window));
     }

@@ -105,6 +105,8 @@ fn the_search_finds_the_scene_of_the_core_and_shows_it() {
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_cancelled_search_leaves_the_scene() {
     let mut window = opened();
+    // The list does not push the button away under the click.
+    wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
     let before = window.state().parts.model.view.scene;
     for cancel in [
         |window: &mut Window<'_>| press(window, egui::Key::Escape),
