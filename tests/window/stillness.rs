@@ -231,7 +231,7 @@ fn write_packed(path: &std::path::Path, side: u32, value: impl Fn(usize, u32, u3
 /// matte, noise, normals to either side.
 fn write_pair(folder: &std::path::Path, kind: usize, side: u32) -> Vec<std::path::PathBuf> {
     let noise = |tile: usize, x: u32, y: u32| {
-        (x.wrapping_mul(73) ^ y.wrapping_mul(151) ^ tile as u32 * 97).wrapping_mul(2_654_435_761) >> 24
+        (x.wrapping_mul(73) ^ y.wrapping_mul(151) ^ (tile as u32 * 97)).wrapping_mul(2_654_435_761) >> 24
     };
     let plain = |tile: usize| [[128, 128, 255], [120, 90, 60], [140; 3], [20; 3]][tile];
     let value = |is_prediction: bool| {
