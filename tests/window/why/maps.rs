@@ -75,9 +75,11 @@ fn a_share_below_0_is_explained_below_the_bars() {
 fn isolate(window: &mut Window<'_>, map: &str) {
     wait_for_attribution(window);
     let start = format!("{map}: ");
-    let labels = window.get_all_by_role(egui::accesskit::Role::Button);
-    let mut labels = labels.filter_map(|node| egui_kittest::kittest::NodeT::accesskit_node(&node).label());
-    let row = labels.find(|label| label.starts_with(&start) && label.ends_with("of the loss"));
+    let row = {
+        let rows = window.get_all_by_role(egui::accesskit::Role::Button);
+        let mut labels = rows.filter_map(|node| egui_kittest::kittest::NodeT::accesskit_node(&node).label());
+        labels.find(|label| label.starts_with(&start) && label.ends_with("of the loss"))
+    };
     let row = row.expect("the row of the map");
     window.get_by_label(&row).click();
     window.run_steps(3);
