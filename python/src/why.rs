@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use svbrdf_core::loss::Comparison;
-use svbrdf_core::report::{BlameReport, MapReport, ScenesReport, WorstReport};
 use svbrdf_core::model::scene::Endpoint;
+use svbrdf_core::report::{BlameReport, MapReport, ScenesReport, WorstReport};
 use svbrdf_core::why;
 
 use crate::arrays;
