@@ -31,7 +31,7 @@ def test_the_wheel_is_built_from_the_versions_of_the_program() -> None:
         return {(p["name"], p["version"], p.get("checksum", "")) for p in packages}
 
     only_wheel = {name for name, _, _ in locked(REPOSITORY / "python") - locked(REPOSITORY)}
-    own = {"svbrdf-python", "target-lexicon", "matrixmultiply", "ndarray", "numpy", "rawpointer"}
+    own = {"svbrdf-python", "target-lexicon", "matrixmultiply", "ndarray", "num-integer", "numpy", "rawpointer"}
     assert {name for name in only_wheel if not name.startswith("pyo3")} == own
 
 
