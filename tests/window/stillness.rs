@@ -111,45 +111,11 @@ fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
 
 /// The accessible rectangles of all controls of the bar, by name.
 fn bar(window: &Window<'_>) -> Vec<(String, egui::Rect)> {
-    let names = [
-        "Open",
-        "Save",
-        "Copy",
-        "Layout side by side",
-        "Layout wipe",
-        "Layout single",
-        "Show rendering",
-        "Show normal",
-        "Show diffuse",
-        "Show specular",
-        "Show roughness",
-        "Value",
-        "Difference",
-        "Histogram",
-        "3D",
-        "Tile",
-        "False colour",
-        "Swap",
-        "Exposure",
-        "Darker",
-        "Brighter",
-        "Auto EV",
-        "Exposure follows",
-        "Clipped pixels",
-        "Fit",
-        "One texel per pixel",
-        "Reset",
-        "Undo",
-        "Redo",
-        "Menu",
-        "Panel",
-        "?",
-    ];
     let rect = |name: &str| {
         let nodes = window.query_all_by_label(name).map(|node| node.rect());
         nodes.min_by(|a, b| a.top().total_cmp(&b.top())).unwrap_or_else(|| panic!("no {name}"))
     };
-    names.iter().map(|name| ((*name).to_owned(), rect(name))).collect()
+    super::bar::CONTROLS.iter().map(|name| ((*name).to_owned(), rect(name))).collect()
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the automatic exposure was last computed for.
+//! Occasion of the last automatic exposure.
 
 use svbrdf_core::model::scene::Scene;
 

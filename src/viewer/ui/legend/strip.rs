@@ -1,10 +1,9 @@
 //! The strip below the panes that show a difference: its colours, its range, its histogram and its statistics.
 
 use eframe::egui::{
-    self, Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Response, RichText, Sense, Stroke, pos2, vec2,
+    self, Align2, Color32, FontId, Painter, Pos2, Rect, Response, RichText, Sense, Stroke, pos2, vec2,
 };
 
-use svbrdf_core::picture::colour_map::{diverging, heat};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Distributions, Histogram};
@@ -13,6 +12,7 @@ use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
 use crate::viewer::model::command::{Command, DisplayCommand};
 use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::ui::widgets::colour_bar::colour_bar;
 use crate::viewer::ui::widgets::number;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::theme;
@@ -22,8 +22,6 @@ const ERROR_MAP: &str = "error map (all scenes)";
 /// Height of the histograms and of the colour bar below them, in points.
 pub const HISTOGRAM: f32 = 54.0;
 pub const BAR: f32 = 12.0;
-/// Colours in the bar.
-const STEPS: usize = 128;
 /// Widths of the controls and of the statistics, in points.
 const CONTROLS: f32 = 184.0;
 pub const STATISTICS: f32 = 396.0;
@@ -179,7 +177,8 @@ impl<'a> LegendStrip<'a> {
         };
         let bar = area.with_min_y(area.bottom() - BAR);
         let ink = ui.visuals().text_color();
-        self.paint_bar(&painter, bar, [low, high]);
+        let shares = [low, high].map(|value| (value / self.range) as f32);
+        painter.add(colour_bar(bar, shares, self.kind.is_signed()));
         let fade = if self.current { 1.0 } else { 0.5 };
         let histograms = self.distributions.map_or(&[][..], |distributions| &distributions.histograms);
         for (index, histogram) in histograms.iter().enumerate() {
@@ -207,25 +206,6 @@ impl<'a> LegendStrip<'a> {
         let pos = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())?;
         let range = value(pos).abs();
         (range > 0.0).then(|| DisplayCommand::SetRange(Some(range)).into())
-    }
-
-    fn paint_bar(&self, painter: &Painter, bar: Rect, [low, high]: [f64; 2]) {
-        let map = if self.kind.is_signed() { diverging } else { heat };
-        let mut mesh = Mesh::default();
-        for i in 0..=STEPS {
-            let share = i as f32 / STEPS as f32;
-            let value = low + (high - low) * f64::from(share);
-            let [r, g, b] = map((value / self.range) as f32).map(|c| (c * 255.0).round() as u8);
-            let x = bar.left() + share * bar.width();
-            for y in [bar.top(), bar.bottom()] {
-                mesh.colored_vertex(pos2(x, y), Color32::from_rgb(r, g, b));
-            }
-            if let Some(last) = (2 * i as u32).checked_sub(2) {
-                mesh.add_triangle(last, last + 1, last + 2);
-                mesh.add_triangle(last + 1, last + 2, last + 3);
-            }
-        }
-        painter.add(mesh);
     }
 
     fn paint_numbers(&self, painter: &Painter, area: Rect, [low, high]: [f64; 2], ink: Color32) {

@@ -1,12 +1,12 @@
 //! Scale of a pane in false colours: its colours, with the numbers and the unit of both ends.
 
-use eframe::egui::{Align2, Color32, FontId, Mesh, Painter, Rect, pos2, vec2};
+use eframe::egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
 
-use svbrdf_core::picture::colour_map::{diverging, heat};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 
 use crate::viewer::ui::pane::scenery::{Content, Scenery};
+use crate::viewer::ui::widgets::colour_bar::colour_bar;
 use crate::viewer::ui::widgets::numbers::digits;
 
 /// Size of the colours, and the distance of the scale from the corner of the pane, in points.
@@ -14,8 +14,6 @@ const BAR: [f32; 2] = [9.0, 84.0];
 const MARGIN: f32 = 8.0;
 /// Least side of a pane that has a scale, in points.
 const LEAST: f32 = 150.0;
-/// Colours from one end to the other.
-const STEPS: u32 = 32;
 const INK: Color32 = Color32::from_gray(0xf0);
 const BEHIND: Color32 = Color32::from_black_alpha(170);
 
@@ -58,7 +56,7 @@ impl Scale {
         let area = Align2::LEFT_BOTTOM.anchor_size(pane.left_bottom() + vec2(MARGIN, -MARGIN), size);
         painter.rect_filled(area.expand(4.0), 3.0, BEHIND);
         let bar = area.with_max_x(area.left() + BAR[0]);
-        painter.add(colours(bar, self.is_signed));
+        painter.add(colour_bar(bar, [if self.is_signed { -1.0 } else { 0.0 }, 1.0], self.is_signed));
         let left = bar.right() + 4.0;
         painter.galley(pos2(left, area.top()), top, INK);
         let height = bottom.size().y;
@@ -68,23 +66,4 @@ impl Scale {
 
 fn unit(kind: Difference) -> &'static str {
     if kind == Difference::Angle { "\u{b0}" } else { "" }
-}
-
-/// The colours from below to above.
-fn colours(bar: Rect, is_signed: bool) -> Mesh {
-    let mut mesh = Mesh::default();
-    for i in 0..=STEPS {
-        let share = i as f32 / STEPS as f32;
-        let colour = if is_signed { diverging(2.0 * share - 1.0) } else { heat(share) };
-        let [r, g, b] = colour.map(|c| (c * 255.0).round() as u8);
-        let y = bar.bottom() - share * bar.height();
-        for x in [bar.left(), bar.right()] {
-            mesh.colored_vertex(pos2(x, y), Color32::from_rgb(r, g, b));
-        }
-        if let Some(last) = (2 * i).checked_sub(2) {
-            mesh.add_triangle(last, last + 1, last + 2);
-            mesh.add_triangle(last + 1, last + 2, last + 3);
-        }
-    }
-    mesh
 }

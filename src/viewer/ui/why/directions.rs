@@ -7,12 +7,12 @@ use glam::DVec3;
 
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::colour_map::difference_to_display;
 
 use crate::viewer::jobs::why::{DirectionMaps, ScaledPicture};
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand};
 use crate::viewer::ui::pane::handles;
 use crate::viewer::ui::why::WhyPanel;
+use crate::viewer::ui::widgets::colour_bar::colour_bar;
 use crate::viewer::ui::widgets::hemisphere::{direction_at, pos_of, unit};
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::numbers::{digits, signed};
@@ -25,8 +25,6 @@ const GAP: f32 = 8.0;
 /// Height of the line above a map, and of a colour bar with its numbers, in points.
 const CAPTION: f32 = 16.0;
 const BAR: f32 = 10.0;
-/// Colours in a bar.
-const STEPS: usize = 64;
 /// Characters of a name above a map.
 const NAME: usize = 12;
 
@@ -278,15 +276,7 @@ fn bar(ui: &mut egui::Ui, name: &str, [low, high]: [String; 2], is_signed: bool)
         .shrink2(vec2(0.0, 2.0));
     painter.text(pos2(colours.left() - 4.0, middle), Align2::RIGHT_CENTER, low, font.clone(), ink);
     painter.text(pos2(colours.right() + 4.0, middle), Align2::LEFT_CENTER, high, font, ink);
-    let step = colours.width() / STEPS as f32;
-    for i in 0..STEPS {
-        let share = (i as f32 + 0.5) / STEPS as f32;
-        let amount = if is_signed { 2.0 * share - 1.0 } else { share };
-        let [r, g, b] = difference_to_display(amount, 1.0, is_signed);
-        let left = colours.left() + i as f32 * step;
-        let part = Rect::from_x_y_ranges(left..=left + step + 0.5, colours.y_range());
-        painter.rect_filled(part.intersect(colours), 0.0, Color32::from_rgb(r, g, b));
-    }
+    painter.add(colour_bar(colours, [if is_signed { -1.0 } else { 0.0 }, 1.0], is_signed));
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Widgets and formats that several parts of the window share.
 
+pub mod colour_bar;
 pub mod hemisphere;
 pub mod hint;
 pub mod names;
