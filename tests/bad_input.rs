@@ -148,7 +148,7 @@ fn files_that_are_no_whole_image_are_refused() {
         (
             "an empty file",
             |f| written(f, b""),
-            &["x.png", "material: expected PNG, TIFF", "no known image", "give"],
+            &["cannot decode", "x.png: expected PNG, TIFF", "no known image", "give"],
         ),
         (
             "a text",
@@ -166,7 +166,7 @@ fn files_that_are_no_whole_image_are_refused() {
                 let bytes = png_bytes(&strip(0));
                 written(f, &bytes[..bytes.len() * 2 / 3])
             },
-            &["x.png", "material: expected the whole image", "end of the file", "again"],
+            &["cannot decode", "x.png: expected the whole image", "end of the file", "again"],
         ),
         (
             "a truncated map of a folder",
@@ -185,7 +185,7 @@ fn files_that_are_no_whole_image_are_refused() {
                 bytes[45] ^= 0xff;
                 written(f, &bytes)
             },
-            &["x.png", "material: expected a valid PNG", "again"],
+            &["cannot decode", "x.png: expected a valid PNG", "again"],
         ),
     ]);
 }

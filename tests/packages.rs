@@ -1,4 +1,4 @@
-//! What the manifests say: the licences in `THIRD-PARTY`, the reason of each direct dependency, one version everywhere.
+//! Manifests: licences in `THIRD-PARTY`, the reason of each direct dependency, one version everywhere.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -1,4 +1,4 @@
-//! What must hold for any material, light and view.
+//! Physical properties of any material, light and view: reciprocity, bounds, limits.
 
 mod albedo;
 mod normalization;

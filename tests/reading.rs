@@ -1,4 +1,4 @@
-//! What opens as a material, and which values come out.
+//! Reading of materials: which paths open, and which values result.
 
 use std::path::Path;
 

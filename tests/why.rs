@@ -1,4 +1,4 @@
-//! What a loss comes from: maps, scenes, directions, texels.
+//! Causes of a loss: maps, scenes, directions, texels.
 
 mod attribution;
 mod directions;

@@ -1,4 +1,4 @@
-//! What a loss comes from: maps, scenes, texels and directions.
+//! Causes of a loss: maps, scenes, texels and directions.
 
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;

@@ -153,7 +153,7 @@ def test_files_that_cannot_be_used_are_refused(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="cannot read"):
         svbrdf.read(tmp_path / "nothing.png")
     (tmp_path / "bad.png").write_bytes(b"no picture")
-    with pytest.raises(svbrdf.Error, match=r"bad.png is not a readable image"):
+    with pytest.raises(svbrdf.Error, match=r"cannot decode .*bad.png"):
         svbrdf.read(tmp_path / "bad.png")
     with pytest.raises(svbrdf.Error, match="unknown variant `blue`, expected one of `linear`, `srgb`"):
         svbrdf.read(tmp_path / "bad.png", albedo="blue")  # type: ignore[arg-type]

@@ -16,7 +16,7 @@ pub enum Error {
     Unreadable { path: PathBuf, source: io::Error },
 
     /// A file is there, but is not an image that can be decoded.
-    #[error("{} is not a readable image: {problem}; {remedy}", path.display())]
+    #[error("cannot decode {}: {problem}; {remedy}", path.display())]
     BadImage { path: PathBuf, problem: String, remedy: String },
 
     /// What was read is not the four maps of a material.

@@ -31,7 +31,7 @@ fn absurd_sizes_are_refused_at_once() {
         (
             "an EXR of 2^31 columns",
             |f| written(f, &exr::header([0, 0, i32::MAX, 0], false)),
-            &["x.png", "material: expected a valid EXR", "window", "again"],
+            &["cannot decode", "x.png: expected a valid EXR", "window", "again"],
         ),
         (
             "an EXR of 2^29 columns",
@@ -41,12 +41,12 @@ fn absurd_sizes_are_refused_at_once() {
         (
             "an EXR whose window is the wrong way round",
             |f| written(f, &exr::header([5, 0, 2, 0], false)),
-            &["x.png", "material: expected a valid EXR", "again"],
+            &["cannot decode", "x.png: expected a valid EXR", "again"],
         ),
         (
             "an EXR whose window overflows",
             |f| written(f, &exr::header([i32::MIN, i32::MIN, i32::MAX, i32::MAX], false)),
-            &["x.png", "material: expected"],
+            &["cannot decode", "x.png: expected"],
         ),
         (
             "a TIFF of 2^31 columns",
@@ -61,7 +61,7 @@ fn absurd_sizes_are_refused_at_once() {
 #[test]
 fn absurd_sizes_of_other_formats_are_refused_at_once() {
     assert_all_refused(&[
-        ("a TIFF without columns", |f| written(f, &tiff_head(0, 4)), &["x.png", "material: expected"]),
+        ("a TIFF without columns", |f| written(f, &tiff_head(0, 4)), &["cannot decode", "x.png: expected"]),
         (
             "an HDR of 2^31 columns",
             |f| written(f, b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2147483648\n"),

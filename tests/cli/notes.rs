@@ -1,4 +1,4 @@
-//! What is said about materials on stderr.
+//! Notes on materials on stderr.
 
 use image::{Rgb, RgbImage};
 

@@ -1,4 +1,4 @@
-//! What files may name, and how much memory they may take.
+//! Limits of files: the paths that they may name and the memory that they may take.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What packages and reports of faults take from the program: version, licences, completions, man pages.
+//! Output for packages and fault reports: version, licences, completions, man pages.
 
 use super::{svbrdf, text};
 

@@ -51,3 +51,46 @@ fn nothing_is_saved_of_options_that_are_refused() {
     fail(folder.path(), "info a.png --save --albedo srgb", 1);
     assert!(std::fs::read_to_string(folder.path().join("a.svbrdf.json")).unwrap().contains("albdo"));
 }
+
+#[test]
+#[cfg(unix)]
+fn options_are_not_saved_through_a_link() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    std::fs::write(of("elsewhere.json"), "a file of somebody").unwrap();
+    std::os::unix::fs::symlink("elsewhere.json", of("a.svbrdf.json")).unwrap();
+    let message = fail(folder.path(), "info a.png --roughness gloss --save", 1);
+    assert!(message.contains("a.svbrdf.json"), "{message}");
+    assert_eq!(std::fs::read_to_string(of("elsewhere.json")).unwrap(), "a file of somebody");
+    std::fs::remove_file(of("elsewhere.json")).unwrap();
+    // Nor where it points to nothing yet.
+    let message = fail(folder.path(), "info a.png --roughness gloss --save", 1);
+    assert!(
+        message.contains("it is a link to elsewhere.json") && message.contains("remove the link"),
+        "{message}"
+    );
+    assert!(!of("elsewhere.json").exists());
+}
+
+#[test]
+fn a_byte_order_mark_before_json_changes_nothing() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    let commands =
+        ["info a.png", "loss gt.png a.png --scenes one.json", "loss s.svbrdf-session.json --near 2"];
+    let session = r#"{"svbrdf-session": 1, "materials": [{"path": "gt.png"}, {"path": "a.png"}], "convention": "printed",
+        "scene": {"kind": "near", "view": [0, 0.1, 2], "light": [0.5, 0.5, 1]}}"#;
+    let write = |mark: &str| {
+        for (name, text) in
+            [("a.svbrdf.json", r#"{"roughness": "gloss"}"#), ("s.svbrdf-session.json", session)]
+        {
+            std::fs::write(of(name), format!("{mark}{text}")).unwrap();
+        }
+        let scenes = std::fs::read_to_string(of("one.json")).unwrap();
+        std::fs::write(of("one.json"), format!("{mark}{}", scenes.trim_start_matches('\u{feff}'))).unwrap();
+        commands.map(|command| succeed(folder.path(), command))
+    };
+    let plain = write("");
+    assert!(plain[0].contains("as saved in a.svbrdf.json"), "{}", plain[0]);
+    assert_eq!(write("\u{feff}"), plain);
+}

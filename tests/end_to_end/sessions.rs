@@ -1,4 +1,4 @@
-//! What the window saves, and what the command line makes of its session.
+//! Sessions that the window saves and the command line reads.
 
 use super::*;
 

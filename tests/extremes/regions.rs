@@ -1,4 +1,4 @@
-//! What a case should give, how well it is conditioned, and the region that it is reported in.
+//! Expected value, condition and region of each extreme case.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! What computes the cases: the ladder of precision, and what it is compared with.
+//! Implementations that compute the cases: the ladder of precision and its references.
 
 use glam::Vec3;
 

@@ -1,4 +1,4 @@
-//! What sources of materials mean beyond layouts and names.
+//! Conventions of the sources of materials beyond layouts and names.
 
 use svbrdf_files::read::Workflow;
 

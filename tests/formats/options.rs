@@ -1,4 +1,4 @@
-//! What the user can say.
+//! Options of reading that a user specifies.
 
 use svbrdf_files::read::{Binding, Energy, NormalEncoding, Workflow, read_bound};
 

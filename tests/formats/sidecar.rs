@@ -1,4 +1,4 @@
-//! What is kept with a material, in a file beside it.
+//! Sidecar files: options saved beside a material.
 
 use svbrdf_files::read::{Binding, Sidecar, read_as, read_bound};
 

@@ -1,4 +1,4 @@
-//! What is written.
+//! Writing of materials.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! What a file of Rust imports, and which paths it writes out: enough of the grammar for `use` lines and paths.
+//! Parser of Rust sources: enough of the grammar for `use` lines and paths.
 
 use std::collections::BTreeSet;
 

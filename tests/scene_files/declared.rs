@@ -1,4 +1,4 @@
-//! What scene files declare beside their textures: extensions, vertex colours, conventions, colour spaces, computed inputs.
+//! Declarations of scene files beside their textures: extensions, vertex colours, conventions, colour spaces, computed inputs.
 
 use super::extensions::{PLAIN, THREE, document, put};
 use super::*;

@@ -1,4 +1,4 @@
-//! What glTF says beside its textures and factors: extensions, scales, several materials.
+//! Properties of glTF beside textures and factors: extensions, scales, several materials.
 
 use super::*;
 use crate::formats::decoders::blocks;

@@ -1,4 +1,4 @@
-//! What moves by itself.
+//! Animation of light and view.
 
 use super::*;
 

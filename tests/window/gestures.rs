@@ -1,4 +1,4 @@
-//! What the mouse does in a pane.
+//! Gestures of the mouse in a pane.
 
 use super::*;
 

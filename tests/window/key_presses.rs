@@ -1,4 +1,4 @@
-//! What the keys do.
+//! Keys and their commands.
 
 use svbrdf::viewer::model::view::state::{AutoExposure, Layout, Projection};
 use svbrdf::viewer::ui::input::keys;

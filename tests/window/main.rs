@@ -8,6 +8,7 @@ mod assumptions;
 mod bar;
 mod corners;
 mod crash;
+mod damaged;
 mod device_loss;
 mod differences;
 mod files;

@@ -22,6 +22,8 @@ use svbrdf_core::progress::Progress;
 
 /// Texels between two panes of a picture.
 pub const GAP: usize = 4;
+/// Texels of a picture beside each other, from which on panes stand in several rows: other programs open no wider ones.
+const WIDEST: usize = 16_384;
 /// The colour of the gap of a PNG.
 const MID_GRAY: [u8; 3] = [128; 3];
 
@@ -50,7 +52,7 @@ impl Destination<PictureFormat> {
         Self::among(path, format, "extension of an output file", known)
     }
 
-    /// Writes `panes`, which are equally high, side by side. The file appears when it is complete, or not at all.
+    /// Writes `panes`, which are equally high, side by side, or in rows where one would be wider than 16,384 texels. The file appears when it is complete, or not at all.
     ///
     /// # Errors
     /// [`Error::Unwritable`], [`Error::Cancelled`].
@@ -110,12 +112,12 @@ impl Destination<PictureFormat> {
     ) -> Result<(), Error> {
         match self.format {
             PictureFormat::Exr => {
-                let picture = side_by_side(panes, [0.0; 3]);
+                let picture = arranged(panes, [0.0; 3]);
                 self.replace(progress, |file| exr::write(file, picture, entries))
             }
             PictureFormat::Png => {
                 let shown: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
-                let picture = side_by_side(&shown, MID_GRAY);
+                let picture = arranged(&shown, MID_GRAY);
                 self.replace(progress, |file| png::write(file, &picture, entries))
             }
         }
@@ -147,19 +149,30 @@ impl PngDestination {
     }
 }
 
-/// `panes` from left to right, [`GAP`] texels of `gap` between them; the height is that of the least high one.
-fn side_by_side<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
+/// `panes` from left to right, [`GAP`] texels of `gap` between them; the height is that of the least high one. Where one row would
+/// be wider than [`WIDEST`], they stand in several rows of equally many.
+fn arranged<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
     let height = panes.iter().map(|p| p.height).min().unwrap_or(0);
-    let gaps = GAP * panes.len().saturating_sub(1);
-    let width = panes.iter().map(|p| p.width).sum::<usize>() + gaps;
-    let mut pixels = Vec::with_capacity(width * height);
-    for row in 0..height {
-        for (i, pane) in panes.iter().enumerate() {
-            pixels.extend(std::iter::repeat_n(gap, if i > 0 { GAP } else { 0 }));
-            pixels.extend_from_slice(&pane.pixels[row * pane.width..][..pane.width]);
+    let row_width = |row: &[Image<T>]| {
+        row.iter().map(|pane| pane.width).sum::<usize>() + GAP * row.len().saturating_sub(1)
+    };
+    let widest = panes.iter().map(|pane| pane.width).max().unwrap_or(0);
+    let most = ((WIDEST + GAP) / (widest + GAP)).max(1);
+    let rows = panes.len().div_ceil(most).max(1);
+    let columns = panes.len().div_ceil(rows).max(1);
+    let width = panes.chunks(columns).map(row_width).max().unwrap_or(0);
+    let mut pixels = Vec::with_capacity(width * (height + GAP) * rows);
+    for (number, row) in panes.chunks(columns).enumerate() {
+        pixels.extend(std::iter::repeat_n(gap, if number > 0 { GAP * width } else { 0 }));
+        for line in 0..height {
+            for (i, pane) in row.iter().enumerate() {
+                pixels.extend(std::iter::repeat_n(gap, if i > 0 { GAP } else { 0 }));
+                pixels.extend_from_slice(&pane.pixels[line * pane.width..][..pane.width]);
+            }
+            pixels.extend(std::iter::repeat_n(gap, width - row_width(row)));
         }
     }
-    Image { width, height, pixels }
+    Image { width, height: if width == 0 { 0 } else { pixels.len() / width }, pixels }
 }
 
 fn displayed(image: &Image<f32>, colour: impl Fn([f32; 3]) -> [u8; 3]) -> Image<u8> {
@@ -174,9 +187,28 @@ mod tests {
     #[test]
     fn panes_stand_side_by_side_with_a_gap() {
         let pane = |width, value| Image { width, height: 2, pixels: vec![[value; 3]; 2 * width] };
-        let picture = side_by_side(&[pane(1, 1), pane(2, 2)], [9u8; 3]);
+        let picture = arranged(&[pane(1, 1), pane(2, 2)], [9u8; 3]);
         let row = [1, 9, 9, 9, 9, 2, 2].map(|v| [v; 3]);
         assert_eq!((picture.width, picture.height), (7, 2));
         assert_eq!(picture.pixels, [row, row].concat());
+    }
+
+    #[test]
+    fn many_panes_stand_in_rows() {
+        let pane = |value| Image { width: 4096, height: 2, pixels: vec![[value; 3]; 2 * 4096] };
+        let three = arranged(&[pane(1), pane(2), pane(3)], [9u8; 3]);
+        assert_eq!((three.width, three.height), (3 * 4096 + 2 * GAP, 2));
+        let panes: Vec<_> = (1..=7).map(pane).collect();
+        let picture = arranged(&panes, [9u8; 3]);
+        // Four of them, with gaps, are wider than a picture may be.
+        assert_eq!((picture.width, picture.height), (3 * 4096 + 2 * GAP, 3 * 2 + 2 * GAP));
+        assert_eq!(picture.pixels.len(), picture.width * picture.height);
+        for (index, value) in (0..7).zip(1u8..) {
+            let (column, row) = (index % 3, index / 3);
+            let at = (row * (2 + GAP) + 1) * picture.width + column * (4096 + GAP);
+            assert_eq!([picture.pixels[at], picture.pixels[at + 4095]], [[value; 3]; 2], "{index}");
+        }
+        assert_eq!(picture.pixels[2 * picture.width], [9; 3], "between the rows");
+        assert_eq!(picture.pixels.last(), Some(&[9; 3]), "beside the last row");
     }
 }

@@ -1,4 +1,4 @@
-//! What is asked for, and what is seen before it is there.
+//! Losses that are still being computed: progress, earlier values, cancelling.
 
 use super::*;
 

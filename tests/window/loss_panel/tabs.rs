@@ -1,4 +1,4 @@
-//! What stands in the tabs beside the losses.
+//! Tabs of the side panel beside the losses.
 
 use std::path::PathBuf;
 

@@ -50,7 +50,10 @@ impl Place<'_> {
     pub(super) fn bad(self, problem: impl AsRef<str>, remedy: &str) -> Error {
         Error::BadImage {
             path: self.path.to_owned(),
-            problem: format!("{}: {}", self.what, problem.as_ref()),
+            problem: match self.what {
+                Subject::Material => problem.as_ref().to_owned(),
+                map => format!("{map}: {}", problem.as_ref()),
+            },
             remedy: remedy.to_owned(),
         }
     }

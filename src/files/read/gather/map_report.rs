@@ -56,13 +56,13 @@ impl fmt::Display for MapReport {
         if self.constant {
             write!(f, ", constant")?;
         } else if self.flat > 0.0 {
-            write!(f, ", {:.1} % flat", 100.0 * self.flat)?;
+            write!(f, ", {:.1}% flat", 100.0 * self.flat)?;
         }
         if self.clipped > 0.0 {
-            write!(f, ", {:.1} % at 1", 100.0 * self.clipped)?;
+            write!(f, ", {:.1}% at 1", 100.0 * self.clipped)?;
         }
         if let Some(share) = self.non_unit {
-            write!(f, ", {:.1} % not unit vectors", 100.0 * share)?;
+            write!(f, ", {:.1}% not unit vectors", 100.0 * share)?;
         }
         if let Some(curl) = self.curl {
             write!(f, ", curl correlation {curl:+.2}")?;

@@ -65,7 +65,8 @@ pub(super) fn material(
         Some(own) => own.add_to(&mut found),
         None => add_usual(&mut found, order, image),
     }
-    let chosen = format!("{order} in {grid} tiles of {} x {}", tile[0], tile[1]);
+    let maps = order.roles().map(Role::name).collect::<Vec<_>>().join(", ");
+    let chosen = format!("{grid} tiles of {} x {}: {maps} ({order})", tile[0], tile[1]);
     found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
     let photos = if grid.rows == 1 || grid.columns == 1 { first } else { 0 };
     if photos > 0 {

@@ -43,14 +43,14 @@ impl fmt::Display for Evidence {
             ),
             Self::Jpeg => f.write_str("JPEG holds encoded colours"),
             Self::LinearDielectrics(share) => {
-                write!(f, "specular is near a linear 0.04 in {:.0} % of the texels", percent(share))
+                write!(f, "specular is near a linear 0.04 in {:.0}% of the texels", percent(share))
             }
             Self::EncodedDielectrics(share) => {
-                write!(f, "specular is near an encoded 0.04 in {:.0} % of the texels", percent(share))
+                write!(f, "specular is near an encoded 0.04 in {:.0}% of the texels", percent(share))
             }
             Self::TooBright(share) => write!(
                 f,
-                "linear colours would reflect too much light in {:.0} % of the texels",
+                "linear colours would reflect too much light in {:.0}% of the texels",
                 percent(share)
             ),
             Self::Dark(median) => {

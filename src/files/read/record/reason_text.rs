@@ -47,7 +47,7 @@ impl Reason {
             ),
             Self::NormalTile { number, share, next } => write!(
                 f,
-                "tile {number} looks like normals ({:.0} % of its pixels), the next best {:.0} %",
+                "tile {number} looks like normals ({:.0}% of its pixels), the next best {:.0}%",
                 percent(share),
                 percent(next)
             ),
@@ -61,10 +61,10 @@ impl Reason {
             Self::TwoChannels => f.write_str("the map has two channels"),
             Self::RedConstant => f.write_str("red is 1 everywhere, alpha varies"),
             Self::UnitLength { signed: true, share } => {
-                write!(f, "{:.0} % of the texels have length 1 as stored", percent(share))
+                write!(f, "{:.0}% of the texels have length 1 as stored", percent(share))
             }
             Self::UnitLength { signed: false, share } => {
-                write!(f, "{:.0} % of the texels have length 1 if read so", percent(share))
+                write!(f, "{:.0}% of the texels have length 1 if read so", percent(share))
             }
             Self::BlueConstant(value) => write!(f, "blue is {value:.0} everywhere"),
             Self::Curl(None) => f.write_str("the map has no slopes to tell from"),

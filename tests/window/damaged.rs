@@ -1,0 +1,183 @@
+//! Settings and sessions with random values: the window starts on all of them.
+
+use std::collections::HashMap;
+use std::path::Path;
+use std::sync::Arc;
+
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng as _, SeedableRng as _};
+use serde_json::{Value, json};
+use svbrdf::viewer::app::storage::Stored;
+use svbrdf::viewer::model::Model;
+use svbrdf_files::session::Session;
+
+use super::*;
+
+/// Sessions of the usual run.
+const SESSIONS: u64 = 60;
+/// Windows that start on random settings.
+const WINDOWS: u64 = 8;
+
+fn below(random: &mut ChaCha8Rng, limit: usize) -> usize {
+    random.next_u32() as usize % limit.max(1)
+}
+
+/// The places of all values that contain no others.
+fn leaves(value: &Value, place: &str, found: &mut Vec<String>) {
+    match value {
+        Value::Object(all) => all.iter().for_each(|(key, one)| leaves(one, &format!("{place}/{key}"), found)),
+        Value::Array(all) => {
+            all.iter().enumerate().for_each(|(index, one)| leaves(one, &format!("{place}/{index}"), found));
+        }
+        _ => found.push(place.to_owned()),
+    }
+}
+
+/// A session with one to four values replaced.
+fn damaged(session: &Value, random: &mut ChaCha8Rng) -> Value {
+    let replacements = [
+        json!(0),
+        json!(-0.0),
+        json!(-1),
+        json!(0.5),
+        json!(1e-30),
+        json!(1e9),
+        json!(-1e9),
+        json!(1e39),
+        json!(1e308),
+        json!(4_294_967_296_u64),
+        json!(u64::MAX),
+        json!(i64::MIN),
+        json!(true),
+        json!(null),
+        json!(""),
+        json!("x"),
+        json!("\u{202e}".repeat(300)),
+        json!([]),
+        json!({}),
+    ];
+    let (mut damaged, mut places) = (session.clone(), Vec::new());
+    leaves(session, "", &mut places);
+    for _ in 0..=below(random, 4) {
+        let place = &places[below(random, places.len())];
+        if let Some(value) = damaged.pointer_mut(place) {
+            *value = replacements[below(random, replacements.len())].clone();
+        }
+    }
+    damaged
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn sessions_of_random_values_open_or_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = built_in();
+    let whole: Value = serde_json::from_str(
+        &window.state().parts.model.session().text(&folder.path().join("s.svbrdf-session.json")).unwrap(),
+    )
+    .unwrap();
+    let (mut opened, mut random) = (0, ChaCha8Rng::seed_from_u64(30));
+    for number in 0..SESSIONS {
+        let path = folder.path().join(format!("{number}.svbrdf-session.json"));
+        let text = damaged(&whole, &mut random).to_string();
+        std::fs::write(&path, &text).unwrap();
+        match Session::read(&path) {
+            Ok(_) => opened += 1,
+            Err(error) => assert!(error.to_string().contains(path.to_str().unwrap()), "{error}"),
+        }
+        window.input_mut().dropped_files = vec![Arc::new(Dropped(path))];
+        window.run_steps(2);
+        wait(&mut window, "the session", |app| !app.is_reading());
+        assert!(!window.state().has_crashed(), "{text}");
+        if number % 10 == 0 {
+            window.render().unwrap();
+        }
+    }
+    // Neither comparator is idle: some are opened, and some are refused.
+    assert!((5..SESSIONS - 5).contains(&opened), "{opened} of {SESSIONS} sessions can be read");
+}
+
+/// What egui stores of a program, in memory.
+#[derive(Default)]
+struct Memory(HashMap<String, String>);
+
+impl eframe::Storage for Memory {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
+
+/// `text` with about half of its numbers replaced.
+fn with_other_numbers(text: &str, random: &mut ChaCha8Rng) -> String {
+    const NUMBERS: [&str; 12] = [
+        "0",
+        "0.0",
+        "-1",
+        "-1.0",
+        "0.5",
+        "1e9",
+        "-1e30",
+        "NaN",
+        "inf",
+        "-inf",
+        "1e-30",
+        "18446744073709551615",
+    ];
+    let mut result = String::new();
+    for (index, token) in text.split_inclusive([':', ',', '(', ')', '[', ']']).enumerate() {
+        let (word, end) =
+            token.split_at(token.len() - token.ends_with([':', ',', '(', ')', '[', ']']) as usize);
+        let is_number = index > 0 && word.trim().parse::<f64>().is_ok();
+        let replaced = is_number && below(random, 2) == 0;
+        result += if replaced { NUMBERS[below(random, NUMBERS.len())] } else { word };
+        result += end;
+    }
+    result
+}
+
+/// The model that starts on these stored texts.
+fn loaded(stored: &Memory, folder: &Path) -> Model {
+    let mut model = Model::default();
+    Stored::load(Some(stored), Some(folder), &mut model);
+    model
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_window_starts_on_settings_of_random_numbers() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut usual = Memory::default();
+    Stored::load(None, None, &mut Model::default()).store(&Model::default(), &mut usual);
+    let (mut changed, mut random) = (0, ChaCha8Rng::seed_from_u64(31));
+    for _ in 0..WINDOWS {
+        let stored = Memory(
+            usual.0.iter().map(|(key, text)| (key.clone(), with_other_numbers(text, &mut random))).collect(),
+        );
+        let model = loaded(&stored, folder.path());
+        changed += usize::from(model.settings != Model::default().settings);
+        let mut window = started_on(model);
+        window.run_steps(5);
+        window.render().unwrap();
+        let app = window.state();
+        assert!(!app.has_crashed() && app.names().len() == 3, "{:?}: {:?}", stored.0, app.messages());
+    }
+    assert!(changed > 0, "no number was changed");
+}
+
+/// The window with the settings of `model`, on the built-in pair.
+fn started_on<'a>(model: Model) -> Window<'a> {
+    let mut window = built_in();
+    window.ctx.set_zoom_factor(model.settings.ui_scale);
+    window.state_mut().parts.model.settings = model.settings;
+    window
+}
