@@ -39,7 +39,7 @@ fn info_says_what_was_assumed_and_strict_refuses_guesses() {
     RgbImage::from_pixel(32, 8, Rgb([90, 90, 90])).save(folder.path().join("flat.png")).unwrap();
     assert!(
         succeed(folder.path(), "info flat.png")
-            .contains("layout: ndrs in 4 x 1 tiles of 8 x 8: normal, diffuse, roughness, specular (unsure)")
+            .contains("layout: ndrs in 4 x 1 tiles of 8 x 8 (normal, diffuse, roughness, specular) (unsure)")
     );
     assert!(fail(folder.path(), "info flat.png --strict", 1).contains("flat.png is ambiguous: layout"));
 }

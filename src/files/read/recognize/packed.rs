@@ -66,7 +66,7 @@ pub(super) fn material(
         None => add_usual(&mut found, order, image),
     }
     let maps = order.roles().map(Role::name).collect::<Vec<_>>().join(", ");
-    let chosen = format!("{order} in {grid} tiles of {} x {}: {maps}", tile[0], tile[1]);
+    let chosen = format!("{order} in {grid} tiles of {} x {} ({maps})", tile[0], tile[1]);
     found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
     let photos = if grid.rows == 1 || grid.columns == 1 { first } else { 0 };
     if photos > 0 {
