@@ -172,7 +172,7 @@ fn arranged<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
             pixels.extend(std::iter::repeat_n(gap, width - row_width(row)));
         }
     }
-    Image { width, height: if width == 0 { 0 } else { pixels.len() / width }, pixels }
+    Image { width, height: pixels.len().checked_div(width).unwrap_or(0), pixels }
 }
 
 fn displayed(image: &Image<f32>, colour: impl Fn([f32; 3]) -> [u8; 3]) -> Image<u8> {
