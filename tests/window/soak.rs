@@ -105,7 +105,7 @@ impl Files {
     }
 }
 
-fn below(random: &mut ChaCha8Rng, limit: usize) -> usize {
+pub fn below(random: &mut ChaCha8Rng, limit: usize) -> usize {
     random.next_u32() as usize % limit.max(1)
 }
 

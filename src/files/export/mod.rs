@@ -22,7 +22,7 @@ use svbrdf_core::progress::Progress;
 
 /// Texels between two panes of a picture.
 pub const GAP: usize = 4;
-/// Texels of a picture beside each other, from which on panes stand in several rows: other programs open no wider ones.
+/// Largest width of a row of panes, in texels: many programs open no wider picture.
 const WIDEST: usize = 16_384;
 /// The colour of the gap of a PNG.
 const MID_GRAY: [u8; 3] = [128; 3];
@@ -52,7 +52,8 @@ impl Destination<PictureFormat> {
         Self::among(path, format, "extension of an output file", known)
     }
 
-    /// Writes `panes`, which are equally high, side by side, or in rows where one would be wider than 16,384 texels. The file appears when it is complete, or not at all.
+    /// Writes `panes`, which are equally high, side by side, or in rows where one would be wider than 16,384 texels. The file
+    /// appears when it is complete, or not at all.
     ///
     /// # Errors
     /// [`Error::Unwritable`], [`Error::Cancelled`].
@@ -149,8 +150,8 @@ impl PngDestination {
     }
 }
 
-/// `panes` from left to right, [`GAP`] texels of `gap` between them; the height is that of the least high one. Where one row would
-/// be wider than [`WIDEST`], they stand in several rows of equally many.
+/// Arranges `panes` from left to right, [`GAP`] texels of `gap` between them, cut to the least height. Where one row would be
+/// wider than [`WIDEST`], there are several rows with the same number of panes, but for the last.
 fn arranged<T: Copy>(panes: &[Image<T>], gap: [T; 3]) -> Image<T> {
     let height = panes.iter().map(|p| p.height).min().unwrap_or(0);
     let row_width = |row: &[Image<T>]| {
