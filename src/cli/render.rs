@@ -8,9 +8,9 @@ use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::shown::{Shown, ShownDifference, ShownPictures};
 use svbrdf_files::export::{Destination, PictureFormat, Provenance};
 
 use super::args::scenes::OneSceneArgs;
@@ -67,7 +67,7 @@ struct RenderJob {
     comparison: ComparisonJob,
     destination: Destination<PictureFormat>,
     scene: Scene,
-    shown: Shown,
+    content: PictureContent,
     exposure_ev: f32,
     on_adapter: bool,
 }
@@ -81,15 +81,15 @@ pub fn run(args: &RenderArgs, given: &Given) -> Result<(), CommandError> {
     let opened = job.comparison.materials.open::<f32>()?;
     opened.check_output(&args.output, [])?;
     let materials = opened.into_all();
-    if let ([ground_truth, predictions @ ..], Some(_)) = (materials.as_slice(), job.shown.difference) {
+    if let ([ground_truth, predictions @ ..], Some(_)) = (materials.as_slice(), job.content.difference) {
         predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
     }
     check_heights(&materials)?;
     let (values, renderer) = job.values(&materials)?;
     let RenderJob { comparison: ComparisonJob { convention, .. }, destination, scene, exposure_ev, .. } = job;
-    let ShownPictures { images, shown } = job.shown.of_values(values, &convention);
+    let Pictures { images, content } = job.content.of_values(values, &convention);
     let sources = materials.iter().map(|m| m.name().to_owned()).collect();
-    let provenance = Provenance { shown, scene, convention, exposure_ev, sources, renderer };
+    let provenance = Provenance { content, scene, convention, exposure_ev, sources, renderer };
     Ok(stoppable(|progress| destination.write(&images, &provenance, progress))?)
 }
 
@@ -99,26 +99,26 @@ impl RenderJob {
         let comparison = ComparisonJob::new(&args.comparison, given)?;
         let session = comparison.session.as_ref();
         let scene = args.scene.scene(session.map(|session| session.scene))?;
-        let shown = shown(args, session)?;
-        if shown.quantity != Quantity::Rendering {
+        let content = content(args, session)?;
+        if content.quantity != Quantity::Rendering {
             given.check(&modes::RENDER_MAPS)?;
         }
-        if shown.difference.is_some() && comparison.materials.predictions() == 0 {
+        if content.difference.is_some() && comparison.materials.predictions() == 0 {
             let problem = "--difference compares predictions with a ground truth; give both";
             return Err(CommandError::usage(problem));
         }
         let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
-        Ok(Self { comparison, destination, scene, shown, exposure_ev, on_adapter: args.gpu })
+        Ok(Self { comparison, destination, scene, content, exposure_ev, on_adapter: args.gpu })
     }
 
     /// The renderings or maps, and the name of the device that rendered them.
     fn values(&self, materials: &[Material<f32>]) -> Result<(Vec<Image<f32>>, String), Error> {
-        let Self { comparison: ComparisonJob { convention, .. }, scene, shown, .. } = self;
+        let Self { comparison: ComparisonJob { convention, .. }, scene, content, .. } = self;
         if self.on_adapter {
             return rendered_on_adapter(materials, scene, convention);
         }
         let one = |material| {
-            watched("rendering", |progress| shown.quantity.image(material, scene, convention, progress))
+            watched("rendering", |progress| content.quantity.image(material, scene, convention, progress))
         };
         let images = materials.iter().map(one).collect::<Result<_, _>>()?;
         Ok((images, "CPU, f32".to_owned()))
@@ -126,13 +126,13 @@ impl RenderJob {
 }
 
 /// The quantity and difference that are written: those of the session, unless an option specifies others.
-fn shown(args: &RenderArgs, session: Option<&SessionSettings>) -> Result<Shown, CommandError> {
+fn content(args: &RenderArgs, session: Option<&SessionSettings>) -> Result<PictureContent, CommandError> {
     if let (Some(session), None, None) = (session, args.show, &args.difference) {
-        return Ok(session.shown());
+        return Ok(session.content());
     }
     let quantity = args.show.unwrap_or_default();
     let difference = args.difference.as_ref().map(|kind| difference_of(quantity, kind, args.range));
-    Ok(Shown { quantity, difference: difference.transpose()? })
+    Ok(PictureContent { quantity, difference: difference.transpose()? })
 }
 
 /// The difference of this name, or the default one of `quantity`.
@@ -143,7 +143,7 @@ pub fn difference_of(
     quantity: Quantity,
     name: &str,
     range: Option<Range>,
-) -> Result<ShownDifference, CommandError> {
+) -> Result<ColouredDifference, CommandError> {
     let all = Difference::all(quantity);
     let kind = if name.is_empty() { all[0] } else { name.parse()? };
     if !all.contains(&kind) {
@@ -158,7 +158,7 @@ pub fn difference_of(
         Some(Range::Last(range)) => Some(range),
         None => Some(kind.default_range()),
     };
-    Ok(ShownDifference { kind, range })
+    Ok(ColouredDifference { kind, range })
 }
 
 #[cfg(feature = "gpu")]

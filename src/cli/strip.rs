@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::Material;
+use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::shown::Shown;
 use svbrdf_files::export::PngDestination;
 use svbrdf_files::export::strip::{Column, Strip};
 use svbrdf_files::scene_file;
@@ -86,10 +86,10 @@ pub fn run(args: &StripArgs, given: &Given) -> Result<(), CommandError> {
 
 /// Refuses options that no column uses.
 fn check_options(columns: &[Column], given: &Given) -> Result<(), CommandError> {
-    if columns.iter().all(|column| column.shown.quantity != Quantity::Rendering) {
+    if columns.iter().all(|column| column.content.quantity != Quantity::Rendering) {
         given.check(&modes::STRIP_MAPS)?;
     }
-    if columns.iter().all(|column| column.shown.difference.is_none()) {
+    if columns.iter().all(|column| column.content.difference.is_none()) {
         given.check(&modes::STRIP_VALUES)?;
     }
     Ok(())
@@ -112,8 +112,8 @@ fn columns(args: &StripArgs, session: Option<&SessionSettings>) -> Result<Vec<Co
             _ => difference.map(|kind| difference_of(quantity, kind, args.range)).transpose()?,
         };
         let count = if quantity == Quantity::Rendering { scenes.len() } else { 1 };
-        let shown = Shown { quantity, difference };
-        columns.extend(scenes.iter().take(count).map(|scene| Column { shown, scene: *scene }));
+        let content = PictureContent { quantity, difference };
+        columns.extend(scenes.iter().take(count).map(|scene| Column { content, scene: *scene }));
     }
     Ok(columns)
 }

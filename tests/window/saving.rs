@@ -7,9 +7,9 @@ use svbrdf::viewer::model::command::{
 };
 use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf::viewer::model::view::state::{Layout, Projection};
+use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::shown::{Shown, ShownDifference};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
@@ -45,8 +45,8 @@ fn saved_renderings_are_what_is_selected() {
     save(&mut window, SaveKind::Renderings, &path, [0; 2]);
     let got = image::open(&path).unwrap().to_rgb8();
     let materials: Vec<_> = window.state().materials().collect();
-    let difference = ShownDifference { kind: Difference::Angle, range: Some(20.0) };
-    let shown = Shown { quantity: Quantity::Normal, difference: Some(difference) };
+    let difference = ColouredDifference { kind: Difference::Angle, range: Some(20.0) };
+    let shown = PictureContent { quantity: Quantity::Normal, difference: Some(difference) };
     let (scene, convention) =
         (window.state().parts.model.view.scene, window.state().parts.model.view.convention());
     let pictures = shown.pictures(&materials, &scene, &convention, &Progress::default()).unwrap();

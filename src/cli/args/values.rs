@@ -87,7 +87,7 @@ mod tests {
         let times = ["100us", "500ms", "2s", "0.5", "1 s"].map(|text| duration(text).unwrap().as_micros());
         assert_eq!(times, [100, 500_000, 2_000_000, 500_000, 1_000_000]);
         for wrong in ["0", "-1s", "2m", "1e9s", "nan", "s", ""] {
-            assert!(duration(wrong).is_err_and(|said| said.contains("above 0")), "{wrong}");
+            assert!(duration(wrong).is_err_and(|message| message.contains("above 0")), "{wrong}");
         }
     }
 

@@ -6,8 +6,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::{LossSettings, Request};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::shown::{Shown, ShownDifference};
 use svbrdf_files::session::Session;
 use svbrdf_files::session_window::Display;
 
@@ -64,15 +64,15 @@ impl SessionSettings {
     }
 
     /// The quantity and difference that the panes of the window display.
-    pub fn shown(&self) -> Shown {
+    pub fn content(&self) -> PictureContent {
         let quantity = self.display.quantity;
-        Shown { quantity, difference: self.display.difference.then(|| self.difference(quantity)) }
+        PictureContent { quantity, difference: self.display.difference.then(|| self.difference(quantity)) }
     }
 
     /// The chosen difference of a quantity, and its range.
-    pub fn difference(&self, quantity: Quantity) -> ShownDifference {
+    pub fn difference(&self, quantity: Quantity) -> ColouredDifference {
         let differences = &self.display.differences;
-        ShownDifference { kind: differences.kind(quantity), range: differences.range(quantity) }
+        ColouredDifference { kind: differences.kind(quantity), range: differences.range(quantity) }
     }
 
     /// The request for the loss, with this seed where one is specified.

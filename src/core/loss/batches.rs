@@ -179,8 +179,8 @@ mod tests {
         let random = |near, distant| Sampling { near, distant, seed: 3, ..Sampling::default() };
         compare(|comparison| {
             let known = |r: &Outcome| r.losses.iter().all(|loss| loss.estimate.standard_error.is_some());
-            let seen = updates(comparison, &random(58, 2));
-            assert!(!seen.is_empty() && seen.iter().all(known), "{seen:?}");
+            let updates_60 = updates(comparison, &random(58, 2));
+            assert!(!updates_60.is_empty() && updates_60.iter().all(known), "{updates_60:?}");
             assert_eq!(updates(comparison, &random(1, 1)).len(), 1, "the last one is shown, known or not");
         });
     }

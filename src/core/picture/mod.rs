@@ -2,9 +2,9 @@
 
 pub mod camera;
 pub mod colour_map;
+pub mod content;
 pub mod difference;
 pub mod differences;
 pub mod quantity;
-pub mod shown;
 pub mod statistics;
 pub mod tone;

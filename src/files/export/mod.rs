@@ -77,7 +77,7 @@ impl Destination<PictureFormat> {
         shows: Option<String>,
         progress: &Progress,
     ) -> Result<(), Error> {
-        let colour = |rgb| provenance.shown.colour(rgb, provenance.exposure_ev);
+        let colour = |rgb| provenance.content.colour(rgb, provenance.exposure_ev);
         let mut entries = provenance.entries();
         if let Some(shows) = shows {
             Provenance::describe(&mut entries, shows);
@@ -117,8 +117,8 @@ impl Destination<PictureFormat> {
                 self.replace(progress, |file| exr::write(file, picture, entries))
             }
             PictureFormat::Png => {
-                let shown: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
-                let picture = arranged(&shown, MID_GRAY);
+                let pictures: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
+                let picture = arranged(&pictures, MID_GRAY);
                 self.replace(progress, |file| png::write(file, &picture, entries))
             }
         }

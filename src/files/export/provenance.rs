@@ -2,7 +2,7 @@
 
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::shown::Shown;
+use svbrdf_core::picture::content::PictureContent;
 
 use crate::atomic;
 
@@ -12,7 +12,7 @@ pub type Entries = [(&'static str, String)];
 /// The content of a picture, and how it was rendered.
 #[derive(Clone, Debug)]
 pub struct Provenance {
-    pub shown: Shown,
+    pub content: PictureContent,
     pub scene: Scene,
     pub convention: Convention,
     /// Stops by which the renderings of a PNG are brightened; an EXR keeps the radiance as it is.
@@ -44,7 +44,7 @@ impl Provenance {
             Kind::Distant => "distant",
         };
         vec![
-            (Self::SHOWS, self.shown.text(self.convention.epsilon)),
+            (Self::SHOWS, self.content.text(self.convention.epsilon)),
             ("svbrdf:sources", self.sources.join(" | ")),
             ("svbrdf:convention", self.convention.name.to_owned()),
             ("svbrdf:kind", kind.to_owned()),

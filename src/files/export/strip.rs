@@ -5,8 +5,8 @@ use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::shown::{Shown, ShownDifference};
 use svbrdf_core::progress::Progress;
 
 use super::text::{self, Anchor};
@@ -29,11 +29,11 @@ const LEAST_ROW: usize = 52;
 /// A column: what it shows, and under which light and view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    pub shown: Shown,
+    pub content: PictureContent,
     pub scene: Scene,
 }
 
-/// The columns of a figure, and how they are rendered and shown.
+/// The columns of a figure, and how they are rendered and coloured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Strip {
     pub columns: Vec<Column>,
@@ -47,7 +47,7 @@ impl Strip {
     /// `svbrdf render` writes: one a texel.
     ///
     /// # Errors
-    /// Those of [`Shown::pictures`], [`Error::Internal`] where text cannot be drawn.
+    /// Those of [`PictureContent::pictures`], [`Error::Internal`] where text cannot be drawn.
     pub fn picture(
         &self,
         materials: &[&Material<f32>],
@@ -61,15 +61,15 @@ impl Strip {
             text::draw(&mut picture, name, at, NAME, INK, Anchor::Left)?;
         }
         for (index, column) in self.columns.iter().enumerate() {
-            let pictures = column.shown.pictures(materials, &column.scene, &self.convention, progress)?;
-            let shown = pictures.shown;
+            let pictures = column.content.pictures(materials, &column.scene, &self.convention, progress)?;
+            let content = pictures.content;
             let (left, width) = (sheet.lefts[index], sheet.widths[index]);
             let first = materials.len() - pictures.images.len();
             for (row, image) in pictures.images.iter().enumerate() {
-                let bytes = image.pixels.iter().map(|&rgb| shown.colour(rgb, self.exposure_ev)).collect();
+                let bytes = image.pixels.iter().map(|&rgb| content.colour(rgb, self.exposure_ev)).collect();
                 put(&mut picture, [left, sheet.top(first + row)], [image.width, image.height], bytes);
             }
-            if let Some(difference) = shown.difference {
+            if let Some(difference) = content.difference {
                 legend(&mut picture, [left, sheet.top(0)], [width, sheet.row], difference)?;
             }
             let mut y = 0;
@@ -85,11 +85,11 @@ impl Strip {
     pub fn entries(&self, names: &[String]) -> Vec<(&'static str, String)> {
         let columns = self.columns.iter().map(|column| {
             let epsilon = self.convention.epsilon;
-            match column.shown.quantity {
+            match column.content.quantity {
                 Quantity::Rendering => {
-                    format!("{}, {}", column.shown.text(epsilon), endpoints(&column.scene).join(", "))
+                    format!("{}, {}", column.content.text(epsilon), endpoints(&column.scene).join(", "))
                 }
-                _ => column.shown.text(epsilon),
+                _ => column.content.text(epsilon),
             }
         });
         vec![
@@ -113,8 +113,8 @@ fn endpoints(scene: &Scene) -> [String; 2] {
 
 /// The name of a column, and what it is of: lines of text with their heights and inks.
 fn header(column: &Column) -> Vec<(String, u32, [u8; 3])> {
-    let quantity = column.shown.quantity;
-    let name = match column.shown.difference {
+    let quantity = column.content.quantity;
+    let name = match column.content.difference {
         Some(difference) => format!("{}, {}", quantity.name(), difference.kind.name()),
         None => quantity.name().to_owned(),
     };
@@ -169,15 +169,15 @@ fn legend(
     picture: &mut Image<u8>,
     [left, top]: [usize; 2],
     [width, height]: [usize; 2],
-    difference: ShownDifference,
+    difference: ColouredDifference,
 ) -> Result<(), Error> {
     let range = difference.range.unwrap_or_else(|| difference.kind.default_range());
     let lowest = if difference.kind.is_signed() { -range } else { 0.0 };
-    let shown = Shown { quantity: Quantity::Rendering, difference: Some(difference) };
+    let content = PictureContent { quantity: Quantity::Rendering, difference: Some(difference) };
     let bar = [width * 4 / 5, (height / 12).clamp(1, 16)];
     let colour = |x: usize| {
         let amount = lowest + (range - lowest) * (x as f64 + 0.5) / bar[0] as f64;
-        shown.colour([amount as f32; 3], 0.0)
+        content.colour([amount as f32; 3], 0.0)
     };
     let [x, y] = [left + width / 10, top + height / 2];
     let bytes = (0..bar[1]).flat_map(|_| (0..bar[0]).map(colour)).collect();
@@ -206,10 +206,10 @@ mod tests {
 
     #[test]
     fn texts_of_narrow_columns_do_not_overlap_and_wide_columns_are_as_wide_as_the_material() {
-        let shown = Shown { quantity: Quantity::Rendering, difference: None };
+        let content = PictureContent { quantity: Quantity::Rendering, difference: None };
         let light = [-0.123, -0.456, 1.789];
         let scene = Scene { kind: Kind::Distant, view: [-0.111, -0.222, 2.333], light };
-        let columns = vec![Column { shown, scene }; 3];
+        let columns = vec![Column { content, scene }; 3];
         let material = |side| crate::samples::load::<f32>().unwrap().ground_truth.material.resized([side; 2]);
         let names = ["gt".to_owned()];
         for (side, is_wider) in [(16, true), (256, false)] {

@@ -28,8 +28,8 @@ impl Corners {
     pub fn check(&self, size: [usize; 2]) -> Result<(), Error> {
         let bad = |problem: String| Err(Error::UnusableCorners { problem });
         let [w, h] = size.map(|side| side as f64);
-        let outside = |[x, y]: &&[f64; 2]| !((0.0..=w).contains(x) && (0.0..=h).contains(y));
-        if let Some([x, y]) = self.0.iter().find(outside) {
+        let is_out_of_range = |[x, y]: &&[f64; 2]| !((0.0..=w).contains(x) && (0.0..=h).contains(y));
+        if let Some([x, y]) = self.0.iter().find(is_out_of_range) {
             return bad(format!(
                 "expected corners within the {w} x {h} pixels of the photograph, found {x},{y}"
             ));

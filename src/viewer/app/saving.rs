@@ -53,7 +53,7 @@ pub(super) fn save_file(
 
 fn save_view(parts: &Parts, picture: egui::ColorImage, path: PathBuf) -> Job<PathBuf> {
     let displayed = parts.displayed();
-    let mut entries = saving::provenance(displayed, saving::shown(displayed)).entries();
+    let mut entries = saving::provenance(displayed, saving::content(displayed)).entries();
     entries.extend(view_entries(parts));
     if let Some(text) = displayed.error_map_text().or_else(|| displayed.photograph_text()) {
         Provenance::describe(&mut entries, text);

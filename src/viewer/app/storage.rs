@@ -165,8 +165,8 @@ mod tests {
         };
         assert_eq!(load(&Memory::default()), [""; 0], "the first start has no file");
         std::fs::write(folder.path().join(FILE), "{\"settings\": \"(dark: tr").unwrap();
-        let said = load(&Memory::default());
-        assert!(said.len() == 1 && said[0].contains("app.ron.damaged"), "{said:?}");
+        let messages = load(&Memory::default());
+        assert!(messages.len() == 1 && messages[0].contains("app.ron.damaged"), "{messages:?}");
         let aside = NamedFile::by_user(folder.path().join("app.ron.damaged")).text().unwrap();
         assert!(aside.ends_with("(dark: tr"));
     }
@@ -179,8 +179,8 @@ mod tests {
             let mut model = Model::default();
             Stored::load(Some(&memory), None, &mut model);
             assert!((0.5..=4.0).contains(&model.settings.ui_scale) && !model.settings.dark, "{scale}");
-            let said: Vec<_> = model.messages.iter().map(ToString::to_string).collect();
-            assert!(said.len() == 1 && said[0].contains("UI scale"), "{scale}: {said:?}");
+            let messages: Vec<_> = model.messages.iter().map(ToString::to_string).collect();
+            assert!(messages.len() == 1 && messages[0].contains("UI scale"), "{scale}: {messages:?}");
         }
     }
 }

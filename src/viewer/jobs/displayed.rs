@@ -92,10 +92,11 @@ impl<'a> Displayed<'a> {
     /// The automatic range of the difference. While a mixture is displayed it is that of the predictions themselves, so that
     /// "only it wrong" and "only it right" have the same colours.
     pub fn auto_range(self) -> f64 {
-        let held = self.jobs.panes.auto_range.as_ref().filter(|(key, _)| *key == RangeKey::of(self.model));
-        let held = held.filter(|_| self.view().display.isolated.is_some()).map(|(_, range)| *range);
+        let computed =
+            self.jobs.panes.auto_range.as_ref().filter(|(key, _)| *key == RangeKey::of(self.model));
+        let pinned = computed.filter(|_| self.view().display.isolated.is_some()).map(|(_, range)| *range);
         let latest = || self.distributions().map(|(distributions, _)| distributions.auto_range);
-        held.or_else(latest).unwrap_or_else(|| self.view().difference_kind().default_range())
+        pinned.or_else(latest).unwrap_or_else(|| self.view().difference_kind().default_range())
     }
 
     /// What the metadata of a picture say where it shows error maps.

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
+use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::shown::{Shown, ShownDifference, ShownPictures};
 use svbrdf_core::report::{Compared, Report as _, ScenesReport};
 use svbrdf_files::atomic::{self, Destination};
 use svbrdf_files::export::strip::{Column, Strip};
@@ -22,19 +22,19 @@ use super::work::waker::Waker;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::ReadMaterial;
 
-/// What a picture of the panes shows.
-pub fn shown(displayed: Displayed<'_>) -> Shown {
+/// The content of a picture of the panes.
+pub fn content(displayed: Displayed<'_>) -> PictureContent {
     let view = &displayed.model.view;
-    let difference = ShownDifference { kind: view.difference_kind(), range: Some(displayed.range()) };
+    let difference = ColouredDifference { kind: view.difference_kind(), range: Some(displayed.range()) };
     let compares = view.display.difference && displayed.materials().len() > 1;
-    Shown { quantity: view.display.quantity, difference: compares.then_some(difference) }
+    PictureContent { quantity: view.display.quantity, difference: compares.then_some(difference) }
 }
 
 /// Where a picture of the materials comes from.
-pub fn provenance(displayed: Displayed<'_>, shown: Shown) -> Provenance {
+pub fn provenance(displayed: Displayed<'_>, content: PictureContent) -> Provenance {
     let view = &displayed.model.view;
     Provenance {
-        shown,
+        content,
         scene: view.scene,
         convention: view.convention(),
         exposure_ev: view.exposure_ev,
@@ -53,14 +53,14 @@ fn materials(materials: &[LoadedMaterial]) -> Vec<Arc<ReadMaterial>> {
 
 /// Starts to write what the panes show of all materials, side by side, to `path`.
 pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
-    let shown = shown(displayed);
-    let (all, mut provenance) = (materials(displayed.materials()), provenance(displayed, shown));
+    let content = content(displayed);
+    let (all, mut provenance) = (materials(displayed.materials()), provenance(displayed, content));
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = Destination::new(&path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
-        let ShownPictures { images, shown } =
-            shown.pictures(&all, &provenance.scene, &provenance.convention, progress)?;
-        provenance.shown = shown;
+        let Pictures { images, content } =
+            content.pictures(&all, &provenance.scene, &provenance.convention, progress)?;
+        provenance.content = content;
         destination.write(&images, &provenance, progress)?;
         Ok(path)
     })
@@ -70,17 +70,17 @@ pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
 pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let state = &displayed.model.view;
     let (all, names) = (materials(displayed.materials()), names(displayed.materials()));
-    let value = |quantity| Shown { quantity, difference: None };
+    let value = |quantity| PictureContent { quantity, difference: None };
     let maps = [Quantity::Normal, Quantity::Diffuse, Quantity::Roughness, Quantity::Specular];
     let kind = state.display.differences.kind(Quantity::Rendering);
     let set = || state.display.differences.range(Quantity::Rendering);
     let range = if state.display.differences.is_error_map(Quantity::Rendering) { None } else { set() };
-    let difference = Some(ShownDifference { kind, range });
-    let mut shown: Vec<Shown> = maps.into_iter().chain([Quantity::Rendering]).map(value).collect();
+    let difference = Some(ColouredDifference { kind, range });
+    let mut content: Vec<PictureContent> = maps.into_iter().chain([Quantity::Rendering]).map(value).collect();
     if all.len() > 1 {
-        shown.push(Shown { quantity: Quantity::Rendering, difference });
+        content.push(PictureContent { quantity: Quantity::Rendering, difference });
     }
-    let columns = shown.into_iter().map(|shown| Column { shown, scene: state.scene }).collect();
+    let columns = content.into_iter().map(|content| Column { content, scene: state.scene }).collect();
     let strip = Strip { columns, convention: state.convention(), exposure_ev: state.exposure_ev };
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = PngDestination::new(&path)?;
@@ -136,9 +136,10 @@ pub fn against_photograph(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBu
     let all = displayed.photographs().cloned();
     let view = &displayed.model.view;
     let (kind, difference) = (view.difference_kind(), view.display.difference);
-    let shown = ShownDifference { kind, range: Some(displayed.range()) };
-    let shown = Shown { quantity: view.display.quantity, difference: difference.then_some(shown) };
-    let mut provenance = provenance(displayed, shown);
+    let content = ColouredDifference { kind, range: Some(displayed.range()) };
+    let content =
+        PictureContent { quantity: view.display.quantity, difference: difference.then_some(content) };
+    let mut provenance = provenance(displayed, content);
     let chosen = (view.display.prediction + 1).min(displayed.materials().len().saturating_sub(1));
     if let (false, Some(photograph)) = (difference, displayed.photograph()) {
         provenance.sources.insert(0, photograph.title(chosen));

@@ -158,9 +158,9 @@ mod tests {
                     _ => model.settings.loss.time_ms = number as u64,
                 }
                 let was_usable = is_usable(&model);
-                let said = bring_into_range(&mut model);
-                assert!(is_usable(&model), "{field}, {index}: {said:?}");
-                assert!(was_usable || said.is_some(), "{field}, {index}");
+                let message = bring_into_range(&mut model);
+                assert!(is_usable(&model), "{field}, {index}: {message:?}");
+                assert!(was_usable || message.is_some(), "{field}, {index}");
                 assert_eq!(bring_into_range(&mut model), None, "{field}, {index}");
             }
         }

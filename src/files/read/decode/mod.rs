@@ -34,8 +34,8 @@ use place::{Place, alone};
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
 pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
     let mut decoded = from_reader(file.reader()?, file.path(), what)?;
-    let outside = file.outside().map(Path::to_owned);
-    decoded.notes.extend(outside.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
+    let by = file.outside().map(Path::to_owned);
+    decoded.notes.extend(by.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
     Ok(decoded)
 }
 

@@ -41,9 +41,9 @@ pub(super) fn gray_plane<T: Real>(
     notes: &mut Vec<Note>,
 ) -> Vec<T> {
     let raster = &source.raster;
-    let spread = channel_spread(&raster.channels);
-    if spread > ROUNDING {
-        notes.push(Note::ChannelsDiffer { map, spread, used: Gray::Red });
+    let channel_spread = channel_spread(&raster.channels);
+    if channel_spread > ROUNDING {
+        notes.push(Note::ChannelsDiffer { map, channel_spread, used: Gray::Red });
     }
     clamped.add(raster.channels[0].out_of_range(), map);
     let plane = raster.channels[0].decoded(|v| unit(v, 0.0));
@@ -71,13 +71,13 @@ pub(super) fn roughness_plane<T: Real>(
     let value = |v: f64| transfer::roughness(unit(v, 1.0), code);
     let largest = channel_spread(channels);
     let (plane, out_of_range) = if code == Roughness::Anisotropic && channels.len() > 1 {
-        notes.push(Note::Anisotropic { spread: channel_spread(&channels[..2]) });
+        notes.push(Note::Anisotropic { channel_spread: channel_spread(&channels[..2]) });
         let top = channels[0].top();
         combined(&channels[..2], |widths| (widths[0] / top * (widths[1] / top)).sqrt(), value)
     } else if largest == 0.0 {
         (channels[0].decoded(value), channels[0].out_of_range())
     } else {
-        notes.push(Note::ChannelsDiffer { map: Role::Roughness, spread: largest, used: Gray::Mean });
+        notes.push(Note::ChannelsDiffer { map: Role::Roughness, channel_spread: largest, used: Gray::Mean });
         // Of integers exactly: their sum is one.
         let scale = channels.len() as f64 * channels[0].top();
         combined(channels, |stored| stored.iter().sum::<f64>() / scale, value)

@@ -14,7 +14,7 @@ use crate::read::options::transfer::linear;
 use crate::read::raster::{Raster, Samples};
 use crate::read::stored::StoredMap;
 
-/// Colours that lie outside Rec. 709 by less do so by rounding.
+/// Colours that lie out_of_range Rec. 709 by less do so by rounding.
 const ROUNDING: f64 = 1e-4;
 
 /// An input of a surface, linear: one value, or one for each texel. Of one channel or three.
@@ -36,20 +36,20 @@ impl Field {
         Self { size: source.raster.size(), planes }
     }
 
-    /// The colours of a map, stored in `space`, and whether some lie outside those of Rec. 709.
+    /// The colours of a map, stored in `space`, and whether some lie out_of_range those of Rec. 709.
     pub(super) fn converted(source: &StoredMap, space: ColourSpace) -> (Self, bool) {
-        let (raster, outside) = (&source.raster, AtomicBool::new(false));
+        let (raster, out_of_range) = (&source.raster, AtomicBool::new(false));
         let texel = |index: usize| {
             let linear = space.to_linear(raster.rgb(index).map(|v| if v.is_finite() { v } else { 0.0 }));
             if linear.iter().any(|value| !(-ROUNDING..=1.0 + ROUNDING).contains(value)) {
-                outside.store(true, Ordering::Relaxed);
+                out_of_range.store(true, Ordering::Relaxed);
             }
             linear.map(|value| value.clamp(0.0, 1.0) as f32)
         };
         let texels: Vec<[f32; 3]> = (0..raster.width * raster.height).into_par_iter().map(texel).collect();
         let planes = [0, 1, 2].map(|c| texels.iter().map(|texel| texel[c]).collect()).into();
         let field = Self { size: raster.size(), planes };
-        (field, outside.into_inner())
+        (field, out_of_range.into_inner())
     }
 
     /// Each channel times its `scale` plus its `offset`, in [0, 1].

@@ -54,8 +54,8 @@ pub(super) fn material(
     let is_linear = textures.add_to(&mut maps, surface);
     let mut found = maps.material(&path, name, "", options)?;
     for file in buffers {
-        let outside = file.outside().map(Path::to_owned);
-        found.notes.extend(outside.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
+        let by = file.outside().map(Path::to_owned);
+        found.notes.extend(by.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
         found.add_file(file.path().to_owned());
     }
     found.add_file(path);

@@ -90,9 +90,9 @@ pub enum Note {
     /// The alpha channel of a map is not used.
     AlphaIgnored { map: Role },
     /// The channels of a gray map differ by up to `spread`, in [0, 1].
-    ChannelsDiffer { map: Role, spread: f64, used: Gray },
+    ChannelsDiffer { map: Role, channel_spread: f64, used: Gray },
     /// The two widths of an anisotropic roughness differ by up to `spread`.
-    Anisotropic { spread: f64 },
+    Anisotropic { channel_spread: f64 },
     /// The encoding that was specified for specular contradicts its median.
     SpecularMedian { chosen: Albedo, by: SpecifiedBy, median: f64, suggests: Albedo },
     /// Specular of OpenSVBRDF: a factor on 0.04.

@@ -136,14 +136,17 @@ impl Note {
             Self::AlphaIgnored { map } => {
                 write!(f, "The {} map is partly transparent; its alpha is ignored.", map.name())
             }
-            Self::ChannelsDiffer { map, spread, used } => {
+            Self::ChannelsDiffer { map, channel_spread, used } => {
                 let used = if *used == Gray::Red { "red is used" } else { "their mean is used" };
                 let map = map.name();
-                write!(f, "The red, green and blue of the {map} map differ by up to {spread:.4}; {used}.")
+                write!(
+                    f,
+                    "The red, green and blue of the {map} map differ by up to {channel_spread:.4}; {used}."
+                )
             }
-            Self::Anisotropic { spread } => write!(
+            Self::Anisotropic { channel_spread } => write!(
                 f,
-                "The two widths of the roughness map differ by up to {spread:.4}; an isotropic lobe replaces them."
+                "The two widths of the roughness map differ by up to {channel_spread:.4}; an isotropic lobe replaces them."
             ),
             Self::SpecularMedian { chosen, by, median, suggests } => write!(
                 f,

@@ -84,7 +84,7 @@ mod tests {
     }
 
     /// Lets the model stand still for this many seconds.
-    fn rest(model: &mut Model, seconds: f64) {
+    fn pause(model: &mut Model, seconds: f64) {
         for _ in 0..2 {
             model.time += seconds / 2.0;
             remember(model, true, true);
@@ -94,15 +94,15 @@ mod tests {
     #[test]
     fn undo_returns_to_what_stood_still_and_redo_to_what_came_after() {
         let mut model = model();
-        rest(&mut model, 1.0);
+        pause(&mut model, 1.0);
         let start = model.view.clone();
         model.apply(DisplayCommand::StepExposure(1.0).into());
         model.apply(SceneCommand::PutHighlight([0.1, 0.2]).into());
         let changed = model.view.clone();
-        rest(&mut model, 2.0);
+        pause(&mut model, 2.0);
         assert!(model.apply(DisplayCommand::Undo.into()).is_empty(), "the materials stay");
         assert_eq!(model.view, start);
-        rest(&mut model, 2.0);
+        pause(&mut model, 2.0);
         model.apply(DisplayCommand::Redo.into());
         assert_eq!(model.view, changed);
     }
@@ -110,9 +110,9 @@ mod tests {
     #[test]
     fn undo_reads_a_closed_prediction_again_and_keeps_the_others() {
         let mut model = model();
-        rest(&mut model, 1.0);
+        pause(&mut model, 1.0);
         model.apply(crate::viewer::model::command::MaterialsCommand::Close(1).into());
-        rest(&mut model, 2.0);
+        pause(&mut model, 2.0);
         let effects = model.apply(DisplayCommand::Undo.into());
         let [Effect::Read(request)] = &effects[..] else { panic!("{effects:?}") };
         use crate::viewer::model::material::request::Item;

@@ -149,7 +149,7 @@ mod tests {
 
     #[test]
     fn values_and_absent_maps_stand_in_the_line_of_their_map() {
-        let outside = Reason::OutsideUnit { map: Role::Base, count: 3, low: -1.0, high: 2.0 };
+        let out_of_range = Reason::OutsideUnit { map: Role::Base, count: 3, low: -1.0, high: 2.0 };
         let cases = [
             (
                 What::Missing,
@@ -167,7 +167,7 @@ mod tests {
                 "no map, 0.08 everywhere",
             ),
             (What::Missing, "roughness 0.5", Reason::DiffuseAlone, "Roughness", "no map, 0.5 everywhere"),
-            (What::Values, "clamped to [0, 1]", outside, "Diffuse", "clamped to [0, 1]"),
+            (What::Values, "clamped to [0, 1]", out_of_range, "Diffuse", "clamped to [0, 1]"),
             (What::Size, "64 x 64", Reason::SmallerMaps(Vec::new()), "Material", "resampled to 64 x 64"),
         ];
         for (what, chosen, why, name, expected) in cases {

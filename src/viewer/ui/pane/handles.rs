@@ -30,16 +30,16 @@ pub fn paint_endpoints(painter: &Painter, rect: Rect, camera: &Camera, state: &V
     let place = |which| pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, which));
     if eye
         && state.display.projection == Projection::Flat
-        && let Some((at, outside)) = place(Endpoint::View)
+        && let Some((at, out_of_range)) = place(Endpoint::View)
     {
-        paint_eye(painter, at, outside);
+        paint_eye(painter, at, out_of_range);
     }
-    if let Some((at, outside)) = place(Endpoint::Light) {
-        paint_sun(painter, at, outside);
+    if let Some((at, out_of_range)) = place(Endpoint::Light) {
+        paint_sun(painter, at, out_of_range);
     }
 }
 
-/// The point (x, y) of the plane on the screen, clamped to the pane; and whether it lies outside of it.
+/// The point (x, y) of the plane on the screen, clamped to the pane; and whether it lies out_of_range of it.
 pub fn pos_from_plane(camera: &Camera, rect: Rect, [x, y]: [f64; 2]) -> Option<(Pos2, bool)> {
     let ndc = camera.ndc_from_point(Vec3::new(x as f32, y as f32, 0.0))?;
     let pos = pos_from_ndc(rect, ndc);
@@ -49,9 +49,9 @@ pub fn pos_from_plane(camera: &Camera, rect: Rect, [x, y]: [f64; 2]) -> Option<(
     Some((clamped, clamped != pos))
 }
 
-/// The light's handle; hollow where the light is outside of the pane.
-pub fn paint_sun(painter: &Painter, at: Pos2, outside: bool) {
-    let fill = if outside { Color32::TRANSPARENT } else { theme::SUN };
+/// The light's handle; hollow where the light is out_of_range of the pane.
+pub fn paint_sun(painter: &Painter, at: Pos2, out_of_range: bool) {
+    let fill = if out_of_range { Color32::TRANSPARENT } else { theme::SUN };
     for (width, colour) in [(4.0, Color32::from_black_alpha(150)), (2.0, theme::SUN)] {
         for i in 0..8 {
             let direction = Vec2::angled(i as f32 * std::f32::consts::TAU / 8.0);
@@ -63,8 +63,8 @@ pub fn paint_sun(painter: &Painter, at: Pos2, outside: bool) {
     painter.circle_filled(at, RADIUS - 1.0, fill);
 }
 
-/// The view's handle; hollow where the view is outside of the pane.
-pub fn paint_eye(painter: &Painter, at: Pos2, outside: bool) {
+/// The view's handle; hollow where the view is out_of_range of the pane.
+pub fn paint_eye(painter: &Painter, at: Pos2, out_of_range: bool) {
     let (half_width, half_height) = (RADIUS * 1.9, RADIUS * 1.1);
     let outline: Vec<Pos2> = (0..32)
         .map(|i| {
@@ -73,10 +73,10 @@ pub fn paint_eye(painter: &Painter, at: Pos2, outside: bool) {
             at + Vec2::new(angle.cos() * half_width, pointed * half_height)
         })
         .collect();
-    let fill = if outside { Color32::TRANSPARENT } else { theme::EYE };
+    let fill = if out_of_range { Color32::TRANSPARENT } else { theme::EYE };
     painter.add(Shape::closed_line(outline.clone(), Stroke::new(4.0, Color32::from_black_alpha(150))));
     painter.add(Shape::convex_polygon(outline, fill, Stroke::new(1.5, theme::EYE)));
-    let pupil = if outside { theme::EYE } else { Color32::from_gray(30) };
+    let pupil = if out_of_range { theme::EYE } else { Color32::from_gray(30) };
     painter.circle_filled(at, RADIUS * 0.55, pupil);
 }
 

@@ -57,7 +57,7 @@ pub enum PhotographUse {
     /// Nothing: materials are compared with each other.
     Absent,
     /// What is displayed, at the exposure of the material.
-    Shown,
+    Displayed,
     /// What the material is compared with, at its exposure.
     Reference,
 }
@@ -111,7 +111,7 @@ impl Scenery<'_> {
             photograph: PhotographUse::Reference,
         };
         let chosen = material(self.chosen());
-        let photograph = Content { difference: false, photograph: PhotographUse::Shown, ..chosen };
+        let photograph = Content { difference: false, photograph: PhotographUse::Displayed, ..chosen };
         let mut panes: Vec<Content> = match self.state.display.layout {
             Layout::SideBySide => {
                 std::iter::once(photograph).chain((0..self.materials.len()).map(material)).collect()
@@ -132,7 +132,7 @@ impl Scenery<'_> {
 
     /// Where a pane shows the whole photograph, to edit the corners of the material in it.
     pub fn corner_editor(&self, content: Content) -> Option<CornerEditor<'_>> {
-        let corners = self.photograph?.corners.filter(|_| content.photograph == PhotographUse::Shown);
+        let corners = self.photograph?.corners.filter(|_| content.photograph == PhotographUse::Displayed);
         corners.map(CornerEditor)
     }
 
@@ -154,7 +154,7 @@ impl Scenery<'_> {
     /// The name of what a pane shows, without its difference, in about `most` characters.
     pub fn name_of(&self, content: Content, most: usize) -> String {
         match (self.photograph, content.photograph) {
-            (Some(photograph), PhotographUse::Shown) => photograph.title(content.index),
+            (Some(photograph), PhotographUse::Displayed) => photograph.title(content.index),
             _ => self.title(content.index, most),
         }
     }

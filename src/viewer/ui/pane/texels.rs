@@ -11,12 +11,12 @@ pub fn texels(
     scenery: &Scenery<'_>,
     content: Content,
 ) -> Result<[PaneTexels; 2], &'static str> {
-    let [shown, reference] = [content.index, content.reference].map(|i| scenery.materials[i].id());
-    let material = PaneTexels::Shaded(shown);
+    let [material_id, reference] = [content.index, content.reference].map(|i| scenery.materials[i].id());
+    let material = PaneTexels::Shaded(material_id);
     if content.difference && scenery.state.is_error_map() {
         let map = scenery.error_maps.and_then(|maps| maps.shaded(content.index));
-        gpu.give(shown, map.ok_or("Averaging over the scenes of the loss...")?);
-        return Ok([PaneTexels::Differences(shown), PaneTexels::Shaded(reference)]);
+        gpu.give(material_id, map.ok_or("Averaging over the scenes of the loss...")?);
+        return Ok([PaneTexels::Differences(material_id), PaneTexels::Shaded(reference)]);
     }
     let compares = content.difference || content.mode != DisplayMode::Value;
     if content.photograph == PhotographUse::Absent
@@ -25,16 +25,16 @@ pub fn texels(
         return Ok([material, PaneTexels::Shaded(reference)]);
     }
     let photograph = scenery.photograph.and_then(|photograph| photograph.all?.shaded(content.index));
-    gpu.give_photograph(shown, photograph.ok_or("Reading the photograph...")?);
-    let photograph = PaneTexels::Photograph(shown);
-    Ok([if content.photograph == PhotographUse::Shown { photograph } else { material }, photograph])
+    gpu.give_photograph(material_id, photograph.ok_or("Reading the photograph...")?);
+    let photograph = PaneTexels::Photograph(material_id);
+    Ok([if content.photograph == PhotographUse::Displayed { photograph } else { material }, photograph])
 }
 
 /// The index of the material whose value is displayed at this x of a pane, from -1 to 1; the number of materials for a photograph.
 pub fn index_at(scenery: &Scenery<'_>, content: Content, x: f32) -> usize {
     let photograph = scenery.materials.len();
     match (content.mode, content.photograph) {
-        (_, PhotographUse::Shown) => photograph,
+        (_, PhotographUse::Displayed) => photograph,
         (DisplayMode::Wipe(line), PhotographUse::Reference) if x < line => photograph,
         (DisplayMode::Wipe(line), _) if x < line => content.reference,
         _ => content.index,

@@ -26,7 +26,7 @@ pub fn title_bar(
     content: Content,
     rect: Rect,
 ) -> Option<Command> {
-    let is_material = content.photograph != PhotographUse::Shown;
+    let is_material = content.photograph != PhotographUse::Displayed;
     let prediction = content.index.checked_sub(1).filter(|_| is_material);
     let chosen = is_material && content.index == scenery.chosen() && content.index != 0;
     let text = text(scenery, content, usize::MAX);

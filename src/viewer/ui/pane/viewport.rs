@@ -314,7 +314,9 @@ impl Viewport {
             let readout =
                 Readout { materials: scenery.materials, state, error_maps: scenery.error_maps, photographs };
             placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
-                (PhotographUse::Shown, Some(photographs)) => readout::photograph(photographs, index, texel),
+                (PhotographUse::Displayed, Some(photographs)) => {
+                    readout::photograph(photographs, index, texel)
+                }
                 _ => readout::shown(readout, index, difference, texel),
             });
         }

@@ -191,8 +191,8 @@ impl GpuView {
     fn texels(&self, texels: PaneTexels) -> Option<(&Shaded, u64)> {
         let (given, id) = match texels {
             PaneTexels::Shaded(id) => {
-                let shown = self.shaded.get(&id).and_then(ShadedMaterial::shown)?;
-                return Some((&shown.shaded, shown.version));
+                let texels = self.shaded.get(&id).and_then(ShadedMaterial::displayed)?;
+                return Some((&texels.shaded, texels.version));
             }
             PaneTexels::Differences(id) => (&self.given, id),
             PaneTexels::Photograph(id) => (&self.photographs, id),
@@ -228,10 +228,10 @@ impl GpuView {
             self.panes.resize_with(number + 1, || None);
         }
         let last = self.panes[number].take();
-        let [Some(shown), Some(reference)] = texels.map(|texels| self.texels(texels)) else { return };
+        let [Some(displayed), Some(reference)] = texels.map(|texels| self.texels(texels)) else { return };
         let place = place(rect, painter.ctx().pixels_per_point());
-        let key = PaneKey { texels, versions: [shown.1, reference.1], params, place };
-        let pane = |place| Arc::new(self.display.pane(&self.gpu, shown.0, reference.0, &params, place));
+        let key = PaneKey { texels, versions: [displayed.1, reference.1], params, place };
+        let pane = |place| Arc::new(self.display.pane(&self.gpu, displayed.0, reference.0, &params, place));
         let (still, drawn) = match last {
             Some(SavedPane { of, still: Some(still) }) if of == key => {
                 (Some(still.clone()), PaneDrawing::Copied(self.blit.clone(), still))

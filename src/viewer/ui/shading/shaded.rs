@@ -54,7 +54,7 @@ pub struct ShadedTexels {
     reduced: Option<MaterialTextures>,
     /// With a region, only its texels.
     drawn: Option<(ShadeParams, Option<Region>)>,
-    /// Changes whenever the texels that are seen do.
+    /// Changes whenever the texels that are versions do.
     pub version: u64,
 }
 
@@ -70,7 +70,7 @@ pub struct ShadedMaterial {
 
 impl ShadedMaterial {
     /// The texels to show.
-    pub fn shown(&self) -> Option<&ShadedTexels> {
+    pub fn displayed(&self) -> Option<&ShadedTexels> {
         if self.shows_quick { self.quick.as_ref() } else { self.full.as_ref() }
     }
 
@@ -215,18 +215,18 @@ mod tests {
             Self { shading: Shading::new(&gpu).unwrap(), gpu, textures, versions: 0 }
         }
 
-        /// One frame with the light at `x`; the number of the version that is seen.
+        /// One frame with the light at `x`; the number of the version that is versions.
         fn frame(&mut self, texels: &mut ShadedMaterial, x: f64, part: ShadedPart) -> u64 {
             let Self { gpu, shading, textures, versions } = self;
             let mut device = ShadingDevice { gpu, shading, textures, are_reduced: false, versions };
             let sharpens = part != ShadedPart::Whole;
             let wanted = ShadingRequest { params: params(x), part, sharpens, waits: false, exact: false };
             texels.shade(&mut device, SIZE, wanted).unwrap();
-            texels.shown().unwrap().version
+            texels.displayed().unwrap().version
         }
 
         fn pixels(&self, texels: &ShadedMaterial) -> Vec<[f32; 3]> {
-            texels.shown().unwrap().shaded.read_back(&self.gpu).unwrap().pixels
+            texels.displayed().unwrap().shaded.read_back(&self.gpu).unwrap().pixels
         }
     }
 
@@ -248,14 +248,17 @@ mod tests {
         let draft = ShadedPart::EveryNth(2);
         bench.frame(&mut texels, -0.5, draft);
         let of_other_light = bench.frame(&mut texels, -0.5, draft);
-        let mut seen = Vec::new();
+        let mut versions = Vec::new();
         while !texels.is_whole(params(0.5)) {
-            seen.push(bench.frame(&mut texels, 0.5, draft));
-            assert!(seen.len() <= 3, "a band of {BAND} texels a frame");
+            versions.push(bench.frame(&mut texels, 0.5, draft));
+            assert!(versions.len() <= 3, "a band of {BAND} texels a frame");
         }
-        assert!(seen.len() == 3 && seen.iter().all(|version| *version > of_other_light), "{seen:?}");
+        assert!(
+            versions.len() == 3 && versions.iter().all(|version| *version > of_other_light),
+            "{versions:?}"
+        );
         assert!(bench.pixels(&texels).len() < expected.len(), "a draft is seen until all is there");
-        let draft_version = seen[2];
+        let draft_version = versions[2];
         assert_ne!(bench.frame(&mut texels, 0.5, ShadedPart::Whole), draft_version);
         assert_eq!(bench.pixels(&texels), expected);
         // What the frame after would show if bands were not begun anew.

@@ -30,7 +30,7 @@ const NAME: usize = 12;
 
 /// What a map shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Shown {
+enum DirectionMap {
     /// The losses of a prediction.
     Loss(usize),
     /// The losses of the chosen prediction minus those of another.
@@ -60,8 +60,8 @@ impl WhyPanel<'_> {
         let found = self.jobs.directions.get(&self.pairs, moved, &self.state.scene);
         let chosen = self.state.display.prediction;
         let other = found.and_then(|(maps, _)| Some(maps.differences.get(chosen)?.0));
-        let losses = (0..self.pairs.len()).map(Shown::Loss);
-        let all: Vec<Shown> = losses.chain(other.map(Shown::Difference)).collect();
+        let losses = (0..self.pairs.len()).map(DirectionMap::Loss);
+        let all: Vec<DirectionMap> = losses.chain(other.map(DirectionMap::Difference)).collect();
         let columns = all.len().min(2) as f32;
         let side = ((ui.available_width() - GAP * (columns - 1.0)) / columns).clamp(80.0, MOST);
         let mut read = None;
@@ -69,15 +69,15 @@ impl WhyPanel<'_> {
             ui.spacing_mut().item_spacing = vec2(GAP, 4.0);
             for row in all.chunks(2) {
                 ui.horizontal_top(|ui| {
-                    for shown in row {
-                        let hovered = self.map(ui, side, rim, *shown, found, textures, commands);
-                        read = hovered.map(|direction| (*shown, direction)).or(read);
+                    for kind in row {
+                        let hovered = self.map(ui, side, rim, *kind, found, textures, commands);
+                        read = hovered.map(|direction| (*kind, direction)).or(read);
                     }
                 });
             }
         });
-        let (shown, direction) = read.unwrap_or((Shown::Loss(chosen), unit(&self.state.scene, moved)));
-        let text = self.reading(shown, direction, found.map(|(maps, _)| maps));
+        let (kind, direction) = read.unwrap_or((DirectionMap::Loss(chosen), unit(&self.state.scene, moved)));
+        let text = self.reading(kind, direction, found.map(|(maps, _)| maps));
         ui.add(egui::Label::new(RichText::new(text).monospace().size(11.5)).truncate());
         if let Some((maps, _)) = found {
             self.legends(ui, maps);
@@ -98,7 +98,7 @@ impl WhyPanel<'_> {
         ui: &mut egui::Ui,
         side: f32,
         rim: f64,
-        shown: Shown,
+        kind: DirectionMap,
         found: Option<(&DirectionMaps, bool)>,
         textures: &mut PanelTextures,
         commands: &mut Vec<Command>,
@@ -106,20 +106,20 @@ impl WhyPanel<'_> {
         let moved = self.why.moved;
         let (all, _) = ui.allocate_exact_size(vec2(side, side + CAPTION), Sense::hover());
         let area = all.with_min_y(all.top() + CAPTION);
-        self.caption(ui, all.with_max_y(area.top()), shown, found.map(|(maps, _)| maps));
+        self.caption(ui, all.with_max_y(area.top()), kind, found.map(|(maps, _)| maps));
         let response =
-            ui.interact(area, ui.scope_id().with(("directions", label(shown))), Sense::click_and_drag());
+            ui.interact(area, ui.scope_id().with(("directions", label(kind))), Sense::click_and_drag());
         let name = if moved == Endpoint::Light { "light" } else { "view" };
-        let of = match shown {
-            Shown::Loss(index) if index == self.state.display.prediction => String::new(),
-            _ => format!(" of {}", label(shown)),
+        let of = match kind {
+            DirectionMap::Loss(index) if index == self.state.display.prediction => String::new(),
+            _ => format!(" of {}", label(kind)),
         };
         let label = format!("Loss over {name} directions{of}");
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let texture = found.and_then(|(maps, current)| {
-            let scaled = match shown {
-                Shown::Loss(index) => maps.losses.get(index)?,
-                Shown::Difference(_) => &maps.differences.get(self.state.display.prediction)?.1,
+            let scaled = match kind {
+                DirectionMap::Loss(index) => maps.losses.get(index)?,
+                DirectionMap::Difference(_) => &maps.differences.get(self.state.display.prediction)?.1,
             };
             Some((textures.id(ui.ctx(), &scaled.picture, TextureOptions::NEAREST), current))
         });
@@ -135,15 +135,15 @@ impl WhyPanel<'_> {
     }
 
     /// The number, name and mean of a prediction, or the numbers of two.
-    fn caption(&self, ui: &mut egui::Ui, area: Rect, shown: Shown, found: Option<&DirectionMaps>) {
+    fn caption(&self, ui: &mut egui::Ui, area: Rect, kind: DirectionMap, found: Option<&DirectionMaps>) {
         let chosen = self.state.display.prediction;
-        let (text, mean, hover) = match shown {
-            Shown::Loss(index) => {
+        let (text, mean, hover) = match kind {
+            DirectionMap::Loss(index) => {
                 let name = shortened(&self.names, NAME).swap_remove(index);
                 let mean = found.map(|maps| digits(maps.map.mean(index)));
                 (format!("{}  {name}", index + 1), mean, self.names[index].to_owned())
             }
-            Shown::Difference(other) => {
+            DirectionMap::Difference(other) => {
                 let mean = found.map(|maps| {
                     let apart = maps.map.mean(chosen) - maps.map.mean(other);
                     signed(&digits(apart))
@@ -156,9 +156,9 @@ impl WhyPanel<'_> {
                 (text, mean, hover)
             }
         };
-        let ink = match shown {
-            Shown::Loss(index) => theme::series(index, ui.visuals().dark_mode),
-            Shown::Difference(_) => ui.visuals().text_color(),
+        let ink = match kind {
+            DirectionMap::Loss(index) => theme::series(index, ui.visuals().dark_mode),
+            DirectionMap::Difference(_) => ui.visuals().text_color(),
         };
         let (font, painter) = (FontId::proportional(12.0), ui.painter_at(area));
         painter.text(area.left_center(), Align2::LEFT_CENTER, text, font, ink);
@@ -166,7 +166,7 @@ impl WhyPanel<'_> {
             let weak = ui.visuals().weak_text_color();
             painter.text(area.right_center(), Align2::RIGHT_CENTER, mean, FontId::monospace(11.0), weak);
         }
-        let id = ui.scope_id().with(("caption", label(shown)));
+        let id = ui.scope_id().with(("caption", label(kind)));
         ui.interact(area, id, Sense::hover())
             .on_hover_text(format!("{hover}\nThe number is the mean over all directions of the map"));
     }
@@ -187,18 +187,18 @@ impl WhyPanel<'_> {
     }
 
     /// The loss in a direction, with its standard error; or the difference of two losses.
-    fn reading(&self, shown: Shown, direction: [f64; 3], found: Option<&DirectionMaps>) -> String {
+    fn reading(&self, kind: DirectionMap, direction: [f64; 3], found: Option<&DirectionMaps>) -> String {
         let name = if self.why.moved == Endpoint::Light { "light" } else { "view" };
         let [x, y, z] = direction;
         let place = format!("{name} {x:5.2} {y:5.2} {z:4.2}");
         let read = |maps: &DirectionMaps| {
             let cell = maps.map.nearest_cell(direction)?;
             let of = |index: usize| maps.map.losses.get(index).map(|losses| losses[cell]);
-            Some(match shown {
-                Shown::Loss(index) => {
+            Some(match kind {
+                DirectionMap::Loss(index) => {
                     format!("{:.4} ± {:.4}", of(index)?, maps.map.standard_errors[index][cell])
                 }
-                Shown::Difference(other) => {
+                DirectionMap::Difference(other) => {
                     let apart = of(self.state.display.prediction)? - of(other)?;
                     signed(&format!("{apart:.4}"))
                 }
@@ -258,10 +258,10 @@ fn put(scene: Scene, moved: Endpoint, direction: [f64; 3]) -> Scene {
 }
 
 /// The number of a prediction, or the difference of two.
-fn label(shown: Shown) -> String {
-    match shown {
-        Shown::Loss(index) => (index + 1).to_string(),
-        Shown::Difference(other) => format!("the difference to {}", other + 1),
+fn label(kind: DirectionMap) -> String {
+    match kind {
+        DirectionMap::Loss(index) => (index + 1).to_string(),
+        DirectionMap::Difference(other) => format!("the difference to {}", other + 1),
     }
 }
 

@@ -40,8 +40,8 @@ impl GltfFile {
             Image::Uri { uri, .. } if uri.starts_with("data:") => self.data(uri)?,
             Image::Uri { uri, .. } => return Ok(PictureSource::File(self.beside(uri))),
             Image::View { view, .. } => {
-                let outside = || bad(&self.path, format!("{what}: expected it within its buffer"));
-                self.view(&view)?.ok_or_else(outside)?
+                let out_of_range = || bad(&self.path, format!("{what}: expected it within its buffer"));
+                self.view(&view)?.ok_or_else(out_of_range)?
             }
         };
         Ok(PictureSource::Embedded { within: self.path.clone(), bytes })

@@ -17,17 +17,17 @@ use crate::progress::Progress;
 /// The colour of a difference that is not a number.
 const MID_GRAY: [u8; 3] = [128; 3];
 
-/// A quantity, or its difference from the ground truth.
+/// The content of a picture: a quantity, or its difference from the ground truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Shown {
+pub struct PictureContent {
     pub quantity: Quantity,
     /// `None` for the value.
-    pub difference: Option<ShownDifference>,
+    pub difference: Option<ColouredDifference>,
 }
 
 /// A difference, and its colours.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ShownDifference {
+pub struct ColouredDifference {
     pub kind: Difference,
     /// The difference that has the last colour. `None`: the 99th percentile over the texels of the prediction where it is
     /// largest.
@@ -36,14 +36,14 @@ pub struct ShownDifference {
 
 /// Pictures of materials, and how their numbers become colours.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ShownPictures {
+pub struct Pictures {
     /// Linear RGB; of normals (x, y, z); of differences each channel's.
     pub images: Vec<Image<f32>>,
     /// As asked, with the range that was found.
-    pub shown: Shown,
+    pub content: PictureContent,
 }
 
-impl Shown {
+impl PictureContent {
     /// The value of every material, or the difference of every material but the first, the ground truth.
     ///
     /// # Errors
@@ -54,32 +54,36 @@ impl Shown {
         scene: &Scene,
         convention: &Convention,
         progress: &Progress,
-    ) -> Result<ShownPictures, Error> {
+    ) -> Result<Pictures, Error> {
         let image = |material: &&Material<f32>| self.quantity.image(material, scene, convention, progress);
         let values = materials.iter().map(image).collect::<Result<Vec<_>, _>>()?;
         Ok(self.of_values(values, convention))
     }
 
-    /// As [`Shown::pictures`], of values that have been computed.
-    pub fn of_values(self, values: Vec<Image<f32>>, convention: &Convention) -> ShownPictures {
-        let (Some(shown), Some((ground_truth, predictions))) = (self.difference, values.split_first()) else {
-            return ShownPictures { images: values, shown: self };
+    /// As [`PictureContent::pictures`], of values that have been computed.
+    pub fn of_values(self, values: Vec<Image<f32>>, convention: &Convention) -> Pictures {
+        let (Some(difference), Some((ground_truth, predictions))) = (self.difference, values.split_first())
+        else {
+            return Pictures { images: values, content: self };
         };
         let epsilon = convention.epsilon;
         let auto = || {
-            let of = |prediction| shown.kind.of_images(ground_truth, prediction, epsilon);
-            Distributions::of(&predictions.iter().map(of).collect::<Vec<_>>(), shown.kind.is_signed())
+            let of = |prediction| difference.kind.of_images(ground_truth, prediction, epsilon);
+            Distributions::of(&predictions.iter().map(of).collect::<Vec<_>>(), difference.kind.is_signed())
                 .auto_range
         };
-        let range = Some(shown.range.unwrap_or_else(auto));
-        let images = predictions.iter().map(|p| shown.kind.picture(ground_truth, p, epsilon)).collect();
-        ShownPictures { images, shown: Self { difference: Some(ShownDifference { range, ..shown }), ..self } }
+        let range = Some(difference.range.unwrap_or_else(auto));
+        let images = predictions.iter().map(|p| difference.kind.picture(ground_truth, p, epsilon)).collect();
+        Pictures {
+            images,
+            content: Self { difference: Some(ColouredDifference { range, ..difference }), ..self },
+        }
     }
 
     /// The 8-bit colours of a number: of a rendering exposed and sRGB-encoded, of an albedo sRGB-encoded, of a normal
     /// (n + 1) / 2, of roughness itself; of a difference those of its colour map, gray where it is NaN. Exposure changes renderings only.
     pub fn colour(&self, rgb: [f32; 3], exposure_ev: f32) -> [u8; 3] {
-        if let Some(ShownDifference { kind, range }) = self.difference {
+        if let Some(ColouredDifference { kind, range }) = self.difference {
             let mean = rgb.iter().sum::<f32>() / 3.0;
             if mean.is_nan() {
                 return MID_GRAY;
@@ -98,7 +102,7 @@ impl Shown {
 
     /// What the numbers of a picture are, for its metadata.
     pub fn text(&self, epsilon: f64) -> String {
-        let Some(ShownDifference { kind, range }) = self.difference else {
+        let Some(ColouredDifference { kind, range }) = self.difference else {
             return match self.quantity {
                 Quantity::Rendering => "radiance".to_owned(),
                 quantity => quantity.name().to_owned(),
@@ -126,18 +130,18 @@ mod tests {
         Image { width: 2, height: 1, pixels: vec![[value; 3], [2.0 * value; 3]] }
     }
 
-    fn difference(range: Option<f64>) -> Shown {
-        let difference = Some(ShownDifference { kind: Difference::Absolute, range });
-        Shown { quantity: Quantity::Rendering, difference }
+    fn difference(range: Option<f64>) -> PictureContent {
+        let difference = Some(ColouredDifference { kind: Difference::Absolute, range });
+        PictureContent { quantity: Quantity::Rendering, difference }
     }
 
     #[test]
     fn exposure_changes_renderings_and_nothing_else() {
         let rgb = [0.2, 0.3, 0.4];
-        let value = |quantity| Shown { quantity, difference: None };
+        let value = |quantity| PictureContent { quantity, difference: None };
         assert_ne!(value(Quantity::Rendering).colour(rgb, 1.0), value(Quantity::Rendering).colour(rgb, 0.0));
-        for shown in Quantity::ALL[1..].iter().map(|q| value(*q)).chain([difference(Some(1.0))]) {
-            assert_eq!(shown.colour(rgb, 1.0), shown.colour(rgb, 0.0), "{shown:?}");
+        for content in Quantity::ALL[1..].iter().map(|q| value(*q)).chain([difference(Some(1.0))]) {
+            assert_eq!(content.colour(rgb, 1.0), content.colour(rgb, 0.0), "{content:?}");
         }
     }
 
@@ -148,14 +152,14 @@ mod tests {
         let pictures = difference(None).of_values(values.clone(), &convention);
         assert_eq!(pictures.images, [image(0.5), image(0.25)]);
         // Interpolated between the two largest of the differences 0.5 and 1.
-        assert_eq!(pictures.shown.difference.and_then(|d| d.range), Some(0.995));
+        assert_eq!(pictures.content.difference.and_then(|d| d.range), Some(0.995));
         let set = difference(Some(0.3)).of_values(values, &convention);
-        assert_eq!(set.shown.difference.and_then(|d| d.range), Some(0.3));
+        assert_eq!(set.content.difference.and_then(|d| d.range), Some(0.3));
     }
 
     #[test]
-    fn normals_and_roughness_are_shown_as_they_are_stored() {
-        let value = |quantity| Shown { quantity, difference: None };
+    fn normals_and_roughness_are_displayed_as_they_are_stored() {
+        let value = |quantity| PictureContent { quantity, difference: None };
         assert_eq!(value(Quantity::Normal).colour([0.0, -1.0, 1.0], 3.0), [128, 0, 255]);
         assert_eq!(value(Quantity::Roughness).colour([0.5; 3], 3.0), [128; 3]);
         assert_eq!(value(Quantity::Diffuse).colour([0.214_041_14; 3], 3.0), [128; 3]);
