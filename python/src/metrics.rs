@@ -1,13 +1,17 @@
 //! Metrics beside the loss.
 
+use std::path::Path;
+
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use svbrdf_core::loss::Request;
-use svbrdf_core::metrics::{of_maps, of_renderings};
+use svbrdf_core::loss::{Request, check_same_size};
+use svbrdf_core::metrics::{of_maps, of_matfusion, of_renderings};
 use svbrdf_core::report::MetricsReport;
+use svbrdf_files::read;
 
 use crate::asked::{Asked, singles};
 use crate::errors::exception;
-use crate::material::CoreMaterial;
+use crate::material::{CoreMaterial, read_options};
 use crate::report::Views;
 use crate::work;
 
@@ -37,4 +41,41 @@ pub fn metrics(
     }
     let compared = asked.compared(&all[0], &convention);
     Views::new(&MetricsReport::new(&compared, sampling.as_ref(), &scenes, results))
+}
+
+/// The metrics of MatFusion's evaluation. Files are read anew: it compares normals of the lengths that are stored.
+/// `options` are those that each material was read with; None for one of arrays.
+#[pyfunction]
+pub fn matfusion(
+    py: Python<'_>,
+    ground_truth: &CoreMaterial,
+    predictions: Vec<PyRef<'_, CoreMaterial>>,
+    asked: Asked,
+    options: Vec<Option<String>>,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Views> {
+    let truth = ground_truth.double();
+    for prediction in &predictions {
+        check_same_size(&truth, &prediction.double()).map_err(exception)?;
+    }
+    let stored = |source: (&Option<String>, &Option<String>)| match source {
+        (Some(path), Some(options)) => {
+            let options = &read_options(options)?;
+            work::run(py, progress, |progress| {
+                Ok(read::read_as_stored::<f64>(Path::new(path), options, progress)?.0)
+            })
+        }
+        _ => Err(PyValueError::new_err(
+            "protocol: expected files, found a Material of arrays, whose normals are not as stored; give paths, or what \
+            svbrdf.read returns",
+        )),
+    };
+    let planes = asked.paths.iter().zip(&options).map(stored).collect::<PyResult<Vec<_>>>()?;
+    let mut results = Vec::new();
+    for (prediction, name) in planes[1..].iter().zip(asked.predictions()) {
+        let metrics =
+            work::run(py, progress, |progress| of_matfusion(&planes[0], prediction, truth.size(), progress))?;
+        results.push((name.clone(), metrics));
+    }
+    Views::new(&MetricsReport::matfusion(truth.name(), truth.size(), results))
 }

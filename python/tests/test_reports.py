@@ -32,6 +32,7 @@ CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
         lambda gt, p: svbrdf.scenes(gt, p, near=9, distant=4, top=5),
     ),
     "metrics": (["--near", "2", "--seed", "3"], lambda gt, p: svbrdf.metrics(gt, p, near=2, seed=3)),
+    "metrics of a protocol": (["--protocol", "matfusion"], lambda gt, p: svbrdf.metrics(gt, p, protocol="matfusion")),
     "photo": (["--flash", "--fov", "45", "--falloff"], lambda photo, p: photo_of(photo, p)),
 }
 
@@ -67,6 +68,17 @@ def photograph(materials: Materials) -> Path:
 def arguments(case: str, materials: Materials) -> tuple[Path, list[Path]]:
     ground_truth, predictions = materials
     return (photograph(materials), [ground_truth, *predictions]) if case == "photo" else (ground_truth, predictions)
+
+
+def test_a_protocol_takes_files_with_their_options_and_no_scenes(materials: Materials) -> None:
+    ground_truth, predictions = materials
+    flipped = svbrdf.read(predictions[0], normal_y="down")
+    changed, same = (svbrdf.metrics(ground_truth, p, protocol="matfusion") for p in (flipped, predictions[0]))
+    assert changed.results[0].metrics != same.results[0].metrics
+    with pytest.raises(ValueError, match="found a Material of arrays"):
+        svbrdf.metrics(svbrdf.Material(**maps(13, 11)), predictions, protocol="matfusion")
+    with pytest.raises(ValueError, match="near: not used with protocol"):
+        svbrdf.metrics(ground_truth, predictions, near=2, protocol="matfusion")
 
 
 def printed(program: str, case: str, materials: Materials, output: str) -> str:

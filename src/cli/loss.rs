@@ -153,6 +153,11 @@ impl LossJob {
         let Question { request, few_scenes: Some(few) } = &self.question else {
             return Ok(run(comparison, &self.question.request)?);
         };
+        if self.device != DeviceChoice::Cpu {
+            exit::tell(
+                "note: the loss over all scenes is computed on the CPU: graphics adapters compare a fixed number of scenes",
+            );
+        }
         let report = on_backend(comparison.clone(), request)?;
         Ok(report.beside(run(comparison, &Request::Scenes(*few))?))
     }

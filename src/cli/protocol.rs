@@ -10,7 +10,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::report::MetricsReport;
 use svbrdf_files::export::write_npy;
 use svbrdf_files::inputs::check_output;
-use svbrdf_files::read::{self, Energy, ReadOptions};
+use svbrdf_files::read;
 use svbrdf_files::source::{MaterialSource, Place};
 
 use super::job::{ComparisonJob, MaterialJob};
@@ -84,11 +84,8 @@ fn opened(job: &MaterialJob) -> Result<(Vec<ProtocolMaterial>, Vec<PathBuf>), Co
     }
     let stored = |(source, material): (&MaterialSource, &Material<f64>)| -> Result<_, CommandError> {
         let (name, size) = (material.name().to_owned(), material.size());
-        // Diffuse as stored, whatever renderer it was made for.
-        let energy = source.options.energy.or(Some(Energy::Scaled));
-        let options = ReadOptions { energy, ..source.options };
         let planes = match &source.place {
-            Place::Path(path) => read::read_unnormalized(path, &options, &Progress::default())?.0,
+            Place::Path(path) => read::read_as_stored(path, &source.options, &Progress::default())?.0,
             Place::BuiltIn(_) => material.planes().clone(),
         };
         Ok(ProtocolMaterial { name, planes, size })

@@ -43,6 +43,15 @@ fn a_short_job_starts_no_adapter_and_says_so() {
 }
 
 #[test]
+fn the_default_question_says_what_no_adapter_computes() {
+    let note = "note: the loss over all scenes is computed on the CPU";
+    for (arguments, expected) in [("--backend auto", true), ("", false), ("--backend auto --near 1", false)] {
+        let (_, stderr) = report(&loss(arguments).output().unwrap());
+        assert_eq!(stderr.contains(note), expected, "{arguments}: {stderr}");
+    }
+}
+
+#[test]
 fn without_an_adapter_the_gpu_is_refused_and_auto_takes_the_cpu() {
     let refused = without_adapter(loss("--backend gpu"));
     let stderr = text(&refused.stderr);

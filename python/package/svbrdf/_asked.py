@@ -32,6 +32,8 @@ class Asked:
         if isinstance(scenes, str | os.PathLike):
             scenes = read_scenes(scenes)
         materials = [self.ground_truth, *self.predictions]
+        self.options = [material._options for material in materials]
+        """Those that each material was read with; None for one of arrays."""
         self._options = {
             "names": names(self.ground_truth, self.predictions),
             "paths": [material.path for material in materials],

@@ -90,6 +90,13 @@ def map(
     over: Mapping[str, Any] | None,
     progress: Report,
 ) -> MapItems: ...
+def matfusion(
+    ground_truth: CoreMaterial,
+    predictions: Sequence[CoreMaterial],
+    asked: Mapping[str, Any],
+    options: Sequence[str | None],
+    progress: Report,
+) -> Views: ...
 def metrics(
     ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
 ) -> Views: ...

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from . import _core
-from ._asked import Asked, Predictions, Scenes
+from ._asked import Asked, Predictions, Scenes, check_unused
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
@@ -27,8 +27,10 @@ class MetricsReport(Report):
     """Metrics of maps and renderings, each with its convention in its name: docs/metrics.md defines them."""
 
     ground_truth: str
-    convention: str
-    """The convention of the renderings."""
+    convention: str | None = None
+    """The convention of the renderings; None for those of a protocol."""
+    protocol: str | None = None
+    """The published evaluation."""
     results: tuple[Metrics, ...]
     """One per prediction."""
 
@@ -42,10 +44,13 @@ def metrics(
     seed: int | None = None,
     sampler: Literal["random", "sobol"] | None = None,
     scenes: Scenes | None = None,
-    convention: str = "printed",
+    convention: str | None = None,
+    protocol: Literal["matfusion"] | None = None,
     progress: bool | Progress = False,
 ) -> MetricsReport:
     """Metrics of maps and renderings: root mean square and mean absolute differences, angles, SSIM and PSNR.
+
+    With `protocol`, what the released code of a publication computes, without neural networks.
 
     >>> import svbrdf
     >>> ground_truth, blurred, _ = svbrdf.built_in()
@@ -61,18 +66,34 @@ def metrics(
         seed: Names the sampled scenes; 0 where `scenes` are not given.
         sampler: "sobol", the default, or "random".
         scenes: These scenes, or those of a scene file, in place of sampled ones.
-        convention: A name of `svbrdf.CONVENTIONS`.
+        convention: A name of `svbrdf.CONVENTIONS`; "printed" where no protocol is given.
+        protocol: "matfusion": Sartor and Peers 2023, score.py. Takes files, since normals are compared as
+            stored.
         progress: True for a bar of tqdm, or a function of (steps done, steps in all).
 
     Raises:
         OSError: A file cannot be read.
         svbrdf.Error: A material or a scene cannot be used, or the sizes differ.
-        ValueError: Options of sampled scenes are given together with `scenes`.
+        ValueError: Options of sampled scenes are given together with `scenes`, or scenes, a convention or a material of
+            arrays with a protocol.
     """
+    if protocol is not None:
+        if protocol != "matfusion":
+            raise ValueError(f"protocol: expected 'matfusion', found {protocol!r}")
+        check_unused(
+            "protocol", near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes, convention=convention
+        )
+        asked = Asked(ground_truth, predictions, convention="printed", precision="f64")
+        with reported("rendering", progress) as report:
+            return _of(_core.matfusion(*asked.core, asked.options, report))
     choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
-    asked = Asked(ground_truth, predictions, convention=convention, **choice)
+    asked = Asked(ground_truth, predictions, convention=convention or "printed", **choice)
     with reported("rendering", progress) as report:
-        found = _core.metrics(*asked.core, report)
+        return _of(_core.metrics(*asked.core, report))
+
+
+def _of(found: "_core.Views") -> MetricsReport:
+    """The report of its views."""
     arguments = views(found)
     values = arguments["_values"]
     results = tuple(Metrics(**entry) for entry in values["results"])

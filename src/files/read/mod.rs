@@ -100,17 +100,19 @@ pub fn read_as<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress)
     read_with(path, &saved, &used, progress)
 }
 
-/// The planes of a material and their (width, height), as [`read`], but with the lengths that normals are stored with.
+/// The planes of a material and their (width, height), as [`read`], but with normals of the lengths that are stored, and, without
+/// an option, diffuse as stored, whatever renderer it was made for: what the released code of a publication reads.
 ///
 /// # Errors
 /// As [`read`]. Values are not checked as those of a [`Material`] are.
-pub fn read_unnormalized<T: Real>(
+pub fn read_as_stored<T: Real>(
     path: &Path,
     options: &ReadOptions,
     progress: &Progress,
 ) -> Result<(Planes<T>, [usize; 2]), Error> {
     let saved = Sidecar::load(path)?;
-    let used = saved.clone().overridden_by(options, &[]);
+    let options = ReadOptions { energy: options.energy.or(Some(Energy::Scaled)), ..*options };
+    let used = saved.clone().overridden_by(&options, &[]);
     let options = &used.options.with_preset();
     let stored = stored(locate::locate(path, &saved, &used)?, options, progress)?;
     let evidence = gather::evidences(&stored, options);
