@@ -25,7 +25,7 @@ use svbrdf_files::read::{ReadOptions, read};
 use svbrdf_files::write::{self, FileKind, WriteOptions};
 
 /// Seconds that each row takes, at least.
-const PATIENCE: f64 = 3.0;
+const LEAST_SECONDS: f64 = 3.0;
 const FILES: [&str; 4] = ["normal", "diffuse", "roughness", "specular"];
 /// Numbers for each channel of a material, in bytes.
 const PLANES: f64 = 40.0;
@@ -84,7 +84,7 @@ struct Run {
 fn row(what: &str, works: [&str; 2], from: &Path, to: &Path, size: u32) {
     let start = Instant::now();
     let mut runs = [Vec::new(), Vec::new()];
-    while start.elapsed().as_secs_f64() < PATIENCE || runs[0].len() < 3 {
+    while start.elapsed().as_secs_f64() < LEAST_SECONDS || runs[0].len() < 3 {
         for (runs, work) in runs.iter_mut().zip(works) {
             runs.push(run(work, from, to));
         }

@@ -1,4 +1,4 @@
-//! What is measured, and how.
+//! Jobs of the benchmark: scenes, materials and precision of each measured loss.
 
 use std::time::Instant;
 
@@ -14,14 +14,14 @@ pub const TOLERANCE: f64 = 1e-6;
 /// The fused loss at the best instruction set.
 pub const FUSED: Fused = Fused { level: None };
 /// Seconds that each row of a table takes, at least.
-const PATIENCE: f64 = 0.5;
+const LEAST_SECONDS: f64 = 0.5;
 
 /// Seconds of the fastest of many runs.
 pub fn fastest(work: impl Fn()) -> f64 {
     let start = Instant::now();
     let mut best = f64::INFINITY;
     for run in 0.. {
-        if run >= 5 && start.elapsed().as_secs_f64() > PATIENCE {
+        if run >= 5 && start.elapsed().as_secs_f64() > LEAST_SECONDS {
             break;
         }
         best = best.min(seconds(&work));
@@ -82,7 +82,7 @@ impl Job {
         let plain = seconds(|| self.assert(self.plain()));
         let mut times = Vec::new();
         let start = Instant::now();
-        while start.elapsed().as_secs_f64() < PATIENCE || times.len() < 5 {
+        while start.elapsed().as_secs_f64() < LEAST_SECONDS || times.len() < 5 {
             times.push(seconds(|| self.assert(self.fused(level))));
         }
         times.sort_by(f64::total_cmp);

@@ -27,11 +27,11 @@ pub fn printable(text: &str) -> String {
         let is_direction = matches!(c, '\u{200e}' | '\u{200f}' | '\u{61c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
         c.is_control() && c != '\n' || is_direction
     };
-    let mut shown = String::with_capacity(text.len());
+    let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
-        if steers(c) { shown.extend(c.escape_unicode()) } else { shown.push(c) }
+        if steers(c) { escaped.extend(c.escape_unicode()) } else { escaped.push(c) }
     }
-    shown
+    escaped
 }
 
 /// The text in one line of a readable length, in which nothing steers what follows: a name from a file, for a label.

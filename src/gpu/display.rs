@@ -29,7 +29,7 @@ pub struct PanePlace {
     pub size: [u32; 2],
 }
 
-/// Two pictures and how they are shown.
+/// Two pictures and how they are displayed.
 #[derive(Debug)]
 pub struct Pane {
     pipeline: RenderPipeline,
@@ -70,20 +70,20 @@ impl Display {
     pub fn pane(
         &self,
         gpu: &Gpu,
-        shown: &Shaded,
+        shaded: &Shaded,
         reference: &Shaded,
         params: &DisplayParams,
         place: PanePlace,
     ) -> Pane {
-        let uniforms = DisplayUniforms::new(params, shown.size(), shown.stride(), place.corner);
+        let uniforms = DisplayUniforms::new(params, shaded.size(), shaded.stride(), place.corner);
         let uniforms = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
         let resources = [
             uniforms.as_entire_binding(),
-            BindingResource::TextureView(&shown.view),
+            BindingResource::TextureView(&shaded.view),
             BindingResource::TextureView(&reference.view),
         ];
         let group = bind(&gpu.device, &self.pipelines.layout, &resources);
-        let nearest = params.nearest || is_magnified(params, shown, place.size);
+        let nearest = params.nearest || is_magnified(params, shaded, place.size);
         Pane { pipeline: self.pipelines.with(&gpu.device, constants(params, nearest)), group }
     }
 }
@@ -99,18 +99,18 @@ impl Pane {
 
 /// Whether every pixel of a pane covers one texel at most along either axis: then it shows the nearest one. Known of parallel rays
 /// only, whose pixels cover as much everywhere.
-fn is_magnified(params: &DisplayParams, shown: &Shaded, [across, down]: [u32; 2]) -> bool {
+fn is_magnified(params: &DisplayParams, shaded: &Shaded, [across, down]: [u32; 2]) -> bool {
     let Camera { origin_right, origin_up, direction, direction_right, direction_up, .. } = params.camera;
     if direction_right != Vec3::ZERO || direction_up != Vec3::ZERO {
         return false;
     }
     let on_plane = |step: Vec3| (step - direction * (step.z / direction.z)).truncate().abs();
     let extent = on_plane(origin_right * (2.0 / across as f32)) + on_plane(origin_up * (2.0 / down as f32));
-    let [width, height] = shown.size();
+    let [width, height] = shaded.size();
     let [half_width, half_height] = Grid { width, height }.half_extent();
     let texel = 2.0 * Vec2::new(half_width / width as f32, half_height / height as f32);
     let repeats = if params.tiled { 2.0 } else { 1.0 };
-    (extent * repeats / shown.stride() as f32).cmple(texel).all()
+    (extent * repeats / shaded.stride() as f32).cmple(texel).all()
 }
 
 /// The constants of the pipeline that shows pictures in this way.

@@ -1,4 +1,4 @@
-//! Failures of the device as values: wgpu would panic.
+//! Failures of the device as values: the default handler of wgpu 30 for errors that no scope catches panics.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};

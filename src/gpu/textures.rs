@@ -120,7 +120,7 @@ pub(super) fn write(
             },
             Extent3d { width: width as u32, height: rows as u32, depth_or_array_layers: 1 },
         );
-        // Sends the band now: wgpu would keep every band in memory until the first submission.
+        // Sends the band now: wgpu 30 stages what is written until the next submission, here every band of the material.
         gpu.queue.submit([]);
     }
 }

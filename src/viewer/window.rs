@@ -46,13 +46,13 @@ fn windows(options: ViewerOptions, stop: &Stop) -> Result<(), Error> {
     let (app, crash) = (Surviving::default(), CrashGuard::default());
     let (mut losses, mut adapters) = (DeviceLosses::default(), Adapters::All);
     loop {
-        // The window system's layer panics where a library of it is missing.
+        // winit 0.30 panics where libxkbcommon or another library that it loads is missing.
         let result = panics::caught(|| Ok(open(&app, adapters, &options, stop, &crash)));
         let loss = app.0.borrow().as_ref().and_then(|app| app.loss().map(str::to_owned));
         let Some(loss) = loss.filter(|_| !stop.is_stopped()) else {
             return outcome(&crash, result);
         };
-        // A panic of the library leaves its event loop unusable.
+        // winit 0.30 creates one event loop in a process; a panic leaves it unusable.
         let next = result.ok().and_then(|_| losses.next(Instant::now()));
         adapters = next.ok_or_else(|| given_up(&loss))?;
         std::thread::sleep(PAUSE_AFTER_LOSS);

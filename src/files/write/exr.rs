@@ -62,7 +62,10 @@ struct MaterialChannels<'a> {
 }
 
 /// The channels of these names.
-fn three<'a>(names: [&'static str; 3], planes: &'a [Vec<f32>; 3]) -> impl Iterator<Item = Channel<'a>> {
+fn named_channels<'a>(
+    names: [&'static str; 3],
+    planes: &'a [Vec<f32>; 3],
+) -> impl Iterator<Item = Channel<'a>> {
     names.into_iter().zip(planes).map(|(name, plane)| Channel { name, plane, normal: None })
 }
 
@@ -78,10 +81,10 @@ impl MaterialChannels<'_> {
     /// All channels in the order of their names, as they are in a file.
     fn channels(&self) -> Vec<Channel<'_>> {
         let Planes { normal, diffuse, specular, roughness } = self.material.planes();
-        let preview = self.rendering.iter().flat_map(|planes| three(["R", "G", "B"], planes));
-        let diffuse = three(["diffuse.R", "diffuse.G", "diffuse.B"], diffuse);
-        let specular = three(["specular.R", "specular.G", "specular.B"], specular);
-        let normal = three(["normal.X", "normal.Y", "normal.Z"], normal);
+        let preview = self.rendering.iter().flat_map(|planes| named_channels(["R", "G", "B"], planes));
+        let diffuse = named_channels(["diffuse.R", "diffuse.G", "diffuse.B"], diffuse);
+        let specular = named_channels(["specular.R", "specular.G", "specular.B"], specular);
+        let normal = named_channels(["normal.X", "normal.Y", "normal.Z"], normal);
         let normal = normal.enumerate().map(|(c, channel)| Channel { normal: Some(c), ..channel });
         let roughness = Channel { name: "roughness.Y", plane: roughness, normal: None };
         let mut all: Vec<_> =

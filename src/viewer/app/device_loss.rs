@@ -1,6 +1,6 @@
 //! Loss of the graphics device: the window is closed, and opened again on a new device with everything that it had.
 //!
-//! The window library creates its device with its window, and cannot replace it. So [`App`] outlives its window.
+//! eframe 0.37 creates its device with its window, and cannot replace it. So [`App`] outlives its window.
 
 use std::time::{Duration, Instant};
 
@@ -69,7 +69,7 @@ impl App {
         self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss())
     }
 
-    /// Closes the window of a lost device, and draws nothing into it: the library would panic.
+    /// Closes the window of a lost device, and draws nothing into it: egui-wgpu 0.37 would panic.
     pub(super) fn leave(&mut self, ctx: &egui::Context) {
         self.crash.forgive();
         ctx.graphics_mut(|graphics| *graphics = Default::default());

@@ -38,7 +38,7 @@ pub fn start(waker: &Waker, folder: bool) -> Job<Browsed> {
     })
 }
 
-/// Whether a dialog that returned nothing after this time was there: the library does not tell.
+/// Whether a dialog that returned nothing after this time was there: rfd 0.17 returns `None` for both.
 fn has_dialog(elapsed: Duration, bus: bool, zenity: bool) -> bool {
     if cfg!(target_os = "linux") { zenity || (bus && elapsed > AT_ONCE) } else { true }
 }

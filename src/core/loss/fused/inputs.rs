@@ -52,7 +52,7 @@ impl<'a> LossInputs<'a> {
     /// The texels number `range.start` to `range.end` (excluded) of those that are compared.
     pub(super) fn span(&self, range: Range<usize>) -> TexelSpan<'a> {
         match self.listed {
-            None => TexelSpan::Run(range),
+            None => TexelSpan::Range(range),
             Some(texels) => TexelSpan::Listed(&texels[range]),
         }
     }

@@ -70,7 +70,7 @@ impl<'a> ImageInputs<'a> {
         for (i, pixels) in pixels.chunks_mut(TEXELS).enumerate() {
             let at = start + i * TEXELS;
             prefetch(simd, &self.planes, at + AHEAD);
-            tile.render(simd, self, &TexelSpan::Run(at..at + pixels.len()));
+            tile.render(simd, self, &TexelSpan::Range(at..at + pixels.len()));
             tile.copy_to(pixels);
         }
     }

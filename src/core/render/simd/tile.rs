@@ -42,7 +42,7 @@ impl TilePlane {
     #[inline(always)]
     fn fill(&mut self, plane: &[f32], span: &TexelSpan<'_>, pad: f32) {
         match span {
-            TexelSpan::Run(range) => match plane[range.clone()].try_into() {
+            TexelSpan::Range(range) => match plane[range.clone()].try_into() {
                 Ok(values) => self.0 = values,
                 Err(_) => {
                     let (used, unused) = self.0.split_at_mut(range.len());
@@ -65,7 +65,7 @@ impl TilePlane {
 #[derive(Clone, Debug)]
 pub(crate) enum TexelSpan<'a> {
     /// Consecutive texels.
-    Run(std::ops::Range<usize>),
+    Range(std::ops::Range<usize>),
     /// Any texels, in any order.
     Listed(&'a [usize]),
 }
@@ -193,7 +193,7 @@ impl Positions {
     pub(crate) fn fill(&mut self, axes: &GridAxes, span: &TexelSpan<'_>) {
         let width = axes.grid.width;
         let range = match span {
-            TexelSpan::Run(range) => range,
+            TexelSpan::Range(range) => range,
             TexelSpan::Listed(texels) => {
                 for ((x, y), &texel) in self.x.0.iter_mut().zip(&mut self.y.0).zip(*texels) {
                     let position = axes.grid.position::<Vec3>(texel % width, texel / width);

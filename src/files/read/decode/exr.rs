@@ -40,7 +40,7 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
         let reading = read().no_deep_data().largest_resolution_level().all_channels().all_layers();
         reading.all_attributes().non_parallel().from_buffered(reader)
     };
-    // The library panics at some damaged files, found by damaging many. On threads of its own that would end the
+    // exr 1.74.2 panics at some damaged files, found by damaging many. On threads of its own that would end the
     // program: so it gets none.
     let image = caught(reading)
         .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?

@@ -25,9 +25,9 @@ struct SceneLossKey {
 pub struct SceneLossJob(Latest<SceneLossKey, Vec<f64>>);
 
 impl SceneLossJob {
-    /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
-    pub fn follow(&mut self, work: &JobContext<'_>, shown: bool) -> Option<Error> {
-        let wanted = (shown && work.materials.len() > 1).then(|| key(work.materials, work.view));
+    /// Takes over a result, and computes what is needed now; nothing where it is not `is_visible`.
+    pub fn follow(&mut self, work: &JobContext<'_>, is_visible: bool) -> Option<Error> {
+        let wanted = (is_visible && work.materials.len() > 1).then(|| key(work.materials, work.view));
         let convention = work.view.convention();
         self.0.follow(wanted, |key| {
             let (materials, request) = (work.materials(), Request::Listed(vec![key.scene]));

@@ -48,9 +48,9 @@ impl DifferenceJob {
         self.0.get().is_some_and(|(latest, _)| *latest == key(materials, state))
     }
 
-    /// Takes over a result, and computes what is needed now, where a difference is `shown`.
-    pub fn follow(&mut self, work: &JobContext<'_>, shown: bool) -> Option<Error> {
-        let wanted = (shown && work.materials.len() > 1).then(|| key(work.materials, work.view));
+    /// Takes over a result, and computes what is needed now, where a difference is `is_visible`.
+    pub fn follow(&mut self, work: &JobContext<'_>, is_visible: bool) -> Option<Error> {
+        let wanted = (is_visible && work.materials.len() > 1).then(|| key(work.materials, work.view));
         self.0.follow(wanted, |_| start(work))
     }
 }

@@ -53,9 +53,9 @@ pub struct ErrorMapSummary {
 pub struct ErrorMapJob(Latest<ErrorMapKey, Arc<ErrorMaps>>);
 
 impl ErrorMapJob {
-    /// Takes over a result, and computes what is wanted now; where none is `shown`, the latest is kept.
-    pub fn follow(&mut self, work: &JobContext<'_>, shown: bool, scenes: Request) -> Option<Error> {
-        if !shown || work.materials.len() < 2 {
+    /// Takes over a result, and computes what is wanted now; where none is `is_visible`, the latest is kept.
+    pub fn follow(&mut self, work: &JobContext<'_>, is_visible: bool, scenes: Request) -> Option<Error> {
+        if !is_visible || work.materials.len() < 2 {
             self.0.pause();
             return None;
         }

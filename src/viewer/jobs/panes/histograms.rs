@@ -46,9 +46,9 @@ pub type Values = Vec<Vec<Channel>>;
 pub struct HistogramsJob(Latest<HistogramsKey, Values>);
 
 impl HistogramsJob {
-    /// Takes over a result, and computes what is needed now; nothing where it is not `shown`.
-    pub fn follow(&mut self, work: &JobContext<'_>, shown: bool) -> Option<Error> {
-        let wanted = (shown && !work.materials.is_empty()).then(|| key(work.materials, work.view));
+    /// Takes over a result, and computes what is needed now; nothing where it is not `is_visible`.
+    pub fn follow(&mut self, work: &JobContext<'_>, is_visible: bool) -> Option<Error> {
+        let wanted = (is_visible && !work.materials.is_empty()).then(|| key(work.materials, work.view));
         let (scene, convention) = (work.view.scene, work.view.convention());
         self.0.follow(wanted, |key| {
             let (materials, quantity) = (work.materials(), key.quantity);

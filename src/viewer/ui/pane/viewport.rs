@@ -317,7 +317,7 @@ impl Viewport {
                 (PhotographUse::Displayed, Some(photographs)) => {
                     readout::photograph(photographs, index, texel)
                 }
-                _ => readout::shown(readout, index, difference, texel),
+                _ => readout::numbers(readout, index, difference, texel),
             });
         }
         placed.paint_inspected(painter, scenery.inspection);

@@ -56,13 +56,13 @@ impl<'a> Drawer<'a> {
             .pivot(egui::Align2::LEFT_BOTTOM)
             .fixed_pos(panes.left_bottom());
         let frame = |ui: &egui::Ui| egui::Frame::side_top_panel(ui.style());
-        let shown = area.show(ctx, |ui| {
+        let response = area.show(ctx, |ui| {
             frame(ui).show(ui, |ui| {
                 ui.set_width(panes.width() - 2.0 * MARGIN);
                 self.ui(ui)
             })
         });
-        shown.inner.inner
+        response.inner.inner
     }
 
     fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {

@@ -41,7 +41,7 @@ pub fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) -> Vec<
             .show(ctx, |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {
                     ui.set_max_width(widest);
-                    ui.label(shown(message));
+                    ui.label(text_of(message));
                 });
             });
     }
@@ -77,7 +77,7 @@ fn list(ui: &mut egui::Ui, messages: &[(usize, &Message)], commands: &mut Vec<Co
 }
 
 /// The text of a message, in which names from files steer nothing.
-fn shown(message: &Message) -> String {
+fn text_of(message: &Message) -> String {
     printable(&shortened(&message.to_string()))
 }
 
@@ -87,5 +87,5 @@ fn text(ui: &egui::Ui, message: &Message) -> RichText {
         Severity::Warning => ui.visuals().warn_fg_color,
         Severity::Error => theme::problem(ui.visuals()),
     };
-    RichText::new(shown(message)).color(colour)
+    RichText::new(text_of(message)).color(colour)
 }

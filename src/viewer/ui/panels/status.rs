@@ -146,7 +146,7 @@ impl StatusBar<'_> {
         let Self { materials, state, error_maps, photographs, .. } = *self;
         let readout = Readout { materials, state, error_maps, photographs };
         let numbers: Vec<String> = match self.texel {
-            Some(texel) => readout::shown(readout, index, self.state.display.difference, texel)
+            Some(texel) => readout::numbers(readout, index, self.state.display.difference, texel)
                 .into_iter()
                 .map(readout::fixed)
                 .collect(),

@@ -311,8 +311,8 @@ enum Face {
 impl Face {
     /// A button that is named `name` for assistive software.
     fn button(self, ui: &mut egui::Ui, text: &str, name: &str, enabled: bool, on: bool) -> egui::Response {
-        let shown = if matches!(self, Self::Name) { name } else { text };
-        let response = ui.add_enabled(enabled, self.shaped(shown, on));
+        let label = if matches!(self, Self::Name) { name } else { text };
+        let response = ui.add_enabled(enabled, self.shaped(label, on));
         response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, on, name));
         response
     }

@@ -64,7 +64,7 @@ impl WhyPanel<'_> {
                 ui.weak("Computing...");
             }
         }
-        self.shown(ui, &mut commands);
+        self.displayed_quantity(ui, &mut commands);
         for (section, title, question) in [
             (WhySection::Maps, "Which map", "How much of the loss comes from each map"),
             (WhySection::Scenes, "Which scenes", "The scenes of the loss, worst first"),
@@ -119,7 +119,7 @@ impl WhyPanel<'_> {
     }
 
     /// What the panes show: values, or differences.
-    fn shown(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn displayed_quantity(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         ui.add_space(6.0);
         let difference = self.state.display.difference;
         ui.horizontal_wrapped(|ui| {
@@ -127,11 +127,11 @@ impl WhyPanel<'_> {
             if ui.button(label).on_hover_text("Value or difference in the panes (D)").clicked() {
                 commands.push(DisplayCommand::ShowDifference(!difference).into());
             }
-            let shown = difference && self.state.is_error_map();
+            let is_displayed = difference && self.state.is_error_map();
             let hover = "Where on the material the loss comes from: the log difference of each texel, averaged over the \
                          scenes of the loss";
-            let button = ui.add(egui::Button::new("Error map").selected(shown));
-            if button.on_hover_text(hover).clicked() && !shown {
+            let button = ui.add(egui::Button::new("Error map").selected(is_displayed));
+            if button.on_hover_text(hover).clicked() && !is_displayed {
                 let rendering = DisplayCommand::SetQuantity(Quantity::Rendering);
                 let on = DisplayCommand::ShowDifference(true);
                 commands.extend([rendering, DisplayCommand::ChooseErrorMap, on].map(Command::from));

@@ -41,7 +41,7 @@ pub struct Readout<'a> {
 
 /// The numbers of a pane at a texel: its value, or its difference from the ground truth or the photograph where the panes
 /// show that.
-pub fn shown(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2]) -> Vec<f64> {
+pub fn numbers(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2]) -> Vec<f64> {
     let Readout { materials, state, error_maps, photographs } = read;
     if difference && index > 0 && state.is_error_map() {
         return vec![error_maps.map_or(f64::NAN, |maps| maps.at(index, texel))];
