@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use eframe::egui::accesskit::Role;
 
+use svbrdf::viewer::model::command::SceneCommand;
 use svbrdf_core::material::Material;
+use svbrdf_files::read::{Albedo, ReadOptions};
 use svbrdf_files::samples::generate;
 
 use super::*;
@@ -251,4 +253,18 @@ fn built_in_materials_are_not_reported_as_specified() {
     tab(&mut window, "Files");
     assert!(window.query_all_by_label_contains("as specified").next().is_none());
     assert!(window.query_all_by_label_contains("the built-in materials are stored in this way").count() >= 3);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_pasted_material_is_read_as_those_that_are_open() {
+    let (_folder, [truth, guess]) = two_strips();
+    let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };
+    let options =
+        ViewerOptions { ground_truth: Some(truth), ground_truth_read: read, ..ViewerOptions::default() };
+    let mut window = window(options);
+    let ctx = window.ctx.clone();
+    window.state_mut().apply(&ctx, SceneCommand::Paste(guess.display().to_string()).into());
+    wait(&mut window, "the pasted prediction", |app| app.names().len() == 2);
+    assert_eq!(loss(&mut window), 0.0, "a material beside itself");
 }

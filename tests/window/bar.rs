@@ -1,6 +1,6 @@
 //! The bar at the top, in windows of all sizes.
 
-use svbrdf::viewer::model::command::{DisplayCommand, WindowCommand};
+use svbrdf::viewer::model::command::{Command, DisplayCommand, PhotographCommand, WindowCommand};
 use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 use super::*;
@@ -180,10 +180,67 @@ fn tooltip(window: &mut Window<'_>, at: egui::Pos2) -> bool {
     open
 }
 
+/// The controls of the window: role and label, and the centre.
+fn controls(window: &Window<'_>) -> Vec<(String, egui::Pos2)> {
+    use egui::accesskit::Role;
+    let roles = [
+        Role::Button,
+        Role::CheckBox,
+        Role::RadioButton,
+        Role::ComboBox,
+        Role::SpinButton,
+        Role::Slider,
+        Role::Tab,
+    ];
+    let of = |role: Role| {
+        window.query_all_by_role(role).map(move |node| {
+            let label = egui_kittest::kittest::NodeT::accesskit_node(&node).label().unwrap_or_default();
+            (format!("{role:?} {label}"), node.rect().center())
+        })
+    };
+    roles.into_iter().flat_map(of).collect()
+}
+
+/// The labels of the `chosen` controls without a tooltip.
+fn without_tooltip(
+    window: &mut Window<'_>,
+    controls: &[(String, egui::Pos2)],
+    chosen: impl Fn(&str, egui::Pos2) -> bool,
+) -> Vec<String> {
+    let chosen = controls.iter().filter(|(label, at)| chosen(label, *at));
+    chosen.filter(|(_, at)| !tooltip(window, *at)).map(|(label, _)| label.clone()).collect()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn every_control_of_the_dialogs_has_a_tooltip() {
+    let dialogs: [(&str, fn(bool) -> Command); 3] = [
+        ("open", |show| WindowCommand::ShowOpen(show).into()),
+        ("save", |show| WindowCommand::ShowSave(show).into()),
+        ("photograph", |show| PhotographCommand::ShowOpen(show).into()),
+    ];
+    let mut window = built_in();
+    for (name, show) in dialogs {
+        let ctx = window.ctx.clone();
+        let behind: Vec<String> = controls(&window).into_iter().map(|(label, _)| label).collect();
+        window.state_mut().apply(&ctx, show(true));
+        window.run_steps(10);
+        let controls = controls(&window);
+        // egui draws the button that closes a window.
+        let of_dialog =
+            |label: &str| label != "Button Close window" && !behind.iter().any(|one| one == label);
+        let count = controls.iter().filter(|(label, _)| of_dialog(label)).count();
+        assert!(count >= 3, "{name}: {controls:#?}");
+        let without = without_tooltip(&mut window, &controls, |label, _| of_dialog(label));
+        assert!(without.is_empty(), "{name}: no tooltip for {without:#?}");
+        window.state_mut().apply(&ctx, show(false));
+        window.run_steps(3);
+    }
+}
+
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_control_of_the_bar_and_of_the_panel_has_a_tooltip() {
-    use egui::accesskit::Role;
     let mut window = built_in();
     window.set_size(vec2(1360.0, 1000.0));
     for name in ["Loss", "Why", "Files"] {
@@ -201,21 +258,12 @@ fn every_control_of_the_bar_and_of_the_panel_has_a_tooltip() {
                 }
             }
         }
-        let roles = [Role::Button, Role::CheckBox, Role::ComboBox, Role::SpinButton, Role::Slider, Role::Tab];
-        let mut controls: Vec<(String, egui::Pos2)> = Vec::new();
-        for role in roles {
-            for node in window.query_all_by_role(role) {
-                let label = egui_kittest::kittest::NodeT::accesskit_node(&node).label().unwrap_or_default();
-                controls.push((format!("{role:?} {label}"), node.rect().center()));
-            }
-        }
+        let controls = controls(&window);
         assert!(controls.len() > 30, "{name}: {}", controls.len());
         let inside = egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(1360.0, 1000.0));
-        let without: Vec<String> = controls
-            .into_iter()
-            .filter(|(label, at)| inside.contains(*at) && !label.contains("Title "))
-            .filter_map(|(label, at)| (!tooltip(&mut window, at)).then_some(label))
-            .collect();
+        let without = without_tooltip(&mut window, &controls, |label, at| {
+            inside.contains(at) && !label.contains("Title ")
+        });
         assert!(without.is_empty(), "{name}: no tooltip for {without:#?}");
     }
 }

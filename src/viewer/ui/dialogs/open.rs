@@ -94,10 +94,18 @@ impl OpenDialog {
         field.on_hover_text("Return opens them; Shift + Return begins a new line");
         self.field.problem(ui);
         ui.horizontal(|ui| {
-            if ui.button("Browse files...").clicked() {
+            if ui
+                .button("Browse files...")
+                .on_hover_text("Adds files with the file dialog of the system")
+                .clicked()
+            {
                 commands.push(WindowCommand::Browse { folder: false }.into());
             }
-            if ui.button("Browse folders...").clicked() {
+            if ui
+                .button("Browse folders...")
+                .on_hover_text("Adds folders, each with the maps of one material")
+                .clicked()
+            {
                 commands.push(WindowCommand::Browse { folder: true }.into());
             }
         });
@@ -117,11 +125,14 @@ impl OpenDialog {
             &mut self.as_predictions,
             false,
             "The first is the ground truth, the others are predictions",
-        );
-        ui.radio_value(&mut self.as_predictions, true, "All are predictions");
-        ui.collapsing("How to read them...", |ui| {
+        )
+        .on_hover_text("They replace the materials in the window");
+        ui.radio_value(&mut self.as_predictions, true, "All are predictions")
+            .on_hover_text("They are added to the materials in the window");
+        let reading = ui.collapsing("How to read them...", |ui| {
             read_options(ui, "the materials to open", &mut self.read, &[]);
         });
+        reading.header_response.on_hover_text("Conventions of the files, where they do not say them");
         let paths: Vec<PathBuf> =
             self.text.lines().map(str::trim).filter(|l| !l.is_empty()).map(PathBuf::from).collect();
         let ready = !paths.is_empty() && !self.submitted;

@@ -68,7 +68,11 @@ impl PhotographDialog {
         let field = egui::TextEdit::singleline(&mut self.path).hint_text("photo.jpg, or drop a file here");
         self.field.ui(ui, "Photograph: PNG, JPEG, EXR or another picture format", field);
         self.field.problem(ui);
-        if ui.button("Browse...").clicked() {
+        if ui
+            .button("Browse...")
+            .on_hover_text("Chooses a photograph with the file dialog of the system")
+            .clicked()
+        {
             commands.push(WindowCommand::Browse { folder: false }.into());
         }
         ui.separator();
@@ -81,7 +85,7 @@ impl PhotographDialog {
         let path = self.path.trim();
         let button = ui.add_enabled(!path.is_empty(), egui::Button::new("Open photograph"));
         let entered = ui.input(|i| i.key_pressed(egui::Key::Enter)) && !path.is_empty();
-        if button.clicked() || entered {
+        if button.on_hover_text("Return").clicked() || entered {
             let photograph = SessionPhotograph {
                 path: PathBuf::from(path),
                 read: Default::default(),
@@ -94,9 +98,12 @@ impl PhotographDialog {
     }
 
     fn light(&mut self, ui: &mut egui::Ui) {
-        ui.radio_value(&mut self.light, LightChoice::AsNow, "As they are in the window");
+        ui.radio_value(&mut self.light, LightChoice::AsNow, "As they are in the window").on_hover_text(
+            "For a photograph that is compared with the renderings of the present light and view",
+        );
         ui.horizontal(|ui| {
-            ui.radio_value(&mut self.light, LightChoice::Flash, "Flash at the camera, field of view");
+            ui.radio_value(&mut self.light, LightChoice::Flash, "Flash at the camera, field of view")
+                .on_hover_text("Light and view at one place, straight above the middle of the material");
             let fov = number(ui, "Field of view", &mut self.fov, 45.0, |drag| {
                 drag.range(0.1..=179.0).speed(0.2).max_decimals(2).suffix(" degrees")
             });
@@ -107,7 +114,8 @@ impl PhotographDialog {
             }
         });
         ui.horizontal(|ui| {
-            ui.radio_value(&mut self.light, LightChoice::File, "Scene file");
+            ui.radio_value(&mut self.light, LightChoice::File, "Scene file")
+                .on_hover_text("Light and view from a JSON file of scenes, or of a MaterialGAN capture");
             let number = number(ui, "Scene number", &mut self.number, 0, |drag| {
                 drag.range(0..=9999).speed(0.05).prefix("scene ")
             });

@@ -78,7 +78,7 @@ impl SaveDialog {
         if std::mem::take(&mut self.focus_button) {
             button.request_focus();
         }
-        if button.clicked() || (entered && !self.saving) {
+        if button.on_hover_text("Return in the field").clicked() || (entered && !self.saving) {
             self.save(commands);
         }
     }
@@ -106,9 +106,10 @@ impl SaveDialog {
             for (name, side, default) in
                 [("Width in pixels", 0, view_size[0]), ("Height in pixels", 1, view_size[1])]
             {
-                number(ui, name, &mut self.size[side], default, |drag| drag.range(64..=8192));
+                number(ui, name, &mut self.size[side], default, |drag| drag.range(64..=8192))
+                    .on_hover_text(format!("{name} of the picture"));
             }
-            if ui.button("As in the window").clicked() {
+            if ui.button("As in the window").on_hover_text("The size of the panes in the window").clicked() {
                 self.size = view_size;
             }
         });
