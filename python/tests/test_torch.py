@@ -188,6 +188,62 @@ def test_no_gradient_is_nan(precision: Any, convention: str) -> None:
     assert all(leaf.grad.abs().sum() > 0 for leaf in given)
 
 
+def gradients(compute: Any, *materials: Any) -> tuple[Any, list[Any]]:
+    """The value and its gradients with respect to all maps."""
+    copies = [sv.Maps(*(map.detach().clone().requires_grad_() for map in maps)) for maps in materials]
+    value = compute(*copies)
+    value.backward()
+    return value.detach(), [map.grad for maps in copies for map in maps]
+
+
+@pytest.mark.parametrize("convention", svbrdf.CONVENTIONS)
+def test_the_gradient_of_the_loss_is_that_of_the_losses_of_the_scenes(convention: str) -> None:
+    """The module adds up the gradient scene by scene. The ground truth may need one, and has its own batch."""
+    a, b, ground_truth = (random_maps(seed) for seed in range(3))
+    batch = sv.Maps(*(torch.stack(pair) for pair in zip(a, b, strict=True)))
+    scenes = svbrdf.sample_scenes(2, 2, convention=convention)
+    loss = sv.RenderingLoss(convention=convention, scenes=scenes)
+    got = gradients(lambda p, g: 3 * loss(p, g), batch, ground_truth)
+    chosen = svbrdf.CONVENTIONS[convention]
+    expected = gradients(lambda p, g: 3 * sv.scene_losses(p, g, scenes, chosen).mean(), batch, ground_truth)
+    for found, other in zip((got[0], *got[1]), (expected[0], *expected[1]), strict=True):
+        torch.testing.assert_close(found, other, rtol=1e-12, atol=1e-14)
+    with torch.no_grad():
+        torch.testing.assert_close(3 * loss(batch, ground_truth), got[0], rtol=1e-12, atol=0)
+
+
+def test_half_precision_is_computed_in_float32() -> None:
+    prediction, ground_truth = (random_maps(seed, dtype=torch.float16) for seed in range(2))
+    loss = sv.RenderingLoss()
+    got, of_half = gradients(loss, prediction, ground_truth)
+    expected, of_single = gradients(loss, *(converted(m, torch.float32) for m in (prediction, ground_truth)))
+    assert got == expected
+    for half, single in zip(of_half, of_single, strict=True):
+        assert half.dtype == torch.float16
+        torch.testing.assert_close(half, single.half())
+
+
+@pytest.mark.skipif(not hasattr(torch, "compiler"), reason="this PyTorch has no compiler")
+def test_the_compiled_loss_is_the_same_and_compiles_once_for_all_seeds() -> None:
+    materials = [random_maps(seed) for seed in range(2)]
+    loss = sv.RenderingLoss()
+    compilations = 0
+
+    def backend(graph: Any, inputs: Any) -> Any:
+        nonlocal compilations
+        compilations += 1
+        return graph.forward
+
+    torch.compiler.reset()
+    compiled = torch.compile(loss, backend=backend)
+    for seed in range(4):
+        expected = gradients(lambda p, g, seed=seed: loss(p, g, seed=seed), *materials)
+        got = gradients(lambda p, g, seed=seed: compiled(p, g, seed=seed), *materials)
+        for found, other in zip((got[0], *got[1]), (expected[0], *expected[1]), strict=True):
+            torch.testing.assert_close(found, other, rtol=1e-11, atol=1e-13)
+    assert compilations == 1
+
+
 def test_training_on_the_loss_finds_the_roughness() -> None:
     ground_truth = random_maps(1, 4, 4, torch.float32)
     roughness = torch.full_like(ground_truth.roughness, 0.5).requires_grad_()

@@ -9,18 +9,33 @@ not on black texels.
     for step, (ground_truth, photo) in enumerate(batches):
         loss(network(photo), ground_truth, seed=step).backward()
 
+`torch.compile(loss)` computes the same several times faster. The scenes are sampled outside of the compiled graph: no
+seed compiles anything anew.
+
 Maps have channels first and any number of batch dimensions before them: normal, diffuse and specular ... x 3 x H x W,
 roughness ... x 1 x H x W. Values are linear; colours and roughness lie in [0, 1]. Values are not checked.
+
+A vector is three planes here, its components: ... x 1 x H x W each. Everything that depends on the scene alone is
+`Geometry`, computed once per scene for all materials; everything that depends on the material alone is `Terms`,
+computed once per material for all scenes.
 """
 
-from collections.abc import Sequence
-from math import pi
-from typing import Literal, NamedTuple
+from collections.abc import Callable, Sequence
+from math import hypot, pi
+from typing import Any, Literal, NamedTuple, TypeVar
 
 import torch
 from torch import Tensor
 
 from ._scenes import CONVENTIONS, Convention, Scene, sample_scenes
+
+_F = TypeVar("_F", bound=Callable[..., Any])
+# PyTorch 1.13 has no compiler.
+_compiler: Any = getattr(torch, "compiler", None)
+_is_compiling: Callable[[], bool] = getattr(_compiler, "is_compiling", lambda: False)
+_outside_of_graph: Callable[[_F], _F] = getattr(_compiler, "disable", lambda function: function)
+
+Vector = tuple[Tensor, Tensor, Tensor]
 
 
 class Maps(NamedTuple):
@@ -38,6 +53,9 @@ class Maps(NamedTuple):
 
 class RenderingLoss(torch.nn.Module):
     """The rendering loss: the mean over scenes, texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|.
+
+    Without `torch.compile`, it computes the gradient together with the loss, scene after scene, so that it needs the
+    memory of one scene. It then has first derivatives only; `scene_losses` has all.
 
     Args:
         convention: A name of `svbrdf.CONVENTIONS`.
@@ -64,113 +82,257 @@ class RenderingLoss(torch.nn.Module):
 
     def forward(self, prediction: Maps, ground_truth: Maps, *, seed: int = 0) -> Tensor:
         """The mean loss of a batch, over the scenes that `seed` names. A training run passes its step as the seed."""
+        points = self._endpoints(seed)
+        if torch.is_grad_enabled() and not _is_compiling():
+            return _MeanLoss.apply(points, self.convention, *prediction, *ground_truth)
+        return _losses(prediction, ground_truth, points, self.convention).mean()
+
+    @_outside_of_graph
+    def _endpoints(self, seed: int) -> Tensor:
         scenes = self.scenes
         if scenes is None:
             scenes = sample_scenes(
                 self.near, self.distant, seed=seed, sampler=self.sampler, convention=self.convention.name
             )
-        return scene_losses(prediction, ground_truth, scenes, self.convention).mean()
+        return endpoints(scenes)
 
 
 def scene_losses(prediction: Maps, ground_truth: Maps, scenes: Sequence[Scene], convention: Convention) -> Tensor:
     """The loss of each scene and material: the number of scenes x the batch dimensions."""
-    epsilon = convention.epsilon
-
-    def one(scene: Scene) -> Tensor:
-        got = torch.log(render(prediction, scene, convention) + epsilon)
-        expected = torch.log(render(ground_truth, scene, convention) + epsilon)
-        return (got - expected).abs().mean(dim=(-3, -2, -1))
-
-    return torch.stack([one(scene) for scene in scenes])
+    return _losses(prediction, ground_truth, endpoints(scenes), convention)
 
 
 def render(maps: Maps, scene: Scene, convention: Convention) -> Tensor:
     """Algorithm 3: the radiance R, ... x 3 x H x W. Where the light is in or below the plane or the texel, R is 0."""
-    n = normalized(maps.normal)
-    l, v = (normalized(w) for w in directions(scene, n))
-    n_dot_l = dot(n, l)
-    l_z = l[2:3]
-    is_lit = (n_dot_l > 0) & (l_z > 0)
-    # Where there is no light, 1: dividing by 0 makes gradients NaN, which no mask removes.
-    e = n_dot_l.clamp(min=0) / torch.where(l_z > 0, l_z, 1.0).clamp(min=convention.light_z_floor) * convention.intensity
-    radiance = reflectance(maps._replace(normal=n), l, v, convention) * e
-    largest = torch.finfo(radiance.dtype).max
-    return torch.where(is_lit, radiance, 0.0).clamp(max=largest)
+    of_material = terms(maps, working_type(maps), convention)
+    of_scene = geometry(endpoints([scene])[0], of_material, convention)
+    return torch.cat(radiance(of_material, of_scene, convention), dim=-3)
 
 
-def reflectance(maps: Maps, l: Tensor, v: Tensor, convention: Convention) -> Tensor:
-    """F G D / 4 + d (1 - s) / pi, for unit normals, unit l and unit v."""
-    n, diffuse, specular, roughness = maps
-    h = half_vector(n, l, v)
-    n_dot_l = dot(n, l).clamp(min=0)
-    n_dot_v = dot(n, v).clamp(min=0)
-    v_dot_h = dot(v, h).clamp(0, 1)
+class _MeanLoss(torch.autograd.Function):
+    """The mean of `_losses`. The gradient of each scene is added up while the loss is computed.
+
+    The graph of one scene exists at a time. All scenes have the same weight in the mean, so that the gradient is known
+    up to one factor, which `backward` gets.
+    """
+
+    @staticmethod
+    def forward(ctx: Any, points: Tensor, convention: Convention, *maps: Tensor) -> Tensor:
+        wanted = ctx.needs_input_grad[2:]
+        leaves = _leaves(maps, wanted)
+        prediction, ground_truth = Maps(*leaves[:4]), Maps(*leaves[4:])
+        dtype = working_type(prediction, ground_truth)
+        with torch.enable_grad():
+            tensors = [*terms(prediction, dtype, convention), *terms(ground_truth, dtype, convention)]
+        inner = _leaves(tensors, [tensor.requires_grad for tensor in tensors])
+        pair = Terms(*inner[: len(inner) // 2]), Terms(*inner[len(inner) // 2 :])
+        total = torch.zeros((), dtype=dtype, device=maps[0].device)
+        for row in points:
+            with torch.enable_grad():
+                loss = _loss_of_scene(*pair, row, convention).mean() / len(points)
+            if any(wanted):
+                loss.backward()
+            total += loss.detach()
+        if any(wanted):
+            outer = [(tensor, leaf.grad) for tensor, leaf in zip(tensors, inner, strict=True) if leaf.requires_grad]
+            torch.autograd.backward([tensor for tensor, _ in outer], [gradient for _, gradient in outer])
+            ctx.save_for_backward(*(leaf.grad for leaf in leaves if leaf.requires_grad))
+        return total
+
+    @staticmethod
+    @torch.autograd.function.once_differentiable  # type: ignore[untyped-decorator]
+    def backward(ctx: Any, factor: Tensor) -> tuple[Tensor | None, ...]:
+        gradients = iter(ctx.saved_tensors)
+        return tuple(next(gradients) * factor if wanted else None for wanted in ctx.needs_input_grad)
+
+
+def _leaves(tensors: Sequence[Tensor], wanted: Sequence[bool]) -> list[Tensor]:
+    return [tensor.detach().requires_grad_(want) for tensor, want in zip(tensors, wanted, strict=True)]
+
+
+def _losses(prediction: Maps, ground_truth: Maps, points: Tensor, convention: Convention) -> Tensor:
+    """The loss of each scene and material, for the endpoints of the scenes."""
+    dtype = working_type(prediction, ground_truth)
+    got, expected = (terms(maps, dtype, convention) for maps in (prediction, ground_truth))
+    if not _is_compiling():
+        return torch.stack([_loss_of_scene(got, expected, row, convention) for row in points])
+    # All scenes at once, as one more dimension in front of those of the batch: the compiler makes one loop of it. It
+    # would compute the planes for each channel anew, so that channels are apart.
+    dims = max(map.dim() for map in (*prediction, *ground_truth))
+    rows = points.reshape(len(points), *[1] * (dims - 3), points.shape[-1])
+    return _loss_of_scene(got, expected, rows, convention, apart=True)
+
+
+def _loss_of_scene(got: "Terms", expected: "Terms", row: Tensor, convention: Convention, apart: bool = False) -> Tensor:
+    of_scene = geometry(row, got, convention)
+    both = (radiance(of_material, of_scene, convention, apart) for of_material in (got, expected))
+    losses = [
+        (torch.log(a + convention.epsilon) - torch.log(b + convention.epsilon)).abs().mean(dim=(-3, -2, -1))
+        for a, b in zip(*both, strict=True)
+    ]
+    return torch.stack(losses).mean(dim=0)
+
+
+class Terms(NamedTuple):
+    """What the radiance of a material needs in every scene. Planes, but for the two of RGB."""
+
+    x: Tensor
+    y: Tensor
+    z: Tensor
+    """The unit normal."""
+    k: Tensor
+    """k of the geometry term: half the GGX width."""
+    k_left: Tensor
+    """1 - k."""
+    d_root: Tensor
+    """The root of the numerator of D / 4: a / sqrt(4 pi)."""
+    a2: Tensor
+    """The square of the GGX width."""
+    a2_left: Tensor
+    """1 - a2."""
+    lambert: Tensor
+    """d (1 - s) / pi."""
+    specular: Tensor
+
+
+def terms(maps: Maps, dtype: torch.dtype, convention: Convention) -> Terms:
+    """The terms of a material."""
+    normal, diffuse, specular, roughness = (map.to(dtype) for map in maps)
     rough = roughness.clamp(min=convention.roughness_floor)
     a = rough * rough
-    k = a * 0.5
-    d = distribution(n, h, a, convention)
-    g = geometry_factor(n_dot_l, k, convention) * geometry_factor(n_dot_v, k, convention)
-    f = specular + (1 - specular) * torch.exp2((-5.55473 * v_dot_h - 6.98316) * v_dot_h)
-    return f * (g * d * 0.25) + diffuse * (1 - specular) * (1 / pi)
+    k, a2 = a * 0.5, a * a
+    n = normalized(normal.split(1, dim=-3))
+    return Terms(*n, k, 1 - k, a * (4 * pi) ** -0.5, a2, 1 - a2, diffuse * (1 - specular) * (1 / pi), specular)
 
 
-def distribution(n: Tensor, h: Tensor, a: Tensor, convention: Convention) -> Tensor:
-    """The GGX distribution D for the GGX width a.
+def working_type(*materials: Maps) -> torch.dtype:
+    """The type to compute in: that of the maps, float32 or wider."""
+    dtype = torch.float32
+    for maps in materials:
+        for map in maps:
+            dtype = torch.promote_types(dtype, map.dtype)
+    return dtype
 
-    Its denominator NoH^2 (a^2 - 1) + 1 cancels where NoH is near 1. By Lagrange's identity 1 - NoH^2 = |n x h|^2 it is
-    a sum of squares, which does not.
+
+class Geometry(NamedTuple):
+    """What the radiance in a scene needs of it: planes, or single values where the scene is distant."""
+
+    l: Vector
+    """Unit vectors to the light."""
+    v: Vector
+    """Unit vectors to the view."""
+    h: Vector
+    """Unit half vectors; 0 where l = -v."""
+    has_h: Tensor
+    """1, and 0 where l = -v: the normal stands in for h there."""
+    fresnel: Tensor
+    """The power of the Fresnel term, in [0, 1]."""
+    irradiance: Tensor
+    """The factor on the reflectance and NoL: intensity / l.z, 0 where the light is in or below the plane."""
+
+
+def geometry(row: Tensor, like: Terms, convention: Convention) -> Geometry:
+    """The geometry of scenes for materials of the size, type and device of `like`, from ... x 7 endpoints."""
+    n = like.x
+    with torch.no_grad():
+        x, y = positions(n.shape[-2], n.shape[-1])
+        # A distant scene has single values, unless it is computed together with others.
+        if row.dim() == 1 and row[0] == 0:
+            x, y = x[:, :1], y[:1]
+        is_near, *points = (value[..., None, None, None].to(n) for value in row.unbind(-1))
+        c_x, c_y = is_near * x.to(n), is_near * y.to(n)
+        l, v = (normalized((w[0] - c_x, w[1] - c_y, w[2])) for w in (points[:3], points[3:]))
+        total = (l[0] + v[0], l[1] + v[1], l[2] + v[2])
+        inverse, has_h = inverse_length(total)
+        h = (total[0] * inverse, total[1] * inverse, total[2] * inverse)
+        # Where l = -v and the texel is lit, VoH is NoV clamped at 0, as here.
+        v_dot_h = dot(v, h).clamp(0, 1)
+        fresnel = torch.exp2((-5.55473 * v_dot_h - 6.98316) * v_dot_h)
+        l_z = l[2].clamp(min=max(convention.light_z_floor, torch.finfo(n.dtype).tiny))
+        irradiance = (convention.intensity / l_z).clamp(max=torch.finfo(n.dtype).max)
+        return Geometry(l, v, h, has_h.to(n), fresnel, torch.where(l[2] > 0, irradiance, 0.0))
+
+
+def radiance(material: Terms, scene: Geometry, convention: Convention, apart: bool = False) -> list[Tensor]:
+    """(F G D / 4 + d (1 - s) / pi) NoL / l.z times the intensity: RGB in one tensor, or in three where `apart`."""
+    n = (material.x, material.y, material.z)
+    n_dot_l = dot(n, scene.l).clamp(min=0)
+    n_dot_v = dot(n, scene.v).clamp(min=0)
+    d_root = material.d_root / distribution_denominator(n, material, scene, convention)
+    # Factors, not one quotient: in float32 its gradient overflows at roughness 0.
+    g_l, g_v = (geometry_factor(cosine, material, convention) for cosine in (n_dot_l, n_dot_v))
+    lobe = (d_root * d_root) * (g_l * g_v)
+    e = n_dot_l * scene.irradiance
+    # F = s + (1 - s) w is s (1 - w) + w.
+    white = scene.fresnel * lobe
+    coloured = lobe - white
+    largest = torch.finfo(e.dtype).max
+    channels = [(material.lambert, material.specular)]
+    if apart:
+        channels = list(zip(*(rgb.split(1, dim=-3) for rgb in channels[0]), strict=True))
+    return [
+        (torch.addcmul(lambert + white, specular, coloured) * e).clamp(max=largest) for lambert, specular in channels
+    ]
+
+
+def distribution_denominator(n: Vector, material: Terms, scene: Geometry, convention: Convention) -> Tensor:
+    """The denominator of the GGX distribution D = (a / denominator)^2 / pi, for the GGX width a.
+
+    NoH^2 (a^2 - 1) + 1 cancels where NoH is near 1. With q = |n - h|^2, 1 - NoH^2 = q (1 - q / 4) does not.
     """
-    n_dot_h = dot(n, h)
-    across = torch.linalg.cross(*torch.broadcast_tensors(n, h), dim=-3)
-    denominator = dot(across, across) + (a * a) * (n_dot_h * n_dot_h)
+    apart = (n[0] - scene.h[0], n[1] - scene.h[1], n[2] - scene.h[2])
+    q = dot(apart, apart)
     if convention.clamp_n_dot_h:
-        denominator = torch.where(n_dot_h < 0, torch.ones_like(denominator), denominator)
-    ratio = a / denominator.clamp(min=convention.d_floor)
-    return (ratio * ratio) * (1 / pi)
+        # NoH = 1 - q / 2.
+        q = q.clamp(max=2)
+    sine2 = q * torch.addcmul(scene.has_h, q, scene.has_h, value=-0.25)
+    denominator = torch.addcmul(material.a2, sine2, material.a2_left)
+    return denominator.clamp(min=convention.d_floor) if convention.d_floor > 0 else denominator
 
 
-def geometry_factor(cosine: Tensor, k: Tensor, convention: Convention) -> Tensor:
+def geometry_factor(cosine: Tensor, material: Terms, convention: Convention) -> Tensor:
     """One of the two factors of G, for NoL or NoV in [0, 1]."""
-    return 1 / (cosine * (1 - k) + k).clamp(min=convention.g_floor)
+    denominator = torch.addcmul(material.k, cosine, material.k_left)
+    return 1 / (denominator.clamp(min=convention.g_floor) if convention.g_floor > 0 else denominator)
 
 
-def half_vector(n: Tensor, l: Tensor, v: Tensor) -> Tensor:
-    """The half vector of unit l and v; the normal where l = -v."""
-    total = l + v
-    squared = dot(total, total)
-    has_direction = squared >= torch.finfo(squared.dtype).tiny
-    return torch.where(has_direction, total / torch.where(has_direction, squared, 1.0).sqrt(), n)
-
-
-def directions(scene: Scene, like: Tensor) -> tuple[Tensor, Tensor]:
-    """The vectors from each texel to the light and to the view, 3 x H x W or 3 x 1 x 1, on the device of `like`.
+@_outside_of_graph
+def endpoints(scenes: Sequence[Scene]) -> Tensor:
+    """Each scene as 7 numbers in float64: 1 if it is near, light, view.
 
     Distant directions get length 1 in float64, as in the core.
     """
-    light, view = (torch.tensor(p, dtype=torch.float64) for p in (scene.light, scene.view))
-    if scene.kind == "distant":
-        light, view = light / light.norm(), view / view.norm()
-        return light.to(like)[:, None, None], view.to(like)[:, None, None]
-    c = positions(like.shape[-2], like.shape[-1]).to(like)
-    return light.to(like)[:, None, None] - c, view.to(like)[:, None, None] - c
+    rows = []
+    for kind, view, light in scenes:
+        lengths = (1.0, 1.0) if kind == "near" else (hypot(*light), hypot(*view))
+        values = [c / length for w, length in zip((light, view), lengths, strict=True) for c in w]
+        rows.append([float(kind == "near"), *values])
+    return torch.tensor(rows, dtype=torch.float64)
 
 
-def positions(height: int, width: int) -> Tensor:
-    """The position of each texel in the plane z = 0, 3 x H x W: the width spans [-1, 1], row 0 has the largest y."""
+def positions(height: int, width: int) -> tuple[Tensor, Tensor]:
+    """x, 1 x W, and y, H x 1, of the texels in the plane z = 0: the width spans [-1, 1], row 0 has the largest y."""
     scale = max(width - 1, 1)
     x = (2 * torch.arange(width, dtype=torch.float64) - (width - 1)) / scale
     y = ((height - 1) - 2 * torch.arange(height, dtype=torch.float64)) / scale
-    return torch.stack([x.expand(height, width), y[:, None].expand(height, width), torch.zeros(height, width)])
+    return x[None, :], y[:, None]
 
 
-def normalized(x: Tensor) -> Tensor:
-    """Vectors of length 1 along dimension -3. One without length becomes (0, 0, 1)."""
-    squared = dot(x, x)
-    has_direction = squared >= torch.finfo(x.dtype).tiny
-    up = torch.tensor([0.0, 0.0, 1.0]).to(x)[:, None, None]
-    return torch.where(has_direction, x / torch.where(has_direction, squared, 1.0).sqrt(), up)
+def normalized(vector: Sequence[Tensor]) -> Vector:
+    """The vector with length 1. One without length becomes (0, 0, 1)."""
+    x, y, z = vector
+    inverse, has_direction = inverse_length(vector)
+    return x * inverse, y * inverse, torch.where(has_direction, z * inverse, 1.0)
 
 
-def dot(a: Tensor, b: Tensor) -> Tensor:
-    """The dot product along dimension -3, which stays."""
-    return (a * b).sum(dim=-3, keepdim=True)
+def inverse_length(vector: Sequence[Tensor]) -> tuple[Tensor, Tensor]:
+    """1 / length, and 0 where there is no length; and whether there is one."""
+    squared = dot(vector, vector)
+    has_direction = squared >= torch.finfo(squared.dtype).tiny
+    # The inner `where`: dividing by 0 makes gradients NaN, which no mask removes.
+    return torch.where(has_direction, 1 / torch.where(has_direction, squared, 1.0).sqrt(), 0.0), has_direction
+
+
+def dot(a: Sequence[Tensor], b: Sequence[Tensor]) -> Tensor:
+    """The dot product of vectors."""
+    return torch.addcmul(torch.addcmul(a[0] * b[0], a[1], b[1]), a[2], b[2])
