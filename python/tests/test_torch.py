@@ -186,6 +186,9 @@ def test_no_gradient_is_nan(precision: Any, convention: str) -> None:
     for name, leaf in zip(sv.Maps._fields, given, strict=True):
         assert torch.isfinite(leaf.grad).all(), name
     assert all(leaf.grad.abs().sum() > 0 for leaf in given)
+    loss, added_up = gradients(sv.RenderingLoss(convention=convention, scenes=scenes), given, target)
+    assert torch.isfinite(loss)
+    assert all(torch.isfinite(gradient).all() for gradient in added_up)
 
 
 def gradients(compute: Any, *materials: Any) -> tuple[Any, list[Any]]:
