@@ -137,7 +137,8 @@ impl OpenDialog {
             self.text.lines().map(str::trim).filter(|l| !l.is_empty()).map(PathBuf::from).collect();
         let ready = !paths.is_empty() && !self.submitted;
         let text = if self.submitted { "Reading..." } else { "Open these" };
-        let button = ui.add_enabled(ready, egui::Button::new(text));
+        let button =
+            ui.add_enabled(ready, egui::Button::new(text)).on_disabled_hover_text("Needs a path above");
         let entered = entered || ui.input_mut(|i| i.consume_key(egui::Modifiers::COMMAND, egui::Key::Enter));
         if button.on_hover_text("Return in the field, or Ctrl+Return").clicked() || (entered && ready) {
             self.submitted = true;

@@ -83,7 +83,9 @@ impl PhotographDialog {
         );
         ui.separator();
         let path = self.path.trim();
-        let button = ui.add_enabled(!path.is_empty(), egui::Button::new("Open photograph"));
+        let button = ui
+            .add_enabled(!path.is_empty(), egui::Button::new("Open photograph"))
+            .on_disabled_hover_text("Needs a path above");
         let entered = ui.input(|i| i.key_pressed(egui::Key::Enter)) && !path.is_empty();
         if button.on_hover_text("Return").clicked() || entered {
             let photograph = SessionPhotograph {

@@ -74,7 +74,9 @@ impl SaveDialog {
             (_, true) => "Replace it",
             _ => "Save file",
         };
-        let button = ui.add_enabled(!self.saving, egui::Button::new(text));
+        let button = ui
+            .add_enabled(!self.saving, egui::Button::new(text))
+            .on_disabled_hover_text("A file is being written");
         if std::mem::take(&mut self.focus_button) {
             button.request_focus();
         }
