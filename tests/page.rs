@@ -16,6 +16,13 @@ use svbrdf_files::read::Read;
 use svbrdf_files::session_window::Display;
 use svbrdf_files::source::MaterialSource;
 
+#[cfg(target_os = "linux")]
+#[test]
+fn ci_has_a_browser() {
+    let is_needed = std::env::var_os("CI").is_some();
+    assert!(cfg!(has_browser) || !is_needed, "CI must have Debian's chromium, which ./test installs");
+}
+
 /// The built-in ground truth and predictions.
 fn built_in() -> Vec<Material<f32>> {
     let read = |number| -> Read<f32> { MaterialSource::built_in(number).read(&Progress::default()).unwrap() };

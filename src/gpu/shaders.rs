@@ -80,7 +80,7 @@ pub const LOSS: Shader = Shader {
 
 /// Pass 1 of the report, for WebGL.
 pub const PAGE_SHADE: Shader = Shader {
-    name: "shade",
+    name: "page_shade",
     pieces: &[
         piece!("brdf.wgsl"),
         piece!("scene.wgsl"),
@@ -94,7 +94,7 @@ pub const PAGE_SHADE: Shader = Shader {
 
 /// Pass 2 of the report, for WebGL.
 pub const PAGE_DISPLAY: Shader = Shader {
-    name: "display",
+    name: "page_display",
     pieces: &[
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
@@ -111,7 +111,7 @@ pub const PAGE_DISPLAY: Shader = Shader {
 
 /// Differences as numbers, of the report, for WebGL.
 pub const PAGE_DIFFERENCE: Shader = Shader {
-    name: "difference",
+    name: "page_difference",
     pieces: &[
         piece!("fullscreen.wgsl"),
         piece!("colour_map.wgsl"),

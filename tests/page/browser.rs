@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// The longest that the browser takes to answer, and a page to start.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_secs(180);
 const ARGUMENTS: [&str; 12] = [
     "--headless",
     "--no-sandbox",

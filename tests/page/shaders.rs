@@ -51,6 +51,11 @@ fn program(shader: &Shader) -> Value {
     json!({ "vertex": made["vertex"], "fragment": made["fragment"], "bindings": bindings, "uniforms": uniforms(&module) })
 }
 
+/// The name in the script of the page.
+fn name(shader: &Shader) -> &str {
+    shader.name.trim_start_matches("page_")
+}
+
 /// The uniform variables of a module: the offset in bytes of every member, and the size under the empty name.
 fn uniforms(module: &Module) -> BTreeMap<String, BTreeMap<String, u32>> {
     let uniform = |variable: &&naga::GlobalVariable| variable.space == AddressSpace::Uniform;
@@ -61,7 +66,7 @@ fn uniforms(module: &Module) -> BTreeMap<String, BTreeMap<String, u32>> {
         places.insert(String::new(), size);
         (variable.name.clone().unwrap(), places)
     };
-    variables.filter(uniform).map(|variable| one(variable)).collect()
+    variables.filter(uniform).map(one).collect()
 }
 
 fn members(
@@ -85,7 +90,7 @@ fn members(
 
 #[test]
 fn the_shaders_of_the_page_are_those_of_the_window() {
-    let programs: BTreeMap<_, _> = PAGE.iter().map(|shader| (shader.name, program(shader))).collect();
+    let programs: BTreeMap<_, _> = PAGE.iter().map(|shader| (name(shader), program(shader))).collect();
     let text = format!("{:#}\n", json!(programs));
     if std::fs::read_to_string(COMMITTED).unwrap_or_default() != text {
         let made = concat!(env!("CARGO_TARGET_TMPDIR"), "/shaders.json");

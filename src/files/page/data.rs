@@ -87,7 +87,7 @@ pub(super) fn json(
         epsilon: convention.epsilon,
         kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
-        start: start(view),
+        start: start(view, materials.len()),
         scenes,
         shaders,
     };
@@ -130,7 +130,7 @@ fn colours(map: fn(f32) -> [f32; 3], low: f32) -> Vec<String> {
     (0..COLOURS).map(colour).collect()
 }
 
-fn start(view: &View) -> Start<'_> {
+fn start(view: &View, materials: usize) -> Start<'_> {
     let display = &view.display;
     let differences = &display.differences;
     let chosen = |quantity: Quantity| (quantity.name(), differences.kind(quantity).key());
@@ -145,7 +145,7 @@ fn start(view: &View) -> Start<'_> {
         kinds: Quantity::ALL.map(chosen).into(),
         ranges: ranges.collect(),
         layout: display.layout.name().replace(' ', "-"),
-        prediction: display.prediction,
+        prediction: display.prediction.min(materials.saturating_sub(2)),
         projection: format!("{:?}", display.projection).to_lowercase(),
         wipe: display.wipe,
         tiled: display.tiled,

@@ -162,7 +162,8 @@ impl Plane {
 fn residuals(values: &[u16], width: usize, predictor: u8, bits: u8) -> Vec<u8> {
     let at = |i: usize, is_there: bool, back: usize| if is_there { values[i - back] } else { 0 };
     let residual = |i: usize| {
-        let (has_left, has_above) = (i % width > 0, i >= width);
+        let column = i % width;
+        let (has_left, has_above) = (column > 0, i >= width);
         let left = at(i, has_left, 1);
         let predicted = match predictor {
             0 => 0,

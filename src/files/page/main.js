@@ -36,6 +36,8 @@ async function start() {
   addEventListener("beforeprint", () => {
     figure.draw();
     still.src = canvas.toDataURL("image/png");
+    element("caption").textContent = `In reading order: ${figure.panes().map((pane) => overlay.title(pane)).join("; ")}`;
+    for (const details of document.querySelectorAll("section:not(#figure) details")) details.setAttribute("open", "");
   });
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();

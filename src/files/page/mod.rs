@@ -89,6 +89,7 @@ impl Report<'_> {
                 ("header", &header),
                 ("still", &still),
                 ("still-alt", &format!("Still picture: {title}")),
+                ("caption", &self.caption()),
                 ("findings", &sections),
                 ("data", &markup::embedded(&data)),
             ],
@@ -117,12 +118,26 @@ impl Report<'_> {
         }
     }
 
+    /// What the still picture has, from left to right.
+    fn caption(&self) -> String {
+        let names: Vec<String> = self.materials.iter().map(|material| escaped(material.name())).collect();
+        let epsilon = self.convention.epsilon;
+        format!(
+            "From left to right: {}. Shown: {}.",
+            names.join(", "),
+            escaped(&self.content().text(epsilon))
+        )
+    }
+
     fn header(&self, reduced_to: Option<[usize; 2]>) -> String {
         let note = reduced_to.map_or(String::new(), |[width, height]| {
             format!(
                 r#"<p class="note">The maps of the figure are reduced to {width} &times; {height} texels, so that the file is small. All losses are of the full maps.</p>"#
             )
         });
+        if self.findings.is_none() && self.command.is_empty() {
+            return note;
+        }
         let summary = self.findings.as_ref().map_or(String::new(), findings::summary);
         format!("<header><h1>{}</h1>{summary}{note}</header>", self.title())
     }
