@@ -121,7 +121,7 @@ fn shares(attributions: &[Attribution]) -> String {
                 rows,
                 r#"<tr><th scope="row">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{low} to {high}</td><td>{}</td><td>{}</td></tr>"#,
                 share.map.name(),
-                percent(share.shapley.mean / one.loss.mean),
+                percent(if one.loss.mean > 0.0 { share.shapley.mean / one.loss.mean } else { 0.0 }),
                 plots::bar(&share.shapley, axis),
                 number(share.shapley.mean),
                 number(share.only_wrong.mean),
