@@ -13,6 +13,9 @@ use adapter::set;
 
 const GOLDEN: &str = "../shared/golden";
 
+/// What the tests of the report run.
+const BROWSERS: [&str; 2] = ["chromium", "chromium-browser"];
+
 /// What the test of the real window runs.
 const DESKTOP: [&str; 3] = ["Xvfb", "xdotool", "import"];
 
@@ -37,4 +40,5 @@ fn main() {
     let path = env::var_os("PATH").unwrap_or_default();
     let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());
     set("has_desktop", DESKTOP.iter().all(installed));
+    set("has_browser", BROWSERS.iter().any(installed));
 }

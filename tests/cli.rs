@@ -15,6 +15,7 @@ mod packages;
 mod photo;
 mod pictures;
 mod rank;
+mod report;
 mod scenes;
 mod session;
 mod sidecar;

@@ -116,6 +116,9 @@ fn the_pages_are_short_to_load_and_the_readme_is_short_to_read() {
         let bytes = picture.metadata().unwrap().len();
         assert!(bytes <= LARGEST, "{}: {bytes} bytes", picture.path().display());
     }
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/example-report.html");
+    let bytes = example.metadata().unwrap().len();
+    assert!(bytes <= 2_000_000, "{}: {bytes} bytes", example.display());
     let lines =
         fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap().lines().count();
     assert!(lines <= 160, "{lines} lines");

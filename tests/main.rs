@@ -24,6 +24,7 @@ mod layering;
 mod metrics;
 mod mutations;
 mod packages;
+mod page;
 mod photograph;
 mod physics;
 mod rank;

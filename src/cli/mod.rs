@@ -14,6 +14,7 @@ mod photo;
 mod protocol;
 mod rank;
 mod render;
+mod report;
 mod scenes;
 mod strip;
 mod study;
@@ -43,6 +44,7 @@ Examples:
   svbrdf blame gt.png prediction.png      prints how much of the loss comes from each map
   svbrdf render gt.png -o gt.exr          renders to linear floats
   svbrdf strip gt.png a.png -o fig.png    writes a labelled figure of maps and renderings
+  svbrdf report gt.png a.png -o r.html    writes a page with a figure that readers light themselves
   svbrdf photo photo.jpg a.png --flash --fov 45
                                           compares renderings with a photograph
   svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
@@ -89,6 +91,7 @@ enum Subcommands {
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
     Strip(strip::StripArgs),
+    Report(report::ReportArgs),
     Rank(rank::RankArgs),
     Blame(blame::BlameArgs),
     Scenes(scenes::ScenesArgs),
@@ -142,6 +145,7 @@ impl Cli {
             Subcommands::Loss(args) => loss::run(args, given),
             Subcommands::Render(args) => render::run(&args, given),
             Subcommands::Strip(args) => strip::run(&args, given),
+            Subcommands::Report(args) => report::run(&args, given),
             Subcommands::Rank(args) => rank::run(args, given),
             Subcommands::Blame(args) => blame::run(&args, given),
             Subcommands::Scenes(args) => scenes::run(&args, given),

@@ -25,6 +25,7 @@ mod lfs;
 pub mod memory;
 mod npy;
 pub mod open;
+pub mod page;
 mod panics;
 mod paths;
 pub mod photograph;

@@ -33,6 +33,7 @@ pub const SHADE: Shader = Shader {
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
         piece!("shade.wgsl"),
+        piece!("shade_entry.wgsl"),
     ],
 };
 
@@ -55,6 +56,7 @@ pub const DISPLAY: Shader = Shader {
         piece!("difference.wgsl"),
         piece!("encode.wgsl"),
         piece!("display.wgsl"),
+        piece!("display_entry.wgsl"),
     ],
 };
 
@@ -76,5 +78,51 @@ pub const LOSS: Shader = Shader {
     ],
 };
 
+/// Pass 1 of the report, for WebGL.
+pub const PAGE_SHADE: Shader = Shader {
+    name: "page_shade",
+    pieces: &[
+        piece!("brdf.wgsl"),
+        piece!("scene.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("stride.wgsl"),
+        piece!("shade.wgsl"),
+        piece!("page_shade.wgsl"),
+    ],
+};
+
+/// Pass 2 of the report, for WebGL.
+pub const PAGE_DISPLAY: Shader = Shader {
+    name: "page_display",
+    pieces: &[
+        piece!("grid.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("camera.wgsl"),
+        piece!("footprint.wgsl"),
+        piece!("srgb.wgsl"),
+        piece!("colour_map.wgsl"),
+        piece!("difference.wgsl"),
+        piece!("encode.wgsl"),
+        piece!("display.wgsl"),
+        piece!("page_display.wgsl"),
+    ],
+};
+
+/// Differences as numbers, of the report, for WebGL.
+pub const PAGE_DIFFERENCE: Shader = Shader {
+    name: "page_difference",
+    pieces: &[
+        piece!("fullscreen.wgsl"),
+        piece!("colour_map.wgsl"),
+        piece!("difference.wgsl"),
+        piece!("page_difference.wgsl"),
+    ],
+};
+
+/// The shaders of the report.
+pub const PAGE: [Shader; 3] = [PAGE_SHADE, PAGE_DISPLAY, PAGE_DIFFERENCE];
+
 /// Every shader of this crate.
-pub const ALL: [Shader; 6] = [SHADE, REDUCE, DISPLAY, BLIT, PROBE, LOSS];
+pub const ALL: [Shader; 9] =
+    [SHADE, REDUCE, DISPLAY, BLIT, PROBE, LOSS, PAGE_SHADE, PAGE_DISPLAY, PAGE_DIFFERENCE];

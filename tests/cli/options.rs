@@ -35,7 +35,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 36] = [
+const MODES: [(&str, Shows); 39] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -49,6 +49,9 @@ const MODES: [(&str, Shows); 36] = [
     ("strip gt.png a.png -o x.png", Shows::Everything),
     ("strip gt.png a.png -o x.png --columns normal,diffuse,roughness,specular,diffuse:", Shows::Everything),
     ("strip gt.png a.png -o x.png --columns rendering", Shows::Everything),
+    ("report gt.png a.png -o x.html --target-error 30%", Shows::Everything),
+    ("report gt.png a.png -o x.html --figure", Shows::Everything),
+    ("report s.svbrdf-session.json -o x.html --target-error 30%", Shows::Everything),
     ("rank gt.png a.png b.png --target-error 30%", Shows::Everything),
     ("rank --dataset set/gt set/ours --target-error 30%", Shows::Everything),
     ("rank --pairs pairs.csv --target-error 30%", Shows::Everything),
@@ -78,7 +81,7 @@ const MODES: [(&str, Shows); 36] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 60] = [
+const VALUES: [(&str, &str); 62] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -99,6 +102,8 @@ const VALUES: [(&str, &str); 60] = [
     ("near", "3"),
     ("render distant", ""),
     ("strip distant", ""),
+    ("report distant", ""),
+    ("max-size", "1kB"),
     ("distant", "5"),
     ("seed", "5"),
     ("sampler", "random"),
@@ -268,8 +273,20 @@ fn contents(folder: &Path, found: &mut BTreeMap<String, Vec<u8>>) {
         if path.is_dir() {
             contents(&path, found);
         } else {
-            found.insert(path.display().to_string(), fs::read(&path).unwrap());
+            let bytes = fs::read(&path).unwrap();
+            let is_page = path.extension().is_some_and(|extension| extension == "html");
+            found.insert(path.display().to_string(), if is_page { without_command(&bytes) } else { bytes });
         }
+    }
+}
+
+/// A report without the command that makes it, which has all options.
+fn without_command(page: &[u8]) -> Vec<u8> {
+    let page = text(page);
+    let [start, end] = ["<pre><code>", "</code></pre>"].map(|tag| page.find(tag));
+    match start.zip(end) {
+        Some((start, end)) => [&page[..start], &page[end..]].concat().into_bytes(),
+        None => page.as_bytes().to_owned(),
     }
 }
 

@@ -52,6 +52,10 @@ pub const NO_PREDICTION: Mode = Mode { reason: "there is no prediction", unused:
 pub const SESSION_SCENES: Mode =
     Mode { reason: "the session lists its scenes, which have no seed", unused: &[&["seed"]] };
 
+/// `report --figure`.
+pub const REPORT_FIGURE: Mode =
+    Mode { reason: "the figure alone has no loss", unused: &[&["target-error", "seed"]] };
+
 /// `map --over texels`.
 pub const MAP_OVER_TEXELS: Mode = Mode {
     reason: "a map over texels has no fixed direction and the size of its material",

@@ -107,6 +107,7 @@ impl MaterialJob {
             self.paths.iter().filter(|path| Session::is_named(path)).cloned().collect();
         let names = distinct_names(&named);
         let memory = read.iter().map(|read| read.memory.clone()).collect();
+        let readings = read.iter().map(reading).collect();
         for ((mut read, name), source) in read.into_iter().zip(names).zip(&self.sources) {
             read.material = read.material.renamed(name);
             files.append(&mut read.files);
@@ -122,7 +123,7 @@ impl MaterialJob {
         let Some(ground_truth) = materials.next() else {
             return Err(Error::Internal("there is no ground truth".to_owned()).into());
         };
-        Ok(Opened { ground_truth, predictions: materials.collect(), files, _memory: memory })
+        Ok(Opened { ground_truth, predictions: materials.collect(), files, readings, _memory: memory })
     }
 
     fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {
@@ -142,6 +143,8 @@ pub struct Opened<T> {
     pub predictions: Vec<Material<T>>,
     /// Every file that was read.
     pub files: Vec<PathBuf>,
+    /// For each material the assumptions and notes of reading it.
+    pub readings: Vec<Vec<String>>,
     /// The memory of the materials. It counts towards the limit while this lives.
     _memory: Vec<Arc<Reserved>>,
 }
@@ -185,6 +188,12 @@ pub fn read_one<T: Real>(path: &Path, bindings: &[Binding], args: &ReadingArgs) 
         read.refuse_guesses(path)?;
     }
     Ok(read)
+}
+
+/// The assumptions and notes of reading one material, as `svbrdf info` prints them.
+fn reading<T: Real>(read: &Read<T>) -> Vec<String> {
+    let assumptions = read.assumptions.iter().map(advice::assumption_with_option);
+    assumptions.chain(read.notes.iter().map(advice::with_option)).collect()
 }
 
 /// The material of what was read, after a note for everything unsure, changed or left out in its files; with `verbose` for

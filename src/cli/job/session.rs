@@ -69,6 +69,11 @@ impl SessionSettings {
         PictureContent { quantity, difference: self.display.difference.then(|| self.difference(quantity)) }
     }
 
+    /// What the window displays, and how.
+    pub fn display(&self) -> &Display {
+        &self.display
+    }
+
     /// The chosen difference of a quantity, and its range.
     pub fn difference(&self, quantity: Quantity) -> ColouredDifference {
         let differences = &self.display.differences;

@@ -3,17 +3,6 @@
 const MODE_VALUE = 0u;
 const MODE_WIPE = 1u;
 
-// Constants of the pipeline: drivers compile and run what is needed and no more. As uniforms they make Mesa's lavapipe compile the
-// shader anew for every pane of every frame.
-override MODE: u32 = MODE_VALUE;
-override DIFFERENCE: u32 = DIFFERENCE_NONE;
-override ENCODING: u32 = ENCODING_RADIANCE;
-override SHOW_CLIPPING: bool = false;
-override TILED: bool = false;
-override FALSE_COLOUR: bool = false;
-// Whether pixels show the nearest texel: none covers more than one, or a draft is enough.
-override NEAREST: bool = false;
-
 struct Display {
     camera: Camera,
     background: vec3f,
@@ -87,8 +76,7 @@ fn repeated(texel: vec2f) -> vec2f {
     return clamp(shifted - floor(shifted / size) * size, vec2f(0.0), size - 0.001);
 }
 
-@fragment
-fn display(corner: Corner) -> @location(0) vec4f {
+fn displayed(corner: Corner) -> vec4f {
     let seen = plane_from_ndc(params.camera, corner.ndc);
     let extent = abs(dpdx(seen.point)) + abs(dpdy(seen.point));
 

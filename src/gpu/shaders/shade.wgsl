@@ -6,9 +6,6 @@ const QUANTITY_DIFFUSE = 2u;
 const QUANTITY_SPECULAR = 3u;
 const QUANTITY_ROUGHNESS = 4u;
 
-// What is shaded: a constant of the pipeline, so that no driver compiles or runs the rest.
-override QUANTITY: u32 = QUANTITY_RENDERING;
-
 struct Shading {
     rays: Rays,
     model: Model,
@@ -45,8 +42,7 @@ fn shade_texel(place: vec2u, stored: vec2u) -> vec3f {
     return render(shading.model, texel, directions.w_l, directions.w_v);
 }
 
-@fragment
-fn shade(corner: Corner) -> @location(0) vec4f {
+fn shaded(corner: Corner) -> vec4f {
     let fragment = vec2u(corner.position.xy);
     let place = shaded_place(fragment, shading.stride, shading.size);
     // Reduced maps hold the texels of the fragments, and no others.

@@ -1,0 +1,140 @@
+//! `svbrdf report`: one HTML file with an interactive figure and the findings.
+
+use std::path::PathBuf;
+
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Request;
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::atomic::{check_place, write_text};
+use svbrdf_files::page::{Findings, Report, View};
+
+use super::args::scenes::OneSceneArgs;
+use super::args::{ComparisonArgs, Given, modes, values};
+use super::job::ComparisonJob;
+use super::output::stop::stoppable;
+use super::output::{CommandError, exit, watched};
+
+/// Writes a page with an interactive figure and the findings, which opens in any browser
+///
+/// One HTML file without a network: readers move light and view, zoom, and compare values and differences, on a desktop or a phone.
+/// Below the figure, without script: losses with intervals, the share of each map, the worst scenes, the loss over directions of
+/// the light, the assumptions in reading, and the command that makes the file. Without GT and PRED: the built-in materials.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  svbrdf report gt.png a.png b.png -o report.html")]
+pub struct ReportArgs {
+    /// Output file, .html
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+
+    /// Largest size of the file, such as 10MB or 500kB: the maps of the figure are halved until it fits
+    #[arg(long, value_name = "SIZE", value_parser = values::bytes, default_value = "10MB")]
+    max_size: usize,
+
+    /// Writes the figure alone, without findings, to be embedded with an <iframe>
+    #[arg(long)]
+    figure: bool,
+
+    /// Samples as many scenes as this relative error of the loss needs at 95% confidence
+    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
+    target_error: f64,
+
+    /// Seed of the sampled scenes
+    #[arg(
+        help_heading = "Scenes",
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
+    seed: u64,
+
+    #[command(flatten)]
+    scene: OneSceneArgs,
+
+    /// Exposure of the figure in stops [default: 0, or as in the session]
+    #[arg(long, value_name = "EV", value_parser = values::stops, allow_hyphen_values = true)]
+    exposure: Option<f32>,
+
+    #[command(flatten)]
+    comparison: ComparisonArgs,
+}
+
+/// Computes the findings and writes the page.
+///
+/// # Errors
+/// Where a material cannot be read or compared, or the file cannot be written.
+pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
+    check_ending(args)?;
+    check_place(&args.output)?;
+    if args.figure {
+        given.check(&modes::REPORT_FIGURE)?;
+    }
+    let job = ComparisonJob::new(&args.comparison, given)?;
+    let session = job.session.as_ref();
+    let view = View {
+        scene: args.scene.scene(session.map(|session| session.scene))?,
+        exposure_ev: args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0),
+        display: session.map(|session| session.display().clone()).unwrap_or_default(),
+    };
+    let opened = job.materials.open::<f32>()?;
+    opened.check_output(&args.output, None)?;
+    let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect::<Vec<_>>());
+    let request = Request::Accuracy { target: args.target_error, seed: args.seed };
+    let findings =
+        |progress: &Progress| Findings::new(ground_truth, &predictions, job.convention, &request, progress);
+    let has_findings = !args.figure && !predictions.is_empty();
+    let findings = has_findings.then(|| watched("rendering", findings)).transpose()?;
+    let materials: Vec<&Material<f32>> = std::iter::once(ground_truth).chain(predictions).collect();
+    let (readings, command) =
+        if args.figure { (Vec::new(), String::new()) } else { (opened.readings.clone(), command()) };
+    let report = Report {
+        materials: &materials,
+        convention: job.convention,
+        view,
+        findings,
+        readings,
+        command,
+        max_bytes: args.max_size,
+    };
+    let page = watched("writing", |progress| report.page(progress))?;
+    stoppable(|progress| write_text(&args.output, &page.html, progress))?;
+    if let Some([width, height]) = page.reduced_to {
+        exit::tell(&format!(
+            "note: the maps of the figure are reduced to {width} x {height} texels, so that the file is at most {} bytes; findings are \
+             of all texels",
+            args.max_size
+        ));
+    }
+    if page.html.len() > args.max_size {
+        exit::tell(&format!(
+            "warning: the file has {} bytes, more than --max-size {}; smaller maps do not help",
+            page.html.len(),
+            args.max_size
+        ));
+    }
+    Ok(())
+}
+
+fn check_ending(args: &ReportArgs) -> Result<(), Error> {
+    let ending = args.output.extension().map(|ending| ending.to_ascii_lowercase());
+    if ending.is_some_and(|ending| ending == "html" || ending == "htm") {
+        return Ok(());
+    }
+    let (found, known) = (args.output.display().to_string(), "NAME.html".to_owned());
+    Err(Error::UnknownName { what: "name of a report", found, known })
+}
+
+/// The command line of this process, quoted for a shell.
+fn command() -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=:,%+@".contains(c);
+    let quoted = |argument: String| {
+        if !argument.is_empty() && argument.chars().all(plain) {
+            return argument;
+        }
+        format!("'{}'", argument.replace('\'', r"'\''"))
+    };
+    let arguments =
+        std::env::args_os().skip(1).map(|argument| quoted(argument.to_string_lossy().into_owned()));
+    std::iter::once("svbrdf".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+}

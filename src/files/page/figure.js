@@ -1,0 +1,187 @@
+// The figure: its state, the panes of its layout, and what each of them shows.
+
+/**
+ * @typedef {{scene: Scene, quantity: string, model: Record<string, number>, epsilon: number}} Shaded
+ * @typedef {{material: number, difference: string | null, wipe: number | null}} Pane
+ * @typedef {{exposure: number, range: number, clipping: boolean, tiled: boolean, falseColour: boolean}} Shown
+ * @typedef {{key: string, name: string, unit: string, signed: boolean, range: number}} Kind
+ * @typedef {{scene: Scene, exposure: number, quantity: string, difference: boolean, kinds: Record<string, string>,
+ *   ranges: Record<string, number>, layout: string, prediction: number, projection: string, zoom: number,
+ *   pan: [number, number], wipe: number, drag: string, peek: boolean, tiled: boolean, falseColour: boolean, clipping: boolean}} State
+ * @typedef {{materials: StoredMaterial[], model: Record<string, number>, epsilon: number, convention: string,
+ *   kinds: Record<string, Kind[]>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
+ *   start: Partial<State>, scenes: {scene: Scene, exposure: number}[]}} Data
+ */
+
+const LAYOUTS = ["side-by-side", "wipe", "single"];
+const START = {
+  exposure: 0, quantity: "rendering", difference: false, layout: "side-by-side", prediction: 0, projection: "flat", zoom: 1, wipe: 0.5,
+  drag: "light", peek: false, tiled: false, falseColour: false, clipping: false,
+};
+/** Least width of a pane, in CSS pixels, where others fit below it. */
+const NARROWEST = 150;
+/** Largest share of the height of the window that the figure takes: there is always room beside it to scroll the page. */
+const TALLEST = 0.68;
+
+class Figure {
+  /** @param {HTMLCanvasElement} canvas @param {Data} data @param {Maps[]} materials */
+  constructor(canvas, data, materials) {
+    this.canvas = canvas;
+    this.data = data;
+    this.materials = materials;
+    this.shading = new Shading(canvas, data.shaders, materials);
+    this.grid = { width: materials[0].width, height: materials[0].height };
+    /** @type {(() => void)[]} Called after every frame. */
+    this.watchers = [];
+    this.requested = false;
+    this.state = this.start();
+  }
+
+  /** The state that the report begins with. @returns {State} */
+  start() {
+    const kinds = Object.fromEntries(Object.entries(this.data.kinds).map(([quantity, all]) => [quantity, all[0].key]));
+    const ranges = Object.fromEntries(Object.values(this.data.kinds).flat().map((kind) => [kind.key, kind.range]));
+    const start = structuredClone(this.data.start);
+    return /** @type {State} */ ({
+      ...START, pan: [0, 0], ...start, kinds: { ...kinds, ...start.kinds }, ranges: { ...ranges, ...start.ranges },
+    });
+  }
+
+  /** Changes the state and draws. @param {Partial<State>} changes */
+  set(changes) {
+    Object.assign(this.state, changes);
+    this.changed();
+  }
+
+  /** Draws in the next frame. */
+  changed() {
+    if (this.requested) return;
+    this.requested = true;
+    requestAnimationFrame(() => {
+      this.requested = false;
+      this.draw();
+    });
+  }
+
+  /** The kind of the difference of the quantity. @returns {Kind} */
+  kind() {
+    const { quantity, kinds } = this.state;
+    const all = this.data.kinds[quantity];
+    return all.find((kind) => kind.key === kinds[quantity]) ?? all[0];
+  }
+
+  /** What is shaded. @returns {Shaded} */
+  how() {
+    const { scene, quantity } = this.state;
+    return { scene, quantity, model: this.data.model, epsilon: this.data.epsilon };
+  }
+
+  /** @returns {Shown} */
+  shown() {
+    const { exposure, clipping, tiled, falseColour, ranges } = this.state;
+    return { exposure, clipping, tiled, falseColour, range: ranges[this.kind().key] };
+  }
+
+  /** The panes of the layout, in reading order. @returns {Pane[]} */
+  panes() {
+    const { layout, prediction, peek, difference, wipe } = this.state;
+    const count = this.materials.length;
+    /** @param {number} material @returns {Pane} */
+    const pane = (material) => ({
+      material: peek ? 0 : material, wipe: null,
+      difference: difference && material > 0 && !peek ? this.kind().key : null,
+    });
+    if (count === 1) return [pane(0)];
+    if (layout === "side-by-side") return this.materials.map((_, index) => pane(index));
+    return [{ ...pane(prediction + 1), wipe: layout === "wipe" && !peek ? wipe : null }];
+  }
+
+  /** Columns, and the size of a pane in CSS pixels, for a figure of this width. @param {number} width */
+  arrangement(width) {
+    const count = this.panes().length;
+    const aspect = clamp(this.grid.width / this.grid.height, 0.4, 2.5);
+    const highest = Math.max(innerHeight * TALLEST, 200);
+    let best = { columns: 1, width: 0, height: 0 };
+    for (let columns = 1; columns <= count; columns++) {
+      if (columns > 1 && width / columns < NARROWEST) break;
+      const rows = Math.ceil(count / columns);
+      const height = Math.min(width / columns / aspect, highest / rows);
+      // Of equal ones the one with fewer rows.
+      if (height >= best.height - 1) best = { columns, width: width / columns, height };
+    }
+    return { ...best, rows: Math.ceil(count / best.columns) };
+  }
+
+  /** @param {number} width @param {number} height @returns {Camera} */
+  camera(width, height) {
+    const { scene, projection, zoom, pan } = this.state;
+    const fitted = projection === "flat" ? flatCamera(this.grid, width / height) : sceneCamera(scene, this.grid, width / height);
+    return zoomed(fitted, zoom, pan);
+  }
+
+  /** The rectangle of each pane, in CSS pixels from the upper left corner. */
+  boxes() {
+    const { columns, width, height } = this.arrangement(this.canvas.clientWidth);
+    return this.panes().map((pane, i) => ({
+      pane, x: (i % columns) * width, y: Math.floor(i / columns) * height, width, height,
+    }));
+  }
+
+  draw() {
+    const { canvas } = this;
+    const { rows, height } = this.arrangement(canvas.clientWidth);
+    canvas.style.height = `${rows * height}px`;
+    const scale = devicePixelRatio;
+    const [w, h] = [Math.round(canvas.clientWidth * scale), Math.round(rows * height * scale)];
+    if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+    this.shading.clear();
+    const how = this.how();
+    for (const { pane, ...box } of this.boxes()) {
+      const gap = 1;
+      const [x, y] = [Math.round(box.x * scale) + gap, Math.round(box.y * scale) + gap];
+      const right = Math.round((box.x + box.width) * scale) - gap;
+      const lower = Math.round((box.y + box.height) * scale) - gap;
+      const pixels = { x, y: h - lower, width: right - x, height: lower - y };
+      if (pixels.width < 1 || pixels.height < 1) continue;
+      this.shading.pane(pane, how, this.camera(box.width, box.height), pixels, this.shown());
+    }
+    for (const watcher of this.watchers) watcher();
+  }
+
+  /** The rendering of one material, a pixel for each texel: RGB in 8 bits, row 0 on top. @param {number} material @param {string | null} difference */
+  picture(material, difference) {
+    const { width, height } = this.grid;
+    const { canvas } = this;
+    [canvas.width, canvas.height] = [width, height];
+    const box = { x: 0, y: 0, width, height };
+    const camera = zoomed(flatCamera(this.grid, width / height), MARGIN, [0, 0]);
+    this.shading.pane({ material, difference, wipe: null }, this.how(), camera, box, this.shown());
+    const pixels = this.shading.pixels(box);
+    const rgb = new Uint8Array(3 * width * height);
+    for (let i = 0; i < width * height; i++) {
+      const from = 4 * ((height - 1 - Math.floor(i / width)) * width + i % width);
+      rgb.set(pixels.subarray(from, from + 3), 3 * i);
+    }
+    this.changed();
+    return rgb;
+  }
+
+  /** The numbers of a texel of a material. @param {number} material @param {[number, number]} texel */
+  value(material, [x, y]) {
+    const numbers = [...this.shading.read(this.shading.shade(material, this.how()), { x, y, width: 1, height: 1 })].slice(0, 3);
+    return this.state.quantity === "normal" ? numbers.map((n) => 2 * n - 1) : numbers;
+  }
+
+  /** The difference of a texel of a prediction. @param {number} material @param {[number, number]} texel */
+  difference(material, [x, y]) {
+    const target = this.shading.differences(material, this.how(), this.kind().key);
+    return this.shading.read(target, { x, y, width: 1, height: 1 })[0];
+  }
+
+  /** The differences of all texels of a prediction, sorted. @param {number} material */
+  sortedDifferences(material) {
+    const target = this.shading.differences(material, this.how(), this.kind().key);
+    const numbers = this.shading.read(target, { x: 0, y: 0, ...this.grid });
+    return numbers.filter((_, i) => i % 4 === 0).sort();
+  }
+}

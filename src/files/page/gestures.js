@@ -1,0 +1,177 @@
+// Mouse, pen, touch: the press decides the gesture, which then does one thing.
+
+/** Radians of orbit per CSS pixel. */
+const ORBIT_SPEED = 0.008;
+/** Factor of a height per notch of the wheel, and of the magnification. */
+const SCALE_STEP = 1.1;
+const ZOOM_STEP = 1.15;
+/** How far from the line of the wipe it is grabbed, in CSS pixels: by a mouse, by a finger. */
+const REACH = { mouse: 8, touch: 22 };
+const ZOOMS = [0.1, 1000];
+
+/** @typedef {"light" | "view" | "orbit" | "pan" | "wipe"} Gesture */
+
+class Gestures {
+  /** @param {Figure} figure @param {(texel: [number, number] | null) => void} hovered */
+  constructor(figure, hovered) {
+    this.figure = figure;
+    this.hovered = hovered;
+    /** @type {Map<number, [number, number]>} Where each pointer is, in CSS pixels of the canvas. */
+    this.pointers = new Map();
+    /** @type {Gesture | null} */
+    this.gesture = null;
+    this.space = false;
+    const { canvas } = figure;
+    canvas.addEventListener("pointerdown", (event) => this.down(event));
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    for (const kind of /** @type {const} */ (["pointerup", "pointercancel"])) canvas.addEventListener(kind, (event) => this.up(event));
+    canvas.addEventListener("pointerleave", () => this.hovered(null));
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+    canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+  }
+
+  /** @param {MouseEvent} event @returns {[number, number]} */
+  place(event) {
+    const { left, top } = this.figure.canvas.getBoundingClientRect();
+    return [event.clientX - left, event.clientY - top];
+  }
+
+  /** The pane at a place. @param {[number, number]} place */
+  paneAt([x, y]) {
+    return this.figure.boxes().find((b) => x >= b.x && x < b.x + b.width && y >= b.y && y < b.y + b.height);
+  }
+
+  /** The point of the plane that is seen at a place. @param {[number, number]} place @param {ReturnType<Figure["boxes"]>[number]} [of] */
+  point(place, of) {
+    const box = of ?? this.paneAt(place);
+    if (!box) return null;
+    const camera = this.figure.camera(box.width, box.height);
+    return planeFromNdc(camera, 2 * (place[0] - box.x) / box.width - 1, 1 - 2 * (place[1] - box.y) / box.height);
+  }
+
+  /** @param {PointerEvent} event @param {[number, number]} place @returns {Gesture} */
+  begin(event, place) {
+    const { state } = this.figure;
+    const view = state.projection === "perspective" ? "orbit" : "view";
+    const box = this.paneAt(place);
+    const reach = event.pointerType === "mouse" ? REACH.mouse : REACH.touch;
+    if (event.button === 1 || this.space) return "pan";
+    if (event.button === 2 || event.shiftKey) return view;
+    if (box && box.pane.wipe !== null && Math.abs(place[0] - box.x - state.wipe * box.width) <= reach) return "wipe";
+    if (state.drag === "view") return view;
+    return state.drag === "pan" || state.quantity !== "rendering" ? "pan" : "light";
+  }
+
+  /** @param {PointerEvent} event */
+  down(event) {
+    const { canvas } = this.figure;
+    event.preventDefault();
+    canvas.focus({ preventScroll: true });
+    canvas.setPointerCapture(event.pointerId);
+    const place = this.place(event);
+    this.pointers.set(event.pointerId, place);
+    this.box = this.paneAt(place);
+    if (this.pointers.size > 1) {
+      this.gesture = null;
+      return;
+    }
+    this.gesture = this.begin(event, place);
+    if (this.gesture !== "pan" && this.gesture !== "orbit") this.carryOn(place, [0, 0]);
+  }
+
+  /** @param {PointerEvent} event */
+  move(event) {
+    const place = this.place(event);
+    const before = this.pointers.get(event.pointerId);
+    if (!before) return this.hover(place);
+    if (this.pointers.size === 2) this.pinch(event.pointerId, before, place);
+    this.pointers.set(event.pointerId, place);
+    if (this.pointers.size === 1) this.carryOn(place, [place[0] - before[0], place[1] - before[1]]);
+    this.hover(place);
+  }
+
+  /** @param {PointerEvent} event */
+  up(event) {
+    this.pointers.delete(event.pointerId);
+    this.gesture = null;
+  }
+
+  /** @param {[number, number]} place */
+  hover(place) {
+    const point = this.point(place);
+    this.hovered(point && texelAt(this.figure.grid, point));
+  }
+
+  /** @param {[number, number]} place @param {[number, number]} moved */
+  carryOn(place, [dx, dy]) {
+    const { figure, box } = this;
+    const { state } = figure;
+    if (!box || !this.gesture) return;
+    const point = this.point(place, box);
+    switch (this.gesture) {
+      case "light": if (point) moveOverPlane(state.scene, "light", point); break;
+      case "view": if (point) moveOverPlane(state.scene, "view", point); break;
+      // The hand turns the material: the view goes the other way around it.
+      case "orbit": orbit(state.scene, "view", -dx * ORBIT_SPEED, dy * ORBIT_SPEED); break;
+      case "pan": this.pan([dx, dy], box); break;
+      case "wipe": state.wipe = clamp((place[0] - box.x) / box.width, 0, 1); break;
+    }
+    figure.changed();
+  }
+
+  /** @param {[number, number]} moved @param {{width: number, height: number}} box */
+  pan([dx, dy], box) {
+    const { state } = this.figure;
+    state.pan = [state.pan[0] + 2 * dx / box.width, state.pan[1] - 2 * dy / box.height];
+  }
+
+  /** Two fingers: their distance zooms, their middle moves the view. @param {number} id @param {[number, number]} before @param {[number, number]} now */
+  pinch(id, before, now) {
+    const other = [...this.pointers].find(([key]) => key !== id)?.[1];
+    const { box, figure } = this;
+    if (!other || !box) return;
+    const { state } = figure;
+    const apart = (/** @type {[number, number]} */ a) => Math.max(Math.hypot(a[0] - other[0], a[1] - other[1]), 1);
+    /** @type {[number, number]} */
+    const middle = [(now[0] + other[0]) / 2, (now[1] + other[1]) / 2];
+    this.zoom(apart(now) / apart(before), middle, box);
+    /** @type {[number, number]} */
+    const moved = [(now[0] - before[0]) / 2, (now[1] - before[1]) / 2];
+    if (state.quantity !== "rendering" || state.drag === "pan") this.pan(moved, box);
+    else if (state.projection === "perspective") orbit(state.scene, "view", -moved[0] * ORBIT_SPEED, moved[1] * ORBIT_SPEED);
+    else {
+      const camera = figure.camera(box.width, box.height);
+      const scale = 2 * norm(camera.originUp) / box.height;
+      const [x, y] = overPlane(state.scene, "view");
+      moveOverPlane(state.scene, "view", [x + moved[0] * scale, y - moved[1] * scale]);
+    }
+    figure.changed();
+  }
+
+  /** Zooms about a place. @param {number} factor @param {[number, number]} place @param {{x: number, y: number, width: number, height: number}} box */
+  zoom(factor, place, box) {
+    const { state } = this.figure;
+    const zoom = clamp(state.zoom * factor, ZOOMS[0], ZOOMS[1]);
+    const at = [2 * (place[0] - box.x) / box.width - 1, 1 - 2 * (place[1] - box.y) / box.height];
+    const panned = (/** @type {0 | 1} */ i) => at[i] - (at[i] - state.pan[i]) * zoom / state.zoom;
+    state.pan = [panned(0), panned(1)];
+    state.zoom = zoom;
+    this.figure.changed();
+  }
+
+  /** @param {WheelEvent} event */
+  wheel(event) {
+    if (event.ctrlKey && !event.deltaMode && Math.abs(event.deltaY) >= 100) return;
+    event.preventDefault();
+    const place = this.place(event);
+    const box = this.paneAt(place);
+    const delta = event.deltaY + event.deltaX;
+    const notches = clamp(-delta / (event.deltaMode === 0 ? 100 : 3), -3, 3);
+    if (event.shiftKey || event.altKey) {
+      scaleHeight(this.figure.state.scene, event.shiftKey ? "light" : "view", SCALE_STEP ** notches);
+      this.figure.changed();
+    } else if (box) {
+      this.zoom(ZOOM_STEP ** notches, place, box);
+    }
+  }
+}

@@ -1,0 +1,87 @@
+//! Names and numbers as HTML: what a file or a user wrote is text, never markup.
+
+/// The text with the characters that HTML reads as markup escaped: for elements and quoted attributes. What steers the direction of
+/// text is written as `\u{...}`.
+pub(super) fn escaped(text: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    for c in svbrdf_core::text::printable(text).chars() {
+        match c {
+            '&' => html += "&amp;",
+            '<' => html += "&lt;",
+            '>' => html += "&gt;",
+            '"' => html += "&quot;",
+            '\'' => html += "&#39;",
+            c => html.push(c),
+        }
+    }
+    html
+}
+
+/// JSON inside a script element: no `<`, so that nothing in it ends the element or begins a comment.
+pub(super) fn embedded(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+/// The template with each `{{key}}` replaced once; what is put in is not searched for keys.
+pub(super) fn filled(template: &str, values: &[(&str, &str)]) -> String {
+    let mut parts = template.split("{{");
+    let mut html = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let known = part.split_once("}}").and_then(|(key, rest)| {
+            let (_, value) = values.iter().find(|(name, _)| *name == key)?;
+            Some((*value, rest))
+        });
+        match known {
+            Some((value, rest)) => html.extend([value, rest]),
+            None => html.extend(["{{", part]),
+        }
+    }
+    html
+}
+
+/// A number with a typographic minus and four significant digits.
+pub(super) fn number(x: f64) -> String {
+    let decimals = if x == 0.0 { 3 } else { (3.0 - x.abs().log10().floor()).clamp(0.0, 8.0) as usize };
+    format!("{x:.decimals$}").replace('-', "\u{2212}")
+}
+
+/// A share as percent with a typographic minus.
+pub(super) fn percent(share: f64) -> String {
+    format!("{:.1}%", 100.0 * share).replace('-', "\u{2212}")
+}
+
+/// A position or direction.
+pub(super) fn place(p: [f64; 3]) -> String {
+    format!("({:.2}, {:.2}, {:.2})", p[0], p[1], p[2]).replace('-', "\u{2212}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hostile_names_are_text() {
+        let name = "</script><img src=x onerror='alert(1)'>&\"\u{202e}";
+        assert_eq!(
+            escaped(name),
+            "&lt;/script&gt;&lt;img src=x onerror=&#39;alert(1)&#39;&gt;&amp;&quot;\\u{202e}"
+        );
+        let json = serde_json::to_string(name).unwrap();
+        assert!(json.contains('<') && !embedded(&json).contains('<'));
+        assert_eq!(serde_json::from_str::<String>(&embedded(&json)).unwrap(), name);
+    }
+
+    #[test]
+    fn values_are_not_searched_for_keys() {
+        assert_eq!(filled("{{a}}-{{b}}-{{c}}", &[("a", "{{b}}"), ("b", "2")]), "{{b}}-2-{{c}}");
+    }
+
+    #[test]
+    fn numbers_have_four_digits() {
+        assert_eq!(
+            [0.0, 0.123_456, -12.345_6, 1234.5].map(number),
+            ["0.000", "0.1235", "\u{2212}12.35", "1234"]
+        );
+        assert_eq!(percent(-0.0312), "\u{2212}3.1%");
+    }
+}

@@ -1,0 +1,102 @@
+//! Pictures of the page: the still picture of the figure, and thumbnails of scenes, as JPEG in data URIs.
+
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
+use image::codecs::jpeg::JpegEncoder;
+use image::imageops::{self, FilterType};
+use image::{Rgb, RgbImage};
+
+use svbrdf_core::error::Error;
+use svbrdf_core::image::Image;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::content::PictureContent;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::statistics::quantile;
+
+/// Pixels between pictures that stand side by side.
+const GAP: u32 = 2;
+const QUALITY: u8 = 86;
+/// The gray between pictures.
+const BACKGROUND: Rgb<u8> = Rgb([36, 38, 42]);
+/// Largest exposure of a thumbnail, in stops, in either direction.
+const MOST_STOPS: f32 = 12.0;
+
+/// The renderings of the materials in a scene, side by side, each at most `width` pixels wide; and their exposure in stops, which
+/// brings the brightest 1% of the ground truth to white.
+pub(super) fn thumbnail(
+    materials: &[&Material<f32>],
+    scene: &Scene,
+    convention: &Convention,
+    width: u32,
+    progress: &Progress,
+) -> Result<(String, f32), Error> {
+    let image = |material: &&Material<f32>| Quantity::Rendering.image(material, scene, convention, progress);
+    let images = materials.iter().map(image).collect::<Result<Vec<_>, _>>()?;
+    let exposure_ev = images.first().map_or(0.0, exposure);
+    let content = PictureContent::default();
+    let pictures: Vec<_> = images.iter().map(|image| coloured(image, content, exposure_ev, width)).collect();
+    Ok((data_uri(&side_by_side(&pictures))?, exposure_ev))
+}
+
+/// The exposure that brings the brightest 1% of a rendering to white, to half a stop.
+fn exposure(image: &Image<f32>) -> f32 {
+    let mut values: Vec<f64> = image.pixels.as_flattened().iter().map(|x| f64::from(*x)).collect();
+    let white = quantile(&mut values, 0.99).unwrap_or(1.0).max(f64::MIN_POSITIVE);
+    ((-white.log2() * 2.0).round() as f32 / 2.0).clamp(-MOST_STOPS, MOST_STOPS)
+}
+
+/// The content of every material, side by side; of differences the value of the ground truth first.
+pub(super) fn still(
+    materials: &[&Material<f32>],
+    content: PictureContent,
+    scene: &Scene,
+    convention: &Convention,
+    exposure_ev: f32,
+    width: u32,
+) -> Result<String, Error> {
+    let progress = Progress::default();
+    let value = PictureContent { difference: None, ..content };
+    let shown = content.pictures(materials, scene, convention, &progress)?;
+    let mut pictures = Vec::new();
+    if shown.images.len() < materials.len() {
+        let ground_truth = value.pictures(&materials[..1], scene, convention, &progress)?;
+        pictures.extend(ground_truth.images.iter().map(|image| coloured(image, value, exposure_ev, width)));
+    }
+    let content = shown.content;
+    pictures.extend(shown.images.iter().map(|image| coloured(image, content, exposure_ev, width)));
+    data_uri(&side_by_side(&pictures))
+}
+
+/// The colours of a picture, at most `width` pixels wide.
+fn coloured(image: &Image<f32>, content: PictureContent, exposure_ev: f32, width: u32) -> RgbImage {
+    let picture = RgbImage::from_fn(image.width as u32, image.height as u32, |x, y| {
+        Rgb(content.colour(image.pixels[y as usize * image.width + x as usize], exposure_ev))
+    });
+    if picture.width() <= width {
+        return picture;
+    }
+    let height = (picture.height() * width / picture.width()).max(1);
+    imageops::resize(&picture, width, height, FilterType::Triangle)
+}
+
+fn side_by_side(pictures: &[RgbImage]) -> RgbImage {
+    let height = pictures.iter().map(RgbImage::height).max().unwrap_or(1);
+    let width = pictures.iter().map(|picture| picture.width() + GAP).sum::<u32>().max(GAP + 1) - GAP;
+    let mut all = RgbImage::from_pixel(width, height, BACKGROUND);
+    let mut left = 0;
+    for picture in pictures {
+        imageops::replace(&mut all, picture, left, 0);
+        left += i64::from(picture.width() + GAP);
+    }
+    all
+}
+
+fn data_uri(picture: &RgbImage) -> Result<String, Error> {
+    let mut bytes = Vec::new();
+    let encoded = JpegEncoder::new_with_quality(&mut bytes, QUALITY).encode_image(picture);
+    encoded.map_err(|problem| Error::Internal(format!("a JPEG cannot be encoded: {problem}")))?;
+    Ok(format!("data:image/jpeg;base64,{}", BASE64_STANDARD.encode(bytes)))
+}

@@ -1,0 +1,123 @@
+//! `svbrdf report`: the page and its file. `tests/page` opens it in a browser.
+
+use std::fs;
+
+use serde_json::{Value, json};
+
+use super::{fail, folder, run_in, succeed, text, write_tiles};
+
+/// The data of the figure.
+fn data(page: &str) -> Value {
+    let start = page.find(r#"id="data">"#).unwrap() + r#"id="data">"#.len();
+    let end = start + page[start..].find("</script>").unwrap();
+    serde_json::from_str(&page[start..end]).unwrap()
+}
+
+#[test]
+fn a_report_has_the_numbers_of_loss_and_blame() {
+    let folder = folder();
+    let options = "gt.png a.png b.png --target-error 2% --seed 3 --convention guided-2020";
+    succeed(folder.path(), &format!("report {options} -o r.html"));
+    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    let losses: Value =
+        serde_json::from_str(&succeed(folder.path(), &format!("loss {options} --format json"))).unwrap();
+    let shares: Value =
+        serde_json::from_str(&succeed(folder.path(), &format!("blame {options} --format json"))).unwrap();
+    let cell = |value: &Value| {
+        let x = value.as_f64().unwrap();
+        let decimals = if x == 0.0 { 3 } else { (3.0 - x.abs().log10().floor()).clamp(0.0, 8.0) as usize };
+        format!("<td>{x:.decimals$}</td>").replace('-', "\u{2212}")
+    };
+    for result in losses["results"].as_array().unwrap() {
+        assert!(page.contains(&cell(&result["loss"])), "{result}");
+    }
+    for attribution in shares["attributions"].as_array().unwrap() {
+        for map in attribution["maps"].as_array().unwrap() {
+            assert!(page.contains(&cell(&map["shapley"]["mean"])), "{map}");
+        }
+    }
+    assert!(page.contains("convention guided-2020") && page.contains("seed 3"));
+    assert!(page.contains(&format!("<pre><code>svbrdf report {options} -o r.html</code></pre>")));
+    assert_eq!(page.matches("data-scene=").count(), 6);
+    assert_eq!(page.matches(r#"<svg class="directions""#).count(), 2);
+}
+
+#[test]
+fn a_prediction_without_an_error_has_no_shares_and_a_material_alone_no_findings() {
+    let folder = folder();
+    succeed(folder.path(), "report gt.png gt.png -o r.html --target-error 30%");
+    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    assert!(page.contains("<td>0.0%</td>") && !page.contains("NaN"));
+    succeed(folder.path(), "report gt.png -o r.html");
+    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    assert!(page.contains("Repeating the numbers") && !page.contains("Rendering loss"));
+}
+
+#[test]
+fn a_report_of_a_session_begins_as_it_was_saved() {
+    let folder = folder();
+    let scene = json!({"kind": "distant", "view": [0.0, 0.1, 1.0], "light": [0.5, 0.5, 1.0]});
+    let session = json!({
+        "svbrdf-session": 1, "convention": "multi-image-2019", "scene": scene, "exposure": 1.5,
+        "materials": [{"path": "gt.png"}, {"path": "a.png"}],
+        "window": {"view": {"quantity": "Roughness", "difference": true, "layout": "Wipe", "prediction": 7, "wipe": 0.25}},
+    });
+    fs::write(folder.path().join("s.svbrdf-session.json"), session.to_string()).unwrap();
+    succeed(folder.path(), "report s.svbrdf-session.json -o r.html --figure");
+    let data = data(&fs::read_to_string(folder.path().join("r.html")).unwrap());
+    let start = &data["start"];
+    assert_eq!([&start["scene"], &start["exposure"]], [&scene, &json!(1.5)]);
+    assert_eq!([&start["quantity"], &start["difference"]], [&json!("roughness"), &json!(true)]);
+    assert_eq!(
+        [&start["layout"], &start["prediction"], &start["wipe"]],
+        [&json!("wipe"), &json!(0), &json!(0.25)]
+    );
+    assert_eq!(data["epsilon"], json!(0.1));
+}
+
+#[test]
+fn the_figure_alone_has_no_findings() {
+    let folder = folder();
+    succeed(folder.path(), "report gt.png a.png -o r.html --figure");
+    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    assert!(page.contains(r#"id="canvas""#) && !page.contains("<h1>") && !page.contains("<h2"));
+}
+
+#[test]
+fn maps_are_halved_until_the_file_fits_and_this_is_said() {
+    let folder = folder();
+    for (name, seed) in [("large.png", 1), ("other.png", 2)] {
+        write_tiles(&folder.path().join(name), 256, |x, y| match x / 256 {
+            0 => [128, 140, 250],
+            1 => {
+                let hash = (x + 256 * y + 65_536 * seed).wrapping_mul(2_654_435_761);
+                [24, 16, 8].map(|shift| ((hash ^ hash >> 15).wrapping_mul(2_246_822_519) >> shift) as u8)
+            }
+            2 => [120; 3],
+            _ => [12; 3],
+        });
+    }
+    let most = 600_000;
+    let args = format!("report large.png other.png -o r.html --max-size {most}B --target-error 30%");
+    let output = run_in(folder.path(), &args);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let page = fs::read(folder.path().join("r.html")).unwrap();
+    assert!(page.len() <= most, "{} bytes", page.len());
+    let data = data(&fs::read_to_string(folder.path().join("r.html")).unwrap());
+    let side = data["materials"][0]["width"].as_u64().unwrap();
+    assert!(side < 256 && data["materials"][1]["width"] == json!(side), "{side}");
+    assert!(
+        text(&output.stderr).contains(&format!("are reduced to {side} x {side} texels")),
+        "{}",
+        text(&output.stderr)
+    );
+}
+
+#[test]
+fn a_report_is_html_and_replaces_no_input() {
+    let folder = folder();
+    fail(folder.path(), "report gt.png a.png -o r.txt", 64);
+    fs::copy(folder.path().join("gt.png"), folder.path().join("gt.html")).unwrap();
+    fail(folder.path(), "report gt.html a.png -o gt.html", 1);
+    fail(folder.path(), "report gt.png a.png -o r.html --figure --seed 1", 64);
+}

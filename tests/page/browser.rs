@@ -1,0 +1,219 @@
+//! Chromium without a window, driven by its own protocol through two pipes.
+
+use std::io::{BufRead as _, BufReader, Write as _};
+use std::path::Path;
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+/// The longest that the browser takes to answer, and a page to start.
+const PATIENCE: Duration = Duration::from_secs(180);
+const ARGUMENTS: [&str; 12] = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--disable-dev-shm-usage",
+    "--remote-debugging-pipe",
+];
+
+/// A page in a browser of its own.
+pub struct Page {
+    child: Child,
+    input: ChildStdin,
+    messages: Receiver<Value>,
+    session: Value,
+    sent: u64,
+    /// Events of the page so far.
+    pub events: Vec<Value>,
+    folder: TempDir,
+}
+
+impl Page {
+    /// Opens `html` as a file, in a window of `width` x `height` CSS pixels, and waits until its figure is there.
+    pub fn open(html: &str, [width, height]: [u32; 2]) -> Self {
+        let mut page = Self::start();
+        let target = page.send("Target.createTarget", json!({ "url": "about:blank" }));
+        let attached =
+            page.send("Target.attachToTarget", json!({ "targetId": target["targetId"], "flatten": true }));
+        page.session = attached["sessionId"].clone();
+        for domain in ["Network", "Runtime", "Log", "Page"] {
+            page.send(&format!("{domain}.enable"), json!({}));
+        }
+        page.send(
+            "Emulation.setDeviceMetricsOverride",
+            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false }),
+        );
+        // Scrolling that takes time would move what is clicked.
+        let still = json!({ "features": [{ "name": "prefers-reduced-motion", "value": "reduce" }] });
+        page.send("Emulation.setEmulatedMedia", still);
+        page.send("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
+        let file = page.folder.path().join("report.html");
+        std::fs::write(&file, html).unwrap();
+        page.send("Page.navigate", json!({ "url": url(&file) }));
+        let started = Instant::now();
+        while page.evaluate("!!window.svbrdf || document.getElementById('problem')?.hidden === false")
+            != json!(true)
+        {
+            assert!(started.elapsed() < PATIENCE, "the page does not start: {:?}", page.events);
+            thread::sleep(Duration::from_millis(50));
+        }
+        page
+    }
+
+    fn start() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let names = ["chromium", "chromium-browser"];
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let found = |name: &&str| std::env::split_paths(&path).any(|folder| folder.join(name).is_file());
+        let program = names.into_iter().find(found).expect("CI must have Debian's chromium");
+        // The protocol is spoken on descriptors 3 and 4.
+        let mut child = Command::new("sh")
+            .args(["-c", r#"exec "$0" "$@" 3<&0 4>&1 0</dev/null 1>/dev/null 2>/dev/null"#, program])
+            .args(ARGUMENTS)
+            .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let input = child.stdin.take().unwrap();
+        let mut output = BufReader::new(child.stdout.take().unwrap());
+        let (sender, messages) = channel();
+        thread::spawn(move || {
+            let mut bytes = Vec::new();
+            while output.read_until(0, &mut bytes).is_ok_and(|count| count > 0) {
+                bytes.pop();
+                if sender.send(serde_json::from_slice(&bytes).unwrap_or_default()).is_err() {
+                    break;
+                }
+                bytes.clear();
+            }
+        });
+        Self { child, input, messages, session: Value::Null, sent: 0, events: Vec::new(), folder }
+    }
+
+    /// The result of a command of the protocol.
+    pub fn send(&mut self, method: &str, params: Value) -> Value {
+        self.sent += 1;
+        let mut message = json!({ "id": self.sent, "method": method, "params": params });
+        if !self.session.is_null() {
+            message["sessionId"] = self.session.clone();
+        }
+        self.input.write_all(format!("{message}\0").as_bytes()).unwrap();
+        loop {
+            let answer = self.messages.recv_timeout(PATIENCE).expect("the browser answers");
+            if answer["id"] == json!(self.sent) {
+                assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
+                return answer["result"].clone();
+            }
+            self.events.push(answer);
+        }
+    }
+
+    /// The value of an expression of JavaScript in the page, awaited where it is a promise.
+    pub fn evaluate(&mut self, expression: &str) -> Value {
+        let params = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
+        let result = self.send("Runtime.evaluate", params);
+        assert!(result["exceptionDetails"].is_null(), "{expression}: {}", result["exceptionDetails"]);
+        result["result"]["value"].clone()
+    }
+
+    /// Waits for two frames, then evaluates.
+    pub fn after_frame(&mut self, expression: &str) -> Value {
+        let frames = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))";
+        self.evaluate(&format!("{frames}.then(() => ({expression}))"))
+    }
+
+    /// The middle of an element in the window, after it is scrolled there.
+    pub fn place(&mut self, selector: &str) -> [f64; 2] {
+        let rectangle = self.evaluate(&format!(
+            "(() => {{ const e = document.querySelector({selector:?}); e.scrollIntoView({{ block: 'center' }}); \
+             const r = e.getBoundingClientRect(); return [r.left + r.width / 2, r.top + r.height / 2]; }})()"
+        ));
+        [0, 1].map(|i| rectangle[i].as_f64().unwrap())
+    }
+
+    /// A drag of the mouse in three moves.
+    pub fn drag(&mut self, button: &str, modifiers: u32, from: [f64; 2], to: [f64; 2]) {
+        let buttons =
+            [("left", 1), ("right", 2), ("middle", 4)].into_iter().find(|(name, _)| *name == button);
+        let buttons = buttons.unwrap().1;
+        let mut event = |kind: &str, [x, y]: [f64; 2], buttons: u32| {
+            let params = json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1, "modifiers": modifiers });
+            self.send("Input.dispatchMouseEvent", params);
+        };
+        event("mouseMoved", from, 0);
+        event("mousePressed", from, buttons);
+        for share in [0.3, 0.7, 1.0] {
+            event("mouseMoved", [0, 1].map(|i| from[i] + share * (to[i] - from[i])), buttons);
+        }
+        event("mouseReleased", to, 0);
+    }
+
+    /// Touches that go along these paths together.
+    pub fn touch(&mut self, paths: &[[[f64; 2]; 2]]) {
+        for (kind, share) in [("touchStart", 0.0), ("touchMove", 0.5), ("touchMove", 1.0)] {
+            let point = |(id, [from, to]): (usize, &[[f64; 2]; 2])| {
+                let [x, y] = [0, 1].map(|i| from[i] + share * (to[i] - from[i]));
+                json!({ "x": x, "y": y, "id": id })
+            };
+            let points: Vec<Value> = paths.iter().enumerate().map(point).collect();
+            self.send("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
+        }
+        self.send("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
+    }
+
+    /// Presses and releases a key, such as `m` or `ArrowLeft`.
+    pub fn press(&mut self, key: &str, modifiers: u32) {
+        self.key("keyDown", key, modifiers);
+        self.key("keyUp", key, modifiers);
+    }
+
+    /// `keyDown` or `keyUp`.
+    pub fn key(&mut self, kind: &str, key: &str, modifiers: u32) {
+        let text = if key.len() == 1 && kind == "keyDown" { key } else { "" };
+        let code = match key {
+            "ArrowLeft" => 37,
+            "ArrowUp" => 38,
+            "ArrowRight" => 39,
+            "ArrowDown" => 40,
+            "Tab" => 9,
+            "Enter" => 13,
+            _ => u32::from(key.to_ascii_uppercase().as_bytes()[0]),
+        };
+        let params = json!({ "type": kind, "key": key, "text": text, "modifiers": modifiers, "windowsVirtualKeyCode": code });
+        self.send("Input.dispatchKeyEvent", params);
+    }
+
+    /// The addresses that the page has requested, and what it complained about.
+    pub fn traffic(&self) -> (Vec<String>, Vec<String>) {
+        let of = |method: &'static str| self.events.iter().filter(move |event| event["method"] == method);
+        let requests = of("Network.requestWillBeSent")
+            .map(|event| event["params"]["request"]["url"].as_str().unwrap_or_default().to_owned());
+        let complaints = of("Runtime.exceptionThrown").chain(of("Log.entryAdded")).map(Value::to_string);
+        let complaints =
+            complaints.filter(|text| text.contains("error") && !text.contains("GL Driver Message"));
+        (requests.collect(), complaints.collect())
+    }
+}
+
+fn url(file: &Path) -> String {
+    format!("file://{}", file.display())
+}
+
+impl Drop for Page {
+    fn drop(&mut self) {
+        drop(self.child.kill());
+        drop(self.child.wait());
+    }
+}

@@ -1,0 +1,215 @@
+//! Every control of the figure, by mouse, keyboard and touch; and the page offline.
+
+use serde_json::{Value, json};
+
+use svbrdf_core::model::convention::PRINTED;
+
+use super::browser::Page;
+use super::{figure, noise};
+
+const SHIFT: u32 = 8;
+
+fn open() -> Page {
+    let mut page = Page::open(&figure(&[noise(1), noise(2), noise(3)], PRINTED), [1200, 900]);
+    page.evaluate("document.getElementById('canvas').focus()");
+    page
+}
+
+fn state(page: &mut Page, member: &str) -> Value {
+    page.after_frame(&format!("window.svbrdf.figure.state.{member}"))
+}
+
+fn near(found: &Value, expected: [f64; 2]) -> bool {
+    (0..2).all(|i| (found[i].as_f64().unwrap() - expected[i]).abs() < 0.02)
+}
+
+/// The middle of the first pane, and half of its side, of a square material.
+fn pane(page: &mut Page) -> ([f64; 2], f64) {
+    page.place("#canvas");
+    let found = page.evaluate(
+        "(() => { const c = document.getElementById('canvas').getBoundingClientRect(); const b = window.svbrdf.figure.boxes()[0]; \
+         return [c.left + b.x + b.width / 2, c.top + b.y + b.height / 2, Math.min(b.width, b.height) / 2 / 1.03 * 47 / 48]; })()",
+    );
+    let at = |i: usize| found[i].as_f64().unwrap();
+    ([at(0), at(1)], at(2))
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn the_mouse_moves_light_view_picture_and_wipe() {
+    let mut page = open();
+    let ([x, y], unit) = pane(&mut page);
+    page.drag("left", 0, [x, y], [x + 0.5 * unit, y - 0.25 * unit]);
+    assert!(near(&state(&mut page, "scene.light"), [0.5, 0.25]));
+    page.drag("right", 0, [x, y], [x - 0.5 * unit, y + 0.25 * unit]);
+    assert!(near(&state(&mut page, "scene.view"), [-0.5, -0.25]));
+    page.drag("left", SHIFT, [x, y], [x + 0.1 * unit, y]);
+    assert!(near(&state(&mut page, "scene.view"), [0.1, 0.0]));
+    let wheel = |page: &mut Page, modifiers: u32| {
+        let params = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": -100, "modifiers": modifiers });
+        page.send("Input.dispatchMouseEvent", params);
+    };
+    wheel(&mut page, 0);
+    assert!((state(&mut page, "zoom").as_f64().unwrap() - 1.15).abs() < 1e-9);
+    wheel(&mut page, SHIFT);
+    assert!((state(&mut page, "scene.light[2]").as_f64().unwrap() - 1.32).abs() < 1e-9);
+    page.drag("middle", 0, [x, y], [x + 40.0, y]);
+    assert!(state(&mut page, "pan[0]").as_f64().unwrap() > 0.1);
+    page.evaluate("window.svbrdf.figure.set({ projection: 'perspective' })");
+    page.drag("right", 0, [x, y], [x + 60.0, y]);
+    assert!(state(&mut page, "scene.view[0]").as_f64().unwrap() < -0.2);
+    page.evaluate("Object.assign(window.svbrdf.figure.state, window.svbrdf.figure.start())");
+    page.evaluate("window.svbrdf.figure.set({ layout: 'wipe' })");
+    let boxes = page.after_frame("window.svbrdf.figure.boxes()[0].width");
+    let ([x, y], _) = pane(&mut page);
+    page.drag("left", 0, [x, y], [x + 0.2 * boxes.as_f64().unwrap(), y]);
+    assert!((state(&mut page, "wipe").as_f64().unwrap() - 0.7).abs() < 0.01);
+    assert_eq!(state(&mut page, "scene.light"), json!([0.4, 0.5, 1.2]));
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn fingers_move_light_and_view_and_zoom() {
+    let mut page = open();
+    let ([x, y], unit) = pane(&mut page);
+    page.touch(&[[[x, y], [x - 0.5 * unit, y - 0.5 * unit]]]);
+    assert!(near(&state(&mut page, "scene.light"), [-0.5, 0.5]));
+    page.touch(&[[[x - 40.0, y], [x - 80.0, y]], [[x + 40.0, y], [x + 80.0, y]]]);
+    assert!((state(&mut page, "zoom").as_f64().unwrap() - 2.0).abs() < 0.1);
+    let before = state(&mut page, "scene.view[1]").as_f64().unwrap();
+    page.touch(&[[[x - 40.0, y], [x - 40.0, y - 60.0]], [[x + 40.0, y], [x + 40.0, y - 60.0]]]);
+    assert!(state(&mut page, "scene.view[1]").as_f64().unwrap() > before + 0.05);
+    assert_eq!(state(&mut page, "scene.light[2]"), json!(1.2));
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn keys_do_what_they_do_in_the_window() {
+    let mut page = open();
+    let cases = [
+        ("m", 0, "quantity", json!("normal")),
+        ("M", SHIFT, "quantity", json!("rendering")),
+        ("d", 0, "difference", json!(true)),
+        ("c", 0, "layout", json!("wipe")),
+        ("2", 0, "prediction", json!(1)),
+        ("e", 0, "exposure", json!(0.5)),
+        ("E", SHIFT, "exposure", json!(0)),
+        ("p", 0, "projection", json!("perspective")),
+        ("t", 0, "tiled", json!(true)),
+        ("v", 0, "falseColour", json!(true)),
+        ("l", 0, "clipping", json!(true)),
+        ("+", 0, "zoom", json!(1.15)),
+        ("f", 0, "zoom", json!(1)),
+        ("r", 0, "layout", json!("side-by-side")),
+    ];
+    for (key, modifiers, member, expected) in cases {
+        page.press(key, modifiers);
+        assert_eq!(state(&mut page, member), expected, "{key}");
+    }
+    page.press("ArrowRight", 0);
+    page.press("ArrowUp", SHIFT);
+    assert!(near(&state(&mut page, "scene.light"), [0.45, 0.5]));
+    assert!(near(&state(&mut page, "scene.view"), [0.0, 0.05]));
+    page.key("keyDown", "g", 0);
+    assert_eq!(page.after_frame("window.svbrdf.figure.panes().map(pane => pane.material)"), json!([0, 0, 0]));
+    page.key("keyUp", "g", 0);
+    assert_eq!(page.after_frame("window.svbrdf.figure.panes().map(pane => pane.material)"), json!([0, 1, 2]));
+    page.press("0", 0);
+    assert_eq!(
+        page.after_frame("Math.round(window.svbrdf.figure.state.zoom * 100) === Math.round(100 * 1.03 * 48 / Math.min(window.svbrdf.figure.boxes()[0].width, window.svbrdf.figure.boxes()[0].height))"),
+        json!(true)
+    );
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn every_control_is_reached_by_tab_has_a_name_and_changes_the_figure() {
+    let mut page = open();
+    page.evaluate("document.body.focus(); document.activeElement.blur()");
+    let mut reached = Vec::new();
+    for _ in 0..24 {
+        page.press("Tab", 0);
+        reached.push(page.evaluate("document.activeElement.id"));
+    }
+    for id in [
+        "quantity",
+        "difference",
+        "layout",
+        "prediction",
+        "near",
+        "projection",
+        "drag",
+        "exposure",
+        "peek",
+        "fit",
+        "reset",
+        "canvas",
+    ] {
+        assert!(reached.contains(&json!(id)), "{id} is not among {reached:?}");
+    }
+    let unnamed = page.evaluate(
+        "[...document.querySelectorAll('input, select, button, canvas[tabindex], img')].filter(e => \
+         !(e.getAttribute('aria-label') || e.closest('label')?.textContent.trim() || e.textContent.trim() || e.alt)).map(e => e.id)",
+    );
+    assert_eq!(unnamed, json!([]));
+    let cases = [
+        ("quantity", "roughness", "quantity", json!("roughness")),
+        ("layout", "single", "layout", json!("single")),
+        ("prediction", "1", "prediction", json!(1)),
+        ("near", "distant", "scene.kind", json!("distant")),
+        ("projection", "perspective", "projection", json!("perspective")),
+        ("drag", "view", "drag", json!("view")),
+        ("exposure", "-1.5", "exposure", json!(-1.5)),
+        ("light-2", "0.8", "scene.light[2]", json!(0.8)),
+        ("view-0", "-0.3", "scene.view[0]", json!(-0.3)),
+    ];
+    for (id, value, member, expected) in cases {
+        page.evaluate(&format!(
+            "(() => {{ const e = document.getElementById({id:?}); e.value = {value:?}; e.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()"
+        ));
+        assert_eq!(state(&mut page, member), expected, "{id}");
+    }
+    page.evaluate("document.getElementById('difference').click()");
+    assert_eq!(state(&mut page, "difference"), json!(true));
+    assert_eq!(page.evaluate("document.getElementById('legend').hidden"), json!(false));
+    let before = state(&mut page, "ranges.absolute");
+    page.evaluate("document.getElementById('auto').click()");
+    assert_ne!(state(&mut page, "ranges.absolute"), before);
+    page.evaluate("document.getElementById('reset').click()");
+    assert_eq!(state(&mut page, "quantity"), json!("rendering"));
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn a_readout_is_in_every_pane() {
+    let mut page = open();
+    let ([x, y], _) = pane(&mut page);
+    page.send("Input.dispatchMouseEvent", json!({ "type": "mouseMoved", "x": x, "y": y }));
+    let texts = page.after_frame("[...document.querySelectorAll('.readout')].map(e => e.textContent)");
+    assert_eq!(texts.as_array().unwrap().len(), 3);
+    for text in texts.as_array().unwrap() {
+        assert!(text.as_str().unwrap().starts_with("(2"), "{texts}");
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn the_page_requests_nothing_and_its_policy_admits_nothing() {
+    let mut page = open();
+    let (requests, complaints) = page.traffic();
+    assert!(requests.len() >= 2 && complaints.is_empty(), "{requests:?} {complaints:?}");
+    let inside = |address: &String| {
+        address.starts_with("file://") && address.ends_with("/report.html")
+            || address.starts_with("data:image/jpeg")
+    };
+    assert!(requests.iter().all(inside), "{requests:?}");
+    // Shown a request and a foreign script, the policy refuses both.
+    let refused = page.evaluate(
+        "new Promise(done => { const found = []; document.addEventListener('securitypolicyviolation', e => { \
+         found.push(e.effectiveDirective); if (found.length === 2) done(found.sort()); }); \
+         fetch('https://example.invalid/').catch(() => {}); const s = document.createElement('script'); s.textContent = 'window.hit = 1'; \
+         document.body.append(s); })",
+    );
+    assert_eq!(refused, json!(["connect-src", "script-src-elem"]));
+    assert_eq!(page.evaluate("window.hit === undefined"), json!(true));
+}

@@ -1,0 +1,78 @@
+//! Names of materials and files are data, never markup.
+
+use serde_json::json;
+
+use svbrdf_core::loss::Request;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_files::page::{Findings, Report, View};
+use svbrdf_files::session_window::Display;
+
+use super::browser::Page;
+use super::noise;
+
+const NAMES: [&str; 2] = [
+    "</script><img src=x onerror=window.hit=1><!--<script>",
+    "\"'><svg onload=window.hit=1>{{data}}\u{202e}&lt;",
+];
+
+/// A whole report of materials with hostile names.
+fn report() -> String {
+    let [truth, prediction] = [0, 1].map(|i| noise(i as u32).renamed(NAMES[i]));
+    let progress = Progress::default();
+    let request = Request::Accuracy { target: 0.05, seed: 0 };
+    let findings = Findings::new(&truth, &[&prediction], PRINTED, &request, &progress).unwrap();
+    let materials: [&Material<f32>; 2] = [&truth, &prediction];
+    let report = Report {
+        materials: &materials,
+        convention: PRINTED,
+        view: View {
+            scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
+            exposure_ev: 0.0,
+            display: Display::default(),
+        },
+        findings: Some(findings),
+        readings: NAMES.map(|name| vec![name.to_owned()]).to_vec(),
+        command: NAMES.concat(),
+        max_bytes: 10_000_000,
+    };
+    report.page(&progress).unwrap().html
+}
+
+#[test]
+fn hostile_names_add_no_elements() {
+    let html = report();
+    let count = |text: &str| html.matches(text).count();
+    assert_eq!(
+        [count("<script"), count("</script"), count("<img src=x"), count("<svg onload")],
+        [2, 2, 0, 0]
+    );
+    assert_eq!(count("id=\"data\""), 1);
+    assert!(count("&lt;/script&gt;&lt;img src=x") > 3);
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn hostile_names_run_nothing_and_are_read_as_they_are() {
+    let mut page = Page::open(&report(), [900, 900]);
+    assert_eq!(page.after_frame("window.hit === undefined"), json!(true));
+    assert_eq!(page.evaluate("window.svbrdf.figure.materials.map(m => m.name)"), json!(NAMES));
+    let title = page.evaluate("document.querySelector('.pane .title').textContent");
+    assert_eq!(title, json!(format!("{} (ground truth)", NAMES[0])));
+    let (_, complaints) = page.traffic();
+    assert!(complaints.is_empty(), "{complaints:?}");
+    // A click on a worst scene and on a direction of the light.
+    page.evaluate("document.querySelector('button[data-scene=\"0\"]').click()");
+    let scene = page.after_frame("window.svbrdf.figure.state.scene");
+    assert_ne!(scene["light"], json!([0.4, 0.5, 1.2]));
+    let [x, y] = page.place("svg.directions");
+    page.drag("left", 0, [x + 40.0, y - 20.0], [x + 40.0, y - 20.0]);
+    let light = page.after_frame("window.svbrdf.figure.state.scene");
+    assert_eq!([&light["kind"], &light["view"]], [&json!("distant"), &json!([0, 0, 1])]);
+    assert!(
+        light["light"][0].as_f64().unwrap() > 0.1 && light["light"][1].as_f64().unwrap() > 0.05,
+        "{light}"
+    );
+}
