@@ -25,9 +25,10 @@ enum Shows {
 
 /// How materials are read: a session specifies it.
 #[rustfmt::skip]
-const OF_SESSION: [&str; 17] = [
+const OF_SESSION: [&str; 21] = [
     "preset", "albedo", "specular-albedo", "normal-y", "roughness", "normal-encoding", "workflow", "dielectric-f0", "energy", "order",
-    "grid", "flip-v", "exemplar", "non-finite", "gt-albedo", "pred-albedo", "resize-to",
+    "grid", "flip-v", "exemplar", "non-finite", "gt-albedo", "pred-albedo", "pred-specular-albedo", "pred-normal-y",
+    "pred-roughness", "pred-energy", "resize-to",
 ];
 /// The options of a photograph, and what a window has no use for.
 #[rustfmt::skip]
@@ -35,7 +36,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 36] = [
+const MODES: [(&str, Shows); 37] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -55,6 +56,7 @@ const MODES: [(&str, Shows); 36] = [
     ("rank --merge journal.jsonl", Shows::Everything),
     ("blame gt.png a.png", Shows::Everything),
     ("blame gt.png a.png --scenes one.json", Shows::Everything),
+    ("diagnose gt.png a.png", Shows::Everything),
     ("scenes gt.png a.png --format csv", Shows::Everything),
     ("worst gt.png a.png", Shows::Everything),
     ("map gt.png a.png -o x.csv", Shows::Everything),
@@ -69,7 +71,13 @@ const MODES: [(&str, Shows); 36] = [
     ("convert gt.png x.exr", Shows::Everything),
     ("study gt.png a.png -o none/x.csv", Shows::Refusals(&[])),
     ("study s.svbrdf-session.json -o none/x.csv", Shows::Refusals(&[&OF_SESSION])),
-    ("view gt.png", Shows::Refusals(&[&WITHOUT_PHOTO, &["pred-albedo"]])),
+    (
+        "view gt.png",
+        Shows::Refusals(&[
+            &WITHOUT_PHOTO,
+            &["pred-albedo", "pred-specular-albedo", "pred-normal-y", "pred-roughness", "pred-energy"],
+        ]),
+    ),
     ("view s.svbrdf-session.json", Shows::Refusals(&[&WITHOUT_PHOTO, &OF_SESSION])),
     (
         "view gt.png a.png --photo photo.png --flash --fov 45",
@@ -78,7 +86,7 @@ const MODES: [(&str, Shows); 36] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 60] = [
+const VALUES: [(&str, &str); 64] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -94,6 +102,10 @@ const VALUES: [(&str, &str); 60] = [
     ("non-finite", "replace"),
     ("gt-albedo", "gamma2.2"),
     ("pred-albedo", "gamma2.2"),
+    ("pred-specular-albedo", "srgb"),
+    ("pred-normal-y", "down"),
+    ("pred-roughness", "gloss"),
+    ("pred-energy", "unscaled"),
     ("resize-to", "6"),
     ("convention", "guided-2020"),
     ("near", "3"),
