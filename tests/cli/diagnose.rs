@@ -15,7 +15,9 @@ fn json(text: &str) -> Value {
 
 /// Writes a packed material with bumps; `change` sees each stored texel of a map (0 normals, 1 diffuse, 2 roughness, 3 specular).
 fn write(path: &Path, change: impl Fn(u32, [u8; 3]) -> [u8; 3]) {
-    let wave = |x: u32, y: u32, by: f32| (0.5 + 0.5 * (0.9 * x as f32 + by).sin() * (0.7 * y as f32 + 2.0 * by).cos()) * 255.0;
+    let wave = |x: u32, y: u32, by: f32| {
+        (0.5 + 0.5 * (0.9 * x as f32 + by).sin() * (0.7 * y as f32 + 2.0 * by).cos()) * 255.0
+    };
     write_tiles(path, SIDE, |x, y| {
         let (tile, x) = (x / SIDE, x % SIDE);
         let texel = match tile {
@@ -39,7 +41,8 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
         ("directx", "normal_y", "flipped", "--pred-normal-y down"),
         ("gloss", "roughness", "gloss", "--pred-roughness gloss"),
     ] {
-        let printed = json(&succeed(folder.path(), &format!("diagnose truth.png {name}.png {READ} --format json")));
+        let printed =
+            json(&succeed(folder.path(), &format!("diagnose truth.png {name}.png {READ} --format json")));
         let prediction = &printed["predictions"][0];
         let findings = prediction["findings"].as_array().unwrap();
         let marked: Vec<&Value> = findings.iter().filter(|finding| finding["marked"] == true).collect();
@@ -49,7 +52,8 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
         // 128 + 64 scrambled Sobol scenes of the same seed on all texels.
         let scenes = "--near 128 --distant 64 --sampler sobol --format json";
         let loss = |options: &str| {
-            let printed = succeed(folder.path(), &format!("loss truth.png {name}.png {READ} {options} {scenes}"));
+            let printed =
+                succeed(folder.path(), &format!("loss truth.png {name}.png {READ} {options} {scenes}"));
             json(&printed)["results"][0]["loss"].as_f64().unwrap()
         };
         let expected = [loss(""), loss(option)];

@@ -46,8 +46,10 @@ const SCENES: &[&str] = &["near", "distant", "seed", "sampler", "scenes"];
 const ONE_SCENE: &[&str] = &["view", "light", "distant"];
 
 /// Any command with a session file in place of the ground truth.
-pub const SESSION: Mode =
-    Mode { reason: "a session specifies how its materials are read", unused: &[READING, PAIR, OF_PREDICTIONS] };
+pub const SESSION: Mode = Mode {
+    reason: "a session specifies how its materials are read",
+    unused: &[READING, PAIR, OF_PREDICTIONS],
+};
 /// Any command with a ground truth alone.
 pub const NO_PREDICTION: Mode = Mode { reason: "there is no prediction", unused: &[OF_PREDICTIONS] };
 

@@ -18,7 +18,11 @@ pub(super) struct Corrected {
 
 impl Corrected {
     /// Applies readings, then symmetries, then shifts; exposures apply to renderings.
-    pub(super) fn new(prediction: &Material<f32>, changes: &[Change], storage: &Storage) -> Result<Self, Error> {
+    pub(super) fn new(
+        prediction: &Material<f32>,
+        changes: &[Change],
+        storage: &Storage,
+    ) -> Result<Self, Error> {
         let mut corrected = Self { material: prediction.clone(), texels: None, stops: None };
         for change in changes {
             if let Change::Reading(reading) = change {

@@ -15,7 +15,7 @@ use crate::progress::Progress;
 const COPIES: u64 = 2;
 /// Scenes: near-field, distant.
 const SCENES: [usize; 2] = [128, 64];
-/// Most texels of a scene.
+/// Texels of a scene up to which all are compared; of larger maps an eighth as many.
 const TEXELS: usize = 1 << 16;
 
 /// The material with every stored value moved by up to half a step of its map, uniformly; normals are normalized again.
@@ -64,7 +64,8 @@ pub fn floor(
     let copies = copies.collect::<Result<Vec<_>, Error>>()?;
     let comparison = Comparison::new(ground_truth, &copies.iter().collect::<Vec<_>>(), *convention)?;
     let [near, distant] = SCENES;
-    let texels = Texels::Sampled(TEXELS);
+    let all = ground_truth.width() * ground_truth.height() <= TEXELS;
+    let texels = if all { Texels::All } else { Texels::Sampled(TEXELS / 8) };
     let sampling = Sampling { near, distant, seed, sampler: Sampler::Sobol, texels };
     let outcome = comparison.without_pilot().run(&Request::Scenes(sampling), progress)?;
     let mean = |scene: usize| {

@@ -17,7 +17,13 @@ pub fn best_stops(pairs: &[[f32; 2]], epsilon: f64) -> f64 {
         let of_pair = |&[g, p]: &[f32; 2]| {
             let p = factor * p;
             let weight = p / (p + epsilon);
-            if p > g { weight } else if p < g { -weight } else { 0.0 }
+            if p > g {
+                weight
+            } else if p < g {
+                -weight
+            } else {
+                0.0
+            }
         };
         let of_chunk = |chunk: &[[f32; 2]]| f64::from(chunk.iter().map(of_pair).sum::<f32>());
         pairs.chunks(256).map(of_chunk).sum::<f64>()
@@ -67,7 +73,8 @@ mod tests {
         let noisy: Vec<Pair> = (0..600).map(|i| [[radiance(i); 3], [noise(i) * radiance(i); 3]]).collect();
         let found = best_exposure(std::slice::from_ref(&noisy), 0.01, false)[0];
         let grid = (0..4000).map(|i| f64::from(i) / 1000.0 - 2.0);
-        let least = grid.min_by(|&a, &b| loss(&noisy, [a; 3], 0.01).total_cmp(&loss(&noisy, [b; 3], 0.01))).unwrap();
+        let least =
+            grid.min_by(|&a, &b| loss(&noisy, [a; 3], 0.01).total_cmp(&loss(&noisy, [b; 3], 0.01))).unwrap();
         assert!((found - least).abs() < 0.005, "{found} {least}");
         assert_eq!(best_stops(&[[0.5, 0.5], [0.1, 0.1]], 0.01), 0.0);
         assert_eq!(best_stops(&[], 0.01), 0.0);

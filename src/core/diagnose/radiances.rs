@@ -40,7 +40,8 @@ pub(super) fn radiances(
         let rays = scene.rays();
         let pair = |texel: usize| {
             let [column, row] = [texel % width, texel / width];
-            [ground_truth, &corrected.material].map(|material| render_texel(material, &model, &rays, column, row))
+            [ground_truth, &corrected.material]
+                .map(|material| render_texel(material, &model, &rays, column, row))
         };
         let pairs = texels.into_iter().map(pair).collect();
         progress.step()?;

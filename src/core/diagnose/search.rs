@@ -20,8 +20,9 @@ use crate::model::sampler::{REPLICATES, Sampler};
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 
-/// Near-field scenes, distant scenes, and most texels of each: of the pilot, and of the evaluation.
-const PILOT: [usize; 3] = [64, 32, 1024];
+/// Near-field scenes, distant scenes, and texels of each up to which all are compared: of the pilot, and of the evaluation. Of larger maps
+/// an eighth as many are.
+const PILOT: [usize; 3] = [64, 32, 8192];
 const EVALUATION: [usize; 3] = [128, 64, 1 << 16];
 /// What the seed of the pilot differs by.
 const PILOT_SEED: u64 = 0x7069_6c6f_7400_0000;
@@ -73,7 +74,13 @@ pub fn diagnose(
     findings.insert(3, untested(Hypothesis::Subtexel, subtexel, None));
     findings.insert(5, resampling(&ladder));
     let prediction_seams = seams(prediction);
-    Ok(Diagnosis { prediction: prediction.name().to_owned(), loss, findings, ladder, seams: prediction_seams })
+    Ok(Diagnosis {
+        prediction: prediction.name().to_owned(),
+        loss,
+        findings,
+        ladder,
+        seams: prediction_seams,
+    })
 }
 
 /// A line without a test.
@@ -115,7 +122,8 @@ fn proposals(pilot: &Trials<'_>) -> Result<(Vec<Proposal>, Value), Error> {
         Proposal { hypothesis: Hypothesis::Shift, value, change, remedy: None },
     ];
     let mut symmetries: Vec<Symmetry> = Symmetry::of(pilot.ground_truth.size()).collect();
-    let best = best(pilot, &symmetries.iter().map(|&symmetry| Change::Symmetry(symmetry)).collect::<Vec<_>>())?;
+    let best =
+        best(pilot, &symmetries.iter().map(|&symmetry| Change::Symmetry(symmetry)).collect::<Vec<_>>())?;
     let symmetry = symmetries.swap_remove(best);
     proposals.push(Proposal {
         hypothesis: Hypothesis::Symmetry,
@@ -171,7 +179,9 @@ fn best(pilot: &Trials<'_>, changes: &[Change]) -> Result<usize, Error> {
 fn shift(pilot: &Trials<'_>) -> Result<([i32; 2], Value), Error> {
     let ratios = |shifts: &[[i32; 2]]| -> Result<Vec<f64>, Error> {
         let trials: Vec<Vec<Change>> = shifts.iter().map(|&shift| vec![Change::Shift(shift)]).collect();
-        let ratio = |paired: &Paired| if mean(&paired.before) > 0.0 { mean(&paired.after) / mean(&paired.before) } else { 1.0 };
+        let ratio = |paired: &Paired| {
+            if mean(&paired.before) > 0.0 { mean(&paired.after) / mean(&paired.before) } else { 1.0 }
+        };
         Ok(pilot.losses(&trials)?.iter().map(ratio).collect())
     };
     let candidates = candidates(pilot.ground_truth, pilot.prediction, SHIFTS);
@@ -219,14 +229,18 @@ impl Search<'_> {
     /// Marks the finding with the largest share, then those whose shares remain after the corrections of the marked ones.
     fn mark(&self, proposals: &[Proposal], findings: &mut [Finding]) -> Result<(), Error> {
         let share = |finding: &Finding| finding.share.unwrap_or(0.0);
-        let passes = |finding: &Finding| finding.p.is_some_and(|p| p < LEVEL) && share(finding) >= LEAST_SHARE;
+        let passes =
+            |finding: &Finding| finding.p.is_some_and(|p| p < LEVEL) && share(finding) >= LEAST_SHARE;
         let mut open: Vec<usize> = (0..findings.len()).filter(|&i| passes(&findings[i])).collect();
         // Three factors explain at least as much as one.
-        let largest = |open: &[usize]| open.iter().copied().max_by(|&a, &b| share(&findings[a]).total_cmp(&share(&findings[b])));
+        let largest = |open: &[usize]| {
+            open.iter().copied().max_by(|&a, &b| share(&findings[a]).total_cmp(&share(&findings[b])))
+        };
         let first = largest(&open).map(|best| {
             let one = open.iter().copied().find(|&i| findings[i].hypothesis == Hypothesis::Exposure);
             let is_rgb = findings[best].hypothesis == Hypothesis::ExposureRgb;
-            one.filter(|&one| is_rgb && share(&findings[best]) - share(&findings[one]) < LEAST_SHARE).unwrap_or(best)
+            one.filter(|&one| is_rgb && share(&findings[best]) - share(&findings[one]) < LEAST_SHARE)
+                .unwrap_or(best)
         });
         let mut next = first;
         let mut marked = Vec::new();
@@ -240,11 +254,17 @@ impl Search<'_> {
     }
 
     /// The proposal that explains most beside the `marked` ones; those that explain too little are removed from `open`.
-    fn next(&self, proposals: &[Proposal], marked: &[usize], open: &mut Vec<usize>) -> Result<Option<usize>, Error> {
+    fn next(
+        &self,
+        proposals: &[Proposal],
+        marked: &[usize],
+        open: &mut Vec<usize>,
+    ) -> Result<Option<usize>, Error> {
         if open.is_empty() {
             return Ok(None);
         }
-        let with = |other: Option<usize>| self.together(marked.iter().copied().chain(other).map(|i| &proposals[i]));
+        let with =
+            |other: Option<usize>| self.together(marked.iter().copied().chain(other).map(|i| &proposals[i]));
         let trials = std::iter::once(None).chain(open.iter().copied().map(Some)).map(with);
         let losses = self.evaluation.losses(&trials.collect::<Result<Vec<_>, Error>>()?)?;
         let relative = |paired: &Paired| {
@@ -252,7 +272,9 @@ impl Search<'_> {
             paired.after.iter().map(|loss| loss / before).collect::<Vec<_>>()
         };
         let first = relative(&losses[0]);
-        let fall = |paired: &Paired| Estimate::of_difference(Sampler::Sobol, &self.evaluation.scenes, &first, &relative(paired));
+        let fall = |paired: &Paired| {
+            Estimate::of_difference(Sampler::Sobol, &self.evaluation.scenes, &first, &relative(paired))
+        };
         let falls: Vec<Estimate> = losses[1..].iter().map(fall).collect();
         let p = holm(&falls.iter().map(one_sided).collect::<Vec<_>>());
         let explains: Vec<(usize, f64)> = open

@@ -49,7 +49,11 @@ fn words(finding: &Finding) -> (String, &'static str) {
             ("A factor on each colour channel".to_owned(), ": its white balance differs")
         }
         (Hypothesis::Shift, Value::Displacement([right, down])) => (
-            format!("Moving the prediction by {} and {}", texels(-right, ["right", "left"]), texels(-down, ["down", "up"])),
+            format!(
+                "Moving the prediction by {} and {}",
+                texels(-right, ["right", "left"]),
+                texels(-down, ["down", "up"])
+            ),
             ": it is probably misaligned",
         ),
         (Hypothesis::Symmetry, _) => (
@@ -57,8 +61,16 @@ fn words(finding: &Finding) -> (String, &'static str) {
             ": its rows, columns or axes probably differ from those of the ground truth",
         ),
         (Hypothesis::NormalY, _) => {
-            let direction = if finding.remedy.as_deref().is_some_and(|option| option.ends_with("up")) { "up" } else { "down" };
-            let kind = if direction == "up" { ": the file is probably OpenGL" } else { ": the file is probably DirectX" };
+            let direction = if finding.remedy.as_deref().is_some_and(|option| option.ends_with("up")) {
+                "up"
+            } else {
+                "down"
+            };
+            let kind = if direction == "up" {
+                ": the file is probably OpenGL"
+            } else {
+                ": the file is probably DirectX"
+            };
             (format!("Reading the normals with Y {direction}"), kind)
         }
         (Hypothesis::NormalX, _) => ("Reading the normals with X flipped".to_owned(), ""),
@@ -69,14 +81,19 @@ fn words(finding: &Finding) -> (String, &'static str) {
             (format!("Reading specular as {}", encoding(name)), ": it is probably stored so")
         }
         (Hypothesis::Roughness, _) => match name {
-            "gloss" => ("Reading roughness as 1 - roughness".to_owned(), ": the file probably holds glossiness"),
-            "root" => ("Taking the square root of roughness".to_owned(), ": the file probably holds alpha = r^2"),
+            "gloss" => {
+                ("Reading roughness as 1 - roughness".to_owned(), ": the file probably holds glossiness")
+            }
+            "root" => {
+                ("Taking the square root of roughness".to_owned(), ": the file probably holds alpha = r^2")
+            }
             _ => ("Squaring roughness".to_owned(), ": it is probably stored as a square root"),
         },
         (Hypothesis::Channels, _) => ("Swapping red and blue".to_owned(), ": the file is probably BGR"),
-        (Hypothesis::Energy, _) => {
-            (format!("Reading diffuse as {name} by (1 - specular)"), ": its renderer probably scales diffuse in another way")
-        }
+        (Hypothesis::Energy, _) => (
+            format!("Reading diffuse as {name} by (1 - specular)"),
+            ": its renderer probably scales diffuse in another way",
+        ),
         (hypothesis, _) => (format!("The change {}", hypothesis.name()), ""),
     }
 }

@@ -17,9 +17,9 @@ const ROWS: usize = 64;
 /// Those of [`Material::new`], which values of a material do not give.
 pub fn shifted(material: &Material<f32>, [right, down]: [i32; 2]) -> Result<Material<f32>, Error> {
     let [width, height] = material.size();
-    let back = |at: usize, by: i32, count: usize| (at as i64 - i64::from(by)).rem_euclid(count as i64) as usize;
-    let source =
-        |index: usize| back(index / width, down, height) * width + back(index % width, right, width);
+    let back =
+        |at: usize, by: i32, count: usize| (at as i64 - i64::from(by)).rem_euclid(count as i64) as usize;
+    let source = |index: usize| back(index / width, down, height) * width + back(index % width, right, width);
     let moved = |plane: &Vec<f32>| (0..plane.len()).map(|index| plane[source(index)]).collect::<Vec<_>>();
     let Planes { normal, diffuse, specular, roughness } = material.planes();
     let planes = Planes {
@@ -45,21 +45,29 @@ pub(super) fn interior([width, height]: [usize; 2], [right, down]: [i32; 2]) -> 
 /// best: candidates.
 ///
 /// The sum over all planes of Pearson's correlation coefficient on the texels that every shift leaves inside.
-pub(super) fn candidates(ground_truth: &Material<f32>, prediction: &Material<f32>, count: usize) -> Vec<[i32; 2]> {
+pub(super) fn candidates(
+    ground_truth: &Material<f32>,
+    prediction: &Material<f32>,
+    count: usize,
+) -> Vec<[i32; 2]> {
     let [width, height] = ground_truth.size();
     let reach = |side: usize| MOST_SHIFT.min(side / 4);
     let [reach_x, reach_y] = [reach(width), reach(height)];
     let inside = height - 2 * reach_y;
     let rows: Vec<usize> = (0..inside.min(ROWS)).map(|i| reach_y + i * inside / inside.min(ROWS)).collect();
     let span = |by: usize| -> Vec<i32> { (-(by as i32)..=by as i32).collect() };
-    let all: Vec<[i32; 2]> = span(reach_y).into_iter().flat_map(|down| span(reach_x).into_iter().map(move |right| [right, down])).collect();
+    let all: Vec<[i32; 2]> = span(reach_y)
+        .into_iter()
+        .flat_map(|down| span(reach_x).into_iter().map(move |right| [right, down]))
+        .collect();
     let columns = [reach_x, width - reach_x];
     let pairs: Vec<_> = planes(ground_truth.planes()).zip(planes(prediction.planes())).collect();
     let fit = |&[right, down]: &[i32; 2]| {
         let one = |&(a, b): &(&[f32], &[f32])| correlation(a, b, width, &rows, columns, [right, down]);
         pairs.iter().map(one).sum::<f64>()
     };
-    let mut fits: Vec<(f64, [i32; 2])> = all.par_iter().filter(|shift| **shift != [0, 0]).map(|shift| (fit(shift), *shift)).collect();
+    let mut fits: Vec<(f64, [i32; 2])> =
+        all.par_iter().filter(|shift| **shift != [0, 0]).map(|shift| (fit(shift), *shift)).collect();
     fits.sort_by(|a, b| b.0.total_cmp(&a.0));
     fits.into_iter().take(count).map(|(_, shift)| shift).collect()
 }
@@ -75,7 +83,8 @@ fn correlation(
 ) -> f64 {
     let (mut sums, mut count) = ([0.0_f64; 5], 0.0);
     for &row in rows {
-        let moved = ((row as i64 + i64::from(down)) * width as i64 + first as i64 + i64::from(right)) as usize;
+        let moved =
+            ((row as i64 + i64::from(down)) * width as i64 + first as i64 + i64::from(right)) as usize;
         let (a, b) = (&a[row * width + first..row * width + end], &b[moved..moved + end - first]);
         let mut of_row = [[0.0_f32; 8]; 5];
         let add = |sums: &mut [[f32; 8]; 5], lane: usize, x: f32, y: f32| {

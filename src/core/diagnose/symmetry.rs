@@ -123,6 +123,11 @@ mod tests {
             assert!(((r[13] - r[11]) / 0.4 + x / z).abs() < 1e-5, "{}", symmetry.name());
         }
         let clockwise = Symmetry::ALL[4].applied(&material).unwrap();
-        assert_eq!(clockwise.planes().roughness[4], material.planes().roughness[0], "{}", Symmetry::ALL[4].name());
+        assert_eq!(
+            clockwise.planes().roughness[4],
+            material.planes().roughness[0],
+            "{}",
+            Symmetry::ALL[4].name()
+        );
     }
 }

@@ -47,6 +47,9 @@ impl<'a> Trials<'a> {
         seed: u64,
         progress: &'a Progress,
     ) -> Result<Self, Error> {
+        // Texels that are listed take far longer than whole maps.
+        let is_whole = ground_truth.width() * ground_truth.height() <= texels;
+        let texels = if is_whole { texels } else { texels / 8 };
         let sampling =
             Sampling { near, distant, seed, sampler: Sampler::Sobol, texels: Texels::Sampled(texels) };
         let scenes = sampling.scenes(convention)?;
@@ -94,9 +97,11 @@ impl<'a> Trials<'a> {
         let materials = [self.prediction, material];
         let comparison = Comparison::new(self.ground_truth, &materials, *self.convention)?;
         let count = texels.len().min(self.texels);
-        let some: Vec<usize> = (0..count).map(|i| texels[(i as u128 * texels.len() as u128 / count as u128) as usize]).collect();
+        let some: Vec<usize> =
+            (0..count).map(|i| texels[(i as u128 * texels.len() as u128 / count as u128) as usize]).collect();
         let progress = self.progress.part();
-        let mut losses = f32::cpu().scene_losses(&comparison, &self.scenes, Some(&some), &progress)?.into_iter();
+        let mut losses =
+            f32::cpu().scene_losses(&comparison, &self.scenes, Some(&some), &progress)?.into_iter();
         let [before, after] = [losses.next(), losses.next()].map(Option::unwrap_or_default);
         Ok(Paired { before, after })
     }
@@ -114,7 +119,15 @@ impl<'a> Trials<'a> {
 
     fn radiances(&self, corrected: &Corrected) -> Result<Vec<Vec<Pair>>, Error> {
         let progress = self.progress.part();
-        radiances(self.ground_truth, corrected, &self.sampling, &self.scenes, RADIANCES, self.convention, &progress)
+        radiances(
+            self.ground_truth,
+            corrected,
+            &self.sampling,
+            &self.scenes,
+            RADIANCES,
+            self.convention,
+            &progress,
+        )
     }
 
     /// The stops of red, green and blue with the least loss, each or all together, after `changes` other than exposures.

@@ -87,7 +87,11 @@ impl DiagnoseReport {
         };
         let truth = line(&self.compared.ground_truth, visible(&self.seams));
         let prediction = line(&diagnosis.prediction, visible(&diagnosis.seams));
-        if truth.is_empty() && prediction.is_empty() { String::new() } else { format!("\n{truth}{prediction}") }
+        if truth.is_empty() && prediction.is_empty() {
+            String::new()
+        } else {
+            format!("\n{truth}{prediction}")
+        }
     }
 }
 
@@ -103,7 +107,8 @@ fn text(value: &Value) -> String {
 
 fn row(finding: &Finding) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6}"));
-    let interval = finding.interval95.map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
+    let interval =
+        finding.interval95.map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
     let unit = finding.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
     vec![
         if finding.marked { "*" } else { "" }.to_owned(),
@@ -119,7 +124,8 @@ fn row(finding: &Finding) -> Vec<String> {
 impl Report for DiagnoseReport {
     fn text(&self) -> String {
         let floor = self.floor.mean;
-        let first = self.diagnoses.iter().map(|diagnosis| self.text_of(diagnosis)).collect::<Vec<_>>().join("\n");
+        let first =
+            self.diagnoses.iter().map(|diagnosis| self.text_of(diagnosis)).collect::<Vec<_>>().join("\n");
         format!(
             "{}128 near-field and 64 distant scenes, seed {}, scrambled Sobol\nfloor of the ground truth {floor:.6}: smaller losses and differences are not resolvable\n\n{first}",
             self.compared.heading("diagnosis"),
@@ -129,7 +135,8 @@ impl Report for DiagnoseReport {
 
     fn table(&self) -> Table {
         let row = |diagnosis: &Diagnosis, finding: &Finding| {
-            let ends = |interval: Option<[f64; 2]>| [0, 1].map(|end| Cell::from(interval.map(|ends| ends[end])));
+            let ends =
+                |interval: Option<[f64; 2]>| [0, 1].map(|end| Cell::from(interval.map(|ends| ends[end])));
             let [low, high] = ends(finding.interval95);
             let [share_low, share_high] = ends(finding.share_interval95);
             vec![
@@ -149,7 +156,10 @@ impl Report for DiagnoseReport {
             ]
         };
         let all = self.diagnoses.iter();
-        Table::new(COLUMNS, all.flat_map(|diagnosis| diagnosis.findings.iter().map(move |f| row(diagnosis, f))))
+        Table::new(
+            COLUMNS,
+            all.flat_map(|diagnosis| diagnosis.findings.iter().map(move |f| row(diagnosis, f))),
+        )
     }
 }
 

@@ -56,7 +56,10 @@ impl RankReport {
     /// A line about the floor; empty without one.
     fn floor_line(&self) -> String {
         let Some(floor) = &self.floor else { return String::new() };
-        format!("floor {:.6}: smaller losses and differences are not resolvable with this ground truth\n", floor.mean)
+        format!(
+            "floor {:.6}: smaller losses and differences are not resolvable with this ground truth\n",
+            floor.mean
+        )
     }
 
     /// A table for a paper: the first group in bold.

@@ -63,7 +63,8 @@ fn the_ladder_of_misplaced_stripes_has_the_closed_form_and_a_darker_material_kee
     };
     let scenes = Sampler::Random.scenes(0, 0, 6, &PRINTED);
     let rungs = |prediction: &Material<f32>| {
-        let rungs = ladder(&stripes(0.1, 0.6, 0), prediction, &scenes, &PRINTED, &Progress::default()).unwrap();
+        let rungs =
+            ladder(&stripes(0.1, 0.6, 0), prediction, &scenes, &PRINTED, &Progress::default()).unwrap();
         rungs.iter().map(|rung| rung.loss).collect::<Vec<_>>()
     };
     let misplaced = rungs(&stripes(0.1, 0.6, 1));
@@ -104,7 +105,8 @@ fn the_floor_is_the_loss_of_brute_force_dithering() {
         })
         .collect();
     let copies: Vec<&Material<f32>> = copies.iter().collect();
-    let sampling = Sampling { near: 128, distant: 64, seed: 3, sampler: Sampler::Sobol, ..Sampling::default() };
+    let sampling =
+        Sampling { near: 128, distant: 64, seed: 3, sampler: Sampler::Sobol, ..Sampling::default() };
     let comparison = Comparison::new(&truth, &copies, PRINTED).unwrap();
     let outcome = comparison.run(&Request::Scenes(sampling), &Progress::default()).unwrap();
     let mean = outcome.losses.iter().map(|loss| loss.estimate.mean).sum::<f64>() / 16.0;

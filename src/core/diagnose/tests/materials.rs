@@ -18,7 +18,8 @@ pub(super) fn field(generator: &mut ChaCha8Rng, side: usize, contrast: f32) -> V
         .collect();
     let value = |index: usize| {
         let (x, y) = ((index % side) as f32, (index / side) as f32);
-        let sum: f32 = waves.iter().map(|[fx, fy, phase, amplitude]| amplitude * (fx * x + fy * y + phase).sin()).sum();
+        let sum: f32 =
+            waves.iter().map(|[fx, fy, phase, amplitude]| amplitude * (fx * x + fy * y + phase).sin()).sum();
         (0.5 + contrast * 0.2 * sum).clamp(0.0, 1.0)
     };
     (0..side * side).map(value).collect()
@@ -50,9 +51,24 @@ pub(super) fn generated(seed: u64, side: usize) -> Material<f32> {
     let grain = field(generator, side, 1.5);
     // Least and largest diffuse (RGB), specular (RGB) and roughness, and the strength of slopes.
     let (diffuse, specular, roughness, strength) = match seed % 3 {
-        0 => ([[0.25, 0.7], [0.08, 0.4], [0.05, 0.2]], [[0.03, 0.06], [0.03, 0.05], [0.02, 0.05]], [0.25, 0.55], 0.8),
-        1 => ([[0.02, 0.1], [0.02, 0.08], [0.01, 0.05]], [[0.5, 0.9], [0.35, 0.6], [0.15, 0.3]], [0.2, 0.45], 0.5),
-        _ => ([[0.15, 0.5], [0.12, 0.45], [0.2, 0.6]], [[0.03, 0.08], [0.04, 0.08], [0.05, 0.1]], [0.5, 0.85], 1.2),
+        0 => (
+            [[0.25, 0.7], [0.08, 0.4], [0.05, 0.2]],
+            [[0.03, 0.06], [0.03, 0.05], [0.02, 0.05]],
+            [0.25, 0.55],
+            0.8,
+        ),
+        1 => (
+            [[0.02, 0.1], [0.02, 0.08], [0.01, 0.05]],
+            [[0.5, 0.9], [0.35, 0.6], [0.15, 0.3]],
+            [0.2, 0.45],
+            0.5,
+        ),
+        _ => (
+            [[0.15, 0.5], [0.12, 0.45], [0.2, 0.6]],
+            [[0.03, 0.08], [0.04, 0.08], [0.05, 0.1]],
+            [0.5, 0.85],
+            1.2,
+        ),
     };
     let planes = Planes {
         normal: normals(&heights, side, strength),
@@ -75,7 +91,9 @@ pub(super) fn unexplained(truth: &Material<f32>, seed: u64) -> Material<f32> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed ^ 0xabcd);
     let side = truth.width();
     let noise = |generator: &mut ChaCha8Rng, plane: &mut [f32], reach: f32| {
-        plane.iter_mut().for_each(|x| *x = (*x + reach * (2.0 * generator.random::<f32>() - 1.0)).clamp(0.0, 1.0));
+        plane
+            .iter_mut()
+            .for_each(|x| *x = (*x + reach * (2.0 * generator.random::<f32>() - 1.0)).clamp(0.0, 1.0));
     };
     match seed % 4 {
         0 => with(truth, |planes| {
@@ -96,7 +114,10 @@ pub(super) fn unexplained(truth: &Material<f32>, seed: u64) -> Material<f32> {
             for index in 0..side * side {
                 let [dx, dy] = [(index % side) as f32 - centre[0], (index / side) as f32 - centre[1]];
                 if dx.hypot(dy) < side as f32 / 6.0 {
-                    planes.diffuse.iter_mut().for_each(|plane| plane[index] = (plane[index] * factor[0]).min(1.0));
+                    planes
+                        .diffuse
+                        .iter_mut()
+                        .for_each(|plane| plane[index] = (plane[index] * factor[0]).min(1.0));
                     planes.roughness[index] = (planes.roughness[index] * factor[1]).min(1.0);
                 }
             }

@@ -52,7 +52,12 @@ fn readings() {
         (Reading::NormalY, Reading::NormalY, Hypothesis::NormalY, Some("--pred-normal-y down")),
         (Reading::NormalX, Reading::NormalX, Hypothesis::NormalX, None),
         (Reading::Gloss, Reading::Gloss, Hypothesis::Roughness, Some("--pred-roughness gloss")),
-        (Reading::SquaredRoughness, Reading::RootOfRoughness, Hypothesis::Roughness, Some("--pred-roughness alpha")),
+        (
+            Reading::SquaredRoughness,
+            Reading::RootOfRoughness,
+            Hypothesis::Roughness,
+            Some("--pred-roughness alpha"),
+        ),
         (Reading::RootOfRoughness, Reading::SquaredRoughness, Hypothesis::Roughness, None),
         (Reading::RedBlue, Reading::RedBlue, Hypothesis::Channels, None),
         (Reading::Scaled, Reading::Unscaled, Hypothesis::Energy, Some("--pred-energy unscaled")),
@@ -73,11 +78,16 @@ fn readings() {
 
 #[test]
 fn encodings_of_colours() {
-    let [linear, encoded] = [Transfer::Linear, Transfer::Srgb]
-        .map(|transfer| Storage { colours: transfer, specular: transfer, ..Storage::default() });
+    let [linear, encoded] = [Transfer::Linear, Transfer::Srgb].map(|transfer| Storage {
+        colours: transfer,
+        specular: transfer,
+        ..Storage::default()
+    });
     for seed in 0..3 {
         let truth = generated(seed, SIDE);
-        for (read_as, error, name) in [(&linear, Transfer::Linear, "srgb"), (&encoded, Transfer::Srgb, "linear")] {
+        for (read_as, error, name) in
+            [(&linear, Transfer::Linear, "srgb"), (&encoded, Transfer::Srgb, "linear")]
+        {
             // What was stored in the other encoding and read as this one.
             let other = if error == Transfer::Linear { &encoded } else { &linear };
             let wrong = Reading::Colours(error).applied(&truth, other).unwrap();
@@ -125,7 +135,8 @@ fn nothing_is_marked_without_an_error_or_with_others() {
 fn two_errors_are_found_at_once() {
     let truth = generated(0, SIDE);
     let encoded = Storage { colours: Transfer::Srgb, specular: Transfer::Srgb, ..Storage::default() };
-    let read_as_linear = Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
+    let read_as_linear =
+        Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
     let flipped = Reading::NormalY.applied(&truth, &encoded).unwrap();
     let both = Reading::Colours(Transfer::Linear).applied(&flipped, &encoded).unwrap();
     let found = found(&truth, &both, &read_as_linear);

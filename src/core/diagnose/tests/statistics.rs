@@ -17,10 +17,17 @@ fn at_most_5_percent_of_unexplained_pairs_have_a_mark() {
     let mark = |seed: u64| {
         let truth = generated(seed, SIDE);
         let prediction = unexplained(&truth, seed / 3);
-        let found = diagnose(&truth, &prediction, &Storage::default(), &PRINTED, seed, &Progress::default()).unwrap();
+        let found =
+            diagnose(&truth, &prediction, &Storage::default(), &PRINTED, seed, &Progress::default()).unwrap();
         let marked = found.marked().next();
         if let Some(finding) = marked {
-            println!("pair {seed}, error {}: {} {:?} {:?}", seed / 3 % 4, finding.hypothesis.name(), finding.value, finding.share);
+            println!(
+                "pair {seed}, error {}: {} {:?} {:?}",
+                seed / 3 % 4,
+                finding.hypothesis.name(),
+                finding.value,
+                finding.share
+            );
         }
         usize::from(marked.is_some())
     };
@@ -44,7 +51,15 @@ fn intervals_after_the_search_cover_95_percent() {
         });
         let expected = expected(&truth, &darker);
         for seed in 0..SEEDS {
-            let found = diagnose(&truth, &darker, &Storage::default(), &PRINTED, 1000 * material + seed, &Progress::default()).unwrap();
+            let found = diagnose(
+                &truth,
+                &darker,
+                &Storage::default(),
+                &PRINTED,
+                1000 * material + seed,
+                &Progress::default(),
+            )
+            .unwrap();
             let flipped = found.findings.iter().find(|f| f.hypothesis == Hypothesis::NormalY).unwrap();
             let intervals = [found.loss.interval95, flipped.interval95, flipped.share_interval95];
             for ((inside, interval), expected) in inside.iter_mut().zip(intervals).zip(expected) {
@@ -62,8 +77,13 @@ fn intervals_after_the_search_cover_95_percent() {
 /// The loss, the loss with Y flipped and the share of the difference, over very many scenes.
 fn expected(truth: &Material<f32>, prediction: &Material<f32>) -> [f64; 3] {
     let flipped = super::super::Reading::NormalY.applied(prediction, &Storage::default()).unwrap();
-    let sampling =
-        Sampling { near: 1 << 15, distant: 1 << 14, seed: 77, sampler: Sampler::Sobol, ..Sampling::default() };
+    let sampling = Sampling {
+        near: 1 << 15,
+        distant: 1 << 14,
+        seed: 77,
+        sampler: Sampler::Sobol,
+        ..Sampling::default()
+    };
     let comparison = Comparison::new(truth, &[prediction, &flipped], PRINTED).unwrap();
     let outcome = comparison.run(&Request::Scenes(sampling), &Progress::default()).unwrap();
     let [loss, flipped] = [0, 1].map(|i: usize| outcome.losses[i].estimate.mean);
