@@ -4,9 +4,12 @@ use super::storage::{Storage, Transfer};
 use crate::error::Error;
 use crate::material::{Material, Planes};
 
+/// The reflectance f of dielectrics where no map holds it.
+const DIELECTRIC: f32 = 0.04;
+
 /// A change of how the values of a prediction are read, made from the values as they were read.
 ///
-/// With base colour and metallic, diffuse and specular follow from both; there the change is an approximation.
+/// A base colour and metallic are recovered from diffuse and specular, for a reflectance of dielectrics of 0.04.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reading {
     /// The y axis of normals in the other direction.
@@ -56,6 +59,7 @@ impl Reading {
         match self {
             Self::NormalY => negate(&mut planes.normal[1]),
             Self::NormalX => negate(&mut planes.normal[0]),
+            Self::Colours(to) if storage.base_colour => reencode_base(&mut planes, storage.colours, to),
             Self::Colours(to) => {
                 planes.diffuse.iter_mut().for_each(|plane| reencode(plane, storage.colours, to));
                 planes.specular.iter_mut().for_each(|plane| reencode(plane, storage.specular, to));
@@ -90,8 +94,59 @@ fn reencode(plane: &mut [f32], from: Transfer, to: Transfer) {
     plane.iter_mut().for_each(|x| *x = to.decode(from.encode(*x)).clamp(0.0, 1.0));
 }
 
+/// The same for a base colour b and metallic m, from which d = b (1 - m) and s = f (1 - m) + b m follow. The means of d and s over the
+/// channels give m: f m^2 + (d + s - 2 f) m = s - f.
+fn reencode_base(planes: &mut Planes<f32>, from: Transfer, to: Transfer) {
+    let Planes { diffuse, specular, .. } = planes;
+    for index in 0..diffuse[0].len() {
+        let mean = |map: &[Vec<f32>; 3]| map.iter().map(|plane| plane[index]).sum::<f32>() / 3.0;
+        let (d, s) = (mean(diffuse), mean(specular));
+        let (half, rest) = (0.5 * (d + s) - DIELECTRIC, (s - DIELECTRIC).max(0.0));
+        let root = half + (half * half + DIELECTRIC * rest).sqrt();
+        let metallic = if root > 0.0 { (rest / root).clamp(0.0, 1.0) } else { 0.0 };
+        let of_dielectric = DIELECTRIC * (1.0 - metallic);
+        let mut base: Vec<f32> = (0..3).map(|c| (diffuse[c][index] + specular[c][index] - of_dielectric).clamp(0.0, 1.0)).collect();
+        reencode(&mut base, from, to);
+        for (c, b) in base.into_iter().enumerate() {
+            diffuse[c][index] = b * (1.0 - metallic);
+            specular[c][index] = (of_dielectric + b * metallic).clamp(0.0, 1.0);
+        }
+    }
+}
+
 fn scale(planes: &mut Planes<f32>, scaled: impl Fn(f32, f32) -> f32) {
     for (diffuse, specular) in planes.diffuse.iter_mut().zip(&planes.specular) {
         diffuse.iter_mut().zip(specular).for_each(|(d, s)| *d = scaled(*d, *s));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_base_colour_is_encoded_before_metallic_separates_it() {
+        let material = |base: &dyn Fn(f32) -> f32| {
+            let values = [(0.3, 0.0), (0.5, 1.0), (0.7, 0.4), (0.02, 0.9)];
+            let plane = |of: &dyn Fn(f32, f32) -> f32| -> [Vec<f32>; 3] {
+                [0.5, 0.8, 1.0].map(|tint| values.iter().map(|&(b, m)| of(base(tint * b), m)).collect())
+            };
+            let planes = Planes {
+                normal: [vec![0.0; 4], vec![0.0; 4], vec![1.0; 4]],
+                diffuse: plane(&|b, m| b * (1.0 - m)),
+                specular: plane(&|b, m| 0.04 * (1.0 - m) + b * m),
+                roughness: vec![0.5; 4],
+            };
+            Material::new("metal", 4, 1, planes).unwrap()
+        };
+        let storage = Storage { colours: Transfer::Linear, base_colour: true, ..Storage::default() };
+        let found = Reading::Colours(Transfer::Srgb).applied(&material(&|b| b), &storage).unwrap();
+        let expected = material(&crate::math::srgb::decode);
+        for (found, expected) in [(found.planes(), expected.planes())] {
+            let of = |planes: &Planes<f32>| planes.diffuse.iter().chain(&planes.specular).flatten().copied().collect::<Vec<_>>();
+            for (found, expected) in of(found).into_iter().zip(of(expected)) {
+                assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+            }
+        }
     }
 }

@@ -149,7 +149,7 @@ fn readings(storage: &Storage) -> Vec<(Hypothesis, Vec<Reading>)> {
     let colours = Storage::encodings(storage.colours).iter().map(|&to| Reading::Colours(to));
     let specular = Storage::encodings(storage.specular).iter().map(|&to| Reading::Specular(to));
     let energy = if storage.unscaled { Reading::Scaled } else { Reading::Unscaled };
-    vec![
+    let all = vec![
         (Hypothesis::NormalY, vec![Reading::NormalY]),
         (Hypothesis::NormalX, vec![Reading::NormalX]),
         (Hypothesis::AlbedoEncoding, colours.collect()),
@@ -157,7 +157,9 @@ fn readings(storage: &Storage) -> Vec<(Hypothesis, Vec<Reading>)> {
         (Hypothesis::Roughness, vec![Reading::Gloss, Reading::RootOfRoughness, Reading::SquaredRoughness]),
         (Hypothesis::Channels, vec![Reading::RedBlue]),
         (Hypothesis::Energy, vec![energy]),
-    ]
+    ];
+    let has = |hypothesis| !(storage.base_colour && hypothesis == Hypothesis::SpecularEncoding);
+    all.into_iter().filter(|(hypothesis, _)| has(*hypothesis)).collect()
 }
 
 fn mean(values: &[f64]) -> f64 {

@@ -44,6 +44,8 @@ pub struct Storage {
     pub colours: Transfer,
     /// The encoding of specular.
     pub specular: Transfer,
+    /// Whether diffuse and specular follow from a base colour and metallic, so that there is no map of specular.
+    pub base_colour: bool,
     /// Whether y of normals was read as pointing down.
     pub normal_down: bool,
     /// The reading of roughness values by the name of its option, such as "gloss"; `None`: r, or unknown.
@@ -60,6 +62,7 @@ impl Default for Storage {
         Self {
             colours: Transfer::Unknown,
             specular: Transfer::Unknown,
+            base_colour: false,
             normal_down: false,
             roughness: None,
             unscaled: false,

@@ -20,6 +20,7 @@ impl<T> Read<T> {
         Storage {
             colours,
             specular: if has_specular { transfer(What::Specular) } else { colours },
+            base_colour: !has_specular,
             normal_down: chosen(What::NormalY) == Some(NormalY::Down.name()),
             roughness: chosen(What::Roughness).filter(|name| *name != Roughness::R.name()).map(str::to_owned),
             unscaled: chosen(What::Energy) == Some(Energy::Unscaled.name()),
