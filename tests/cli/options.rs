@@ -86,7 +86,7 @@ const MODES: [(&str, Shows); 37] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 64] = [
+const VALUES: [(&str, &str); 65] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -133,6 +133,7 @@ const VALUES: [(&str, &str); 64] = [
     ("pick", "mean"),
     ("fail-above", "0.0001"),
     ("top", "3"),
+    ("distance-tail", "0.001%"),
     ("over", "views"),
     ("fixed", "0.1,0.2,1"),
     ("side", "5"),

@@ -38,7 +38,7 @@ mod symmetry;
 mod trials;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use dither::{dithered, floor};
 pub use exposure::best_stops;

@@ -101,11 +101,15 @@ fn reencode_base(planes: &mut Planes<f32>, from: Transfer, to: Transfer) {
     for index in 0..diffuse[0].len() {
         let mean = |map: &[Vec<f32>; 3]| map.iter().map(|plane| plane[index]).sum::<f32>() / 3.0;
         let (d, s) = (mean(diffuse), mean(specular));
-        let (half, rest) = (0.5 * (d + s) - DIELECTRIC, (s - DIELECTRIC).max(0.0));
+        // Darker metals than dielectrics cannot be told from dielectrics.
+        let rest = if s - DIELECTRIC > 1e-4 { s - DIELECTRIC } else { 0.0 };
+        let half = 0.5 * (d + s) - DIELECTRIC;
         let root = half + (half * half + DIELECTRIC * rest).sqrt();
         let metallic = if root > 0.0 { (rest / root).clamp(0.0, 1.0) } else { 0.0 };
         let of_dielectric = DIELECTRIC * (1.0 - metallic);
-        let mut base: Vec<f32> = (0..3).map(|c| (diffuse[c][index] + specular[c][index] - of_dielectric).clamp(0.0, 1.0)).collect();
+        let mut base: Vec<f32> = (0..3)
+            .map(|c| (diffuse[c][index] + specular[c][index] - of_dielectric).clamp(0.0, 1.0))
+            .collect();
         reencode(&mut base, from, to);
         for (c, b) in base.into_iter().enumerate() {
             diffuse[c][index] = b * (1.0 - metallic);
@@ -127,7 +131,7 @@ mod tests {
     #[test]
     fn a_base_colour_is_encoded_before_metallic_separates_it() {
         let material = |base: &dyn Fn(f32) -> f32| {
-            let values = [(0.3, 0.0), (0.5, 1.0), (0.7, 0.4), (0.02, 0.9)];
+            let values = [(0.3, 0.0), (0.5, 1.0), (0.7, 0.4), (0.3, 0.9)];
             let plane = |of: &dyn Fn(f32, f32) -> f32| -> [Vec<f32>; 3] {
                 [0.5, 0.8, 1.0].map(|tint| values.iter().map(|&(b, m)| of(base(tint * b), m)).collect())
             };
@@ -143,7 +147,9 @@ mod tests {
         let found = Reading::Colours(Transfer::Srgb).applied(&material(&|b| b), &storage).unwrap();
         let expected = material(&crate::math::srgb::decode);
         for (found, expected) in [(found.planes(), expected.planes())] {
-            let of = |planes: &Planes<f32>| planes.diffuse.iter().chain(&planes.specular).flatten().copied().collect::<Vec<_>>();
+            let of = |planes: &Planes<f32>| {
+                planes.diffuse.iter().chain(&planes.specular).flatten().copied().collect::<Vec<_>>()
+            };
             for (found, expected) in of(found).into_iter().zip(of(expected)) {
                 assert!((found - expected).abs() < 1e-5, "{found} {expected}");
             }

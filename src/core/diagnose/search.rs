@@ -314,11 +314,23 @@ fn finding(proposal: &Proposal, paired: &Paired, scenes: &[Scene]) -> Finding {
         loss: Some(loss.mean),
         interval95: loss.interval95,
         share: Some(share(fall.mean)),
-        share_interval95: fall.interval95.map(|ends| ends.map(share)),
+        share_interval95: share_interval(paired, scenes),
         p: Some(one_sided(&fall)),
         marked: false,
         remedy: proposal.remedy.clone(),
     }
+}
+
+/// The interval of `1 - after / before` for the means of both: that of the linear part of this ratio (Cochran 1977, Sampling techniques,
+/// 6.3).
+fn share_interval(paired: &Paired, scenes: &[Scene]) -> Option<[f64; 2]> {
+    let (before, after) = (mean(&paired.before), mean(&paired.after));
+    let ratio = if before > 0.0 { after / before } else { 1.0 };
+    let expected: Vec<f64> = paired.before.iter().map(|loss| ratio * loss).collect();
+    let residual = Estimate::of_difference(Sampler::Sobol, scenes, &expected, &paired.after);
+    residual
+        .interval95
+        .map(|ends| ends.map(|end| 1.0 - ratio + if before > 0.0 { end / before } else { 0.0 }))
 }
 
 /// The probability of a mean as large as this, or larger, where the true one is 0: Student's t with the degrees of freedom of one

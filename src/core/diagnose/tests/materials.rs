@@ -6,7 +6,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use crate::material::{Material, Planes};
 
 /// A smooth random field in [0, 1]: waves of a few texels and more, clipped.
-pub(super) fn field(generator: &mut ChaCha8Rng, side: usize, contrast: f32) -> Vec<f32> {
+pub(crate) fn field(generator: &mut ChaCha8Rng, side: usize, contrast: f32) -> Vec<f32> {
     let mut random = || generator.random::<f32>();
     let waves: Vec<[f32; 4]> = (0..24)
         .map(|_| {
@@ -30,7 +30,7 @@ fn between(low: f32, high: f32, plane: &[f32]) -> Vec<f32> {
 }
 
 /// Normals of a height field with slopes of about `strength`.
-pub(super) fn normals(heights: &[f32], side: usize, strength: f32) -> [Vec<f32>; 3] {
+pub(crate) fn normals(heights: &[f32], side: usize, strength: f32) -> [Vec<f32>; 3] {
     let at = |column: usize, row: usize| heights[(row % side) * side + column % side];
     let slope = |index: usize| {
         let (column, row) = (index % side, index / side);
@@ -43,7 +43,7 @@ pub(super) fn normals(heights: &[f32], side: usize, strength: f32) -> [Vec<f32>;
 }
 
 /// Material number `seed`: of a kind (a plastic, a metal, a stone) and with details that depend on it.
-pub(super) fn generated(seed: u64, side: usize) -> Material<f32> {
+pub(crate) fn generated(seed: u64, side: usize) -> Material<f32> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     let generator = &mut generator;
     let heights = field(generator, side, 1.0);
@@ -80,14 +80,14 @@ pub(super) fn generated(seed: u64, side: usize) -> Material<f32> {
 }
 
 /// The material with changed planes.
-pub(super) fn with(material: &Material<f32>, change: impl FnOnce(&mut Planes<f32>)) -> Material<f32> {
+pub(crate) fn with(material: &Material<f32>, change: impl FnOnce(&mut Planes<f32>)) -> Material<f32> {
     let mut planes = material.planes().clone();
     change(&mut planes);
     Material::new("changed", material.width(), material.height(), planes).unwrap()
 }
 
 /// A prediction whose errors are none of the hypotheses: noise, a local edit, or other details in one or more maps.
-pub(super) fn unexplained(truth: &Material<f32>, seed: u64) -> Material<f32> {
+pub(crate) fn unexplained(truth: &Material<f32>, seed: u64) -> Material<f32> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed ^ 0xabcd);
     let side = truth.width();
     let noise = |generator: &mut ChaCha8Rng, plane: &mut [f32], reach: f32| {

@@ -1,6 +1,6 @@
 //! Errors planted in generated materials.
 
 mod ladders;
-mod materials;
+pub(crate) mod materials;
 mod planted;
 mod statistics;
