@@ -69,8 +69,8 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
 fn every_format_has_every_line_and_rounding_is_below_the_floor() {
     let folder = folder();
     write(&folder.path().join("truth.png"), |_, texel| texel);
-    // Half of the values are one step away.
-    write(&folder.path().join("near.png"), |_, [r, g, b]| [r, g + (r & 1), b]);
+    // An eighth of the values is one step away.
+    write(&folder.path().join("near.png"), |_, [r, g, b]| [r, g + u8::from(r % 8 == 0), b]);
     let text = succeed(folder.path(), &format!("diagnose truth.png near.png {READ}"));
     for part in ["floor of the ground truth", "exposure_rgb", "resampling", "32 x 32", "seams of"] {
         assert!(text.contains(part), "{part}: {text}");

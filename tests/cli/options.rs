@@ -167,7 +167,10 @@ const PREMISES: [(&str, [&str; 2], &str); 6] = [
 /// Options that are used, and whose effect a mode does not show: how maps are read that are not in a picture of normals, and the
 /// reflectance of dielectrics, which is no assumption.
 const UNSEEN: [(&str, &[&str]); 2] = [
-    ("render gt.png a.png -o x.png --show normal", &["dielectric-f0", "energy", "preset", "roughness"]),
+    (
+        "render gt.png a.png -o x.png --show normal",
+        &["dielectric-f0", "energy", "preset", "roughness", "pred-energy", "pred-roughness"],
+    ),
     ("info gt.png", &["dielectric-f0"]),
 ];
 

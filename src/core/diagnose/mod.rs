@@ -29,6 +29,7 @@ mod holm;
 mod ladder;
 mod radiances;
 mod reading;
+mod remedy;
 mod seams;
 mod search;
 mod sentence;

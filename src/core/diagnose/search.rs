@@ -7,6 +7,7 @@ use super::finding::{Diagnosis, Finding, Hypothesis, Value};
 use super::holm::holm;
 use super::ladder::{Rung, ladder};
 use super::reading::Reading;
+use super::remedy::remedy;
 use super::seams::seams;
 use super::shift::{candidates, interior};
 use super::storage::Storage;
@@ -138,7 +139,7 @@ fn proposals(pilot: &Trials<'_>) -> Result<(Vec<Proposal>, Value), Error> {
             hypothesis,
             value: Value::Name(reading.name()),
             change: Some(Change::Reading(reading)),
-            remedy: pilot.storage.remedy(reading),
+            remedy: remedy(pilot.storage, reading),
         });
     }
     Ok((proposals, subtexel))
