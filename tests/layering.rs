@@ -22,7 +22,7 @@ const LAYERS: [&[&str]; 18] = [
     &["core/render"],
     &["core/picture"],
     &["core/loss"],
-    &["core/metrics", "core/rank", "core/report", "core/study", "core/why"],
+    &["core/diagnose", "core/metrics", "core/rank", "core/report", "core/study", "core/why"],
     &["core/lib"],
     &["files"],
     &["gpu"],

@@ -48,11 +48,11 @@ pub fn worst(
     let mut found = Vec::new();
     for (prediction, name) in all[1..].iter().zip(asked.predictions()) {
         let worst = work::run(py, progress, |progress| {
-            why::worst(&all[0], prediction, &convention, asked.seed, progress)
+            why::worst(&all[0], prediction, &convention, asked.seed, why::TAIL, progress)
         })?;
         found.push(why::Worst { prediction: name.clone(), ..worst });
     }
-    Views::new(&WorstReport { compared: asked.compared(&all[0], &convention), found })
+    Views::new(&WorstReport { compared: asked.compared(&all[0], &convention), tail: why::TAIL, found })
 }
 
 /// The `top` scenes with the largest losses.

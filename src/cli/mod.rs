@@ -3,6 +3,7 @@
 mod args;
 mod blame;
 mod convert;
+mod diagnose;
 mod generate;
 mod info;
 mod job;
@@ -42,6 +43,7 @@ Examples:
   svbrdf loss gt.png a.png --format json  the same as JSON
   svbrdf loss gt.png run/ --format csv    prints the loss of each step of a training run
   svbrdf blame gt.png prediction.png      prints how much of the loss comes from each map
+  svbrdf diagnose gt.png prediction.png   prints whether exposure, alignment or reading explain the loss
   svbrdf render gt.png -o gt.exr          renders to linear floats
   svbrdf strip gt.png a.png -o fig.png    writes a labelled figure of maps and renderings
   svbrdf report gt.png a.png -o r.html    writes a page with a figure that readers light themselves
@@ -94,6 +96,7 @@ enum Subcommands {
     Report(report::ReportArgs),
     Rank(rank::RankArgs),
     Blame(blame::BlameArgs),
+    Diagnose(diagnose::DiagnoseArgs),
     Scenes(scenes::ScenesArgs),
     Worst(worst::WorstArgs),
     Map(map::MapArgs),
@@ -148,6 +151,7 @@ impl Cli {
             Subcommands::Report(args) => report::run(&args, given),
             Subcommands::Rank(args) => rank::run(args, given),
             Subcommands::Blame(args) => blame::run(&args, given),
+            Subcommands::Diagnose(args) => diagnose::run(&args, given),
             Subcommands::Scenes(args) => scenes::run(&args, given),
             Subcommands::Worst(args) => worst::run(&args, given),
             Subcommands::Map(args) => map::run(&args, given),

@@ -15,6 +15,7 @@
 //! | [`picture`] | what a picture shows of materials: quantities, differences, tone and colour maps |
 //! | [`loss`] | Algorithm 1: a `Comparison`, a `Request`, an `Outcome` with confidence intervals |
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
+//! | [`diagnose`] | whether exposure, alignment or reading explain a loss; what the ground truth resolves |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
 //! | [`rank`] | many predictions of one ground truth, best first |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
@@ -23,6 +24,7 @@
 //!
 //! Modules use those above them only, except that `error`, `progress` and `text` serve all; a test checks it.
 
+pub mod diagnose;
 pub mod error;
 pub mod image;
 pub mod loss;

@@ -25,9 +25,10 @@ enum Shows {
 
 /// How materials are read: a session specifies it.
 #[rustfmt::skip]
-const OF_SESSION: [&str; 17] = [
+const OF_SESSION: [&str; 21] = [
     "preset", "albedo", "specular-albedo", "normal-y", "roughness", "normal-encoding", "workflow", "dielectric-f0", "energy", "order",
-    "grid", "flip-v", "exemplar", "non-finite", "gt-albedo", "pred-albedo", "resize-to",
+    "grid", "flip-v", "exemplar", "non-finite", "gt-albedo", "pred-albedo", "pred-specular-albedo", "pred-normal-y",
+    "pred-roughness", "pred-energy", "resize-to",
 ];
 /// The options of a photograph, and what a window has no use for.
 #[rustfmt::skip]
@@ -35,7 +36,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 39] = [
+const MODES: [(&str, Shows); 40] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -58,6 +59,7 @@ const MODES: [(&str, Shows); 39] = [
     ("rank --merge journal.jsonl", Shows::Everything),
     ("blame gt.png a.png", Shows::Everything),
     ("blame gt.png a.png --scenes one.json", Shows::Everything),
+    ("diagnose gt.png a.png", Shows::Everything),
     ("scenes gt.png a.png --format csv", Shows::Everything),
     ("worst gt.png a.png", Shows::Everything),
     ("map gt.png a.png -o x.csv", Shows::Everything),
@@ -72,7 +74,13 @@ const MODES: [(&str, Shows); 39] = [
     ("convert gt.png x.exr", Shows::Everything),
     ("study gt.png a.png -o none/x.csv", Shows::Refusals(&[])),
     ("study s.svbrdf-session.json -o none/x.csv", Shows::Refusals(&[&OF_SESSION])),
-    ("view gt.png", Shows::Refusals(&[&WITHOUT_PHOTO, &["pred-albedo"]])),
+    (
+        "view gt.png",
+        Shows::Refusals(&[
+            &WITHOUT_PHOTO,
+            &["pred-albedo", "pred-specular-albedo", "pred-normal-y", "pred-roughness", "pred-energy"],
+        ]),
+    ),
     ("view s.svbrdf-session.json", Shows::Refusals(&[&WITHOUT_PHOTO, &OF_SESSION])),
     (
         "view gt.png a.png --photo photo.png --flash --fov 45",
@@ -81,7 +89,7 @@ const MODES: [(&str, Shows); 39] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 62] = [
+const VALUES: [(&str, &str); 67] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -97,6 +105,10 @@ const VALUES: [(&str, &str); 62] = [
     ("non-finite", "replace"),
     ("gt-albedo", "gamma2.2"),
     ("pred-albedo", "gamma2.2"),
+    ("pred-specular-albedo", "srgb"),
+    ("pred-normal-y", "down"),
+    ("pred-roughness", "gloss"),
+    ("pred-energy", "unscaled"),
     ("resize-to", "6"),
     ("convention", "guided-2020"),
     ("near", "3"),
@@ -126,6 +138,7 @@ const VALUES: [(&str, &str); 62] = [
     ("pick", "mean"),
     ("fail-above", "0.0001"),
     ("top", "3"),
+    ("distance-tail", "0.001%"),
     ("over", "views"),
     ("fixed", "0.1,0.2,1"),
     ("side", "5"),
@@ -159,7 +172,10 @@ const PREMISES: [(&str, [&str; 2], &str); 6] = [
 /// Options that are used, and whose effect a mode does not show: how maps are read that are not in a picture of normals, and the
 /// reflectance of dielectrics, which is no assumption.
 const UNSEEN: [(&str, &[&str]); 2] = [
-    ("render gt.png a.png -o x.png --show normal", &["dielectric-f0", "energy", "preset", "roughness"]),
+    (
+        "render gt.png a.png -o x.png --show normal",
+        &["dielectric-f0", "energy", "preset", "roughness", "pred-energy", "pred-roughness"],
+    ),
     ("info gt.png", &["dielectric-f0"]),
 ];
 

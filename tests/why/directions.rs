@@ -7,7 +7,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Hemisphere, hemisphere, worst};
+use svbrdf_core::why::{Hemisphere, TAIL, hemisphere, worst};
 
 use super::{built_in, printed, uniform};
 
@@ -100,7 +100,7 @@ fn sampled_texels_give_a_map_within_its_standard_error() {
 #[test]
 fn the_worst_scene_is_worse_than_any_of_many_sampled_ones() {
     let (truth, prediction, _) = planted();
-    let found = worst(&truth, &prediction, &printed(), 0, &Progress::default()).unwrap();
+    let found = worst(&truth, &prediction, &printed(), 0, TAIL, &Progress::default()).unwrap();
     let comparison = Comparison::new(&truth, &[&prediction], printed()).unwrap();
     let sampled = Sampler::Random.scenes(99, 4000, 2000, &printed());
     let losses = comparison.run(&Request::Listed(sampled), &Progress::default()).unwrap().losses.remove(0);
@@ -121,6 +121,6 @@ fn the_worst_scene_is_worse_than_any_of_many_sampled_ones() {
 fn equal_materials_have_no_worst_scene_above_zero() {
     let [truth, ..] = built_in();
     let small = truth.resized([16, 16]).unwrap();
-    let found = worst(&small, &small, &printed(), 0, &Progress::default()).unwrap();
+    let found = worst(&small, &small, &printed(), 0, TAIL, &Progress::default()).unwrap();
     assert_eq!((found.loss, found.mean.mean), (0.0, 0.0));
 }

@@ -137,6 +137,8 @@ class RankReport(Report):
     target_error: float
     """The requested accuracy of every loss: half of its 95% interval, as a share of it."""
     target_reached: bool
+    floor: float | None
+    """The loss that the ground truth cannot resolve; None: the depth of its files is not known here."""
     ranking: tuple[RankedPrediction, ...]
 
 

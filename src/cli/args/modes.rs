@@ -36,17 +36,22 @@ const READING: &[&str] = &[
     "non-finite",
 ];
 /// How a ground truth and its predictions are read where they differ, and their size.
-const PAIR: &[&str] = &["gt-albedo", "pred-albedo", "resize-to"];
+const PAIR: &[&str] = &["gt-albedo", "resize-to"];
+/// How predictions are read where they differ from the ground truth.
+const OF_PREDICTIONS: &[&str] =
+    &["pred-albedo", "pred-specular-albedo", "pred-normal-y", "pred-roughness", "pred-energy"];
 /// The scenes of a command that samples them.
 const SCENES: &[&str] = &["near", "distant", "seed", "sampler", "scenes"];
 /// The one scene of a picture.
 const ONE_SCENE: &[&str] = &["view", "light", "distant"];
 
 /// Any command with a session file in place of the ground truth.
-pub const SESSION: Mode =
-    Mode { reason: "a session specifies how its materials are read", unused: &[READING, PAIR] };
+pub const SESSION: Mode = Mode {
+    reason: "a session specifies how its materials are read",
+    unused: &[READING, PAIR, OF_PREDICTIONS],
+};
 /// Any command with a ground truth alone.
-pub const NO_PREDICTION: Mode = Mode { reason: "there is no prediction", unused: &[&["pred-albedo"]] };
+pub const NO_PREDICTION: Mode = Mode { reason: "there is no prediction", unused: &[OF_PREDICTIONS] };
 
 /// `loss` with a session whose scenes are of a file.
 pub const SESSION_SCENES: Mode =
@@ -86,6 +91,7 @@ pub const RANK_MERGE: Mode = Mode {
     unused: &[
         READING,
         PAIR,
+        OF_PREDICTIONS,
         &["verbose", "journal", "shard", "target-error", "seed", "metrics", "convention"],
     ],
 };

@@ -21,6 +21,22 @@ pub struct PairReadingArgs {
     #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
     pred_albedo: Option<Albedo>,
 
+    /// --specular-albedo for the predictions only
+    #[arg(long, value_name = "linear|srgb|gamma2.2|log0.01", requires = "ground_truth")]
+    pred_specular_albedo: Option<Albedo>,
+
+    /// --normal-y for the predictions only
+    #[arg(long, value_name = "up|down", requires = "ground_truth")]
+    pred_normal_y: Option<NormalY>,
+
+    /// --roughness for the predictions only
+    #[arg(long, value_name = "r|gloss|alpha|axay|gamma2.2", requires = "ground_truth")]
+    pred_roughness: Option<Roughness>,
+
+    /// --energy for the predictions only
+    #[arg(long, value_name = "scaled|unscaled", requires = "ground_truth")]
+    pred_energy: Option<Energy>,
+
     /// Resizes all materials: to the size of the ground truth, of the first prediction, or to a width of N texels
     #[arg(long, value_name = "gt|pred|N", allow_negative_numbers = true, requires = "ground_truth")]
     pub resize_to: Option<ResizeTo>,
@@ -119,16 +135,20 @@ impl ReadingArgs {
 
 impl PairReadingArgs {
     pub fn of_ground_truth(&self) -> ReadOptions {
-        self.with_albedo(self.gt_albedo)
+        let both = self.both.options();
+        ReadOptions { albedo: self.gt_albedo.or(both.albedo), ..both }
     }
 
     pub fn of_predictions(&self) -> ReadOptions {
-        self.with_albedo(self.pred_albedo)
-    }
-
-    fn with_albedo(&self, albedo: Option<Albedo>) -> ReadOptions {
-        let options = self.both.options();
-        ReadOptions { albedo: albedo.or(options.albedo), ..options }
+        let both = self.both.options();
+        ReadOptions {
+            albedo: self.pred_albedo.or(both.albedo),
+            specular: self.pred_specular_albedo.or(both.specular),
+            normal_y: self.pred_normal_y.or(both.normal_y),
+            roughness: self.pred_roughness.or(both.roughness),
+            energy: self.pred_energy.or(both.energy),
+            ..both
+        }
     }
 }
 

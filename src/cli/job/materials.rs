@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use svbrdf_core::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
@@ -106,6 +107,7 @@ impl MaterialJob {
         let mut files: Vec<PathBuf> =
             self.paths.iter().filter(|path| Session::is_named(path)).cloned().collect();
         let names = distinct_names(&named);
+        let storages = read.iter().map(Read::storage).collect();
         let memory = read.iter().map(|read| read.memory.clone()).collect();
         let readings = read.iter().map(reading).collect();
         for ((mut read, name), source) in read.into_iter().zip(names).zip(&self.sources) {
@@ -123,7 +125,14 @@ impl MaterialJob {
         let Some(ground_truth) = materials.next() else {
             return Err(Error::Internal("there is no ground truth".to_owned()).into());
         };
-        Ok(Opened { ground_truth, predictions: materials.collect(), files, readings, _memory: memory })
+        Ok(Opened {
+            ground_truth,
+            predictions: materials.collect(),
+            storages,
+            files,
+            readings,
+            _memory: memory,
+        })
     }
 
     fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {
@@ -141,6 +150,8 @@ impl MaterialJob {
 pub struct Opened<T> {
     pub ground_truth: Material<T>,
     pub predictions: Vec<Material<T>>,
+    /// How each is stored, the ground truth first.
+    pub storages: Vec<Storage>,
     /// Every file that was read.
     pub files: Vec<PathBuf>,
     /// For each material the assumptions and notes of reading it.

@@ -1,5 +1,6 @@
 //! Many predictions of one ground truth.
 
+use svbrdf_core::diagnose::floor;
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::rank::most_scenes;
 use svbrdf_core::report::{Compared, RankReport, Report as _};
@@ -22,7 +23,15 @@ pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
     let request = Request::Accuracy { target: args.target_error, seed: args.seed };
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let compared = Compared::new(&opened.ground_truth, &job.convention);
-    let report = RankReport::new(compared, args.target_error, outcome);
+    let mut report = RankReport::new(compared, args.target_error, outcome);
+    // Floats resolve every loss.
+    let stored = opened.storages.first().filter(|stored| stored.steps.iter().any(|step| *step > 0.0));
+    if let Some(stored) = stored {
+        let floor = watched("dithering", |progress| {
+            floor(&opened.ground_truth, stored, &job.convention, args.seed, progress)
+        })?;
+        report = report.with_floor(floor);
+    }
     exit::put(&args.format.write(&report, RankReport::latex)?)?;
     target::warn_of(report.missed(), job.materials.strict)?;
     check_limit(

@@ -21,6 +21,7 @@
 //! ```
 
 mod blame;
+mod diagnose;
 mod heading;
 mod latex;
 mod loss;
@@ -37,6 +38,7 @@ mod table;
 mod worst;
 
 pub use blame::BlameReport;
+pub use diagnose::DiagnoseReport;
 pub use heading::{Compared, position, scenes_line};
 pub use latex::{bold, escaped, latex};
 pub use loss::{FewScenes, LossReport};

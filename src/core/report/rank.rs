@@ -36,13 +36,30 @@ pub struct RankReport {
     pub outcome: Outcome,
     /// Best first.
     pub places: Vec<Ranked>,
+    /// The loss that the ground truth cannot resolve, where the depth of its files is known.
+    pub floor: Option<Estimate>,
 }
 
 impl RankReport {
     /// The ranking of the predictions of `outcome`.
     pub fn new(compared: Compared, target_error: f64, outcome: Outcome) -> Self {
         let places = places(&outcome);
-        Self { compared, target_error, outcome, places }
+        Self { compared, target_error, outcome, places, floor: None }
+    }
+
+    /// The same report with the loss that the ground truth cannot resolve.
+    #[must_use]
+    pub fn with_floor(self, floor: Estimate) -> Self {
+        Self { floor: Some(floor), ..self }
+    }
+
+    /// A line about the floor; empty without one.
+    fn floor_line(&self) -> String {
+        let Some(floor) = &self.floor else { return String::new() };
+        format!(
+            "floor {:.6}: smaller losses and differences are not resolvable with this ground truth\n",
+            floor.mean
+        )
     }
 
     /// A table for a paper: the first group in bold.
@@ -70,7 +87,7 @@ impl Report for RankReport {
         }));
         let heading = self.compared.heading("rendering loss");
         let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes, self.compared.size);
-        format!("{heading}{scenes}\n{}", aligned(&rows))
+        format!("{heading}{scenes}{}\n{}", self.floor_line(), aligned(&rows))
     }
 
     fn table(&self) -> Table {
@@ -101,6 +118,8 @@ struct RankJson<'a> {
     target_error: f64,
     /// By every prediction.
     target_reached: bool,
+    /// The mean of the loss that the ground truth cannot resolve.
+    floor: Option<f64>,
     /// Best first.
     ranking: Vec<RankEntry<'a>>,
 }
@@ -116,7 +135,7 @@ struct RankEntry<'a> {
 
 impl Serialize for RankReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { compared, target_error, outcome, places } = self;
+        let Self { compared, target_error, outcome, places, floor } = self;
         let entry = |place: &Ranked| RankEntry {
             prediction: &outcome.losses[place.index].prediction,
             loss: outcome.losses[place.index].estimate,
@@ -129,6 +148,7 @@ impl Serialize for RankReport {
             seed: outcome.sampling.map(|sampling| sampling.seed),
             target_error: *target_error,
             target_reached: outcome.relative_error95() <= *target_error,
+            floor: floor.map(|floor| floor.mean),
             ranking: places.iter().map(entry).collect(),
         };
         object.serialize(serializer)

@@ -33,6 +33,8 @@ const COLUMNS: [&str; 12] = [
 #[derive(Clone, Debug)]
 pub struct WorstReport {
     pub compared: Compared,
+    /// The share of the nearest distances, and of the farthest ones, that the search leaves out.
+    pub tail: f64,
     /// One per prediction.
     pub found: Vec<Worst>,
 }
@@ -58,7 +60,9 @@ impl Report for WorstReport {
                 worst.evaluations.to_string(),
             ]
         }));
-        format!("{}\n{}", self.compared.heading("worst scenes"), aligned(&rows))
+        let central = 100.0 - 200.0 * self.tail;
+        let cut = format!("distances within the central {central}% of their distributions\n");
+        format!("{}{cut}\n{}", self.compared.heading("worst scenes"), aligned(&rows))
     }
 
     fn table(&self) -> Table {
@@ -86,6 +90,8 @@ impl Report for WorstReport {
 struct WorstJson<'a> {
     #[serde(flatten)]
     compared: &'a Compared,
+    /// The share of the distances that is left out at either end.
+    distance_tail: f64,
     results: Vec<WorstEntry<'a>>,
     scenes: Vec<Scene>,
 }
@@ -115,7 +121,8 @@ impl Serialize for WorstReport {
             evaluations: worst.evaluations,
         });
         let scenes = self.found.iter().map(|worst| worst.scene);
-        WorstJson { compared: &self.compared, results: results.collect(), scenes: scenes.collect() }
+        let (compared, distance_tail) = (&self.compared, self.tail);
+        WorstJson { compared, distance_tail, results: results.collect(), scenes: scenes.collect() }
             .serialize(serializer)
     }
 }

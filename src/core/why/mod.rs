@@ -20,6 +20,9 @@
 //! ```
 
 mod attribution;
+#[cfg(test)]
+mod brute_force;
+mod cloud;
 mod error_map;
 mod hemisphere;
 mod scene_losses;
@@ -29,4 +32,4 @@ pub use attribution::{Attribution, MOST_SCENES, MapShare, attribute};
 pub use error_map::{error_maps, mean};
 pub use hemisphere::{Hemisphere, hemisphere};
 pub use scene_losses::{Distribution, RankedScene, worst_first};
-pub use worst::{Worst, worst};
+pub use worst::{TAIL, Worst, worst};

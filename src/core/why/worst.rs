@@ -1,9 +1,13 @@
 //! The scene with the largest loss: global sampling, then local refinement.
 //!
-//! A scene is a point of the unit cube, and the search moves in this cube: 6 numbers of a near-field scene, 4 of a distant one. Both
-//! stages compare few texels, the same in all scenes; the losses of the last candidates are over all texels.
+//! A scene is a point of the unit cube, and the search moves in this cube: 6 numbers of a near-field scene, 4 of a distant one, with
+//! distances in equal steps of their logarithm. The stages compare more and more texels, the same in all scenes; the last one all of
+//! them, up to 65,536.
+
+use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::attribution::MOST_SCENES;
+use super::cloud::Cloud;
 use crate::error::Error;
 use crate::loss::{Comparison, Compute, Estimate, SharedTexels};
 use crate::material::Material;
@@ -12,24 +16,33 @@ use crate::model::scene::{Kind, Scene};
 use crate::progress::Progress;
 
 /// Sampled scenes: near-field, distant.
-const SAMPLED: [usize; 2] = [4096, 2048];
-/// Scenes that are refined.
+const SAMPLED: [usize; 2] = [8192, 4096];
+/// Scenes that are compared on more texels; the best of these, other than neighbours, are refined.
+const COMPARED: usize = 256;
 const CANDIDATES: usize = 16;
-/// Scenes around each candidate in a round of refinement.
-const AROUND: usize = 16;
+/// Scenes around each candidate in a round of refinement, and how many of them the next round is around.
+const AROUND: usize = 24;
+const ELITE: usize = 6;
 const ROUNDS: usize = 24;
-/// Reach of the first round in each dimension of the unit cube, and what it shrinks by in each.
-const REACH: f64 = 0.1;
-const SHRINK: f64 = 0.75;
-/// Distances are within the central 99% of their distributions, which have no end.
-const TAIL: f64 = 0.005;
+/// Candidates that are refined on all texels, and rounds of this.
+const LAST_CANDIDATES: usize = 2;
+const LAST_ROUNDS: usize = 6;
+/// Standard deviation of the first round, and of the last ones, in each dimension of the unit cube.
+const REACH: f64 = 0.06;
+const LAST_REACH: f64 = 0.004;
+/// Candidates are at least this far apart in some dimension.
+const APART: f64 = 0.08;
+/// The distances at which the search starts, as quantiles: near, in the middle and far.
+const DISTANCES: [f64; 3] = [0.0, 0.5, 1.0];
+/// Distances are within the central 99% of their distributions, which have no end, unless another share is requested.
+pub const TAIL: f64 = 0.005;
 /// Subsets of texels, and the texels of each: while sampling, and while refining.
 const COARSE: [usize; 2] = [1, 256];
 const FINE: [usize; 2] = [1, 1024];
+/// Texels in the last rounds, up to which all are compared.
+const LAST: [usize; 2] = [1, 1 << 16];
 /// Scenes between two steps of progress.
 const AT_A_TIME: usize = 512;
-/// Scenes whose losses are computed.
-const EVALUATIONS: usize = SAMPLED[0] + SAMPLED[1] + CANDIDATES * (1 + ROUNDS * (1 + AROUND));
 
 /// The worst scene that was found.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +67,8 @@ struct CubePoint {
     at: [f64; 6],
 }
 
-/// The scene with the largest loss of `prediction`, searched over all scenes that the loss samples from.
+/// The scene with the largest loss of `prediction`, searched over the scenes that the loss samples from, without the share `tail` of
+/// nearest and the share `tail` of farthest distances; [`TAIL`] is the default.
 ///
 /// The search is deterministic; `seed` names the scenes that it starts from. It may miss a maximum that is narrower than the gaps
 /// between these. The mean has its own count of `progress`; then a step is a scene.
@@ -66,67 +80,125 @@ pub fn worst<T: Compute>(
     prediction: &Material<T>,
     convention: &Convention,
     seed: u64,
+    tail: f64,
     progress: &Progress,
 ) -> Result<Worst, Error> {
     let comparison = Comparison::new(ground_truth, &[prediction], *convention)?;
     let mut all = comparison.clone().at_most(MOST_SCENES).over_all_scenes(seed, progress)?;
     let (mean, mean_scenes) = (all.losses.remove(0).estimate, all.scenes.len());
     progress.begin(EVALUATIONS as u64);
-    let search = Search { comparison, seed: seed as u32 ^ (seed >> 32) as u32, progress };
-    let points = search.refined(search.sampled()?)?;
-    let scenes: Vec<Scene> = points.iter().map(|point| point.scene(convention)).collect();
-    let losses = T::cpu().scene_losses(&search.comparison, &scenes, None, &progress.part())?.remove(0);
-    let best = scenes.into_iter().zip(losses).max_by(|a, b| a.1.total_cmp(&b.1));
-    let (scene, loss) =
-        best.ok_or_else(|| Error::Internal("the search for the worst scene is empty".to_owned()))?;
-    progress.advance(CANDIDATES as u64)?;
+    let farthest = -Normal::standard().inverse_cdf(tail.clamp(1e-9, 0.49));
+    let search = Search { comparison, seed: seed as u32 ^ (seed >> 32) as u32, farthest, progress };
+    let (scene, loss) = search.worst()?;
     let prediction = prediction.name().to_owned();
     Ok(Worst { prediction, scene, loss, mean, mean_scenes, evaluations: EVALUATIONS })
 }
 
+/// Scenes whose losses are computed.
+const EVALUATIONS: usize = SAMPLED[0]
+    + SAMPLED[1]
+    + COMPARED * VARIANTS
+    + CANDIDATES * ROUNDS * AROUND
+    + LAST_CANDIDATES * (LAST_ROUNDS * AROUND + 1);
+/// A scene and its changes that are compared, too.
+const VARIANTS: usize = 1 + DISTANCES.len() * DISTANCES.len();
+
 struct Search<'a, T> {
     comparison: Comparison<'a, T>,
     seed: u32,
+    /// The largest logarithm of a distance, in standard deviations from the mean.
+    farthest: f64,
     progress: &'a Progress,
 }
 
 impl<T: Compute> Search<'_, T> {
-    /// The worst of evenly spread scenes, worst first.
-    fn sampled(&self) -> Result<Vec<CubePoint>, Error> {
-        let kinds = [(Kind::Near, SAMPLED[0]), (Kind::Distant, SAMPLED[1])];
-        let spread =
-            |(kind, count): (Kind, usize)| (0..count).map(move |i| CubePoint { kind, at: self.sobol(i, 0) });
-        let points: Vec<CubePoint> = kinds.into_iter().flat_map(spread).map(CubePoint::bounded).collect();
-        let losses = self.losses(&SharedTexels::new(&self.comparison, COARSE, 0), &points)?;
-        let mut ranked: Vec<_> = points.into_iter().zip(losses).collect();
-        ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
-        Ok(ranked.into_iter().take(CANDIDATES).map(|(point, _)| point).collect())
+    fn worst(&self) -> Result<(Scene, f64), Error> {
+        let texels = |subsets| SharedTexels::new(&self.comparison, subsets, 0);
+        let [coarse, fine, last] = [COARSE, FINE, LAST].map(texels);
+        let sampled = self.ranked(&coarse, self.sampled())?;
+        let variants = sampled.into_iter().take(COMPARED).flat_map(|(point, _)| point.variants());
+        let candidates = apart(self.ranked(&fine, variants.collect())?);
+        let refined = self.refined(&fine, candidates, ROUNDS, REACH)?;
+        let best = refined.into_iter().take(LAST_CANDIDATES).collect();
+        let found = self.refined(&last, best, LAST_ROUNDS, LAST_REACH)?;
+        let scenes: Vec<Scene> = found.iter().map(|(point, _)| self.scene(point)).collect();
+        let losses = T::cpu().scene_losses(&self.comparison, &scenes, None, &self.progress.part())?.remove(0);
+        self.progress.advance(scenes.len() as u64)?;
+        let best = scenes.into_iter().zip(losses).max_by(|a, b| a.1.total_cmp(&b.1));
+        best.ok_or_else(|| Error::Internal("the search for the worst scene is empty".to_owned()))
     }
 
-    /// Moves each candidate to the worst of scenes around it, which come closer round by round.
-    fn refined(&self, mut candidates: Vec<CubePoint>) -> Result<Vec<CubePoint>, Error> {
-        let texels = SharedTexels::new(&self.comparison, FINE, 0);
-        for round in 0..ROUNDS {
-            let reach = REACH * SHRINK.powi(round as i32);
-            let around = |(number, point): (usize, &CubePoint)| -> Vec<CubePoint> {
+    /// Evenly spread scenes.
+    fn sampled(&self) -> Vec<CubePoint> {
+        let kinds = [(Kind::Near, SAMPLED[0]), (Kind::Distant, SAMPLED[1])];
+        let normal = Normal::standard();
+        let spread = |(kind, count): (Kind, usize)| {
+            (0..count).map(move |i| {
+                let mut at = self.sobol(i, 0);
+                if kind == Kind::Near {
+                    let log = |u: f64| normal.inverse_cdf(u.clamp(1e-9, 1.0 - 1e-9)) / self.farthest;
+                    at[4..].iter_mut().for_each(|u| *u = 0.5 + 0.5 * log(*u));
+                }
+                CubePoint { kind, at }.bounded()
+            })
+        };
+        kinds.into_iter().flat_map(spread).collect()
+    }
+
+    /// Points with their losses, worst first.
+    fn ranked(&self, texels: &SharedTexels, points: Vec<CubePoint>) -> Result<Vec<(CubePoint, f64)>, Error> {
+        let losses = self.losses(texels, &points)?;
+        let mut ranked: Vec<_> = points.into_iter().zip(losses).collect();
+        ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Ok(ranked)
+    }
+
+    /// The worst points that clouds around the candidates find, worst first.
+    fn refined(
+        &self,
+        texels: &SharedTexels,
+        candidates: Vec<(CubePoint, f64)>,
+        rounds: usize,
+        reach: f64,
+    ) -> Result<Vec<(CubePoint, f64)>, Error> {
+        let mut best = candidates;
+        let mut clouds: Vec<Cloud> = best.iter().map(|(point, _)| Cloud::new(point.at, reach)).collect();
+        for round in 0..rounds {
+            let around = |(number, cloud): (usize, &Cloud)| -> Vec<CubePoint> {
                 let turn = 1 + (round * CANDIDATES + number) as u32;
-                let moved = |i| point.moved(self.sobol(i, turn), reach);
-                [*point].into_iter().chain((0..AROUND).map(moved)).collect()
+                let point = |i| CubePoint { kind: best[number].0.kind, at: cloud.point(self.sobol(i, turn)) };
+                (0..AROUND).map(|i| point(i).bounded()).collect()
             };
-            let points: Vec<CubePoint> = candidates.iter().enumerate().flat_map(around).collect();
-            let losses = self.losses(&texels, &points)?;
-            let groups = points.chunks(1 + AROUND).zip(losses.chunks(1 + AROUND));
-            let best = |(points, losses): (&[CubePoint], &[f64])| {
-                points.iter().zip(losses).max_by(|a, b| a.1.total_cmp(b.1)).map(|(point, _)| *point)
-            };
-            candidates = groups.filter_map(best).collect();
+            let points: Vec<CubePoint> = clouds.iter().enumerate().flat_map(around).collect();
+            let losses = self.losses(texels, &points)?;
+            for (number, (points, losses)) in points.chunks(AROUND).zip(losses.chunks(AROUND)).enumerate() {
+                let mut ranked: Vec<_> = points.iter().copied().zip(losses.iter().copied()).collect();
+                // A candidate from fewer texels has another loss; from the second round on they are the same ones.
+                if round > 0 {
+                    ranked.push(best[number]);
+                }
+                ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+                best[number] = ranked[0];
+                let elite: Vec<[f64; 6]> = ranked.iter().take(ELITE).map(|(point, _)| point.at).collect();
+                clouds[number].follow(&elite, |i| best[number].0.is_azimuth(i));
+            }
         }
-        Ok(candidates)
+        best.sort_by(|a, b| b.1.total_cmp(&a.1));
+        Ok(best)
+    }
+
+    fn scene(&self, point: &CubePoint) -> Scene {
+        let convention = self.comparison.convention();
+        let [a, b, c, d, view, light] = point.at;
+        let quantile = |at: f64| Normal::standard().cdf(self.farthest * (2.0 * at - 1.0));
+        match point.kind {
+            Kind::Near => Scene::near_from_point([a, b, c, d, quantile(view), quantile(light)], convention),
+            Kind::Distant => Scene::distant_from_point([a, b, c, d], convention),
+        }
     }
 
     fn losses(&self, texels: &SharedTexels, points: &[CubePoint]) -> Result<Vec<f64>, Error> {
-        let convention = self.comparison.convention();
-        let scenes: Vec<Scene> = points.iter().map(|point| point.scene(convention)).collect();
+        let scenes: Vec<Scene> = points.iter().map(|point| self.scene(point)).collect();
         let mut losses = Vec::new();
         for some in scenes.chunks(AT_A_TIME) {
             losses.extend(texels.losses(&self.comparison, some, &self.progress.part())?.remove(0));
@@ -144,32 +216,55 @@ impl<T: Compute> Search<'_, T> {
     }
 }
 
+/// The worst points that are apart from each other, worst first.
+fn apart(ranked: Vec<(CubePoint, f64)>) -> Vec<(CubePoint, f64)> {
+    let mut chosen: Vec<(CubePoint, f64)> = Vec::new();
+    for candidate in ranked {
+        if chosen.len() < CANDIDATES && chosen.iter().all(|(other, _)| other.is_apart(&candidate.0)) {
+            chosen.push(candidate);
+        }
+    }
+    chosen
+}
+
 impl CubePoint {
-    fn scene(&self, convention: &Convention) -> Scene {
-        let [a, b, c, d, ..] = self.at;
+    /// The point itself; then with other distances, or the light in the mirror direction of the view and near it.
+    fn variants(self) -> [Self; VARIANTS] {
+        let changed = |index: usize| {
+            let mut at = self.at;
+            let [first, second] = [index / DISTANCES.len(), index % DISTANCES.len()].map(|i| DISTANCES[i]);
+            match self.kind {
+                Kind::Near => (at[4], at[5]) = (first, second),
+                Kind::Distant => {
+                    at[2] = at[0] + 0.02 * (first - 0.5);
+                    at[3] = at[1] + 0.5 + 0.02 * (second - 0.5);
+                }
+            }
+            Self { at, ..self }.bounded()
+        };
+        std::array::from_fn(|index| index.checked_sub(1).map_or(self, changed))
+    }
+
+    fn is_azimuth(&self, dimension: usize) -> bool {
         match self.kind {
-            Kind::Near => Scene::near_from_point(self.at, convention),
-            Kind::Distant => Scene::distant_from_point([a, b, c, d], convention),
+            Kind::Near => dimension == 3,
+            Kind::Distant => dimension == 1 || dimension == 3,
         }
     }
 
-    /// The point moved towards a point of the unit cube, whose middle moves nothing, by at most `reach` in each dimension.
-    fn moved(self, towards: [f64; 6], reach: f64) -> Self {
-        let at = std::array::from_fn(|i| self.at[i] + reach * (2.0 * towards[i] - 1.0));
-        Self { at, ..self }.bounded()
+    fn is_apart(&self, other: &Self) -> bool {
+        let distance = |i: usize| {
+            let distance = (self.at[i] - other.at[i]).abs();
+            if self.is_azimuth(i) { distance.min(1.0 - distance) } else { distance }
+        };
+        let dimensions = if self.kind == Kind::Near { 6 } else { 4 };
+        self.kind != other.kind || (0..dimensions).any(|i| distance(i) > APART)
     }
 
     /// The point in the cube: azimuths go round, other numbers stop at its sides.
     fn bounded(self) -> Self {
-        let is_azimuth = |i| match self.kind {
-            Kind::Near => i == 3,
-            Kind::Distant => i == 1 || i == 3,
-        };
-        let is_distance = |i| self.kind == Kind::Near && i >= 4;
-        let bound = |i: usize| match self.at[i] {
-            x if is_azimuth(i) => x.rem_euclid(1.0),
-            x if is_distance(i) => x.clamp(TAIL, 1.0 - TAIL),
-            x => x.clamp(0.0, 1.0),
+        let bound = |i: usize| {
+            if self.is_azimuth(i) { self.at[i].rem_euclid(1.0) } else { self.at[i].clamp(0.0, 1.0) }
         };
         Self { at: std::array::from_fn(bound), ..self }
     }

@@ -2,7 +2,7 @@
 
 use svbrdf_core::loss::{Request, Sampling, Texels};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::why::{RankedScene, worst, worst_first};
+use svbrdf_core::why::{RankedScene, TAIL, worst, worst_first};
 
 use super::*;
 
@@ -88,7 +88,7 @@ fn the_search_finds_the_scene_of_the_core_and_shows_it() {
     window.run_steps(2);
     wait(&mut window, "the worst scene", |app| app.worst().is_some());
     let materials = materials();
-    let expected = worst(&materials[0], &materials[1], &PRINTED, 0, &Progress::default()).unwrap();
+    let expected = worst(&materials[0], &materials[1], &PRINTED, 0, TAIL, &Progress::default()).unwrap();
     assert_eq!(window.state().worst(), Some(&expected));
     assert_eq!(window.state().parts.model.view.scene, expected.scene);
     window.get_by_label_contains("12688 scenes tried");

@@ -1,6 +1,7 @@
 //! Assembly: one material out of its linear maps, by their workflow.
 
 mod read;
+mod storage;
 mod workflow;
 
 use crate::read::interpret::LinearMaterial;

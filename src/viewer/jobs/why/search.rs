@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::why::{Worst, worst};
+use svbrdf_core::why::{TAIL, Worst, worst};
 
 use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
 use crate::viewer::jobs::work::job::Job;
@@ -21,7 +21,7 @@ impl SearchJob {
     pub fn start(&mut self, waker: &Waker, pair: &ComparedPair, seed: u64) {
         let (key, pair) = (pair.key, pair.clone());
         let search = move |progress: &_| {
-            worst(pair.ground_truth(), pair.prediction(), &pair.convention, seed, progress)
+            worst(pair.ground_truth(), pair.prediction(), &pair.convention, seed, TAIL, progress)
         };
         self.running = Some((key, Job::start(waker, search)));
     }

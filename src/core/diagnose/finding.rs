@@ -1,0 +1,128 @@
+//! What a diagnosis finds.
+
+use serde::{Serialize, Serializer};
+
+use super::ladder::Rung;
+use super::seams::Seam;
+use crate::loss::Estimate;
+
+/// An explanation of a loss that is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hypothesis {
+    /// One factor on the radiance.
+    Exposure,
+    /// A factor on each channel.
+    ExposureRgb,
+    /// A displacement by whole texels.
+    Shift,
+    /// The displacement by parts of a texel that a parabola suggests: not tested.
+    Subtexel,
+    /// Maps mirrored or turned.
+    Symmetry,
+    /// Detail smaller than 2 texels: not tested.
+    Resampling,
+    NormalY,
+    NormalX,
+    AlbedoEncoding,
+    SpecularEncoding,
+    Roughness,
+    Channels,
+    Energy,
+}
+
+impl Hypothesis {
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exposure => "exposure",
+            Self::ExposureRgb => "exposure_rgb",
+            Self::Shift => "shift",
+            Self::Subtexel => "subtexel",
+            Self::Symmetry => "symmetry",
+            Self::Resampling => "resampling",
+            Self::NormalY => "normal_y",
+            Self::NormalX => "normal_x",
+            Self::AlbedoEncoding => "albedo_encoding",
+            Self::SpecularEncoding => "specular_encoding",
+            Self::Roughness => "roughness",
+            Self::Channels => "channels",
+            Self::Energy => "energy",
+        }
+    }
+
+    /// The unit of its value.
+    pub fn unit(self) -> Option<&'static str> {
+        match self {
+            Self::Exposure | Self::ExposureRgb => Some("stops"),
+            Self::Shift | Self::Subtexel | Self::Resampling => Some("texels"),
+            _ => None,
+        }
+    }
+}
+
+impl Serialize for Hypothesis {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+/// The value of a hypothesis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// The stops that the prediction would have to be brightened by; a number of texels.
+    Number(f64),
+    /// Stops of red, green and blue.
+    Numbers([f64; 3]),
+    /// How far the prediction is displaced to the right and down.
+    Displacement([f64; 2]),
+    /// What would have to be done with the prediction, or how it would have to be read.
+    Name(&'static str),
+}
+
+/// The loss under a hypothesis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    pub hypothesis: Hypothesis,
+    /// The value with the least loss in the pilot.
+    pub value: Value,
+    pub unit: Option<&'static str>,
+    /// The loss under the hypothesis; `None` where it has none.
+    pub loss: Option<f64>,
+    /// The 95% confidence interval of this loss.
+    pub interval95: Option<[f64; 2]>,
+    /// The part of the loss that disappears under the hypothesis, paired by scenes; negative where the loss grows.
+    pub share: Option<f64>,
+    /// The 95% confidence interval of the share, from the paired differences.
+    pub share_interval95: Option<[f64; 2]>,
+    /// The probability of such a fall where there is none, corrected for the number of hypotheses (Holm); `None`: not tested.
+    pub p: Option<f64>,
+    /// Whether the loss falls significantly and by at least 10%, also after the corrections of the marked findings with larger shares.
+    pub marked: bool,
+    /// The option of the command line that corrects the reading.
+    pub remedy: Option<String>,
+}
+
+/// What might explain the loss of one prediction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnosis {
+    /// The name of the prediction.
+    pub prediction: String,
+    /// Its loss over the scenes of the evaluation.
+    pub loss: Estimate,
+    /// In the order of [`Hypothesis`].
+    pub findings: Vec<Finding>,
+    /// From single texels to the largest blocks.
+    pub ladder: Vec<Rung>,
+    /// Those of the prediction.
+    pub seams: Vec<Seam>,
+}
+
+impl Diagnosis {
+    /// The marked findings, the largest share first.
+    pub fn marked(&self) -> impl Iterator<Item = &Finding> {
+        let mut marked: Vec<_> = self.findings.iter().filter(|finding| finding.marked).collect();
+        marked.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
+        marked.into_iter()
+    }
+}

@@ -1,0 +1,56 @@
+//! Diagnosis: whether an error of exposure, alignment or reading explains a loss, and how far the ground truth resolves it.
+//!
+//! What has a free value (stops, texels, a symmetry) is fitted in the scenes of a pilot and evaluated in other scenes, so that its
+//! interval is valid after the search. `docs/diagnose.md` describes each line.
+//!
+//! ```
+//! use svbrdf_core::diagnose::{Storage, diagnose};
+//! use svbrdf_core::material::Material;
+//! use svbrdf_core::model::brdf::Texel;
+//! use svbrdf_core::model::convention::Convention;
+//! use svbrdf_core::progress::Progress;
+//!
+//! let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
+//! let truth = Material::uniform("truth", 32, 32, &texel(0.3))?;
+//! let glossiness = Material::uniform("glossiness", 32, 32, &texel(0.7))?;
+//! let storage = Storage::default();
+//! let found = diagnose(&truth, &glossiness, &storage, &Convention::default(), 0, &Progress::default())?;
+//! assert!(found.marked().next().is_some_and(|finding| finding.hypothesis.name() == "roughness"));
+//! # Ok::<(), svbrdf_core::error::Error>(())
+//! ```
+
+mod change;
+mod corrected;
+mod dither;
+mod exposure;
+mod filtered;
+mod finding;
+mod holm;
+mod ladder;
+mod radiances;
+mod reading;
+mod remedy;
+mod seams;
+mod search;
+mod sentence;
+mod shift;
+mod storage;
+mod symmetry;
+mod trials;
+
+#[cfg(test)]
+pub(crate) mod tests;
+
+pub use dither::{dithered, floor};
+pub use exposure::best_stops;
+pub use filtered::filtered_roughness;
+pub use finding::{Diagnosis, Finding, Hypothesis, Value};
+pub use holm::holm;
+pub use ladder::{Rung, ladder};
+pub use reading::Reading;
+pub use seams::{Seam, seams};
+pub use search::diagnose;
+pub use sentence::sentence;
+pub use shift::{MOST_SHIFT, shifted};
+pub use storage::{Storage, Transfer};
+pub use symmetry::Symmetry;

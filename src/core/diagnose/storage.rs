@@ -1,0 +1,82 @@
+//! How the maps of a material are stored, as far as a diagnosis uses it.
+
+use crate::math::srgb;
+
+/// The encoding of a stored colour.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Transfer {
+    /// Not known, as for arrays.
+    #[default]
+    Unknown,
+    Linear,
+    Srgb,
+    /// The power 1 / 2.2.
+    Gamma22,
+    /// Another one.
+    Other,
+}
+
+impl Transfer {
+    /// The stored value of a linear one, both in [0, 1]; unknown encodings count as linear.
+    pub(super) fn encode(self, value: f32) -> f32 {
+        match self {
+            Self::Srgb => srgb::encode(value),
+            Self::Gamma22 => value.powf(1.0 / 2.2),
+            Self::Unknown | Self::Linear | Self::Other => value,
+        }
+    }
+
+    /// The inverse of [`Transfer::encode`].
+    pub(super) fn decode(self, value: f32) -> f32 {
+        match self {
+            Self::Srgb => srgb::decode(value),
+            Self::Gamma22 => value.powf(2.2),
+            Self::Unknown | Self::Linear | Self::Other => value,
+        }
+    }
+}
+
+/// How the maps of a material are stored, and how their values were read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Storage {
+    /// The encoding of diffuse or base colour.
+    pub colours: Transfer,
+    /// The encoding of specular.
+    pub specular: Transfer,
+    /// Whether diffuse and specular follow from a base colour and metallic, so that there is no map of specular.
+    pub base_colour: bool,
+    /// Whether y of normals was read as pointing down.
+    pub normal_down: bool,
+    /// The reading of roughness values by the name of its option, such as "gloss"; `None`: r, or unknown.
+    pub roughness: Option<String>,
+    /// Whether diffuse was read as not scaled by (1 - specular).
+    pub unscaled: bool,
+    /// The distance between two stored values of normal, diffuse, specular and roughness, for stored values in [0, 1]; 0: floats.
+    pub steps: [f64; 4],
+}
+
+impl Default for Storage {
+    /// Unknown readings of 8 bits.
+    fn default() -> Self {
+        Self {
+            colours: Transfer::Unknown,
+            specular: Transfer::Unknown,
+            base_colour: false,
+            normal_down: false,
+            roughness: None,
+            unscaled: false,
+            steps: [1.0 / 255.0; 4],
+        }
+    }
+}
+
+impl Storage {
+    /// The other readings of colours; those of one encoding only where the present one is known.
+    pub(super) fn encodings(transfer: Transfer) -> &'static [Transfer] {
+        match transfer {
+            Transfer::Unknown => &[Transfer::Linear, Transfer::Srgb],
+            Transfer::Linear => &[Transfer::Srgb],
+            Transfer::Srgb | Transfer::Gamma22 | Transfer::Other => &[Transfer::Linear],
+        }
+    }
+}

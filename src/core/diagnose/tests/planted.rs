@@ -1,0 +1,145 @@
+//! Each error planted alone: it is found with its value, and the rest of the table stays unmarked.
+
+use super::super::shift::shifted;
+use super::super::{Diagnosis, Hypothesis, Reading, Storage, Symmetry, Transfer, Value, diagnose, sentence};
+use super::materials::{generated, unexplained, with};
+use crate::material::Material;
+use crate::model::convention::PRINTED;
+use crate::progress::Progress;
+
+const SIDE: usize = 48;
+
+fn found(truth: &Material<f32>, prediction: &Material<f32>, storage: &Storage) -> Diagnosis {
+    diagnose(truth, prediction, storage, &PRINTED, 1, &Progress::default()).unwrap()
+}
+
+/// The only marked finding.
+#[track_caller]
+fn only(diagnosis: &Diagnosis) -> (Hypothesis, Value) {
+    let marked: Vec<_> = diagnosis.marked().collect();
+    assert!(marked.len() == 1, "{diagnosis:#?}");
+    (marked[0].hypothesis, marked[0].value.clone())
+}
+
+#[test]
+fn shifts() {
+    for (seed, shift) in [(0, [3, -2]), (1, [-8, 8]), (2, [0, 1])] {
+        let truth = generated(seed, SIDE);
+        let found = found(&truth, &shifted(&truth, shift).unwrap(), &Storage::default());
+        assert_eq!(only(&found), (Hypothesis::Shift, Value::Displacement(shift.map(f64::from))));
+        let finding = found.marked().next().unwrap();
+        assert!(finding.loss.unwrap() < 1e-6 && finding.share.unwrap() > 0.999, "{finding:?}");
+    }
+}
+
+#[test]
+fn symmetries() {
+    for (seed, symmetry) in [0, 1, 2].into_iter().flat_map(|seed| Symmetry::ALL.map(|s| (seed, s))) {
+        if seed > 0 && symmetry != Symmetry::ALL[seed as usize * 3] {
+            continue;
+        }
+        let truth = generated(seed, SIDE);
+        let moved = symmetry.inverse().applied(&truth).unwrap();
+        let found = found(&truth, &moved, &Storage::default());
+        assert_eq!(only(&found), (Hypothesis::Symmetry, Value::Name(symmetry.name())));
+    }
+}
+
+#[test]
+fn readings() {
+    let linear = Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
+    let planted = [
+        (Reading::NormalY, Reading::NormalY, Hypothesis::NormalY, Some("--pred-normal-y down")),
+        (Reading::NormalX, Reading::NormalX, Hypothesis::NormalX, None),
+        (Reading::Gloss, Reading::Gloss, Hypothesis::Roughness, Some("--pred-roughness gloss")),
+        (
+            Reading::SquaredRoughness,
+            Reading::RootOfRoughness,
+            Hypothesis::Roughness,
+            Some("--pred-roughness alpha"),
+        ),
+        (Reading::RootOfRoughness, Reading::SquaredRoughness, Hypothesis::Roughness, None),
+        (Reading::RedBlue, Reading::RedBlue, Hypothesis::Channels, None),
+        (Reading::Scaled, Reading::Unscaled, Hypothesis::Energy, Some("--pred-energy unscaled")),
+    ];
+    for seed in 0..3 {
+        let truth = generated(seed, SIDE);
+        for (error, correction, hypothesis, remedy) in planted {
+            // Metals have little diffuse to scale, and dielectrics are hardly scaled.
+            if hypothesis == Hypothesis::Energy && seed != 1 {
+                continue;
+            }
+            let found = found(&truth, &error.applied(&truth, &linear).unwrap(), &linear);
+            assert_eq!(only(&found), (hypothesis, Value::Name(correction.name())), "material {seed}");
+            assert_eq!(found.marked().next().unwrap().remedy.as_deref(), remedy);
+        }
+    }
+}
+
+#[test]
+fn encodings_of_colours() {
+    let [linear, encoded] = [Transfer::Linear, Transfer::Srgb].map(|transfer| Storage {
+        colours: transfer,
+        specular: transfer,
+        ..Storage::default()
+    });
+    for seed in 0..3 {
+        let truth = generated(seed, SIDE);
+        for (read_as, error, name) in
+            [(&linear, Transfer::Linear, "srgb"), (&encoded, Transfer::Srgb, "linear")]
+        {
+            // What was stored in the other encoding and read as this one.
+            let other = if error == Transfer::Linear { &encoded } else { &linear };
+            let wrong = Reading::Colours(error).applied(&truth, other).unwrap();
+            let found = found(&truth, &wrong, read_as);
+            assert_eq!(only(&found), (Hypothesis::AlbedoEncoding, Value::Name(name)), "material {seed}");
+            let remedy = found.marked().next().unwrap().remedy.clone();
+            assert_eq!(remedy, Some(format!("--pred-albedo {name}")));
+        }
+    }
+}
+
+/// Where specular is 0, radiance is that of diffuse but for Fresnel at grazing angles.
+#[test]
+fn exposures() {
+    for (seed, stops) in [(0, -0.7_f64), (2, 0.4), (5, -1.5)] {
+        let matte = |material: &Material<f32>, factor: f32| {
+            with(material, |planes| {
+                planes.specular.iter_mut().flatten().for_each(|s| *s = 0.0);
+                planes.roughness.iter_mut().for_each(|r| *r = 1.0);
+                planes.diffuse.iter_mut().flatten().for_each(|d| *d *= 0.6 * factor);
+            })
+        };
+        let truth = generated(seed, SIDE);
+        let found = found(&matte(&truth, 1.0), &matte(&truth, stops.exp2() as f32), &Storage::default());
+        let (hypothesis, value) = only(&found);
+        let Value::Number(value) = value else { panic!("{value:?}") };
+        assert!(hypothesis == Hypothesis::Exposure && (value + stops).abs() < 0.01, "{value} {stops}");
+    }
+}
+
+#[test]
+fn nothing_is_marked_without_an_error_or_with_others() {
+    let truth = generated(3, SIDE);
+    let same = found(&truth, &truth, &Storage::default());
+    assert!(same.marked().next().is_none() && same.loss.mean == 0.0);
+    assert_eq!(sentence(&same, None), "The prediction equals the ground truth.");
+    for seed in 0..4 {
+        let found = found(&truth, &unexplained(&truth, seed), &Storage::default());
+        assert!(found.marked().next().is_none(), "{found:#?}");
+        assert!(sentence(&found, None).starts_with("No error of exposure"), "{}", sentence(&found, None));
+    }
+}
+
+#[test]
+fn two_errors_are_found_at_once() {
+    let truth = generated(0, SIDE);
+    let encoded = Storage { colours: Transfer::Srgb, specular: Transfer::Srgb, ..Storage::default() };
+    let read_as_linear =
+        Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
+    let flipped = Reading::NormalY.applied(&truth, &encoded).unwrap();
+    let both = Reading::Colours(Transfer::Linear).applied(&flipped, &encoded).unwrap();
+    let found = found(&truth, &both, &read_as_linear);
+    let marked: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
+    assert_eq!(marked, [Hypothesis::AlbedoEncoding, Hypothesis::NormalY]);
+}
