@@ -23,7 +23,7 @@
 //! | crate | folder | content |
 //! |---|---|---|
 //! | [`svbrdf_core`] | `src/core` | numbers only: BRDF, scenes, rendering, loss, what a loss comes from, metrics, reports |
-//! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, data sets, the built-in materials |
+//! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, data sets, reports, the built-in materials |
 //! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter; the shaders are in `src/gpu/shaders/` |
 //! | `svbrdf` | `src` | [`backend`] (processor or adapter, whichever is faster), the window in `src/viewer` (feature `viewer`), and the command line in `src/cli`, which is part of the binary |
 //!

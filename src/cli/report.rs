@@ -6,14 +6,15 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::report::Report as _;
 use svbrdf_files::atomic::{check_place, write_text};
-use svbrdf_files::page::{Findings, Report, View};
+use svbrdf_files::page::{Findings, Page, Report, View};
 
 use super::args::scenes::OneSceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};
 use super::job::ComparisonJob;
 use super::output::stop::stoppable;
-use super::output::{CommandError, exit, watched};
+use super::output::{CommandError, exit, target, watched};
 
 /// Writes a page with an interactive figure and the findings, which opens in any browser
 ///
@@ -63,14 +64,17 @@ pub struct ReportArgs {
 /// Computes the findings and writes the page.
 ///
 /// # Errors
-/// Where a material cannot be read or compared, or the file cannot be written.
+/// Where a material cannot be read or compared, or the file cannot be written; with `--strict` where the target error is not reached,
+/// after the file is written.
 pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
     check_ending(args)?;
     check_place(&args.output)?;
+    let job = ComparisonJob::new(&args.comparison, given)?;
     if args.figure {
         given.check(&modes::REPORT_FIGURE)?;
+    } else if job.materials.predictions() == 0 {
+        given.check(&modes::REPORT_ALONE)?;
     }
-    let job = ComparisonJob::new(&args.comparison, given)?;
     let session = job.session.as_ref();
     let view = View {
         scene: args.scene.scene(session.map(|session| session.scene))?,
@@ -85,6 +89,7 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
         |progress: &Progress| Findings::new(ground_truth, &predictions, job.convention, &request, progress);
     let has_findings = !args.figure && !predictions.is_empty();
     let findings = has_findings.then(|| watched("rendering", findings)).transpose()?;
+    let missed = findings.as_ref().map_or(Vec::new(), |findings| findings.loss.missed());
     let materials: Vec<&Material<f32>> = std::iter::once(ground_truth).chain(predictions).collect();
     let (readings, command) =
         if args.figure { (Vec::new(), String::new()) } else { (opened.readings.clone(), command()) };
@@ -99,21 +104,23 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
     };
     let page = watched("writing", |progress| report.page(progress))?;
     stoppable(|progress| write_text(&args.output, &page.html, progress))?;
+    tell_size(&page, args.max_size);
+    target::warn_of(missed, job.materials.strict)
+}
+
+/// Reports what the size of the file, at most `most` bytes, has cost.
+fn tell_size(page: &Page, most: usize) {
     if let Some([width, height]) = page.reduced_to {
         exit::tell(&format!(
-            "note: the maps of the figure are reduced to {width} x {height} texels, so that the file is at most {} bytes; findings are \
-             of all texels",
-            args.max_size
+            "note: the maps of the figure are reduced to {width} x {height} texels for --max-size {most}; findings are of all texels"
         ));
     }
-    if page.html.len() > args.max_size {
+    if page.html.len() > most {
+        let bytes = page.html.len();
         exit::tell(&format!(
-            "warning: the file has {} bytes, more than --max-size {}; smaller maps do not help",
-            page.html.len(),
-            args.max_size
+            "warning: the file has {bytes} bytes, more than --max-size {most}; smaller maps do not help"
         ));
     }
-    Ok(())
 }
 
 fn check_ending(args: &ReportArgs) -> Result<(), Error> {

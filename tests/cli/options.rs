@@ -52,6 +52,7 @@ const MODES: [(&str, Shows); 40] = [
     ("strip gt.png a.png -o x.png --columns rendering", Shows::Everything),
     ("report gt.png a.png -o x.html --target-error 30%", Shows::Everything),
     ("report gt.png a.png -o x.html --figure", Shows::Everything),
+    ("report gt.png -o x.html", Shows::Everything),
     ("report s.svbrdf-session.json -o x.html --target-error 30%", Shows::Everything),
     ("rank gt.png a.png b.png --target-error 30%", Shows::Everything),
     ("rank --dataset set/gt set/ours --target-error 30%", Shows::Everything),

@@ -159,8 +159,8 @@ pub const REQUESTS_F64: f64 = 1e-12; // measured: 0 on the machine that made the
 pub const REQUESTS_F32: f64 = 1e-6; // measured: 3.7e-7 over scalar, SSE2, SSE4.2, AVX2 and AVX-512
 
 /// Pixels of the report in a browser against `svbrdf render`, in steps of 8 bits.
-pub const PAGE_PIXELS: u8 = 1;
+pub const PAGE_PIXELS: u8 = 1; // measured: 1, in 1,262 of 16,281,600 values
 /// Readouts and differences of the report, relative to 1 or the larger number.
-pub const PAGE_NUMBERS: f64 = 1e-3;
+pub const PAGE_NUMBERS: f64 = 1e-3; // measured: 2.7e-4
 /// Cameras of the report, as [`PAGE_NUMBERS`].
 pub const PAGE_CAMERA: f64 = 1e-5;

@@ -61,6 +61,10 @@ pub const SESSION_SCENES: Mode =
 pub const REPORT_FIGURE: Mode =
     Mode { reason: "the figure alone has no loss", unused: &[&["target-error", "seed"]] };
 
+/// `report` of a ground truth alone.
+pub const REPORT_ALONE: Mode =
+    Mode { reason: "there is no prediction, and no loss", unused: &[&["target-error", "seed"]] };
+
 /// `map --over texels`.
 pub const MAP_OVER_TEXELS: Mode = Mode {
     reason: "a map over texels has no fixed direction and the size of its material",
