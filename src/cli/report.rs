@@ -8,7 +8,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::Report as _;
 use svbrdf_files::atomic::{check_place, write_text};
-use svbrdf_files::page::{Findings, Page, Report, View};
+use svbrdf_files::page::{Findings, Page, Report, View, exposure};
 
 use super::args::scenes::OneSceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};
@@ -53,7 +53,8 @@ pub struct ReportArgs {
     #[command(flatten)]
     scene: OneSceneArgs,
 
-    /// Exposure of the figure in stops [default: 0, or as in the session]
+    /// Exposure of the figure in stops [default: the brightest 1% of the ground truth just clip, or as in the
+    /// session]
     #[arg(long, value_name = "EV", value_parser = values::stops, allow_hyphen_values = true)]
     exposure: Option<f32>,
 
@@ -76,13 +77,17 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
         given.check(&modes::REPORT_ALONE)?;
     }
     let session = job.session.as_ref();
-    let view = View {
-        scene: args.scene.scene(session.map(|session| session.scene))?,
-        exposure_ev: args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0),
-        display: session.map(|session| session.display().clone()).unwrap_or_default(),
-    };
+    let scene = args.scene.scene(session.map(|session| session.scene))?;
     let opened = job.materials.open::<f32>()?;
     opened.check_output(&args.output, None)?;
+    let view = View {
+        scene,
+        exposure_ev: args
+            .exposure
+            .or(session.map(|session| session.exposure_ev))
+            .unwrap_or_else(|| exposure(&opened.ground_truth, &scene, &job.convention)),
+        display: session.map(|session| session.display().clone()).unwrap_or_default(),
+    };
     let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect::<Vec<_>>());
     let request = Request::Accuracy { target: args.target_error, seed: args.seed };
     let findings =

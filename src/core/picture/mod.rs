@@ -5,6 +5,7 @@ pub mod colour_map;
 pub mod content;
 pub mod difference;
 pub mod differences;
+pub mod exposure;
 pub mod quantity;
 pub mod statistics;
 pub mod tone;

@@ -149,8 +149,8 @@ fn worst_scenes(
     let outcome = &findings.loss.outcome;
     for ranked in worst_first(outcome).into_iter().take(SCENES) {
         let scene = ranked.scene;
-        let (picture, exposure) =
-            pictures::thumbnail(small, &scene, &report.convention, THUMBNAIL, progress)?;
+        let exposure = super::exposure(report.materials[0], &scene, &report.convention);
+        let picture = pictures::thumbnail(small, &scene, &report.convention, exposure, THUMBNAIL, progress)?;
         let losses: Vec<String> = outcome
             .losses
             .iter()

@@ -14,38 +14,27 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::statistics::quantile;
 
 /// Pixels between pictures that stand side by side.
 const GAP: u32 = 2;
 const QUALITY: u8 = 86;
 /// The gray between pictures.
 const BACKGROUND: Rgb<u8> = Rgb([36, 38, 42]);
-/// Largest exposure of a thumbnail, in stops, in either direction.
-const MOST_STOPS: f32 = 12.0;
 
-/// The renderings of the materials in a scene, side by side, each at most `width` pixels wide; and their exposure in stops, which
-/// brings the brightest 1% of the ground truth to white.
+/// The renderings of the materials in a scene, side by side, each at most `width` pixels wide.
 pub(super) fn thumbnail(
     materials: &[&Material<f32>],
     scene: &Scene,
     convention: &Convention,
+    exposure_ev: f32,
     width: u32,
     progress: &Progress,
-) -> Result<(String, f32), Error> {
+) -> Result<String, Error> {
     let image = |material: &&Material<f32>| Quantity::Rendering.image(material, scene, convention, progress);
     let images = materials.iter().map(image).collect::<Result<Vec<_>, _>>()?;
-    let exposure_ev = images.first().map_or(0.0, exposure);
     let content = PictureContent::default();
     let pictures: Vec<_> = images.iter().map(|image| coloured(image, content, exposure_ev, width)).collect();
-    Ok((data_uri(&side_by_side(&pictures))?, exposure_ev))
-}
-
-/// The exposure that brings the brightest 1% of a rendering to white, to half a stop.
-fn exposure(image: &Image<f32>) -> f32 {
-    let mut values: Vec<f64> = image.pixels.as_flattened().iter().map(|x| f64::from(*x)).collect();
-    let white = quantile(&mut values, 0.99).unwrap_or(1.0).max(f64::MIN_POSITIVE);
-    ((-white.log2() * 2.0).round() as f32 / 2.0).clamp(-MOST_STOPS, MOST_STOPS)
+    data_uri(&side_by_side(&pictures))
 }
 
 /// The content of every material, side by side; of differences the value of the ground truth first.
