@@ -36,7 +36,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 40] = [
+const MODES: [(&str, Shows); 41] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
