@@ -39,6 +39,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(why::worst, module)?)?;
     module.add_function(wrap_pyfunction!(why::scenes, module)?)?;
     module.add_function(wrap_pyfunction!(why::map, module)?)?;
+    module.add_function(wrap_pyfunction!(why::diagnose, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::matfusion, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::metrics, module)?)?;
     module.add_function(wrap_pyfunction!(photo::photo, module)?)?;

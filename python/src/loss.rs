@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::str::FromStr;
 
 use pyo3::prelude::*;
+use svbrdf_core::diagnose::floor;
 use svbrdf_core::loss::{Comparison, Compute, Precision, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::rank::most_scenes;
@@ -65,6 +66,12 @@ pub fn rank(
     let comparison = comparison.at_most(most_scenes(predictions.len()));
     let request = Request::Accuracy { target: target_error, seed: asked.seed };
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
-    let report = RankReport::new(asked.compared(all[0], &convention), target_error, asked.named(outcome));
+    let mut report = RankReport::new(asked.compared(all[0], &convention), target_error, asked.named(outcome));
+    let stored = &ground_truth.storage;
+    if stored.has_steps() {
+        let floor =
+            work::run(py, progress, |progress| floor(all[0], stored, &convention, asked.seed, progress))?;
+        report = report.with_floor(floor);
+    }
     Ok((Views::new(&report)?, report.places.iter().map(|place| place.index).collect()))
 }

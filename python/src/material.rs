@@ -7,6 +7,7 @@ use std::str::FromStr;
 use numpy::Element;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
+use svbrdf_core::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::Precision;
@@ -26,11 +27,15 @@ use crate::work;
 /// A material.
 #[pyclass(frozen, module = "svbrdf._core")]
 #[derive(Debug)]
-pub struct CoreMaterial(pub Stored);
+pub struct CoreMaterial {
+    values: Values,
+    /// How its files store it; arrays have no steps.
+    pub storage: Storage,
+}
 
 /// A material in one of the two precisions.
 #[derive(Debug)]
-pub enum Stored {
+pub enum Values {
     /// For speed.
     F32(Material<f32>),
     /// For reference.
@@ -72,67 +77,67 @@ impl CoreMaterial {
     #[staticmethod]
     fn from_arrays(py: Python<'_>, arrays: Arrays<'_>, precision: &str) -> PyResult<Self> {
         match Precision::from_str(precision).map_err(exception)? {
-            Precision::F32 => arrays.material(py).map(single),
-            Precision::F64 => arrays.material(py).map(double),
+            Precision::F32 => arrays.material(py).map(|material| single(material, Storage::exact())),
+            Precision::F64 => arrays.material(py).map(|material| double(material, Storage::exact())),
         }
     }
 
     #[getter]
     fn name(&self) -> &str {
-        match &self.0 {
-            Stored::F32(material) => material.name(),
-            Stored::F64(material) => material.name(),
+        match &self.values {
+            Values::F32(material) => material.name(),
+            Values::F64(material) => material.name(),
         }
     }
 
     /// (width, height).
     #[getter]
     fn size(&self) -> (usize, usize) {
-        match &self.0 {
-            Stored::F32(material) => material.size().into(),
-            Stored::F64(material) => material.size().into(),
+        match &self.values {
+            Values::F32(material) => material.size().into(),
+            Values::F64(material) => material.size().into(),
         }
     }
 
     #[getter]
     fn precision(&self) -> &'static str {
-        match &self.0 {
-            Stored::F32(_) => f32::NAME,
-            Stored::F64(_) => f64::NAME,
+        match &self.values {
+            Values::F32(_) => f32::NAME,
+            Values::F64(_) => f64::NAME,
         }
     }
 
     /// The values of a map, channels interleaved.
     fn map<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyByteArray>> {
-        match &self.0 {
-            Stored::F32(material) => map_bytes(py, material, name),
-            Stored::F64(material) => map_bytes(py, material, name),
+        match &self.values {
+            Values::F32(material) => map_bytes(py, material, name),
+            Values::F64(material) => map_bytes(py, material, name),
         }
     }
 }
 
-fn single(material: Material<f32>) -> CoreMaterial {
-    CoreMaterial(Stored::F32(material))
+fn single(material: Material<f32>, storage: Storage) -> CoreMaterial {
+    CoreMaterial { values: Values::F32(material), storage }
 }
 
-fn double(material: Material<f64>) -> CoreMaterial {
-    CoreMaterial(Stored::F64(material))
+fn double(material: Material<f64>, storage: Storage) -> CoreMaterial {
+    CoreMaterial { values: Values::F64(material), storage }
 }
 
 impl CoreMaterial {
     /// The material in f32: a copy only where it is in f64.
     pub fn single(&self) -> Cow<'_, Material<f32>> {
-        match &self.0 {
-            Stored::F32(material) => Cow::Borrowed(material),
-            Stored::F64(material) => Cow::Owned(material.cast()),
+        match &self.values {
+            Values::F32(material) => Cow::Borrowed(material),
+            Values::F64(material) => Cow::Owned(material.cast()),
         }
     }
 
     /// The material in f64: a copy only where it is in f32.
     pub fn double(&self) -> Cow<'_, Material<f64>> {
-        match &self.0 {
-            Stored::F32(material) => Cow::Owned(material.cast()),
-            Stored::F64(material) => Cow::Borrowed(material),
+        match &self.values {
+            Values::F32(material) => Cow::Owned(material.cast()),
+            Values::F64(material) => Cow::Borrowed(material),
         }
     }
 }
@@ -211,7 +216,7 @@ fn read_checked<T: Real>(
     Ok(read)
 }
 
-fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>) -> CoreMaterial) -> PyResult<Found> {
+fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>, Storage) -> CoreMaterial) -> PyResult<Found> {
     let certainty = |certainty| match certainty {
         Certainty::Unsure => "unsure",
         Certainty::Likely => "likely",
@@ -221,23 +226,27 @@ fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>) -> CoreMaterial) -
     let assumptions = read.assumptions.iter();
     let assumptions = assumptions
         .map(|a| [a.what.name(), &a.chosen, &a.why.to_string(), certainty(a.certainty)].map(str::to_owned));
-    let options = serde_json::to_string(&read.options);
+    let (options, storage) = (serde_json::to_string(&read.options), read.storage());
     Ok(Found {
         assumptions: assumptions.collect(),
         notes: read.notes.iter().map(ToString::to_string).collect(),
         files: read.files,
         options: options.map_err(|e| crate::errors::Error::new_err(e.to_string()))?,
-        material: material(read.material),
+        material: material(read.material, storage),
     })
 }
 
 /// The built-in ground truth, then the predictions of it.
 #[pyfunction]
 pub fn built_in(py: Python<'_>, precision: &str) -> PyResult<Vec<CoreMaterial>> {
-    fn all<T: Real>(material: fn(Material<T>) -> CoreMaterial) -> Result<Vec<CoreMaterial>, Error> {
+    fn all<T: Real>(material: fn(Material<T>, Storage) -> CoreMaterial) -> Result<Vec<CoreMaterial>, Error> {
         let samples = samples::load::<T>()?;
         let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
-        Ok(all.map(|read| material(read.material)).collect())
+        let with_storage = |read: Read<T>| {
+            let storage = read.storage();
+            material(read.material, storage)
+        };
+        Ok(all.map(with_storage).collect())
     }
     match Precision::from_str(precision).map_err(exception)? {
         Precision::F32 => work::at_once(py, || all(single)),
@@ -272,12 +281,12 @@ pub fn render<'py>(
 ) -> PyResult<Bound<'py, PyByteArray>> {
     let scene = scene.scene()?;
     let convention = convention.parse().map_err(exception)?;
-    match &material.0 {
-        Stored::F32(material) => {
+    match &material.values {
+        Values::F32(material) => {
             let image = work::run(py, None, |p| renderer::render_f32(material, &scene, &convention, p))?;
             pixels(py, image)
         }
-        Stored::F64(material) => {
+        Values::F64(material) => {
             let image = work::run(py, None, |p| renderer::render(material, &scene, &convention, p))?;
             pixels(py, image)
         }

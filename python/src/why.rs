@@ -2,9 +2,10 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
+use svbrdf_core::diagnose::{self as diagnosis, Diagnosis};
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::report::{BlameReport, MapReport, ScenesReport, WorstReport};
+use svbrdf_core::report::{BlameReport, DiagnoseReport, MapReport, ScenesReport, WorstReport};
 use svbrdf_core::why;
 
 use crate::arrays;
@@ -33,6 +34,33 @@ pub fn blame(
         attributions.push(why::Attribution { prediction: name.clone(), ..found });
     }
     Views::new(&BlameReport::new(asked.compared(&all[0], &convention), &request, attributions))
+}
+
+/// The diagnosis of the loss of each of `predictions`.
+#[pyfunction]
+pub fn diagnose(
+    py: Python<'_>,
+    ground_truth: &CoreMaterial,
+    predictions: Vec<PyRef<'_, CoreMaterial>>,
+    asked: Asked,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Views> {
+    let (convention, all) = (asked.convention()?, singles(ground_truth, &predictions));
+    let truth = &*all[0];
+    let floor = work::run(py, progress, |progress| {
+        diagnosis::floor(truth, &ground_truth.storage, &convention, asked.seed, progress)
+    })?;
+    let mut diagnoses = Vec::new();
+    for ((prediction, name), stored) in all[1..].iter().zip(asked.predictions()).zip(&predictions) {
+        let storage = &stored.storage;
+        let found = work::run(py, progress, |progress| {
+            diagnosis::diagnose(truth, prediction, storage, &convention, asked.seed, progress)
+        })?;
+        diagnoses.push(Diagnosis { prediction: name.clone(), ..found });
+    }
+    let compared = asked.compared(truth, &convention);
+    let seams = diagnosis::seams(truth);
+    Views::new(&DiagnoseReport { compared, seed: asked.seed, floor, seams, diagnoses })
 }
 
 /// The worst scene of each of `predictions`.

@@ -26,6 +26,7 @@ CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
     "loss to an accuracy": (["--target-error", "5%"], lambda gt, p: svbrdf.loss(gt, p, target_error=0.05)),
     "blame": (["--target-error", "5%"], lambda gt, p: svbrdf.blame(gt, p, target_error=0.05)),
     "rank": (["--target-error", "5%"], lambda gt, p: svbrdf.rank(gt, p, target_error=0.05)),
+    "diagnose": (["--seed", "1"], lambda gt, p: svbrdf.diagnose(gt, p, seed=1)),
     "worst": (["--seed", "1"], lambda gt, p: svbrdf.worst(gt, p, seed=1)),
     "scenes": (
         ["--near", "9", "--distant", "4", "--top", "5"],
@@ -68,6 +69,20 @@ def photograph(materials: Materials) -> Path:
 def arguments(case: str, materials: Materials) -> tuple[Path, list[Path]]:
     ground_truth, predictions = materials
     return (photograph(materials), [ground_truth, *predictions]) if case == "photo" else (ground_truth, predictions)
+
+
+@pytest.mark.parametrize("command", ["rank", "diagnose"])
+def test_maps_of_8_bits_have_the_floor_of_the_command_line(program: str, tmp_path: Path, command: str) -> None:
+    paths = [tmp_path / name for name in ("gt.png", "a.png", "b.png")]
+    for seed, path in enumerate(paths):
+        svbrdf.write(svbrdf.Material(**maps(13, 11, seed)), path)
+    compute: Callable[..., Any] = getattr(svbrdf, command)
+    report = compute(paths[0], paths[1:])
+    expected = subprocess.run([program, command, *paths], check=True, capture_output=True, text=True).stdout
+    assert "floor" in expected
+    assert str(report) + "\n" == expected
+    arrays = [svbrdf.Material(**maps(13, 11, seed)) for seed in range(3)]
+    assert "floor 0.0" not in str(svbrdf.rank(arrays[0], arrays[1:])), "arrays resolve every loss"
 
 
 def test_a_protocol_takes_files_with_their_options_and_no_scenes(materials: Materials) -> None:

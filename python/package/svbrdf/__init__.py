@@ -18,6 +18,7 @@ are those of the command line, bit for bit. `svbrdf.torch` has the same loss for
 from ._blame import Attribution, BlameReport, MapShare, blame
 from ._core import Error, __version__
 from ._dataset import DatasetLoss, DatasetReport, MethodSummary, MetricSummary, rank_dataset
+from ._diagnose import DiagnoseReport, Diagnosis, Finding, diagnose
 from ._loss import Difference, FewScenes, Loss, LossReport, RankedPrediction, RankReport, loss, rank
 from ._material import Assumption, AssumptionWarning, Material, built_in, read, write
 from ._metrics import Metrics, MetricsReport, metrics
@@ -36,10 +37,13 @@ __all__ = [
     "Convention",
     "DatasetLoss",
     "DatasetReport",
+    "DiagnoseReport",
+    "Diagnosis",
     "Difference",
     "Error",
     "Estimate",
     "FewScenes",
+    "Finding",
     "Loss",
     "LossReport",
     "MapReport",
@@ -64,6 +68,7 @@ __all__ = [
     "__version__",
     "blame",
     "built_in",
+    "diagnose",
     "loss",
     "map",
     "metrics",

@@ -90,6 +90,9 @@ def map(
     over: Mapping[str, Any] | None,
     progress: Report,
 ) -> MapItems: ...
+def diagnose(
+    ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
+) -> Views: ...
 def matfusion(
     ground_truth: CoreMaterial,
     predictions: Sequence[CoreMaterial],

@@ -24,9 +24,7 @@ pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let compared = Compared::new(&opened.ground_truth, &job.convention);
     let mut report = RankReport::new(compared, args.target_error, outcome);
-    // Floats resolve every loss.
-    let stored = opened.storages.first().filter(|stored| stored.steps.iter().any(|step| *step > 0.0));
-    if let Some(stored) = stored {
+    if let Some(stored) = opened.storages.first().filter(|stored| stored.has_steps()) {
         let floor = watched("dithering", |progress| {
             floor(&opened.ground_truth, stored, &job.convention, args.seed, progress)
         })?;

@@ -55,6 +55,18 @@ pub struct Storage {
     pub steps: [f64; 4],
 }
 
+impl Storage {
+    /// Of arrays: unknown readings, and values without steps.
+    pub fn exact() -> Self {
+        Self { steps: [0.0; 4], ..Self::default() }
+    }
+
+    /// Whether a map has steps, so that a loss may be too small to be resolved; floats resolve every loss.
+    pub fn has_steps(&self) -> bool {
+        self.steps.iter().any(|step| *step > 0.0)
+    }
+}
+
 impl Default for Storage {
     /// Unknown readings of 8 bits.
     fn default() -> Self {

@@ -12,6 +12,7 @@ use svbrdf_core::why::{Attribution, Hemisphere, worst_first};
 
 use super::content::{Findings, Report};
 use super::data::LinkedScene;
+use super::exposure::exposure;
 use super::markup::{escaped, number, percent, place};
 use super::{pictures, plots};
 use crate::atomic::SOFTWARE;
@@ -149,7 +150,7 @@ fn worst_scenes(
     let outcome = &findings.loss.outcome;
     for ranked in worst_first(outcome).into_iter().take(SCENES) {
         let scene = ranked.scene;
-        let exposure = super::exposure(report.materials[0], &scene, &report.convention);
+        let exposure = exposure(report.materials[0], &scene, &report.convention);
         let picture = pictures::thumbnail(small, &scene, &report.convention, exposure, THUMBNAIL, progress)?;
         let losses: Vec<String> = outcome
             .losses

@@ -6,6 +6,7 @@
 mod content;
 mod data;
 mod encode;
+mod exposure;
 mod findings;
 mod markup;
 mod pictures;
@@ -15,15 +16,13 @@ mod sha256;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::Material;
-use svbrdf_core::model::convention::Convention;
-use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
-use svbrdf_core::picture::exposure::automatic;
 use svbrdf_core::progress::Progress;
 
 use crate::atomic::SOFTWARE;
 pub use content::{Findings, Report, View};
 use encode::EncodedMaterial;
+pub use exposure::exposure;
 use markup::{escaped, filled};
 
 const PAGE: &str = include_str!("page.html");
@@ -51,14 +50,6 @@ const RENDERED: usize = 512;
 const SMALLEST: usize = 16;
 /// Maps of 10 channels of 2 bytes that would have to deflate to less than one part in this are halved at once.
 const MOST_DEFLATED: usize = 16;
-
-/// Largest exposure of the figure, in stops, in either direction.
-const MOST_STOPS: f32 = 8.0;
-
-/// The exposure in stops at which the brightest 1% of a rendering of the ground truth just clip, to a step of the figure's control.
-pub fn exposure(ground_truth: &Material<f32>, scene: &Scene, convention: &Convention) -> f32 {
-    ((2.0 * automatic(ground_truth, scene, convention)).round() / 2.0).clamp(-MOST_STOPS, MOST_STOPS)
-}
 
 /// A report as HTML.
 #[derive(Clone, Debug)]

@@ -1,0 +1,108 @@
+"""Whether something trivial explains a loss."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from . import _core
+from ._asked import Asked, Predictions
+from ._material import Material, Source
+from ._progress import Report as Progress
+from ._progress import reported
+from ._report import Estimate, Report, estimate, views
+
+
+@dataclass(frozen=True)
+class Finding:
+    """The loss under a hypothesis, such as another exposure or another direction of y."""
+
+    hypothesis: str
+    """"exposure", "exposure_rgb", "shift", "subtexel", "symmetry", "resampling", "normal_y", "normal_x", "albedo_encoding",
+    "specular_encoding", "roughness", "channels" or "energy"."""
+    value: float | str | list[float]
+    """The value with the least loss in a pilot."""
+    unit: str | None
+    """"stops" or "texels"."""
+    loss: float | None
+    """The loss under the hypothesis, in other scenes than those of the pilot."""
+    interval95: list[float] | None
+    share: float | None
+    """The part of the loss that disappears; negative where it grows."""
+    share_interval95: list[float] | None
+    p: float | None
+    """The probability of such a fall where there is none, corrected for the number of hypotheses; None: not tested."""
+    marked: bool
+    """Whether the loss falls significantly and by at least 10%."""
+    remedy: str | None
+    """The option of the command line that corrects the reading."""
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What might explain the loss of a prediction."""
+
+    prediction: str
+    sentence: str
+    """The finding in words."""
+    loss: Estimate
+    resolvable: bool
+    """Whether the loss is above the floor."""
+    findings: tuple[Finding, ...]
+    ladder: list[dict[str, Any]]
+    """The loss between averages over blocks of `side` x `side` texels, and the filtered roughness of both materials."""
+    seams: list[dict[str, Any]]
+    """The rank of the difference across each wrap among those of all neighbours; small: a visible seam."""
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class DiagnoseReport(Report):
+    """The diagnosis of each prediction: docs/diagnose.md describes each line."""
+
+    ground_truth: str
+    convention: str
+    seed: int
+    floor: Estimate
+    """The loss that the ground truth cannot resolve."""
+    predictions: tuple[Diagnosis, ...]
+    """One per prediction."""
+
+
+def diagnose(
+    ground_truth: Material | Source,
+    predictions: Predictions,
+    *,
+    seed: int = 0,
+    convention: str = "printed",
+    progress: bool | Progress = False,
+) -> DiagnoseReport:
+    """Whether an exposure, a shift, a symmetry or another reading of the files explains a loss.
+
+    >>> import svbrdf
+    >>> ground_truth, _, _ = svbrdf.built_in()
+    >>> maps = {name: getattr(ground_truth, name) for name in ("diffuse", "specular", "roughness")}
+    >>> flipped = svbrdf.Material(normal=ground_truth.normal * [1, -1, 1], **maps)
+    >>> svbrdf.diagnose(ground_truth, flipped).predictions[0].findings[6].marked
+    True
+
+    Args:
+        ground_truth: A material, or the path of one.
+        predictions: One or several materials of the same size, or paths.
+        seed: Names the sampled scenes.
+        convention: A name of `svbrdf.CONVENTIONS`.
+        progress: True for a bar of tqdm, or a function of (steps done, steps in all).
+
+    Raises:
+        OSError: A file cannot be read.
+        svbrdf.Error: A material cannot be used, or the sizes differ.
+    """
+    asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
+    with reported("diagnosing", progress) as report:
+        arguments = views(_core.diagnose(*asked.core, report))
+    values = arguments["_values"]
+    chosen = {name: values[name] for name in ("ground_truth", "convention", "seed")}
+    diagnoses = tuple(_diagnosis(entry) for entry in values["predictions"])
+    return DiagnoseReport(**arguments, **chosen, floor=estimate(values["floor"]), predictions=diagnoses)
+
+
+def _diagnosis(entry: dict[str, Any]) -> Diagnosis:
+    findings = tuple(Finding(**finding) for finding in entry["findings"])
+    return Diagnosis(**{**entry, "loss": estimate(entry["loss"]), "findings": findings})
