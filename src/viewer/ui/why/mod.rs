@@ -51,19 +51,12 @@ impl WhyPanel<'_> {
         ui.strong("Loss in this scene").on_hover_text(
             "Under the light and view of the panes: the mean of the log difference over the texels",
         );
-        match self.losses {
-            Some((losses, current)) => {
-                ui.scope(|ui| {
-                    if !current {
-                        ui.set_opacity(0.5);
-                    }
-                    self.rows(ui, losses, &mut commands);
-                });
+        ui.scope(|ui| {
+            if self.losses.is_none_or(|(_, current)| !current) {
+                ui.set_opacity(0.5);
             }
-            None => {
-                ui.weak("Computing...");
-            }
-        }
+            self.rows(ui, self.losses.map(|(losses, _)| losses), &mut commands);
+        });
         self.displayed_quantity(ui, &mut commands);
         for (section, title, question) in [
             (WhySection::Maps, "Which map", "How much of the loss comes from each map"),
@@ -94,26 +87,34 @@ impl WhyPanel<'_> {
         commands
     }
 
-    fn rows(&self, ui: &mut egui::Ui, losses: &[f64], commands: &mut Vec<Command>) {
-        let most = losses.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    /// A row per prediction, which stays where it is while its loss is computed.
+    fn rows(&self, ui: &mut egui::Ui, losses: Option<&[f64]>, commands: &mut Vec<Command>) {
+        let most = losses.unwrap_or_default().iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         // Many rows are low ones.
-        let is_long = losses.len() > LONG;
+        let is_long = self.names.len() > LONG;
         ui.spacing_mut().item_spacing.y = if is_long { 1.0 } else { 4.0 };
         let height = if is_long { 2.0 } else { 6.0 };
-        for (index, (loss, name)) in losses.iter().zip(shortened(&self.names, NAME)).enumerate() {
+        for (index, name) in shortened(&self.names, NAME).into_iter().enumerate() {
+            let loss = losses.and_then(|losses| losses.get(index));
             let left = |ui: &mut egui::Ui| {
                 ui.selectable_label(index == self.state.display.prediction, format!("{}  {name}", index + 1))
                     .on_hover_text(self.names[index])
             };
             let right = |ui: &mut egui::Ui| {
-                ui.label(RichText::new(format!("{loss:.4}")).monospace());
+                ui.label(
+                    RichText::new(loss.map_or_else(|| "\u{2013}".to_owned(), |loss| format!("{loss:.4}")))
+                        .monospace(),
+                );
             };
             let (response, ()) = Sides::new().shrink_left().truncate().show(ui, left, right);
             if response.clicked() {
                 commands.push(DisplayCommand::ChoosePrediction(index).into());
             }
             let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-            let bar = Rect::from_min_size(area.min, vec2(area.width() * (loss / most) as f32, area.height()));
+            let bar = Rect::from_min_size(
+                area.min,
+                vec2(area.width() * (loss.unwrap_or(&0.0) / most) as f32, area.height()),
+            );
             ui.painter().rect_filled(bar, 1.0, theme::series(index, ui.visuals().dark_mode));
         }
     }
