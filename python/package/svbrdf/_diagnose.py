@@ -16,8 +16,8 @@ class Finding:
     """The loss under a hypothesis, such as another exposure or another direction of y."""
 
     hypothesis: str
-    """"exposure", "exposure_rgb", "shift", "subtexel", "symmetry", "resampling", "normal_y", "normal_x", "albedo_encoding",
-    "specular_encoding", "roughness", "channels" or "energy"."""
+    """"exposure", "exposure_rgb", "shift", "subtexel", "symmetry", "resampling", "normal_y", "normal_x",
+    "albedo_encoding", "specular_encoding", "roughness", "channels" or "energy"."""
     value: float | str | list[float]
     """The value with the least loss in a pilot."""
     unit: str | None
@@ -59,9 +59,12 @@ class DiagnoseReport(Report):
 
     ground_truth: str
     convention: str
+    epsilon: float
     seed: int
     floor: Estimate
     """The loss that the ground truth cannot resolve."""
+    seams: list[dict[str, Any]]
+    """Those of the ground truth."""
     predictions: tuple[Diagnosis, ...]
     """One per prediction."""
 
@@ -98,9 +101,8 @@ def diagnose(
     with reported("diagnosing", progress) as report:
         arguments = views(_core.diagnose(*asked.core, report))
     values = arguments["_values"]
-    chosen = {name: values[name] for name in ("ground_truth", "convention", "seed")}
     diagnoses = tuple(_diagnosis(entry) for entry in values["predictions"])
-    return DiagnoseReport(**arguments, **chosen, floor=estimate(values["floor"]), predictions=diagnoses)
+    return DiagnoseReport(**arguments, **{**values, "floor": estimate(values["floor"]), "predictions": diagnoses})
 
 
 def _diagnosis(entry: dict[str, Any]) -> Diagnosis:

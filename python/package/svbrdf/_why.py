@@ -156,8 +156,8 @@ def worst(
     >>> report.results[0].worst > 3 * report.results[0].mean
     True
 
-    12,288 of the scenes that the loss is over are sampled, and the 16 worst refined, the best two on all texels. Distances
-    are within the central 99% of their distributions. The loss of the scene that it finds is over all texels.
+    12,288 of the scenes that the loss is over are sampled, and the 16 worst refined, the best two on all texels.
+    Distances are within the central 99% of their distributions. The loss of the scene that it finds is over all texels.
 
     Args:
         ground_truth: A material, or the path of one.

@@ -105,6 +105,16 @@ fn text(value: &Value) -> String {
     }
 }
 
+/// A number, a list of them in brackets, or a name.
+fn cell(value: &Value) -> Cell {
+    match value {
+        Value::Number(number) => (*number).into(),
+        Value::Numbers(numbers) => format!("{numbers:?}").into(),
+        Value::Displacement(displacement) => format!("{displacement:?}").into(),
+        Value::Name(name) => (*name).into(),
+    }
+}
+
 fn row(finding: &Finding) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6}"));
     let interval =
@@ -142,7 +152,7 @@ impl Report for DiagnoseReport {
             vec![
                 diagnosis.prediction.as_str().into(),
                 finding.hypothesis.name().into(),
-                text(&finding.value).into(),
+                cell(&finding.value),
                 finding.unit.into(),
                 finding.loss.into(),
                 low,
