@@ -214,7 +214,8 @@ fn without_tooltip(
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_control_of_the_dialogs_has_a_tooltip() {
-    let dialogs: [(&str, fn(bool) -> Command); 3] = [
+    type Show = fn(bool) -> Command;
+    let dialogs: [(&str, Show); 3] = [
         ("open", |show| WindowCommand::ShowOpen(show).into()),
         ("save", |show| WindowCommand::ShowSave(show).into()),
         ("photograph", |show| PhotographCommand::ShowOpen(show).into()),
