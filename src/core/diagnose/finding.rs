@@ -1,4 +1,4 @@
-//! What a diagnosis finds.
+//! Findings of a diagnosis: the loss under each hypothesis.
 
 use serde::{Serialize, Serializer};
 

@@ -1,7 +1,7 @@
 //! Diagnosis: whether an error of exposure, alignment or reading explains a loss, and how far the ground truth resolves it.
 //!
-//! What has a free value (stops, texels, a symmetry) is fitted in the scenes of a pilot and evaluated in other scenes, so that its
-//! interval is valid after the search. `docs/diagnose.md` describes each line.
+//! Free values (stops, texels, a symmetry) are fitted in the scenes of a pilot and evaluated in other scenes, so that their intervals
+//! are valid after the search. `docs/diagnose.md` describes each line.
 //!
 //! ```
 //! use svbrdf_core::diagnose::{Storage, diagnose};
