@@ -211,6 +211,11 @@ pub enum Error {
         size(*bytes), size(*limit))]
     Memory { what: String, bytes: u64, limit: u64 },
 
+    /// The system does not give as much memory as something takes.
+    #[error("{what} takes {} of memory, which the system does not give now; use smaller files, or raise its limit",
+        size(*bytes))]
+    NoMemory { what: String, bytes: u64 },
+
     /// A result would replace a file that it is made from.
     #[error("cannot write {}: it is the file {}, which the result is made from; name another file",
         path.display(), input.display())]

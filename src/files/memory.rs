@@ -32,14 +32,21 @@ pub struct Reserved(u64);
 /// Puts `bytes` aside for `what`, which is put into words only for an error.
 ///
 /// # Errors
-/// [`Error::Memory`] where that is more than the limit leaves beside all that is put aside at this moment.
+/// [`Error::Memory`] where that is more than the limit leaves beside all that is put aside at this moment;
+/// [`Error::NoMemory`] where the system does not give as much now.
 pub fn reserve(bytes: u64, what: impl FnOnce() -> String) -> Result<Reserved, Error> {
     let limit = limit();
     let add = |reserved: u64| reserved.checked_add(bytes).filter(|sum| *sum <= limit);
-    match RESERVED.fetch_update(Ordering::Relaxed, Ordering::Relaxed, add) {
-        Ok(_) => Ok(Reserved(bytes)),
-        Err(_) => Err(Error::Memory { what: what(), bytes, limit }),
+    if RESERVED.fetch_update(Ordering::Relaxed, Ordering::Relaxed, add).is_err() {
+        return Err(Error::Memory { what: what(), bytes, limit });
     }
+    let reserved = Reserved(bytes);
+    if is_given(bytes) { Ok(reserved) } else { Err(Error::NoMemory { what: what(), bytes }) }
+}
+
+/// Whether the system gives this much memory at this moment. Decoders allocate by themselves, and abort where it does not.
+fn is_given(bytes: u64) -> bool {
+    usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
 }
 
 impl Drop for Reserved {
@@ -94,5 +101,11 @@ mod tests {
         assert!(half().is_err());
         drop(first);
         assert!(half().is_ok());
+    }
+
+    #[test]
+    fn what_the_system_does_not_give_is_not_given() {
+        assert!(is_given(0) && is_given(1 << 20));
+        assert!(!is_given(1 << 62) && !is_given(u64::MAX));
     }
 }

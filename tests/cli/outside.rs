@@ -194,6 +194,21 @@ fn memory_is_asked_for_before_it_is_taken() {
     }
 }
 
+/// `--max-memory` above what the system gives: decoders would abort.
+#[cfg(target_os = "linux")]
+#[test]
+fn what_the_system_does_not_give_is_an_error() {
+    let folder = folder();
+    let at = folder.path();
+    RgbImage::from_pixel(16384, 4096, Rgb([128, 128, 255])).save(at.join("large.png")).unwrap();
+    let limited =
+        format!("ulimit -v 500000; exec {} info large.png --max-memory 64GiB", env!("CARGO_BIN_EXE_svbrdf"));
+    let output = std::process::Command::new("sh").args(["-c", &limited]).current_dir(at).output().unwrap();
+    let said = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("large.png takes") && said.contains("which the system does not give"), "{said}");
+}
+
 #[test]
 fn readers_take_time_in_proportion_to_their_text() {
     let folder = pictures();
