@@ -3,7 +3,10 @@
 mod browser;
 mod controls;
 mod hostile;
+mod language;
 mod numbers;
+mod ranking;
+mod readable;
 #[cfg(feature = "gpu")]
 mod shaders;
 
@@ -11,7 +14,7 @@ use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_files::page::{Report, View};
+use svbrdf_files::page::{Labels, Report, View};
 use svbrdf_files::read::Read;
 use svbrdf_files::session_window::Display;
 use svbrdf_files::source::MaterialSource;
@@ -49,6 +52,11 @@ fn noise(seed: u32) -> Material<f32> {
 
 /// The page with the figure of these materials alone.
 fn figure(materials: &[Material<f32>], convention: Convention) -> String {
+    labelled(materials, convention, Labels::default())
+}
+
+/// [`figure`] with these labels.
+fn labelled(materials: &[Material<f32>], convention: Convention, labels: Labels) -> String {
     let materials: Vec<&Material<f32>> = materials.iter().collect();
     let report = Report {
         materials: &materials,
@@ -60,7 +68,8 @@ fn figure(materials: &[Material<f32>], convention: Convention) -> String {
         },
         findings: None,
         readings: Vec::new(),
-        command: "svbrdf report".to_owned(),
+        repetition: None,
+        labels,
         max_bytes: 10_000_000,
     };
     report.page(&Progress::default()).unwrap().html

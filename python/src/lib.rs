@@ -11,6 +11,7 @@ mod loss;
 mod material;
 mod metrics;
 mod model;
+mod page;
 mod photo;
 mod report;
 mod session;
@@ -44,6 +45,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(metrics::metrics, module)?)?;
     module.add_function(wrap_pyfunction!(photo::photo, module)?)?;
     module.add_function(wrap_pyfunction!(dataset::rank_dataset, module)?)?;
+    module.add_function(wrap_pyfunction!(page::page, module)?)?;
     module.add_function(wrap_pyfunction!(session::session, module)?)?;
     Ok(())
 }

@@ -2,17 +2,18 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::Report as _;
-use svbrdf_files::atomic::{check_place, write_text};
-use svbrdf_files::page::{Findings, Page, Report, View, exposure};
+use svbrdf_core::text::quoted;
+use svbrdf_files::atomic::write_text;
+use svbrdf_files::page::{Findings, Labels, Page, Repetition, Report, View, check_destination, exposure};
+use svbrdf_files::session_window::Layout;
 
 use super::args::scenes::OneSceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};
-use super::job::ComparisonJob;
+use super::job::{ComparisonJob, SessionSettings};
 use super::output::stop::stoppable;
 use super::output::{CommandError, exit, target, watched};
 
@@ -36,19 +37,22 @@ pub struct ReportArgs {
     #[arg(long)]
     figure: bool,
 
-    /// Samples as many scenes as this relative error of the loss needs at 95% confidence
-    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
-    target_error: f64,
+    /// Language of the labels of the figure: en, de or fr
+    #[arg(long, value_name = "LANGUAGE", default_value = "en")]
+    language: Labels,
 
-    /// Seed of the sampled scenes
-    #[arg(
-        help_heading = "Scenes",
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    seed: u64,
+    /// Layout that the figure begins with: side-by-side, wipe or single [default: side-by-side, or as in the session]
+    #[arg(long, value_name = "LAYOUT")]
+    layout: Option<Layout>,
+
+    /// Samples as many scenes as this relative error of the loss needs at 95% confidence [default: 1%, or the scenes of the
+    /// session]
+    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true)]
+    target_error: Option<f64>,
+
+    /// Seed of the sampled scenes [default: 0, or as in the session]
+    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
+    seed: Option<u64>,
 
     #[command(flatten)]
     scene: OneSceneArgs,
@@ -68,49 +72,72 @@ pub struct ReportArgs {
 /// Where a material cannot be read or compared, or the file cannot be written; with `--strict` where the target error is not reached,
 /// after the file is written.
 pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
-    check_ending(args)?;
-    check_place(&args.output)?;
+    check_destination(&args.output)?;
     let job = ComparisonJob::new(&args.comparison, given)?;
-    if args.figure {
-        given.check(&modes::REPORT_FIGURE)?;
-    } else if job.materials.predictions() == 0 {
-        given.check(&modes::REPORT_ALONE)?;
-    }
-    let session = job.session.as_ref();
-    let scene = args.scene.scene(session.map(|session| session.scene))?;
+    check_options(args, &job, given)?;
+    let request = request(args, job.session.as_ref(), given)?;
     let opened = job.materials.open::<f32>()?;
     opened.check_output(&args.output, None)?;
-    let view = View {
-        scene,
-        exposure_ev: args
-            .exposure
-            .or(session.map(|session| session.exposure_ev))
-            .unwrap_or_else(|| exposure(&opened.ground_truth, &scene, &job.convention)),
-        display: session.map(|session| session.display().clone()).unwrap_or_default(),
-    };
+    let view = view(args, &job, &opened.ground_truth)?;
     let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect::<Vec<_>>());
-    let request = Request::Accuracy { target: args.target_error, seed: args.seed };
     let findings =
         |progress: &Progress| Findings::new(ground_truth, &predictions, job.convention, &request, progress);
     let has_findings = !args.figure && !predictions.is_empty();
     let findings = has_findings.then(|| watched("rendering", findings)).transpose()?;
     let missed = findings.as_ref().map_or(Vec::new(), |findings| findings.loss.missed());
     let materials: Vec<&Material<f32>> = std::iter::once(ground_truth).chain(predictions).collect();
-    let (readings, command) =
-        if args.figure { (Vec::new(), String::new()) } else { (opened.readings.clone(), command()) };
+    let whole = !args.figure;
     let report = Report {
         materials: &materials,
         convention: job.convention,
         view,
         findings,
-        readings,
-        command,
+        readings: if whole { opened.readings.clone() } else { Vec::new() },
+        repetition: whole.then(|| Repetition { command: command(), session: None }),
+        labels: args.language.clone(),
         max_bytes: args.max_size,
     };
     let page = watched("writing", |progress| report.page(progress))?;
     stoppable(|progress| write_text(&args.output, &page.html, progress))?;
     tell_size(&page, args.max_size);
     target::warn_of(missed, job.materials.strict)
+}
+
+/// Refuses the options that the mode does not use.
+fn check_options(args: &ReportArgs, job: &ComparisonJob, given: &Given) -> Result<(), CommandError> {
+    given.check(if args.figure { &modes::REPORT_FIGURE } else { &modes::REPORT_WHOLE })?;
+    if job.materials.predictions() == 0 {
+        given.check(&modes::REPORT_ALONE)?;
+    }
+    Ok(())
+}
+
+/// What the figure begins with.
+fn view(args: &ReportArgs, job: &ComparisonJob, ground_truth: &Material<f32>) -> Result<View, CommandError> {
+    let session = job.session.as_ref();
+    let scene = args.scene.scene(session.map(|session| session.scene))?;
+    let exposure_ev = args
+        .exposure
+        .or(session.map(|session| session.exposure_ev))
+        .unwrap_or_else(|| exposure(ground_truth, &scene, &job.convention));
+    let mut display = session.map(|session| session.display().clone()).unwrap_or_default();
+    display.layout = args.layout.unwrap_or(display.layout);
+    Ok(View { scene, exposure_ev, display })
+}
+
+/// The scenes of the losses: those of the session, unless an accuracy is specified.
+fn request(
+    args: &ReportArgs,
+    session: Option<&SessionSettings>,
+    given: &Given,
+) -> Result<Request, CommandError> {
+    let saved =
+        session.filter(|_| args.target_error.is_none()).and_then(|session| session.request(args.seed));
+    if let Some(Request::Listed(_)) = saved {
+        given.check(&modes::SESSION_SCENES)?;
+    }
+    let (target, seed) = (args.target_error.unwrap_or(0.01), args.seed.unwrap_or(0));
+    Ok(saved.unwrap_or(Request::Accuracy { target, seed }))
 }
 
 /// Reports what the size of the file, at most `most` bytes, has cost.
@@ -128,25 +155,8 @@ fn tell_size(page: &Page, most: usize) {
     }
 }
 
-fn check_ending(args: &ReportArgs) -> Result<(), Error> {
-    let ending = args.output.extension().map(|ending| ending.to_ascii_lowercase());
-    if ending.is_some_and(|ending| ending == "html" || ending == "htm") {
-        return Ok(());
-    }
-    let (found, known) = (args.output.display().to_string(), "NAME.html".to_owned());
-    Err(Error::UnknownName { what: "name of a report", found, known })
-}
-
 /// The command line of this process, quoted for a shell.
 fn command() -> String {
-    let plain = |c: char| c.is_alphanumeric() || "-_./=:,%+@".contains(c);
-    let quoted = |argument: String| {
-        if !argument.is_empty() && argument.chars().all(plain) {
-            return argument;
-        }
-        format!("'{}'", argument.replace('\'', r"'\''"))
-    };
-    let arguments =
-        std::env::args_os().skip(1).map(|argument| quoted(argument.to_string_lossy().into_owned()));
+    let arguments = std::env::args_os().skip(1).map(|argument| quoted(&argument.to_string_lossy()));
     std::iter::once("svbrdf".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }

@@ -34,6 +34,15 @@ pub fn printable(text: &str) -> String {
     escaped
 }
 
+/// An argument of a command as shells read it: in quotes where it has other characters than those of plain names.
+pub fn quoted(argument: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,%+@".contains(c);
+    if !argument.is_empty() && argument.chars().all(is_plain) {
+        return argument.to_owned();
+    }
+    format!("'{}'", argument.replace('\'', r"'\''"))
+}
+
 /// The text in one line of a readable length, in which nothing steers what follows: a name from a file, for a label.
 pub fn line(text: &str) -> String {
     printable(&shortened(text)).replace('\n', "\\u{a}")
@@ -68,6 +77,14 @@ mod tests {
         assert!(long.chars().count() < 2100 && long.contains("... 998000 characters ..."), "{long}");
         assert_eq!(shortened("short"), "short");
         assert_eq!(line("two\nlines \u{202e}x"), "two\\u{a}lines \\u{202e}x");
+    }
+
+    #[test]
+    fn arguments_are_quoted_where_a_shell_would_take_them_apart() {
+        assert_eq!(
+            ["out/a-1.png", "", "two words", "it's"].map(quoted),
+            ["out/a-1.png", "''", "'two words'", r"'it'\''s'"]
+        );
     }
 
     #[test]

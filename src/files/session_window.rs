@@ -1,9 +1,12 @@
 //! Window part of a session: what the panes show and how, and the settings of the loss.
 
+use std::str::FromStr;
+
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use svbrdf_core::error::Error;
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map as MaterialMap;
 use svbrdf_core::picture::differences::Differences;
@@ -43,6 +46,27 @@ impl Layout {
             Self::Wipe => "wipe",
             Self::Single => "single",
         }
+    }
+
+    /// The name on the command line and in reports.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::SideBySide => "side-by-side",
+            Self::Wipe => "wipe",
+            Self::Single => "single",
+        }
+    }
+}
+
+impl FromStr for Layout {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        Self::ALL.into_iter().find(|layout| layout.key() == text).ok_or_else(|| Error::UnknownName {
+            what: "layout",
+            found: text.to_owned(),
+            known: Self::ALL.map(Self::key).join(", "),
+        })
     }
 }
 

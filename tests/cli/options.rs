@@ -36,7 +36,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 41] = [
+const MODES: [(&str, Shows); 42] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -56,6 +56,7 @@ const MODES: [(&str, Shows); 41] = [
     ("report s.svbrdf-session.json -o x.html --target-error 30%", Shows::Everything),
     ("rank gt.png a.png b.png --target-error 30%", Shows::Everything),
     ("rank --dataset set/gt set/ours --target-error 30%", Shows::Everything),
+    ("rank --dataset set/gt set/ours --target-error 30% --format html -o x.html", Shows::Everything),
     ("rank --pairs pairs.csv --target-error 30%", Shows::Everything),
     ("rank --merge journal.jsonl", Shows::Everything),
     ("blame gt.png a.png", Shows::Everything),
@@ -90,7 +91,7 @@ const MODES: [(&str, Shows); 41] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 67] = [
+const VALUES: [(&str, &str); 70] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -117,6 +118,8 @@ const VALUES: [(&str, &str); 67] = [
     ("strip distant", ""),
     ("report distant", ""),
     ("max-size", "1kB"),
+    ("language", "de"),
+    ("layout", "wipe"),
     ("distant", "5"),
     ("seed", "5"),
     ("sampler", "random"),
@@ -137,6 +140,7 @@ const VALUES: [(&str, &str); 67] = [
     ("journal", "kept.jsonl"),
     ("shard", "1/2"),
     ("pick", "mean"),
+    ("figures", "worst:1"),
     ("fail-above", "0.0001"),
     ("top", "3"),
     ("distance-tail", "0.001%"),

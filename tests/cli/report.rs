@@ -13,6 +13,13 @@ fn data(page: &str) -> Value {
     serde_json::from_str(&page[start..end]).unwrap()
 }
 
+/// A number in a table of the page.
+fn cell(value: &Value) -> String {
+    let x = value.as_f64().unwrap();
+    let decimals = if x == 0.0 { 3 } else { (3.0 - x.abs().log10().floor()).clamp(0.0, 8.0) as usize };
+    format!("<td>{x:.decimals$}</td>").replace('-', "\u{2212}")
+}
+
 #[test]
 fn a_report_has_the_numbers_of_loss_and_blame() {
     let folder = folder();
@@ -23,11 +30,6 @@ fn a_report_has_the_numbers_of_loss_and_blame() {
         serde_json::from_str(&succeed(folder.path(), &format!("loss {options} --format json"))).unwrap();
     let shares: Value =
         serde_json::from_str(&succeed(folder.path(), &format!("blame {options} --format json"))).unwrap();
-    let cell = |value: &Value| {
-        let x = value.as_f64().unwrap();
-        let decimals = if x == 0.0 { 3 } else { (3.0 - x.abs().log10().floor()).clamp(0.0, 8.0) as usize };
-        format!("<td>{x:.decimals$}</td>").replace('-', "\u{2212}")
-    };
     for result in losses["results"].as_array().unwrap() {
         assert!(page.contains(&cell(&result["loss"])), "{result}");
     }
@@ -73,6 +75,47 @@ fn a_report_of_a_session_begins_as_it_was_saved() {
         [&json!("wipe"), &json!(0), &json!(0.25)]
     );
     assert_eq!(data["epsilon"], json!(0.1));
+}
+
+#[test]
+fn a_report_of_a_session_has_its_losses_unless_an_accuracy_is_specified() {
+    let folder = folder();
+    let scene = json!({"kind": "near", "view": [0.0, 0.1, 2.0], "light": [0.5, 0.5, 1.0]});
+    let session = json!({
+        "svbrdf-session": 1, "convention": "printed", "scene": scene,
+        "materials": [{"path": "gt.png"}, {"path": "a.png"}],
+        "window": {"loss": {"ask": "Scenes", "near": 5, "distant": 2, "seed": 4}},
+    });
+    fs::write(folder.path().join("s.svbrdf-session.json"), session.to_string()).unwrap();
+    for options in ["", "--seed 9"] {
+        succeed(folder.path(), &format!("report s.svbrdf-session.json -o r.html {options}"));
+        let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+        let losses = succeed(folder.path(), &format!("loss s.svbrdf-session.json --format json {options}"));
+        let losses: Value = serde_json::from_str(&losses).unwrap();
+        assert!(page.contains(&cell(&losses["results"][0]["loss"])), "{losses}");
+        assert!(page.contains("5 near-field and 2 distant"), "{page}");
+    }
+    succeed(folder.path(), "report s.svbrdf-session.json -o r.html --target-error 20%");
+    assert!(
+        !fs::read_to_string(folder.path().join("r.html")).unwrap().contains("5 near-field and 2 distant")
+    );
+}
+
+#[test]
+fn a_figure_begins_with_the_layout_and_the_language_of_the_options() {
+    let folder = folder();
+    let args =
+        "report gt.png a.png -o r.html --figure --layout wipe --language de --light 0.1,0.2,1 --distant";
+    succeed(folder.path(), args);
+    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    let data = data(&page);
+    assert_eq!([&data["start"]["layout"], &data["labels"]["Light"]], [&json!("wipe"), &json!("Licht")]);
+    assert_eq!(data["start"]["scene"]["light"], json!([0.1, 0.2, 1.0]));
+    assert!(page.contains(r#"<html lang="de">"#));
+    let unknown = fail(folder.path(), "report gt.png a.png -o r.html --figure --language xx", 64);
+    assert!(unknown.contains("en, de, fr"), "{unknown}");
+    fail(folder.path(), "report gt.png a.png -o r.html --language de", 64);
+    fail(folder.path(), "report gt.png -o r.html --figure --layout wipe", 64);
 }
 
 #[test]

@@ -40,8 +40,17 @@ pub struct Page {
 }
 
 impl Page {
-    /// Opens `html` as a file, in a window of `width` x `height` CSS pixels, and waits until its figure is there.
-    pub fn open(html: &str, [width, height]: [u32; 2]) -> Self {
+    /// Opens a page with a figure as a file, in a window of `width` x `height` CSS pixels, and waits until its figure is there.
+    pub fn open(html: &str, size: [u32; 2]) -> Self {
+        Self::open_until(
+            html,
+            size,
+            "!!window.svbrdf || document.getElementById('problem')?.hidden === false",
+        )
+    }
+
+    /// Opens `html` as a file, and waits until an expression of JavaScript is true.
+    pub fn open_until(html: &str, [width, height]: [u32; 2], ready: &str) -> Self {
         let mut page = Self::start();
         let target = page.send("Target.createTarget", json!({ "url": "about:blank" }));
         let attached =
@@ -54,17 +63,13 @@ impl Page {
             "Emulation.setDeviceMetricsOverride",
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false }),
         );
-        // Scrolling that takes time would move what is clicked.
-        let still = json!({ "features": [{ "name": "prefers-reduced-motion", "value": "reduce" }] });
-        page.send("Emulation.setEmulatedMedia", still);
+        page.scheme("light");
         page.send("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
         let file = page.folder.path().join("report.html");
         std::fs::write(&file, html).unwrap();
         page.send("Page.navigate", json!({ "url": url(&file) }));
         let started = Instant::now();
-        while page.evaluate("!!window.svbrdf || document.getElementById('problem')?.hidden === false")
-            != json!(true)
-        {
+        while page.evaluate(ready) != json!(true) {
             assert!(started.elapsed() < PATIENCE, "the page does not start: {:?}", page.events);
             thread::sleep(Duration::from_millis(50));
         }
@@ -100,6 +105,16 @@ impl Page {
             }
         });
         Self { child, input, messages, session: Value::Null, sent: 0, events: Vec::new(), folder }
+    }
+
+    /// Colours that are `light` or `dark`, as a reader sets them.
+    pub fn scheme(&mut self, scheme: &str) {
+        // Scrolling that takes time would move what is clicked.
+        let features = json!([
+            { "name": "prefers-reduced-motion", "value": "reduce" },
+            { "name": "prefers-color-scheme", "value": scheme },
+        ]);
+        self.send("Emulation.setEmulatedMedia", json!({ "features": features }));
     }
 
     /// The result of a command of the protocol.

@@ -7,7 +7,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_files::page::{Findings, Report, View};
+use svbrdf_files::page::{Findings, Labels, Repetition, Report, View};
 use svbrdf_files::session_window::Display;
 
 use super::browser::Page;
@@ -19,7 +19,7 @@ const NAMES: [&str; 2] = [
 ];
 
 /// A whole report of materials with hostile names.
-fn report() -> String {
+pub fn report() -> String {
     let [truth, prediction] = [0, 1].map(|i| noise(i as u32).renamed(NAMES[i]));
     let progress = Progress::default();
     let request = Request::Accuracy { target: 0.05, seed: 0 };
@@ -35,7 +35,8 @@ fn report() -> String {
         },
         findings: Some(findings),
         readings: NAMES.map(|name| vec![name.to_owned()]).to_vec(),
-        command: NAMES.concat(),
+        repetition: Some(Repetition { command: NAMES.concat(), session: Some(NAMES.map(str::to_owned)) }),
+        labels: Labels::default(),
         max_bytes: 10_000_000,
     };
     report.page(&progress).unwrap().html

@@ -22,6 +22,7 @@ mod photograph;
 mod quantities;
 mod reading;
 mod reduced;
+mod report;
 mod saving;
 mod scene_files;
 mod screenshots;

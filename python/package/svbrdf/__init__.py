@@ -22,6 +22,7 @@ from ._diagnose import DiagnoseReport, Diagnosis, Finding, diagnose
 from ._loss import Difference, FewScenes, Loss, LossReport, RankedPrediction, RankReport, loss, rank
 from ._material import Assumption, AssumptionWarning, Material, built_in, read, write
 from ._metrics import Metrics, MetricsReport, metrics
+from ._page import Figure, figure, report
 from ._photo import PhotoReport, PhotoResult, PhotoStatistics, photo
 from ._report import Estimate, Report
 from ._scenes import CONVENTIONS, Convention, Scene, read_scenes, render, sample_scenes
@@ -43,6 +44,7 @@ __all__ = [
     "Error",
     "Estimate",
     "FewScenes",
+    "Figure",
     "Finding",
     "Loss",
     "LossReport",
@@ -69,6 +71,7 @@ __all__ = [
     "blame",
     "built_in",
     "diagnose",
+    "figure",
     "loss",
     "map",
     "metrics",
@@ -78,6 +81,7 @@ __all__ = [
     "read",
     "read_scenes",
     "render",
+    "report",
     "sample_scenes",
     "scenes",
     "show",

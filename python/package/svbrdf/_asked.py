@@ -25,10 +25,14 @@ class Asked:
         seed: int = 0,
         precision: Precision = "f32",
         scenes: Scenes | None = None,
+        alone: bool = False,
         **choice: Any,
     ) -> None:
+        """`alone` says whether a ground truth without predictions is enough."""
         self.ground_truth = opened(ground_truth, precision)
-        self.predictions = [opened(prediction, precision) for prediction in listed(predictions, "predictions")]
+        is_none = alone and isinstance(predictions, tuple | list) and not predictions
+        given = () if is_none else listed(predictions, "predictions")
+        self.predictions = [opened(prediction, precision) for prediction in given]
         if isinstance(scenes, str | os.PathLike):
             scenes = read_scenes(scenes)
         materials = [self.ground_truth, *self.predictions]

@@ -105,6 +105,18 @@ def metrics(
 ) -> Views: ...
 def photo(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> PhotoItems: ...
 def rank_dataset(asked: Mapping[str, Any], progress: Report) -> Views: ...
+
+class PageItems(TypedDict):
+    html: str
+    warnings: list[str]
+
+def page(
+    ground_truth: CoreMaterial,
+    predictions: Sequence[CoreMaterial],
+    asked: Mapping[str, Any],
+    of_page: Mapping[str, Any],
+    progress: Report,
+) -> PageItems: ...
 def session(
     path: str | PathLike[str],
     materials: Sequence[tuple[str | PathLike[str], str | None]],

@@ -84,6 +84,16 @@ class DatasetReport(Report):
     results: tuple[DatasetLoss, ...]
     """Every prediction, in the order of the materials."""
 
+    def _shown(self) -> tuple[Sequence[str], Sequence[Sequence[Any]]]:
+        """A row for each method: there may be thousands of predictions."""
+        columns = ["method", "materials", "failures", "mean", "median", "to_best", "ties_with_best"]
+        low, high = "95% over materials, low", "95% over materials, high"
+        rows = [
+            [*(getattr(method, column) for column in columns), *(method.interval95_materials or (None, None))]
+            for method in self.methods
+        ]
+        return [*columns, low, high], rows
+
 
 def rank_dataset(
     ground_truths: Source,

@@ -2,11 +2,13 @@
 
 import json
 import warnings
+from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._table import escaped, html_table
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -45,6 +47,15 @@ class Report:
 
     def __repr__(self) -> str:
         return self.text.rstrip("\n")
+
+    def _repr_html_(self) -> str:
+        heading, _, _ = self.text.partition("\n\n")
+        columns, rows = self._shown()
+        return html_table(heading, columns, rows) if columns else f"<pre>{escaped(self.text)}</pre>"
+
+    def _shown(self) -> tuple[Sequence[str], Sequence[Sequence[Any]]]:
+        """The columns and rows of the table in a notebook."""
+        return self._columns, self._rows
 
 
 def data_frame(columns: list[str], rows: Any) -> "pd.DataFrame":

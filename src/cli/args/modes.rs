@@ -61,9 +61,14 @@ pub const SESSION_SCENES: Mode =
 pub const REPORT_FIGURE: Mode =
     Mode { reason: "the figure alone has no loss", unused: &[&["target-error", "seed"]] };
 
+/// `report` with its findings.
+pub const REPORT_WHOLE: Mode = Mode {
+    reason: "findings are in English; the figure alone has other languages",
+    unused: &[&["language"]],
+};
 /// `report` of a ground truth alone.
 pub const REPORT_ALONE: Mode =
-    Mode { reason: "there is no prediction, and no loss", unused: &[&["target-error", "seed"]] };
+    Mode { reason: "there is no prediction, and no loss", unused: &[&["target-error", "seed", "layout"]] };
 
 /// `map --over texels`.
 pub const MAP_OVER_TEXELS: Mode = Mode {
@@ -82,7 +87,12 @@ pub const PROTOCOL: Mode =
 pub const RANK_PREDICTIONS: Mode = Mode {
     reason: "a ranking of the predictions of one material has no journal, no samples and no metrics, unlike one with --dataset or \
         --pairs (`svbrdf metrics` prints metrics)",
-    unused: &[&["journal", "shard", "pick", "metrics"]],
+    unused: &[&["journal", "shard", "pick", "metrics", "output", "figures"]],
+};
+/// `rank` of a data set in a format that is printed.
+pub const RANK_PRINTED: Mode = Mode {
+    reason: "only --format html writes a file, and figures beside it",
+    unused: &[&["output", "figures"]],
 };
 /// `rank --dataset` and `rank --pairs`.
 pub const RANK_DATA_SET: Mode = Mode {
@@ -96,7 +106,7 @@ pub const RANK_MERGE: Mode = Mode {
         READING,
         PAIR,
         OF_PREDICTIONS,
-        &["verbose", "journal", "shard", "target-error", "seed", "metrics", "convention"],
+        &["verbose", "journal", "shard", "target-error", "seed", "metrics", "convention", "figures"],
     ],
 };
 

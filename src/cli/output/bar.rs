@@ -19,10 +19,13 @@ const REFRESH: Duration = Duration::from_millis(100);
 
 /// Runs `work`; if it takes long, with a progress bar of this title, or lines where stderr is no terminal.
 pub fn watched<R>(title: &str, work: impl FnOnce(&Progress) -> R) -> R {
-    let progress = Progress::default();
+    watched_on(&Progress::default(), title, work)
+}
+
+/// [`watched`], with a progress that others may cancel.
+pub fn watched_on<R>(progress: &Progress, title: &str, work: impl FnOnce(&Progress) -> R) -> R {
     let (working, finished) = channel::<()>();
     thread::scope(|scope| {
-        let progress = &progress;
         match stderr().is_terminal() {
             true => scope.spawn(move || show(title, progress, &finished)),
             false => scope.spawn(move || report(title, progress, &finished, LINE)),

@@ -9,5 +9,5 @@ pub mod report;
 pub mod stop;
 pub mod target;
 
-pub use bar::watched;
+pub use bar::{watched, watched_on};
 pub use error::CommandError;

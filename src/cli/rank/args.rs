@@ -6,6 +6,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::report::Report;
 use svbrdf_core::text::printable;
 use svbrdf_files::dataset::{Pick, Shard};
+use svbrdf_files::page::Figures;
 
 use crate::cli::args::{ComparisonArgs, values};
 use crate::cli::output::CommandError;
@@ -69,6 +70,14 @@ pub struct RankArgs {
     #[arg(long, value_enum, default_value_t)]
     pub format: RankFormat,
 
+    /// Output file of --format html
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+
+    /// Writes interactive figures of materials beside the page: all, or worst:N, those of the N largest mean losses
+    #[arg(long, value_name = "all|worst:N")]
+    pub figures: Option<Figures>,
+
     #[command(flatten)]
     pub comparison: ComparisonArgs,
 }
@@ -81,19 +90,22 @@ pub enum RankFormat {
     Csv,
     /// A table for a paper: the best and what ties with it in bold
     Latex,
+    /// A page with sortable tables, thumbnails and figures, of a data set
+    Html,
 }
 
 impl RankFormat {
     /// The report in this format; `latex` writes the table for a paper.
     ///
     /// # Errors
-    /// As [`Report::json`] and [`Report::csv`].
+    /// As [`Report::json`] and [`Report::csv`]; [`Error::Internal`] for HTML, which is a file.
     pub fn write<R: Report>(self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<String, Error> {
         match self {
             Self::Text => Ok(printable(&report.text())),
             Self::Json => report.json(),
             Self::Csv => report.csv(),
             Self::Latex => Ok(latex(report)),
+            Self::Html => Err(Error::Internal("HTML is not printed".to_owned())),
         }
     }
 }

@@ -1,25 +1,28 @@
 //! Methods over many materials.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::report::{Report as _, distinct_names};
-use svbrdf_files::dataset::{
-    self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, MaterialResult,
-    cases_of_folders, cases_of_table,
-};
+use svbrdf_core::report::Report as _;
+use svbrdf_files::dataset::{self, DatasetReport, DatasetResults, DatasetSettings, MaterialResult};
 
-use super::args::{RankArgs, check_limit};
-use crate::cli::args::{ComparisonArgs, Given, modes, wildcards};
+use super::args::{RankArgs, RankFormat, check_limit};
+use super::cases::{cases, reading};
+use super::html;
+use crate::cli::args::{Given, modes, wildcards};
 use crate::cli::output::{CommandError, exit, target, watched};
 
 pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
+    html::check(args, given)?;
     let (settings, results) = if args.merge { merged(args, given)? } else { evaluated(args, given)? };
     for (material, prediction, problem) in failures(&results) {
         exit::tell(&format!("note: {material}, {prediction}: {problem}"));
     }
     let report = DatasetReport::new(settings, results, args.pick);
-    exit::put(&args.format.write(&report, DatasetReport::latex)?)?;
+    match args.format {
+        RankFormat::Html => html::write(args, &report)?,
+        format => exit::put(&format.write(&report, DatasetReport::latex)?)?,
+    }
     check_any(&report)?;
     target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)?;
     check_limit(args.fail_above, report.methods.into_iter().map(|summary| (summary.method, summary.mean)))
@@ -59,49 +62,14 @@ fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &st
 fn evaluated(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<MaterialResult>), CommandError> {
     given.check(&modes::RANK_DATA_SET)?;
     let cases = cases(args)?;
-    let ComparisonArgs { convention, materials } = &args.comparison;
-    let convention = convention.unwrap_or_default();
+    let convention = args.comparison.convention.unwrap_or_default();
     let settings = DatasetSettings::new(convention.name, args.target_error, args.seed, &cases)
         .with_metrics(args.metrics);
     let cases = args.shard.map_or(cases.clone(), |shard| shard.part(cases));
-    let reading = DatasetReading {
-        ground_truths: materials.reading.of_ground_truth(),
-        predictions: materials.reading.of_predictions(),
-        strict: materials.reading.both.strict,
-    };
+    let reading = reading(args);
     let DatasetResults { results, recomputed } = watched("comparing materials", |progress| {
         dataset::run(&cases, &settings, &reading, args.journal.as_deref(), progress)
     })?;
     recomputed.iter().for_each(|recomputed| exit::tell(&format!("note: {recomputed}")));
     Ok((settings, results))
-}
-
-fn cases(args: &RankArgs) -> Result<Vec<Case>, CommandError> {
-    let Some(ground_truth) = &args.comparison.materials.ground_truth else {
-        return Err(CommandError::usage("give a folder of ground truths, or a table of pairs"));
-    };
-    if args.pairs {
-        return match args.comparison.materials.predictions.as_slice() {
-            [] => Ok(cases_of_table(ground_truth)?),
-            _ => Err(CommandError::usage("--pairs takes one CSV table, which names the predictions")),
-        };
-    }
-    let folders = wildcards::expanded(&args.comparison.materials.predictions)?;
-    if folders.is_empty() {
-        return Err(CommandError::Usage(format!(
-            "there is no method to compare with {}; give one or more folders",
-            ground_truth.display()
-        )));
-    }
-    let named: Vec<(String, &Path)> = folders.iter().map(|path| (name(path), path.as_path())).collect();
-    let named: Vec<(&str, &Path)> = named.iter().map(|(name, path)| (name.as_str(), *path)).collect();
-    let names = distinct_names(&named);
-    let methods: Vec<(String, PathBuf)> = names.into_iter().zip(folders.iter().cloned()).collect();
-    Ok(cases_of_folders(ground_truth, &methods)?)
-}
-
-fn name(folder: &Path) -> String {
-    folder
-        .file_name()
-        .map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned())
 }

@@ -1,6 +1,8 @@
 //! `svbrdf rank`: many predictions of one ground truth, or many materials.
 
 mod args;
+mod cases;
+mod html;
 mod many;
 mod one;
 

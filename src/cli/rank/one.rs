@@ -5,13 +5,17 @@ use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::rank::most_scenes;
 use svbrdf_core::report::{Compared, RankReport, Report as _};
 
-use super::args::{RankArgs, check_limit};
+use super::args::{RankArgs, RankFormat, check_limit};
 use crate::cli::args::{Given, modes, wildcards};
 use crate::cli::job::ComparisonJob;
 use crate::cli::output::{CommandError, exit, target, watched};
 
 pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
     given.check(&modes::RANK_PREDICTIONS)?;
+    if args.format == RankFormat::Html {
+        let problem = "--format html is for data sets; `svbrdf report` writes a page of the predictions of one material";
+        return Err(CommandError::usage(problem));
+    }
     args.comparison.materials.predictions = wildcards::expanded(&args.comparison.materials.predictions)?;
     args.comparison.materials.expand_steps()?;
     let job = ComparisonJob::new(&args.comparison, given)?;

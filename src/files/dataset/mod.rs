@@ -26,4 +26,4 @@ pub use record::{
 };
 pub use report::DatasetReport;
 pub use run::{DatasetResults, run};
-pub use summary::{MethodDifference, MethodSummary, Pick, summarize};
+pub use summary::{MethodDifference, MethodSummary, Pick, counted_loss, counted_sample, summarize};

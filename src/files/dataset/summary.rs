@@ -7,7 +7,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::statistics::median;
 
 use super::bootstrap::interval_of_mean;
-use super::record::{KnownLoss, MaterialResult};
+use super::record::{KnownLoss, MaterialResult, PredictionResult};
 
 /// The 97.5% quantile of the normal distribution.
 const Z: f64 = 1.959_964;
@@ -91,7 +91,7 @@ impl MethodSummary {
 pub fn summarize(methods: &[String], results: &[MaterialResult], pick: Pick) -> Vec<MethodSummary> {
     let values: Vec<Vec<Option<KnownLoss>>> = methods
         .iter()
-        .map(|method| results.iter().map(|result| picked(result, method, pick)).collect())
+        .map(|method| results.iter().map(|result| counted_loss(result, method, pick)).collect())
         .collect();
     let mut summaries: Vec<(MethodSummary, &Vec<Option<KnownLoss>>)> =
         methods.iter().zip(&values).map(|(method, values)| (of_method(method, values), values)).collect();
@@ -131,8 +131,8 @@ fn difference(values: &[Option<KnownLoss>], best: &[Option<KnownLoss>]) -> Metho
     MethodDifference { mean, interval95_materials: interval_of_mean(&differences) }
 }
 
-/// The loss of a method for a material.
-fn picked(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss> {
+/// The loss of a method for a material: of several predictions, `pick` says which counts.
+pub fn counted_loss(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss> {
     let of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
     let mut known: Vec<KnownLoss> = Vec::new();
     for prediction in of_method {
@@ -157,4 +157,19 @@ fn picked(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss
             })
         }
     }
+}
+
+/// The prediction of a method for a material that stands for it in pictures: the one that counts, of a mean the first with a loss.
+pub fn counted_sample(result: &MaterialResult, method: &str, pick: Pick) -> Option<usize> {
+    let loss = |prediction: &PredictionResult| prediction.result.as_ref().ok().map(|known| known.loss);
+    let mut of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
+    let counted = match pick {
+        Pick::Fixed => of_method.next().filter(|prediction| loss(prediction).is_some()),
+        Pick::Mean => of_method.find(|prediction| loss(prediction).is_some()),
+        Pick::Best => {
+            let known = of_method.filter_map(|prediction| Some((loss(prediction)?, prediction)));
+            known.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, prediction)| prediction)
+        }
+    };
+    counted.map(|prediction| prediction.sample)
 }

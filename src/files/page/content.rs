@@ -9,6 +9,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::report::LossReport;
 use svbrdf_core::why::{Attribution, Hemisphere, attribute, hemisphere};
 
+use super::labels::Labels;
 use crate::session_window::Display;
 
 /// Columns of the map over directions of the light, and the view of that map.
@@ -56,6 +57,15 @@ impl Findings {
     }
 }
 
+/// How a report is made again.
+#[derive(Clone, Debug)]
+pub struct Repetition {
+    /// The command, or the call of a function.
+    pub command: String,
+    /// The name and the text of the session file that the command reads; `None`: it names the materials.
+    pub session: Option<[String; 2]>,
+}
+
 /// The content of a report.
 #[derive(Clone, Debug)]
 pub struct Report<'a> {
@@ -67,8 +77,10 @@ pub struct Report<'a> {
     pub findings: Option<Findings>,
     /// For each material the assumptions and notes of reading it; empty: not written.
     pub readings: Vec<Vec<String>>,
-    /// The command that makes the report; empty: not written.
-    pub command: String,
+    /// `None`: not written.
+    pub repetition: Option<Repetition>,
+    /// The labels of the figure.
+    pub labels: Labels,
     /// Most bytes of the file: maps are halved until it fits.
     pub max_bytes: usize,
 }

@@ -13,7 +13,7 @@ use svbrdf_core::picture::colour_map::{diverging, heat};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 
-use super::content::View;
+use super::content::{Report, View};
 use super::encode::EncodedMaterial;
 
 /// GLSL made from the WGSL of the window: tests/page/shaders.rs makes it anew.
@@ -38,6 +38,7 @@ struct Data<'a> {
     colours: BTreeMap<&'a str, Vec<String>>,
     start: Start<'a>,
     scenes: &'a [LinkedScene],
+    labels: &'a BTreeMap<String, String>,
     shaders: Value,
 }
 
@@ -59,7 +60,7 @@ struct Start<'a> {
     difference: bool,
     kinds: BTreeMap<&'a str, &'a str>,
     ranges: BTreeMap<&'a str, f64>,
-    layout: String,
+    layout: &'a str,
     prediction: usize,
     projection: String,
     wipe: f32,
@@ -74,10 +75,10 @@ struct Start<'a> {
 /// [`Error::Internal`], which these values never give.
 pub(super) fn json(
     materials: &[EncodedMaterial],
-    convention: &Convention,
-    view: &View,
+    report: &Report<'_>,
     scenes: &[LinkedScene],
 ) -> Result<String, Error> {
+    let Report { convention, view, labels, .. } = report;
     let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
     let shaders: Value = serde_json::from_str(SHADERS).map_err(failed)?;
     let data = Data {
@@ -89,6 +90,7 @@ pub(super) fn json(
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
         start: start(view, materials.len()),
         scenes,
+        labels: labels.table(),
         shaders,
     };
     serde_json::to_string(&data).map_err(failed)
@@ -144,7 +146,7 @@ fn start(view: &View, materials: usize) -> Start<'_> {
         difference: display.difference,
         kinds: Quantity::ALL.map(chosen).into(),
         ranges: ranges.collect(),
-        layout: display.layout.name().replace(' ', "-"),
+        layout: display.layout.key(),
         prediction: display.prediction.min(materials.saturating_sub(2)),
         projection: format!("{:?}", display.projection).to_lowercase(),
         wipe: display.wipe,

@@ -10,7 +10,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::report::scenes_line;
 use svbrdf_core::why::{Attribution, Hemisphere, worst_first};
 
-use super::content::{Findings, Report};
+use super::content::{Findings, Repetition, Report};
 use super::data::LinkedScene;
 use super::exposure::exposure;
 use super::markup::{escaped, number, percent, place};
@@ -214,14 +214,21 @@ fn readings(report: &Report<'_>) -> String {
 }
 
 fn repetition(report: &Report<'_>) -> String {
-    let Report { convention, command, .. } = report;
-    if command.is_empty() {
-        return String::new();
-    }
+    let Some(Repetition { command, session }) = &report.repetition else { return String::new() };
+    let convention = report.convention;
     let seed = report.findings.as_ref().and_then(|findings| findings.loss.seed());
     let seed = seed.map_or(String::new(), |seed| format!(", seed {seed}"));
+    let session = session.as_ref().map_or(String::new(), |[name, text]| {
+        let (name, text) = (escaped(name), escaped(text));
+        format!("<details><summary>{name}</summary><pre><code>{text}</code></pre></details>")
+    });
+    let how = if session.is_empty() {
+        "This makes this file:"
+    } else {
+        "With the session below saved beside it, this makes this file:"
+    };
     format!(
-        r#"<section aria-labelledby="repeat"><h2 id="repeat">Repeating the numbers</h2><p>{SOFTWARE}, convention {}, epsilon {}{seed}. This command makes this file:</p><pre><code>{}</code></pre></section>"#,
+        r#"<section aria-labelledby="repeat"><h2 id="repeat">Repeating the numbers</h2><p>{SOFTWARE}, convention {}, epsilon {}{seed}. {how}</p><pre><code>{}</code></pre>{session}</section>"#,
         convention.name,
         convention.epsilon,
         escaped(command)

@@ -76,10 +76,10 @@ class Legend {
       for (const x of sorted) counts[clamp(Math.floor(BINS * (x - low) / (range - low)), 0, BINS - 1)]++;
     }
     this.paint(counts, figure.data.colours[signed ? "diverging" : "heat"]);
-    this.statistics.textContent = `${formula}: ` + all.map(({ name, sorted }) => {
+    this.statistics.textContent = `${label(formula)}: ` + all.map(({ name, sorted }) => {
       const mean = sorted.reduce((sum, x) => sum + x, 0) / sorted.length;
       const at = (/** @type {number} */ share) => sorted[Math.floor(share * (sorted.length - 1))];
-      return `${name}: mean ${digits(mean)}, median ${digits(at(0.5))}, 95% ${digits(at(0.95))}, largest ${digits(at(1))}`;
+      return `${name}: ${label("mean")} ${digits(mean)}, ${label("median")} ${digits(at(0.5))}, 95% ${digits(at(0.95))}, ${label("largest")} ${digits(at(1))}`;
     }).join("; ");
   }
 

@@ -8,10 +8,14 @@ mod data;
 mod encode;
 mod exposure;
 mod findings;
+mod labels;
 mod markup;
 mod pictures;
 mod plots;
-mod sha256;
+mod ranking;
+mod ranking_views;
+
+use std::path::Path;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::check_same_size;
@@ -19,16 +23,20 @@ use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::progress::Progress;
 
-use crate::atomic::SOFTWARE;
-pub use content::{Findings, Report, View};
+use crate::atomic::{SOFTWARE, check_place};
+pub use content::{Findings, Repetition, Report, View};
 use encode::EncodedMaterial;
 pub use exposure::exposure;
+pub use labels::Labels;
 use markup::{escaped, filled};
+pub use ranking::{MaterialView, ranking};
+pub use ranking_views::{Figures, material_views};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// The script: one module, whose parts share their names.
 const SCRIPT: &str = concat!(
+    include_str!("labels.js"),
     include_str!("codec.js"),
     include_str!("camera.js"),
     include_str!("endpoint.js"),
@@ -42,6 +50,8 @@ const SCRIPT: &str = concat!(
     include_str!("findings.js"),
     include_str!("main.js"),
 );
+/// Most bytes of the file of a report.
+pub const MOST_BYTES: usize = 10_000_000;
 /// Width of a material in the still picture, in pixels.
 const STILL: u32 = 384;
 /// Longest side of the maps that pictures of the page are rendered from.
@@ -59,6 +69,19 @@ pub struct Page {
     pub reduced_to: Option<[usize; 2]>,
 }
 
+/// Checks that a report can be at `path`, before there is anything to write.
+///
+/// # Errors
+/// [`Error::UnknownName`] where it is not named like HTML; those of [`check_place`].
+pub fn check_destination(path: &Path) -> Result<(), Error> {
+    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+    if !ending.is_some_and(|ending| ending == "html" || ending == "htm") {
+        let (found, known) = (path.display().to_string(), "NAME.html".to_owned());
+        return Err(Error::UnknownName { what: "name of a report", found, known });
+    }
+    check_place(path)
+}
+
 impl Report<'_> {
     /// The report as one HTML file.
     ///
@@ -68,24 +91,25 @@ impl Report<'_> {
         if let [ground_truth, predictions @ ..] = self.materials {
             predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
         }
-        let small = reduced(self.materials, RENDERED)?;
+        let small = pictures::reduced(self.materials, RENDERED)?;
         let small: Vec<&Material<f32>> = small.iter().collect();
         let content = self.content();
         let view = &self.view;
         let still = pictures::still(&small, content, &view.scene, &self.convention, view.exposure_ev, STILL)?;
         let (sections, scenes) = findings::sections(self, &small, progress)?;
         let fixed = PAGE.len() + STYLE.len() + SCRIPT.len() + still.len() + sections.len() + 64 * 1024;
-        let (materials, reduced_to) = self.encoded(self.max_bytes.saturating_sub(fixed))?;
-        let data = data::json(&materials, &self.convention, view, &scenes)?;
+        let (materials, reduced_to) = self.encoded(self.max_bytes.saturating_sub(fixed), progress)?;
+        let data = data::json(&materials, self, &scenes)?;
         let header = self.header(reduced_to);
         let title = self.title();
         let html = filled(
             PAGE,
             &[
+                ("language", self.labels.language()),
                 ("title", &title),
                 ("software", SOFTWARE),
-                ("script-hash", &sha256::source(SCRIPT)),
-                ("style-hash", &sha256::source(STYLE)),
+                ("script-hash", &markup::policy_source(SCRIPT)),
+                ("style-hash", &markup::policy_source(STYLE)),
                 ("style", STYLE),
                 ("script", SCRIPT),
                 ("header", &header),
@@ -137,7 +161,7 @@ impl Report<'_> {
                 r#"<p class="note">The maps of the figure are reduced to {width} &times; {height} texels, so that the file is small. All losses are of the full maps.</p>"#
             )
         });
-        if self.findings.is_none() && self.command.is_empty() {
+        if self.findings.is_none() && self.repetition.is_none() {
             return note;
         }
         let summary = self.findings.as_ref().map_or(String::new(), findings::summary);
@@ -145,10 +169,17 @@ impl Report<'_> {
     }
 
     /// The maps in at most `bytes` bytes, halved as often as that takes, and their size where they are.
-    fn encoded(&self, bytes: usize) -> Result<(Vec<EncodedMaterial>, Option<[usize; 2]>), Error> {
+    fn encoded(
+        &self,
+        bytes: usize,
+        progress: &Progress,
+    ) -> Result<(Vec<EncodedMaterial>, Option<[usize; 2]>), Error> {
         let mut materials: Vec<Material<f32>> = self.materials.iter().map(|one| (*one).clone()).collect();
         let mut reduced_to = None;
         loop {
+            if progress.is_cancelled() {
+                return Err(Error::Cancelled);
+            }
             let [width, height] = materials.first().map_or([0, 0], Material::size);
             let is_hopeless = width * height * 20 * materials.len() / MOST_DEFLATED > bytes;
             let can_shrink = width.min(height) >= 2 * SMALLEST;
@@ -164,17 +195,4 @@ impl Report<'_> {
             reduced_to = Some(size);
         }
     }
-}
-
-/// The materials with sides of at most `most` texels, halved.
-fn reduced(materials: &[&Material<f32>], most: usize) -> Result<Vec<Material<f32>>, Error> {
-    let one = |material: &&Material<f32>| {
-        let [mut width, mut height] = material.size();
-        while width.max(height) > most {
-            [width, height] = [width.div_ceil(2), height.div_ceil(2)];
-        }
-        let copy = (*material).clone();
-        if copy.size() == [width, height] { Ok(copy) } else { copy.resized([width, height]) }
-    };
-    materials.iter().map(one).collect()
 }

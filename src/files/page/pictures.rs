@@ -21,6 +21,19 @@ const QUALITY: u8 = 86;
 /// The gray between pictures.
 const BACKGROUND: Rgb<u8> = Rgb([36, 38, 42]);
 
+/// The materials with sides of at most `most` texels, halved.
+pub(super) fn reduced(materials: &[&Material<f32>], most: usize) -> Result<Vec<Material<f32>>, Error> {
+    let one = |material: &&Material<f32>| {
+        let [mut width, mut height] = material.size();
+        while width.max(height) > most {
+            [width, height] = [width.div_ceil(2), height.div_ceil(2)];
+        }
+        let copy = (*material).clone();
+        if copy.size() == [width, height] { Ok(copy) } else { copy.resized([width, height]) }
+    };
+    materials.iter().map(one).collect()
+}
+
 /// The renderings of the materials in a scene, side by side, each at most `width` pixels wide.
 pub(super) fn thumbnail(
     materials: &[&Material<f32>],

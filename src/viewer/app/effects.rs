@@ -16,6 +16,7 @@ use super::parts::Parts;
 use super::{saving, training};
 use crate::viewer::jobs::browse;
 use crate::viewer::jobs::why::ComparedPair;
+use crate::viewer::jobs::work::job::Job;
 use crate::viewer::model::command::PhotographLight;
 use crate::viewer::model::command::effect::{DialogEffect, Effect, LossEffect};
 use crate::viewer::model::inspection;
@@ -47,6 +48,7 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::Loss(effect) => carry_out_on_losses(parts, effect),
         Effect::Dialog(effect) => carry_out_on_dialogs(parts, effect),
         Effect::Save(request) => saving::save_file(parts, ctx, request),
+        Effect::CancelSaving => parts.jobs.saving.iter().for_each(Job::cancel),
         Effect::CopyPicture => saving::copy_picture(parts, ctx),
         Effect::CopyText { text, what } => copy_text(parts, ctx, text, what),
         Effect::CopyLosses => {

@@ -92,6 +92,7 @@ fn take_saved(parts: &mut Parts) {
             parts.ui.dialogs.save = None;
             parts.model.report([Message::Saved(std::path::absolute(&path).unwrap_or(path))]);
         }
+        (Err(Error::Cancelled), _) => {}
         (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
         (Err(error), None) => parts.model.report([Message::Failed(error)]),
     }

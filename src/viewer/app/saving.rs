@@ -12,8 +12,8 @@ use svbrdf_files::session_window::Framing;
 
 use super::parts::Parts;
 use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::jobs::saving;
 use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::{report, saving};
 use crate::viewer::model::message::Message;
 use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
@@ -44,6 +44,7 @@ pub(super) fn save_file(
         }
         (SaveKind::Renderings, _) => saving::renderings(displayed, path),
         (SaveKind::Strip, _) => saving::strip(displayed, path),
+        (SaveKind::Report, _) => report::start(displayed, path),
         (SaveKind::Session, _) => saving::session(displayed, path),
         (SaveKind::Scenes, _) => saving::scenes(displayed, path),
     };

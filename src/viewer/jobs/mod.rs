@@ -10,6 +10,7 @@ pub mod loss;
 pub mod panes;
 pub mod photograph;
 pub mod reading;
+pub mod report;
 pub mod saving;
 pub mod training;
 pub mod why;

@@ -74,6 +74,7 @@ fn apply_to_window(model: &mut Model, command: WindowCommand) -> Vec<Effect> {
         WindowCommand::ShowSave(on) => Effect::Dialog(DialogEffect::ShowSave(on.then(SaveKind::default))),
         WindowCommand::SaveScenes => Effect::Dialog(DialogEffect::ShowSave(Some(SaveKind::Scenes))),
         WindowCommand::Save(request) => Effect::Save(request),
+        WindowCommand::CancelSaving => Effect::CancelSaving,
         WindowCommand::CopyPicture => Effect::CopyPicture,
         WindowCommand::SetScale(scale) => Effect::SetScale(scale),
         other => {
@@ -100,6 +101,7 @@ fn change_window(model: &mut Model, command: WindowCommand) {
         | WindowCommand::ShowSave(_)
         | WindowCommand::SaveScenes
         | WindowCommand::Save(_)
+        | WindowCommand::CancelSaving
         | WindowCommand::CopyPicture
         | WindowCommand::SetScale(_) => {}
     }

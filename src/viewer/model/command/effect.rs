@@ -43,6 +43,7 @@ pub enum Effect {
     Dialog(DialogEffect),
     /// Writes to a file.
     Save(SaveRequest),
+    CancelSaving,
     /// Puts the view on the clipboard as a picture.
     CopyPicture,
     /// Puts a text on the clipboard; `what` names it in the message.

@@ -201,6 +201,8 @@ pub enum WindowCommand {
     SaveScenes,
     /// Writes to a file.
     Save(SaveRequest),
+    /// Cancels what is being written.
+    CancelSaving,
     /// Puts the view on the clipboard as a picture.
     CopyPicture,
     SetDark(bool),

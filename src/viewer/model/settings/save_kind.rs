@@ -23,6 +23,8 @@ pub enum SaveKind {
     Renderings,
     /// A labelled figure of all maps, the rendering and its difference, as `svbrdf strip` writes.
     Strip,
+    /// An interactive page of the comparison with its findings, as `svbrdf report` writes.
+    Report,
     /// Files, assumptions, scene, display and loss settings.
     Session,
     /// The scenes of the loss of the chosen prediction, as `svbrdf scenes` writes.
@@ -30,7 +32,8 @@ pub enum SaveKind {
 }
 
 impl SaveKind {
-    pub const ALL: [Self; 5] = [Self::View, Self::Renderings, Self::Strip, Self::Session, Self::Scenes];
+    pub const ALL: [Self; 6] =
+        [Self::View, Self::Renderings, Self::Strip, Self::Report, Self::Session, Self::Scenes];
 
     /// The label of its button.
     pub fn name(self) -> &'static str {
@@ -38,6 +41,7 @@ impl SaveKind {
             Self::View => "View",
             Self::Renderings => "Renderings",
             Self::Strip => "Strip",
+            Self::Report => "Report",
             Self::Session => "Session",
             Self::Scenes => "Scenes",
         }
@@ -58,6 +62,10 @@ impl SaveKind {
                 "A labelled figure: a row per material; all maps, the rendering and its difference in columns; the same \
                  as `svbrdf strip` writes."
             }
+            Self::Report => {
+                "One HTML file for any browser, offline: the figure with light and view to drag, losses, the share of each \
+                 map, the worst scenes; the same as `svbrdf report` writes. Takes as long as a loss and its attribution."
+            }
             Self::Session => {
                 "Paths of the files (relative to this one), assumptions, scene, display and loss settings. `svbrdf` opens \
                  it, and so does Open."
@@ -75,6 +83,7 @@ impl SaveKind {
             Self::View => "svbrdf-view.png",
             Self::Renderings => "svbrdf-renderings.png",
             Self::Strip => "svbrdf-strip.png",
+            Self::Report => "svbrdf-report.html",
             Self::Session => "comparison.svbrdf-session.json",
             Self::Scenes => "scenes.json",
         }

@@ -51,7 +51,7 @@ impl Dialogs {
             commands.extend(dialog.ui(ctx));
         }
         if let Some(dialog) = &mut self.save {
-            commands.extend(dialog.ui(ctx, view_size));
+            commands.extend(dialog.ui(ctx, displayed.jobs.saving.as_ref(), view_size));
         }
         commands
     }

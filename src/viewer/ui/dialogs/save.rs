@@ -1,10 +1,11 @@
-//! Dialog that saves the view, the renderings, a strip, the session or the scenes of the loss.
+//! Dialog that saves the view, the renderings, a strip, a report, the session or the scenes of the loss.
 
 use std::path::PathBuf;
 
 use eframe::egui::{self, RichText};
 
 use super::path_field::{PathField, dialog};
+use crate::viewer::jobs::work::job::Job;
 use crate::viewer::model::command::{Command, WindowCommand};
 use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use crate::viewer::ui::widgets::number;
@@ -23,8 +24,6 @@ pub struct SaveDialog {
     replaces: Option<String>,
     /// Whether the button gets the focus, so that Return presses it.
     focus_button: bool,
-    /// Whether the file is being written.
-    saving: bool,
     field: PathField,
 }
 
@@ -39,22 +38,32 @@ impl SaveDialog {
             handles: true,
             replaces: None,
             focus_button: false,
-            saving: false,
             field: PathField::default(),
         }
     }
 
-    /// `view_size` is the size of the view in the window, in pixels.
-    pub fn ui(&mut self, ctx: &egui::Context, view_size: [u32; 2]) -> Vec<Command> {
+    /// `saving` is the file that is being written; `view_size` the size of the view in the window, in pixels.
+    pub fn ui(
+        &mut self,
+        ctx: &egui::Context,
+        saving: Option<&Job<PathBuf>>,
+        view_size: [u32; 2],
+    ) -> Vec<Command> {
         let mut commands = Vec::new();
-        let open = dialog(ctx, "Save", 420.0, |ui| self.contents(ui, view_size, &mut commands));
+        let open = dialog(ctx, "Save", 420.0, |ui| self.contents(ui, saving, view_size, &mut commands));
         if !open {
             commands.push(WindowCommand::ShowSave(false).into());
         }
         commands
     }
 
-    fn contents(&mut self, ui: &mut egui::Ui, view_size: [u32; 2], commands: &mut Vec<Command>) {
+    fn contents(
+        &mut self,
+        ui: &mut egui::Ui,
+        saving: Option<&Job<PathBuf>>,
+        view_size: [u32; 2],
+        commands: &mut Vec<Command>,
+    ) {
         self.choice(ui);
         let field = self.field.ui(ui, "To file:", egui::TextEdit::singleline(&mut self.path));
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
@@ -69,18 +78,15 @@ impl SaveDialog {
             ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
         }
         self.field.problem(ui);
-        let text = match (self.saving, replaces) {
-            (true, _) => "Saving...",
-            (_, true) => "Replace it",
-            _ => "Save file",
-        };
-        let button = ui
-            .add_enabled(!self.saving, egui::Button::new(text))
-            .on_disabled_hover_text("A file is being written");
+        if let Some(job) = saving {
+            progress(ui, job, commands);
+            return;
+        }
+        let button = ui.button(if replaces { "Replace it" } else { "Save file" });
         if std::mem::take(&mut self.focus_button) {
             button.request_focus();
         }
-        if button.on_hover_text("Return in the field").clicked() || (entered && !self.saving) {
+        if button.on_hover_text("Return in the field").clicked() || entered {
             self.save(commands);
         }
     }
@@ -120,7 +126,6 @@ impl SaveDialog {
     /// Shows what went wrong, and puts the cursor into the path field.
     pub fn fail(&mut self, problem: String) {
         self.field.fail(problem);
-        self.saving = false;
     }
 
     /// Saves, unless that replaces a file and the dialog has not said so yet.
@@ -131,9 +136,22 @@ impl SaveDialog {
             self.focus_button = true;
             return;
         }
-        self.saving = true;
         self.field.clear();
         let request = SaveRequest { kind: self.what, path, size: self.size, handles: self.handles };
         commands.push(WindowCommand::Save(request).into());
     }
+}
+
+/// The progress of what is being written, in one line, and its end.
+fn progress(ui: &mut egui::Ui, job: &Job<PathBuf>, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        let cancel = ui.button("Cancel saving").on_hover_text("Stop; no file is written");
+        if cancel.clicked() {
+            commands.push(WindowCommand::CancelSaving.into());
+        }
+        let text = format!("saving, {} s", job.elapsed().as_secs());
+        let height = ui.spacing().interact_size.y;
+        let bar = egui::ProgressBar::new(job.fraction()).text(text).desired_height(height).corner_radius(3.0);
+        ui.add(bar).on_hover_text("It goes on when this dialog is closed");
+    });
 }

@@ -83,7 +83,7 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
             ("Ctrl + O / Ctrl + Shift + O", "open materials or a session / reopen the last materials"),
             (
                 "Ctrl + S / Ctrl + Shift + C",
-                "save view, renderings, strip or session / copy the view as a picture",
+                "save view, renderings, strip, report or session / copy the view as a picture",
             ),
             ("Ctrl + R", "read all files again"),
             ("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene, or paths of materials"),

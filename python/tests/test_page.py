@@ -1,0 +1,138 @@
+"""The report, the figure, and what a notebook shows."""
+
+import html
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import svbrdf
+from conftest import maps
+from svbrdf._table import html_table
+
+HOSTILE = '</table><script>alert(1)</script>\u202e&"'
+
+
+def pair() -> list[svbrdf.Material]:
+    names = ("truth", HOSTILE)
+    return [svbrdf.Material(**maps(24, 24, seed), name=name) for seed, name in enumerate(names)]
+
+
+def data(page: str) -> dict[str, Any]:
+    found = re.search(r'id="data">(.*?)</script>', page)
+    assert found
+    values: dict[str, Any] = json.loads(found.group(1))
+    return values
+
+
+def test_a_report_has_the_losses_the_call_and_the_readings(tmp_path: Path) -> None:
+    ground_truth, prediction = pair()
+    file = tmp_path / "p.png"
+    svbrdf.write(prediction, file)
+    path, read = tmp_path / "report.html", svbrdf.read(file, normal_y="up", albedo="linear")
+    svbrdf.report(ground_truth, read, path, target_error=0.2, seed=3, layout="wipe", exposure=1.5)
+    page = path.read_text()
+    loss = svbrdf.loss(ground_truth, read, target_error=0.2, seed=3).loss
+    assert f"<td>{loss:.4f}</td>" in page or f"<td>{loss:.3f}</td>" in page
+    text = html.unescape(page)
+    assert f"svbrdf.report(<svbrdf.Material 'truth'>, [svbrdf.read({str(file)!r}, " in text
+    assert "target_error=0.2, seed=3, exposure=1.5, layout='wipe'" in text
+    assert "Assumptions in reading the files" in page
+    start = data(page)["start"]
+    assert (start["layout"], start["exposure"]) == ("wipe", 1.5)
+    with pytest.raises(svbrdf.Error, match=r"NAME\.html"):
+        svbrdf.report(ground_truth, read, tmp_path / "report.txt")
+    with pytest.raises(ValueError, match="exposure"):
+        svbrdf.report(ground_truth, read, path, exposure=float("nan"))
+
+
+def test_a_figure_is_the_figure_alone_in_a_sandbox() -> None:
+    scene = svbrdf.Scene("distant", (0, 0.1, 1), (0.5, 0, 1))
+    figure = svbrdf.figure(*pair(), scene=scene, language="de", height=300)
+    values = data(figure.html)
+    assert (values["start"]["scene"]["light"], values["labels"]["Light"]) == ([0.5, 0, 1], "Licht")
+    assert [material["name"] for material in values["materials"]] == ["truth", HOSTILE]
+    shown = figure._repr_html_()
+    assert shown.startswith('<iframe sandbox="allow-scripts"')
+    assert html.unescape(shown[shown.index('srcdoc="') + 8 : -len('"></iframe>')]) == figure.html
+    assert "<h2" not in figure.html
+    assert len(data(svbrdf.figure(pair()[0]).html)["materials"]) == 1
+    with pytest.raises(svbrdf.Error, match="en, de, fr"):
+        svbrdf.figure(*pair(), language="xx")
+    with pytest.warns(UserWarning, match="reduced to 16 x 16"):
+        svbrdf.figure(*(svbrdf.Material(**maps(32, 32, seed)) for seed in (0, 1)), max_size=1000)
+
+
+def test_a_table_has_the_numbers_and_escaped_names() -> None:
+    report = svbrdf.loss(*pair(), near=2)
+    table = report._repr_html_()
+    assert f"<td>{report.loss:.6g}</td>" in table
+    assert "<script" not in table
+    assert table.count("</table>") == 1
+    assert html.escape("</table><script>alert(1)</script>") + "\\u202e&amp;&quot;" in table
+
+
+def test_a_table_of_many_rows_says_how_many_are_hidden() -> None:
+    table = html_table("a\nb", ["x", "y"], [[i, None] for i in range(1000)])
+    assert table.count("<tr>") == 61
+    assert "<p>a<br>b</p>" in table
+    assert "940 more rows" in table
+
+
+NOTEBOOK = """
+import svbrdf
+ground_truth, *predictions = svbrdf.built_in()
+svbrdf.loss(ground_truth, predictions, near=2)
+---
+svbrdf.figure(ground_truth, predictions, layout="wipe", height=600)
+"""
+
+
+@pytest.fixture(scope="module")
+def outputs() -> list[str]:
+    """The HTML of the cells of a notebook that has run."""
+    nbclient = pytest.importorskip("nbclient", reason="nbclient is not installed")
+    pytest.importorskip("ipykernel", reason="ipykernel is not installed")
+    from nbformat.v4 import new_code_cell, new_notebook
+
+    notebook = new_notebook(cells=[new_code_cell(cell) for cell in NOTEBOOK.split("---")])
+    nbclient.NotebookClient(notebook, timeout=600, kernel_name="python3").execute()
+    return [cell.outputs[0].data["text/html"] for cell in notebook.cells]
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_notebook_shows_the_table_and_the_figure(outputs: list[str]) -> None:
+    table, figure = outputs
+    assert "wrong roughness</td>" in table
+    assert figure.startswith("<iframe")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_the_figure_of_a_notebook_starts_in_a_browser(outputs: list[str], tmp_path: Path) -> None:
+    chromium = shutil.which("chromium")
+    if chromium is None:
+        pytest.skip("chromium is not installed")
+    image = pytest.importorskip("matplotlib.image", reason="matplotlib is not installed")
+
+    def screenshot(name: str, body: str) -> Any:
+        page, picture = tmp_path / f"{name}.html", tmp_path / f"{name}.png"
+        page.write_text(f'<!doctype html><meta charset="utf-8"><body>{body}</body>')
+        options = ["--headless", "--no-sandbox", "--disable-gpu", "--use-angle=swiftshader", "--hide-scrollbars"]
+        options += ["--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--window-size=1000,900"]
+        # In the process of the page, whose time the budget below counts.
+        options += ["--disable-features=IsolateSandboxedIframes"]
+        options += [f"--user-data-dir={tmp_path / 'profile'}", "--virtual-time-budget=30000", f"--screenshot={picture}"]
+        command = [chromium, *options, page.as_uri()]
+        subprocess.run(command, check=True, capture_output=True, timeout=300)
+        return (255 * image.imread(picture)[..., :3]).round().astype(np.int16)
+
+    live = screenshot("live", "".join(outputs))
+    # A frame without scripts has the still picture alone: no controls, and no line of the wipe.
+    still = screenshot("still", "".join(outputs).replace('sandbox="allow-scripts"', 'sandbox=""'))
+    assert (np.abs(live - still).max(axis=-1) > 20).mean() > 0.1
+    colours = np.unique(live.reshape(-1, 3), axis=0)
+    assert len(colours) > 5000

@@ -1,0 +1,94 @@
+//! The page of a ranking: names are data, and headings sort.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Value, json};
+
+use svbrdf_files::dataset::{
+    DatasetReport, DatasetSettings, KnownLoss, MaterialResult, Pick, PredictionResult,
+};
+use svbrdf_files::page::ranking;
+
+use super::browser::Page;
+
+const HOSTILE: &str = "</td></script><img src=x onerror=window.hit=1><!--\"'>{{sections}}\u{202e}";
+/// When the page can be used.
+pub const READY: &str = "document.querySelectorAll('[aria-sort]').length > 0";
+
+fn prediction(method: &str, loss: Result<f64, &str>) -> PredictionResult {
+    let known = |loss: f64| KnownLoss { loss, standard_error: 0.01, interval95: [loss - 0.02, loss + 0.02] };
+    let result = loss.map(known).map_err(str::to_owned);
+    let metrics = BTreeMap::from([("normal_angle_mean".to_owned(), 12.5)]);
+    PredictionResult { method: method.to_owned(), sample: 0, path: HOSTILE.to_owned(), result, metrics }
+}
+
+/// A ranking of two methods over five materials.
+pub fn page() -> String {
+    let names = ["m10", "m9", HOSTILE, "a", "b"];
+    let ours = [0.1, 0.2, 0.3, 0.15, 0.12];
+    let theirs = [Ok(0.25), Ok(0.31), Err(HOSTILE), Ok(0.28), Ok(0.26)];
+    let results = (0..5).map(|index| MaterialResult {
+        index,
+        material: names[index].to_owned(),
+        seed: 0,
+        scenes: 500 + index,
+        predictions: vec![prediction("ours", Ok(ours[index])), prediction(HOSTILE, theirs[index])],
+    });
+    let settings = DatasetSettings {
+        convention: "printed".to_owned(),
+        target_error: 0.01,
+        seed: 0,
+        materials: names.map(str::to_owned).to_vec(),
+        methods: vec!["ours".to_owned(), HOSTILE.to_owned()],
+        metrics: true,
+    };
+    ranking(&DatasetReport::new(settings, results.collect(), Pick::Fixed), &[])
+}
+
+#[test]
+fn names_add_no_elements_to_a_ranking() {
+    let html = page();
+    let count = |text: &str| html.matches(text).count();
+    assert_eq!([count("<script"), count("</script"), count("<img"), count("<tbody")], [1, 1, 0, 3]);
+    assert!(count("&lt;/td&gt;&lt;/script&gt;") >= 5, "{html}");
+    assert!(html.contains("<td>worse</td>") && html.contains("<td>best</td>"));
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn a_click_on_a_heading_sorts_and_the_next_one_turns_it_around() {
+    let mut page = Page::open_until(&page(), [1000, 900], READY);
+    let names = |page: &mut Page| {
+        let names = page.evaluate(
+            "[...document.querySelectorAll('section[aria-labelledby=materials] tbody th')].map(e => e.textContent)",
+        );
+        let number = |name: &Value| {
+            ["m10", "m9", "</td", "a", "b"].iter().position(|start| name.as_str().unwrap().starts_with(start))
+        };
+        names.as_array().unwrap().iter().map(|name| number(name).unwrap()).collect::<Vec<_>>()
+    };
+    let click = |page: &mut Page, column: usize| {
+        page.evaluate(&format!(
+            "document.querySelectorAll('section[aria-labelledby=materials] thead button')[{column}].click()"
+        ));
+    };
+    assert_eq!(names(&mut page), [0, 1, 2, 3, 4]);
+    click(&mut page, 0);
+    assert_eq!(names(&mut page), [2, 3, 4, 1, 0], "m9 comes before m10");
+    click(&mut page, 1);
+    assert_eq!(names(&mut page), [0, 4, 3, 1, 2]);
+    click(&mut page, 1);
+    assert_eq!(names(&mut page), [2, 1, 3, 4, 0]);
+    for sorted in [[0, 4, 3, 1, 2], [1, 3, 4, 0, 2]] {
+        click(&mut page, 2);
+        assert_eq!(names(&mut page), sorted, "what failed comes last");
+    }
+    let state = page.evaluate("[...document.querySelectorAll('section[aria-labelledby=materials] th[aria-sort]')].map(e => e.ariaSort)");
+    assert_eq!(state, json!(["none", "none", "descending", "none"]));
+    let (requests, complaints) = page.traffic();
+    assert!(
+        requests.iter().all(|address| address.starts_with("file://")) && complaints.is_empty(),
+        "{complaints:?}"
+    );
+    assert_eq!(page.evaluate("window.hit === undefined"), json!(true));
+}

@@ -1,0 +1,98 @@
+//! Saving a report.
+
+use std::path::Path;
+
+use svbrdf::viewer::model::command::{Command, DisplayCommand, LossCommand, SceneCommand, WindowCommand};
+use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf::viewer::model::view::state::Layout;
+use svbrdf_core::loss::Ask;
+use svbrdf_files::session::Session;
+
+use super::*;
+
+fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
+    let (ctx, command) = (window.ctx.clone(), command.into());
+    window.state_mut().apply(&ctx, command);
+    window.run_steps(2);
+}
+
+fn save(window: &mut Window<'_>, path: &Path) {
+    let (kind, path) = (SaveKind::Report, path.to_owned());
+    apply(window, WindowCommand::Save(SaveRequest { kind, path, size: [0; 2], handles: true }));
+}
+
+/// The text between two others.
+fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
+    let from = text.find(start).unwrap_or_else(|| panic!("no {start}")) + start.len();
+    &text[from..from + text[from..].find(end).unwrap()]
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
+    let mut window = by_scenes();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a report.html");
+    apply(&mut window, DisplayCommand::SetLayout(Layout::Wipe));
+    apply(&mut window, DisplayCommand::SetExposure(1.5));
+    let mut scene = window.state().parts.model.view.scene;
+    scene.light = [0.1, -0.7, 1.3];
+    apply(&mut window, SceneCommand::Set(scene));
+    apply(&mut window, DisplayCommand::ShowDifference(true));
+    apply(&mut window, DisplayCommand::SetRange(Some(0.75)));
+    wait(&mut window, "the losses", |app| app.losses().is_some());
+    let losses: Vec<f64> = window.state().losses().unwrap().iter().map(|loss| loss.estimate.mean).collect();
+    save(&mut window, &path);
+    wait(&mut window, "the report", |app| !app.messages().is_empty());
+    assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
+    let html = std::fs::read_to_string(&path).unwrap();
+    let data: serde_json::Value = serde_json::from_str(between(&html, r#"id="data">"#, "</script>")).unwrap();
+    let start = &data["start"];
+    assert_eq!(start["scene"], serde_json::to_value(scene).unwrap());
+    assert_eq!([&start["layout"], &start["difference"]], [&"wipe".into(), &serde_json::Value::from(true)]);
+    assert_eq!([start["exposure"].as_f64(), start["ranges"]["log"].as_f64()], [Some(1.5), Some(0.75)]);
+    for loss in losses {
+        assert!(html.contains(&format!("<td>{loss:.4}</td>")), "{loss}");
+    }
+    let command = "svbrdf report &#39;a report.svbrdf-session.json&#39; -o &#39;a report.html&#39;";
+    assert!(html.contains(command));
+    // The session within it is that of the window.
+    let text = between(&html, "<summary>a report.svbrdf-session.json</summary><pre><code>", "</code>");
+    let session = folder.path().join("a report.svbrdf-session.json");
+    std::fs::write(&session, text.replace("&quot;", "\"")).unwrap();
+    assert_eq!(Session::read(&session).unwrap(), window.state().parts.model.session());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
+    let mut window = built_in();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("report.html");
+    let mut settings = window.state().parts.model.settings.loss.clone();
+    (settings.ask, settings.target_percent) = (Ask::Accuracy, 0.05);
+    apply(&mut window, LossCommand::SetSettings(settings));
+    window.get_by_label("Save").click();
+    window.run_steps(4);
+    window.get_by_label("Report").click();
+    window.run_steps(4);
+    save(&mut window, &path);
+    wait(&mut window, "some progress", |app| {
+        app.parts.jobs.saving.as_ref().is_some_and(|job| job.fraction() > 0.0)
+    });
+    window.get_by_label("Cancel saving").click();
+    wait(&mut window, "the end", |app| app.parts.jobs.saving.is_none());
+    window.get_by_label("Save file");
+    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_report_is_html() {
+    let mut window = built_in();
+    let folder = tempfile::tempdir().unwrap();
+    save(&mut window, &folder.path().join("report.png"));
+    wait(&mut window, "the refusal", |app| !app.messages().is_empty());
+    assert!(window.state().messages()[0].contains("NAME.html"), "{:?}", window.state().messages());
+}
