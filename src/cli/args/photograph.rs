@@ -50,7 +50,7 @@ pub struct PhotoReadingArgs {
     corners: Option<Vec<[f64; 2]>>,
 
     /// Transfer curve of the photograph [default: linear for floats and PNG files that declare it, srgb for other integers]
-    #[arg(long, value_name = "linear|srgb", requires = "photo")]
+    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "photo")]
     transfer: Option<Transfer>,
 
     /// Stored value from which on a pixel is clipped, where 1 is the largest integer [default: 1, none for floats]
