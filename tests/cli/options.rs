@@ -36,7 +36,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 42] = [
+const MODES: [(&str, Shows); 43] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -88,6 +88,7 @@ const MODES: [(&str, Shows); 42] = [
         "view gt.png a.png --photo photo.png --flash --fov 45",
         Shows::Refusals(&[&["verbose", "scene", "scene-number"]]),
     ),
+    ("view gt.png a.png --photo cap", Shows::Refusals(&[&WITHOUT_PHOTO])),
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.

@@ -113,7 +113,7 @@ impl PhotoReadingArgs {
     #[cfg(feature = "viewer")]
     pub fn of_session(&self, path: PathBuf) -> SessionPhotograph {
         let corners = self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok());
-        SessionPhotograph { path, read: self.options(), corners, falloff: self.falloff }
+        SessionPhotograph { path, read: self.options(), corners, falloff: self.falloff, capture: None }
     }
 
     /// The corners in a photograph of `size`.

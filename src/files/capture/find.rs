@@ -45,8 +45,7 @@ fn json_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let entries = fs::read_dir(folder).map_err(unreadable)?;
     let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>();
     let mut paths = paths.map_err(unreadable)?;
-    let is_json = |path: &Path| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
-    paths.retain(|path| is_json(path) && path.is_file());
+    paths.retain(|path| Capture::is_named(path) && path.is_file());
     paths.sort();
     Ok(paths)
 }

@@ -28,6 +28,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use crate::open::NamedFile;
 use crate::photograph::Corners;
 use crate::read::{Photograph, PhotographOptions, Transfer, read_named_photograph};
+use crate::session::SessionPhotograph;
 use listed::Listed;
 
 /// Most photographs of a capture.
@@ -96,6 +97,23 @@ impl Capture {
     pub fn outside(&self) -> impl Iterator<Item = &Path> {
         let outside = self.photographs.iter().filter(|one| one.file.outside().is_some());
         outside.map(|one| one.file.path())
+    }
+
+    /// Whether a path may be that of a capture: a folder, or JSON.
+    pub fn is_named(path: &Path) -> bool {
+        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")) || path.is_dir()
+    }
+
+    /// The photograph at this index, as a session keeps it; `None` beyond the last.
+    pub fn session_photograph(&self, index: usize) -> Option<SessionPhotograph> {
+        let one = self.photographs.get(index)?;
+        Some(SessionPhotograph {
+            path: one.file.path().to_owned(),
+            read: one.options,
+            corners: one.corners.map(|corners| corners.0),
+            falloff: self.falloff,
+            capture: Some(self.file.clone()),
+        })
     }
 
     /// The photographs as they are read with these options, where they are specified.
