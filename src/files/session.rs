@@ -115,7 +115,8 @@ impl Session {
         }
         if let Some(photograph) = &mut session.photograph {
             photograph.path = named(&photograph.path, path)?;
-            photograph.capture = photograph.capture.as_ref().map(|capture| named(capture, path)).transpose()?;
+            photograph.capture =
+                photograph.capture.as_ref().map(|capture| named(capture, path)).transpose()?;
         }
         for material in &mut session.materials {
             match (&mut material.path, material.built_in) {

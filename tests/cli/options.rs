@@ -200,7 +200,8 @@ fn fixture() -> TempDir {
     fs::create_dir(of("cap")).unwrap();
     fs::copy(of("photo.png"), of("cap/photo.png")).unwrap();
     succeed(folder.path(), "render b.png -o cap/second.png --light 0.5,0.5,1");
-    let photographs = ["photo", "second"].map(|name| format!(r#"{{"file": "{name}.png", "scene": {scene}}}"#));
+    let photographs =
+        ["photo", "second"].map(|name| format!(r#"{{"file": "{name}.png", "scene": {scene}}}"#));
     let capture = format!(r#"{{"photographs": [{}]}}"#, photographs.join(", "));
     fs::write(of("cap/capture.json"), capture).unwrap();
     let pixels = |name: &str| image::open(of(name)).unwrap().into_rgb8();

@@ -139,7 +139,9 @@ fn captured() -> TempDir {
     let at = folder.path();
     std::fs::create_dir(at.join("cap")).unwrap();
     let mut listed = Vec::new();
-    for (k, light) in ["-0.5,0.5,1", "0,0.5,1.2", "0.5,0.5,1", "-0.5,0,1.5", "0,0,1", "0.5,-0.5,1.1"].iter().enumerate() {
+    for (k, light) in
+        ["-0.5,0.5,1", "0,0.5,1.2", "0.5,0.5,1", "-0.5,0,1.5", "0,0,1", "0.5,-0.5,1.1"].iter().enumerate()
+    {
         let exposure = if k == 4 { -2 } else { -1 };
         let args = format!("render gt.png -o cap/{k}.png --view 0,0,2 --light {light} --exposure {exposure}");
         succeed(at, &args);
@@ -173,7 +175,7 @@ fn a_capture_has_one_exposure_and_names_the_photograph_that_is_off() {
     for words in [
         "differences from the 6 photographs of cap/capture.json, sRGB since it stores integers",
         "one exposure for all photographs, not fitted to those that are held out: 4.png, 5.png",
-        "4.png is an outlier (of 2 of 2 materials; gt): the exposure that fits it alone is +1.0",
+        "4.png is an outlier for 2 of 2 materials (numbers of gt): the exposure that fits it alone is +1.0",
         "2 held out",
         "outlier, held out",
     ] {
@@ -185,7 +187,10 @@ fn a_capture_has_one_exposure_and_names_the_photograph_that_is_off() {
     let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
     let cell = |row: usize, name: &str| &rows[row][heading.iter().position(|head| head == name).unwrap()];
     assert_eq!((rows.len(), cell(0, "photographs"), cell(0, "factor")), (2 * 7, "all", ""));
-    assert_eq!((cell(5, "photograph"), cell(5, "outlier"), cell(5, "exposure")), ("4.png", "true", "photograph"));
+    assert_eq!(
+        (cell(5, "photograph"), cell(5, "outlier"), cell(5, "exposure")),
+        ("4.png", "true", "photograph")
+    );
     let [ev, own] = ["exposure_ev", "own_exposure_ev"].map(|name| cell(5, name).parse::<f64>().unwrap());
     assert!(ev == own && (ev - 2.0).abs() < 0.02, "{ev}, {own}");
 }
@@ -223,7 +228,10 @@ fn a_capture_that_cannot_be_used_is_refused_with_what_to_do() {
     }
     // The area of the corners is judged by the photograph.
     std::fs::copy(at.join("cap/0.png"), at.join("corners/0.png")).unwrap();
-    assert!(fail(at, "photo --capture corners gt.png", 1).contains("within the 8 x 8 pixels of the photograph, found 9,0"));
+    assert!(
+        fail(at, "photo --capture corners gt.png", 1)
+            .contains("within the 8 x 8 pixels of the photograph, found 9,0")
+    );
     // A photograph outside of the folder is named.
     let output = super::run_in(at, "photo --capture above gt.png");
     assert!(output.status.success());

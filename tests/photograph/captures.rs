@@ -69,9 +69,10 @@ fn folder(
     let mut listed = Vec::new();
     for (k, declared) in LIGHTS.into_iter().enumerate() {
         let radiance = physical(material, light(k), view(light(k)));
-        let values: Vec<f32> = radiance.into_iter().flatten().map(|value| (power(k) * value) as f32).collect();
+        let values: Vec<f32> =
+            radiance.into_iter().flatten().map(|value| (power(k) * value) as f32).collect();
         let file = format!("raw/{k}.npy");
-        fs::write(folder.path().join(&file), npy([SIDE, SIDE, 3], &values)).unwrap();
+        fs::write(folder.path().join(&file), npy([SIDE as u64, SIDE as u64, 3], &values)).unwrap();
         let scene = json!({"kind": "near", "view": view(declared), "light": declared});
         listed.push(json!({"file": file, "scene": scene}));
     }
@@ -145,7 +146,7 @@ fn a_darker_photograph_and_one_of_another_light_are_found() {
     // The exposure of the capture is that of the others.
     assert!((result.factor.unwrap() / (2.5 * 2.5 / 12.0) - 1.0).abs() < 1e-3, "{:?}", result.factor);
     let text = report.text();
-    let line = "raw/4.npy is an outlier (of 2 of 2 materials; ";
+    let line = "raw/4.npy is an outlier for 2 of 2 materials (numbers of ";
     assert!(text.contains(line) && text.contains("+1.00 EV from the median"), "{text}");
     // The noise of the photographs and a wrong material make no outlier.
     let even = self::folder(&truth, |_| 12.0, |k| LIGHTS[k]);
@@ -251,7 +252,7 @@ fn a_clipped_photograph_is_left_out_of_the_means() {
     let [truth, ..] = small();
     let folder = folder(&truth, |_| 12.0, |k| LIGHTS[k]);
     let path = folder.path().join("raw/3.npy");
-    fs::write(&path, npy([SIDE, SIDE, 3], &vec![f32::NAN; SIDE * SIDE * 3])).unwrap();
+    fs::write(&path, npy([SIDE as u64, SIDE as u64, 3], &vec![f32::NAN; SIDE * SIDE * 3])).unwrap();
     let report = of_folder(folder.path(), &[&truth]);
     let one = &report.results[0].photographs[3];
     assert_eq!((one.clipped, one.log, one.own_factor, one.ssim), (SIDE * SIDE, None, None, None));
@@ -264,7 +265,8 @@ fn a_clipped_photograph_is_left_out_of_the_means() {
     assert_eq!(json["scenes"].as_array().unwrap().len(), 9);
     for k in 0..9 {
         let values = vec![f32::NAN; SIDE * SIDE * 3];
-        fs::write(folder.path().join(format!("raw/{k}.npy")), npy([SIDE, SIDE, 3], &values)).unwrap();
+        fs::write(folder.path().join(format!("raw/{k}.npy")), npy([SIDE as u64, SIDE as u64, 3], &values))
+            .unwrap();
     }
     for exposure in CaptureExposure::ALL {
         let setting = setting(folder.path(), exposure, &[]).unwrap();
@@ -321,7 +323,9 @@ fn captures_that_cannot_be_used_are_refused_with_their_reason() {
     assert!(error.contains("several that differ: other.json, render.json; name one"), "{error}");
     assert!(Capture::read(&folder.path().join("render.json")).is_ok());
     let wrong = |hold_out: &[&str]| {
-        setting(&folder.path().join("render.json"), CaptureExposure::Capture, hold_out).unwrap_err().to_string()
+        setting(&folder.path().join("render.json"), CaptureExposure::Capture, hold_out)
+            .unwrap_err()
+            .to_string()
     };
     assert!(wrong(&["9.png"]).contains("unknown photograph `9.png`; use one of: 08.png, 07.png"));
     let all = ["00", "01", "02", "03", "04", "05", "06", "07", "08"];

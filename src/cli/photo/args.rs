@@ -20,8 +20,12 @@ use crate::cli::output::report::ReportFormat;
 /// all photographs is fitted, and the mean log difference, RMSE and SSIM are printed for each photograph and as means with their
 /// intervals over photographs. A photograph far from the others is named. docs/photographs.md describes the files of a capture.
 #[derive(Debug, clap::Args)]
-#[command(override_usage = "svbrdf photo [OPTIONS] <PHOTO> <MATERIAL>...\n       svbrdf photo [OPTIONS] --capture <FOLDER> <MATERIAL>...")]
-#[command(after_help = "Examples:\n  svbrdf photo photo.jpg a.png b.png --flash --fov 45\n  svbrdf photo --capture card_blue a.png b.png")]
+#[command(
+    override_usage = "svbrdf photo [OPTIONS] <PHOTO> <MATERIAL>...\n       svbrdf photo [OPTIONS] --capture <FOLDER> <MATERIAL>..."
+)]
+#[command(
+    after_help = "Examples:\n  svbrdf photo photo.jpg a.png b.png --flash --fov 45\n  svbrdf photo --capture card_blue a.png b.png"
+)]
 #[command(mut_arg("ground_truth", |arg| arg.value_name("MATERIAL").required_unless_present("capture").help(
     "Material: a packed or layered image, a folder, a name prefix, or a session file of the window")))]
 #[command(mut_arg("predictions", |arg| arg.value_name("MATERIAL").help("More materials")))]

@@ -152,6 +152,52 @@ impl CaptureSetting {
         rectified
     }
 
+    /// Reads the photographs: how, and for each of `sizes` of materials, all of them on its texels.
+    fn read(
+        &self,
+        sizes: &[[usize; 2]],
+        progress: &Progress,
+    ) -> Result<(Vec<ReadCaptured>, Vec<Vec<Rectified>>), Error> {
+        let (mut photographs, mut rectified) = (Vec::new(), vec![Vec::new(); sizes.len()]);
+        for one in &self.capture.photographs {
+            let (photograph, corners) = self.capture.photograph(one)?;
+            for (size, rectified) in sizes.iter().zip(&mut rectified) {
+                let found = Rectified::new(&photograph, &corners, *size, &progress.part())?;
+                rectified.push(self.without_falloff(found, one));
+            }
+            photographs.push(ReadCaptured {
+                name: one.name.clone(),
+                size: photograph.size(),
+                transfer: photograph.transfer,
+                transfer_from: one.transfer_from(&photograph, self.capture.is_materialgan),
+                corners,
+                is_whole: one.corners.is_none(),
+                notes: photograph.notes,
+            });
+            progress.step()?;
+        }
+        Ok((photographs, rectified))
+    }
+
+    /// The factors that fit `material` to all photographs that are not held out, and to each photograph.
+    fn factors(
+        &self,
+        material: &Material<f32>,
+        photographs: &[Rectified],
+        progress: &Progress,
+    ) -> Result<(Option<f64>, Vec<Option<f64>>), Error> {
+        let (mut together, mut own) = (Ratios::default(), Vec::new());
+        for (index, (rectified, one)) in photographs.iter().zip(&self.capture.photographs).enumerate() {
+            let rendering = rectified.rendering(material, &one.scene, &self.convention, &progress.part())?;
+            let mut ratios = rectified.ratios(&rendering, self.convention.epsilon);
+            own.push(ratios.factor());
+            if !self.held_out[index] && self.exposure == CaptureExposure::Capture {
+                together.append(ratios);
+            }
+        }
+        Ok((together.factor(), own))
+    }
+
     /// Fits the exposure of `material` and measures it on every photograph.
     fn measure(
         &self,
@@ -160,24 +206,15 @@ impl CaptureSetting {
         photographs: &[Rectified],
         progress: &Progress,
     ) -> Result<MaterialResult, Error> {
-        let (mut together, mut own) = (Ratios::default(), Vec::new());
-        let epsilon = self.convention.epsilon;
-        for (index, (rectified, one)) in photographs.iter().zip(&self.capture.photographs).enumerate() {
-            let rendering = rectified.rendering(material, &one.scene, &self.convention, &progress.part())?;
-            let mut ratios = rectified.ratios(&rendering, epsilon);
-            own.push(ratios.factor());
-            if !self.held_out[index] {
-                together.append(ratios);
-            }
-        }
-        let fitted = match self.exposure {
-            CaptureExposure::Capture => together.factor(),
-            CaptureExposure::Photograph => own.iter().flatten().next().copied(),
+        let (factor, own) = self.factors(material, photographs, progress)?;
+        let is_fitted = match self.exposure {
+            CaptureExposure::Capture => factor.is_some(),
+            CaptureExposure::Photograph => own.iter().any(Option::is_some),
         };
-        let problem = || "in no photograph is a part of the material lit and not clipped".to_owned();
-        let fitted = fitted.ok_or_else(|| Error::NoExposure { name: name.to_owned(), problem: problem() })?;
-        let factor = (self.exposure == CaptureExposure::Capture).then_some(fitted);
-        drop(together);
+        if !is_fitted {
+            let problem = "in no photograph is a part of the material lit and not clipped".to_owned();
+            return Err(Error::NoExposure { name: name.to_owned(), problem });
+        }
         let mut results = Vec::new();
         for (index, rectified) in photographs.iter().enumerate() {
             let factors = [factor.or(own[index]), own[index]];
@@ -242,25 +279,7 @@ impl CaptureReport {
         let bytes = (BYTES * count).saturating_mul(texels) as u64;
         let _reserved = memory::reserve(bytes, || format!("comparing with the {count} photographs"))?;
         progress.begin((count * (1 + materials.len())) as u64);
-        let mut photographs = Vec::new();
-        let mut rectified: Vec<Vec<Rectified>> = vec![Vec::new(); sizes.len()];
-        for one in &setting.capture.photographs {
-            let (photograph, corners) = setting.capture.photograph(one)?;
-            for (size, rectified) in sizes.iter().zip(&mut rectified) {
-                let found = Rectified::new(&photograph, &corners, *size, &progress.part())?;
-                rectified.push(setting.without_falloff(found, one));
-            }
-            photographs.push(ReadCaptured {
-                name: one.name.clone(),
-                size: photograph.size(),
-                transfer: photograph.transfer,
-                transfer_from: one.transfer_from(&photograph, setting.capture.is_materialgan),
-                corners,
-                is_whole: one.corners.is_none(),
-                notes: photograph.notes,
-            });
-            progress.step()?;
-        }
+        let (photographs, rectified) = setting.read(&sizes, progress)?;
         let measured = materials.into_iter().map(|(name, material)| {
             let index = sizes.partition_point(|size| *size < material.size());
             setting.measure(name, material, &rectified[index], progress)

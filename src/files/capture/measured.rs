@@ -101,7 +101,10 @@ fn estimate(of: &[&CapturedResult], measure: impl Fn(&CapturedResult) -> Option<
 }
 
 /// The mean of a measure of at most 1.
-fn signed_estimate(of: &[&CapturedResult], measure: impl Fn(&CapturedResult) -> Option<f64>) -> Option<Estimate> {
+fn signed_estimate(
+    of: &[&CapturedResult],
+    measure: impl Fn(&CapturedResult) -> Option<f64>,
+) -> Option<Estimate> {
     let (scenes, values) = values(of, measure)?;
     let e = Estimate::of_difference(Sampler::Random, &scenes, &values, &vec![0.0; values.len()]);
     Some(Estimate { interval95: e.interval95.map(|[low, high]| [low, high.min(1.0)]), ..e })

@@ -171,7 +171,10 @@ impl Capture {
 
     /// Its renderer stores the power 1 / 2.2 of radiance, which falls off with the distance of the light.
     fn of_materialgan(path: &Path, calibration: &Calibration) -> Result<Self, String> {
-        let folder = calibration.target_dir.as_ref().ok_or("its target_dir, the folder of the photographs, is missing")?;
+        let folder = calibration
+            .target_dir
+            .as_ref()
+            .ok_or("its target_dir, the folder of the photographs, is missing")?;
         let options = PhotographOptions { transfer: Some(Transfer::Gamma22), clip: None };
         let photograph = |(number, scene): (usize, Scene)| {
             let name = format!("{number:02}.png");

@@ -36,7 +36,11 @@ impl Outlier {
         let exposure = far(exposures, |distance, _| distance.abs() > LEAST_EV);
         let is_large = |distance: f64, median: f64| distance > LEAST_LOG && distance > LEAST_SHARE * median;
         let difference = far(differences, is_large);
-        exposure.into_iter().zip(difference).map(|(exposure, difference)| Self { exposure, difference }).collect()
+        exposure
+            .into_iter()
+            .zip(difference)
+            .map(|(exposure, difference)| Self { exposure, difference })
+            .collect()
     }
 }
 
@@ -87,6 +91,9 @@ mod tests {
         let mut unknown = [0.0, 0.0, 0.0, 0.0, 9.0, 0.0].map(Some);
         unknown[0] = None;
         let found = Outlier::among(&unknown, &unknown);
-        assert_eq!(found.iter().map(|one| one.is_any()).collect::<Vec<_>>(), [false, false, false, false, true, false]);
+        assert_eq!(
+            found.iter().map(|one| one.is_any()).collect::<Vec<_>>(),
+            [false, false, false, false, true, false]
+        );
     }
 }

@@ -75,7 +75,9 @@ impl CaptureSetting {
         let held_out = self.held_out();
         let held_out = match (held_out.is_empty(), self.exposure) {
             (true, _) => String::new(),
-            (false, CaptureExposure::Capture) => format!(", not fitted to those that are held out: {held_out}"),
+            (false, CaptureExposure::Capture) => {
+                format!(", not fitted to those that are held out: {held_out}")
+            }
             (false, CaptureExposure::Photograph) => format!("; held out: {held_out}"),
         };
         format!(
@@ -93,28 +95,29 @@ impl CaptureSetting {
 impl CaptureReport {
     /// A line about each photograph that is an outlier for a material.
     fn outliers(&self) -> String {
-        let about = |(index, read): (usize, &ReadCaptured)| {
-            let of = |which: &dyn Fn(&CapturedResult) -> bool| {
-                self.results.iter().filter(|result| which(&result.photographs[index])).collect::<Vec<_>>()
-            };
-            let count = of(&|one| one.outlier.is_any()).len();
-            let first = of(&|one| one.outlier.is_any()).first().copied()?;
-            let mut findings = Vec::new();
-            if let Some(result) = of(&|one| one.outlier.exposure).first() {
-                let [own, middle] = beside_median(result, index, CapturedResult::own_ev);
-                findings.push(format!("the exposure that fits it alone is {:+.2} EV from the median", own - middle));
-            }
-            if let Some(result) = of(&|one| one.outlier.difference).first() {
-                let [log, middle] = beside_median(result, index, |one| one.log);
-                findings.push(format!("its log difference is {log:.4}, the median {middle:.4}"));
-            }
-            let whose = match self.results.len() {
-                1 => String::new(),
-                all => format!(" (of {count} of {all} materials; {})", first.material),
-            };
-            Some(format!("{} is an outlier{whose}: {}\n", read.name, findings.join("; ")))
+        (0..self.photographs.len()).filter_map(|index| self.outlier(index)).collect()
+    }
+
+    /// The line about the photograph at `index`, with the numbers of the first material for which it is an outlier.
+    fn outlier(&self, index: usize) -> Option<String> {
+        let is_outlier = |result: &&MaterialResult| result.photographs[index].outlier.is_any();
+        let result = self.results.iter().find(is_outlier)?;
+        let one = &result.photographs[index];
+        let exposure = one.outlier.exposure.then(|| {
+            let [own, middle] = beside_median(result, index, CapturedResult::own_ev);
+            format!("the exposure that fits it alone is {:+.2} EV from the median", own - middle)
+        });
+        let difference = one.outlier.difference.then(|| {
+            let [log, middle] = beside_median(result, index, |one| one.log);
+            format!("its log difference is {log:.4}, the median {middle:.4}")
+        });
+        let findings: Vec<String> = exposure.into_iter().chain(difference).collect();
+        let (count, all) = (self.results.iter().filter(is_outlier).count(), self.results.len());
+        let whose = match all {
+            1 => String::new(),
+            _ => format!(" for {count} of {all} materials (numbers of {})", result.material),
         };
-        self.photographs.iter().enumerate().filter_map(about).collect()
+        Some(format!("{} is an outlier{whose}: {}\n", self.photographs[index].name, findings.join("; ")))
     }
 
     fn means(&self) -> Vec<Vec<String>> {
@@ -201,14 +204,11 @@ impl CaptureReport {
             one.factor.map(f64::log2).into(),
             one.own_ev().into(),
         ];
-        let measures =
-            [one.log, one.rmse, one.ssim].into_iter().flat_map(|value| [value.into(), Cell::Empty, Cell::Empty]);
-        let counted: [Cell; 4] = [
-            one.texels.into(),
-            one.clipped.into(),
-            one.outlier.is_any().into(),
-            read.transfer.name().into(),
-        ];
+        let measures = [one.log, one.rmse, one.ssim]
+            .into_iter()
+            .flat_map(|value| [value.into(), Cell::Empty, Cell::Empty]);
+        let counted: [Cell; 4] =
+            [one.texels.into(), one.clipped.into(), one.outlier.is_any().into(), read.transfer.name().into()];
         start.into_iter().chain(measures).chain(counted).chain(self.setting_cells(one.factor)).collect()
     }
 

@@ -73,11 +73,23 @@ struct EntryJson<'a> {
 }
 
 impl CaptureReport {
+    fn photograph(&self, index: usize) -> PhotographJson<'_> {
+        let read = &self.photographs[index];
+        PhotographJson {
+            photograph: &read.name,
+            size: read.size,
+            transfer: read.transfer.name(),
+            corners: read.corners.0,
+            held_out: self.setting.is_held_out(index),
+        }
+    }
+
     fn result<'a>(&'a self, result: &'a MaterialResult) -> ResultJson<'a> {
         let means = result.groups().into_iter().map(|CaptureGroup { name, count, log, rmse, ssim }| {
             GroupJson { photographs: name, count, log, rmse, ssim }
         });
-        let photographs = self.photographs.iter().zip(&result.photographs).map(|(read, one)| entry(read, one));
+        let photographs =
+            self.photographs.iter().zip(&result.photographs).map(|(read, one)| entry(read, one));
         ResultJson {
             material: &result.material,
             size: result.size,
@@ -108,17 +120,10 @@ fn entry<'a>(read: &'a ReadCaptured, one: &CapturedResult) -> EntryJson<'a> {
 impl Serialize for CaptureReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let CaptureSetting { name, capture, exposure, convention, .. } = &self.setting;
-        let photograph = |(index, read): (usize, &ReadCaptured)| PhotographJson {
-            photograph: &read.name,
-            size: read.size,
-            transfer: read.transfer.name(),
-            corners: read.corners.0,
-            held_out: self.setting.is_held_out(index),
-        };
         let object = CaptureJson {
             capture: name,
             file: capture.file.display().to_string(),
-            photographs: self.photographs.iter().enumerate().map(photograph).collect(),
+            photographs: (0..self.photographs.len()).map(|index| self.photograph(index)).collect(),
             falloff: capture.falloff,
             exposure: exposure.name(),
             declared_factor: self.setting.declared_factor(),

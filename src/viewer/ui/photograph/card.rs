@@ -29,7 +29,7 @@ pub struct PhotographCard<'a> {
 impl PhotographCard<'_> {
     /// While a photograph of a capture is being read, the card keeps the height that it had.
     pub fn ui(&self, ui: &mut egui::Ui, textures: &mut PanelTextures) -> Vec<Command> {
-        let (id, top) = (egui::Id::new("height of the photograph card"), ui.cursor().top());
+        let (id, top) = (egui::Id::unique("height of the photograph card"), ui.cursor().top());
         let commands = self.contents(ui, textures);
         let height = ui.cursor().top() - top;
         if self.photograph.photograph.is_some() && self.photograph.all.is_some() {

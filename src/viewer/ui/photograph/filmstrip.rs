@@ -51,7 +51,9 @@ pub fn ui(
 fn about(ui: &mut egui::Ui, strip: Option<&Filmstrip>, current: Option<usize>) {
     let text = match (strip, current) {
         (None, _) => "Reading the capture...".to_owned(),
-        (Some(strip), Some(current)) => format!("Photograph {} of {} of the capture", current + 1, strip.len()),
+        (Some(strip), Some(current)) => {
+            format!("Photograph {} of {} of the capture", current + 1, strip.len())
+        }
         (Some(strip), None) => format!("{} photographs of the capture", strip.len()),
     };
     ui.label(RichText::new(text).small());
