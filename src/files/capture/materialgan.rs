@@ -31,6 +31,13 @@ pub struct LightPower {
     pub colour: [f64; 3],
 }
 
+impl LightPower {
+    /// Whether red, green and blue are equal.
+    pub fn is_white(&self) -> bool {
+        self.colour.iter().all(|channel| (channel - 1.0).abs() < 1e-9)
+    }
+}
+
 impl Calibration {
     /// The scene of each photograph, in units of half the width of the material.
     ///

@@ -132,7 +132,7 @@ impl Capture {
         let mut photograph = read_named_photograph(&one.file, &one.options)?;
         let corners = one.corners.unwrap_or_else(|| Corners::whole(photograph.size()));
         corners.check(photograph.size())?;
-        if let Some(LightPower { colour, .. }) = self.power.filter(|power| power.colour != [1.0; 3]) {
+        if let Some(LightPower { colour, .. }) = self.power.filter(|power| !power.is_white()) {
             let gain = colour.map(|channel| channel.recip() as f32);
             let pixels = photograph.image.pixels.iter_mut();
             pixels.for_each(|rgb| (0..3).for_each(|c| rgb[c] *= gain[c]));

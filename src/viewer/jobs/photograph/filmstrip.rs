@@ -1,6 +1,6 @@
 //! Filmstrip of a capture: its photographs as thumbnails, all in one picture.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use svbrdf_core::error::Error;
@@ -27,6 +27,10 @@ pub struct Filmstrip {
     pub picture: Arc<Picture>,
     /// Of each photograph, whether it has a thumbnail: it could be read, and is among the first.
     drawn: Vec<bool>,
+    /// The absolute paths of the photographs.
+    paths: Vec<PathBuf>,
+    /// The number of photographs outside of the folder of the capture.
+    pub outside: usize,
 }
 
 impl Filmstrip {
@@ -37,9 +41,8 @@ impl Filmstrip {
 
     /// The index of the photograph at `path`.
     pub fn position(&self, path: &Path) -> Option<usize> {
-        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let path = absolute(path);
-        self.capture.photographs.iter().position(|one| absolute(one.file.path()) == path)
+        self.paths.iter().position(|one| *one == path)
     }
 
     /// The part of the picture that is the thumbnail at this index: least and greatest x and y, as shares of its sides.
@@ -68,8 +71,17 @@ pub fn read(path: &Path, progress: &Progress) -> Result<Filmstrip, Error> {
     }
     let pixels = images.iter().flatten().flat_map(|image| image.pixels.iter().copied()).collect::<Vec<_>>();
     let ev = exposure(&Image { width: pixels.len(), height: 1, pixels });
-    let picture = Arc::new(atlas(&images, ev));
-    Ok(Filmstrip { picture, drawn: images.iter().map(Option::is_some).collect(), capture })
+    Ok(Filmstrip {
+        picture: Arc::new(atlas(&images, ev)),
+        drawn: images.iter().map(Option::is_some).collect(),
+        paths: capture.photographs.iter().map(|one| absolute(one.file.path())).collect(),
+        outside: capture.outside().count(),
+        capture,
+    })
+}
+
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// The material in a photograph; clipped pixels are white.

@@ -61,12 +61,12 @@ fn about(ui: &mut egui::Ui, strip: Option<&Filmstrip>, current: Option<usize>) {
     let warn = |ui: &mut egui::Ui, text: String| {
         ui.label(RichText::new(text).small().color(ui.visuals().warn_fg_color));
     };
-    match strip.capture.outside().count() {
+    match strip.outside {
         0 => {}
         1 => warn(ui, "A photograph lies outside of the folder of the capture".to_owned()),
         count => warn(ui, format!("{count} photographs lie outside of the folder of the capture")),
     }
-    if strip.capture.power.is_some_and(|power| power.colour != [1.0; 3]) {
+    if strip.capture.power.is_some_and(|power| !power.is_white()) {
         warn(ui, "The colour of light_pow is not divided out in the window".to_owned());
     }
 }
