@@ -57,8 +57,8 @@ fn estimate(estimate: Option<Estimate>) -> [String; 2] {
 }
 
 impl CaptureSetting {
-    /// How far a factor is from the one that the power of the light gives, in stops.
-    pub(super) fn from_declared(&self, factor: Option<f64>) -> Option<f64> {
+    /// The stops by which a factor exceeds the one that the power of the light gives.
+    pub(super) fn declared_ev(&self, factor: Option<f64>) -> Option<f64> {
         Some((factor? / self.declared_factor()?).log2())
     }
 
@@ -131,7 +131,7 @@ impl CaptureReport {
         ];
         for result in &self.results {
             rows.extend(result.groups().into_iter().map(|CaptureGroup { name, count, log, rmse, ssim }| {
-                let declared = text(self.setting.from_declared(result.factor), |ev| format!("{ev:+.2} EV"));
+                let declared = text(self.setting.declared_ev(result.factor), |ev| format!("{ev:+.2} EV"));
                 let start = [
                     result.material.clone(),
                     format!("{count} {name}").replace(" all", ""),
@@ -216,7 +216,7 @@ impl CaptureReport {
         let CaptureSetting { name, capture, exposure, convention, .. } = &self.setting;
         [
             exposure.name().into(),
-            self.setting.from_declared(factor).into(),
+            self.setting.declared_ev(factor).into(),
             capture.falloff.into(),
             name.as_str().into(),
             convention.name.into(),

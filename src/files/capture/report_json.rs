@@ -95,7 +95,7 @@ impl CaptureReport {
             size: result.size,
             factor: result.factor,
             exposure_ev: result.factor.map(f64::log2),
-            declared_ev: self.setting.from_declared(result.factor),
+            declared_ev: self.setting.declared_ev(result.factor),
             means: means.collect(),
             photographs: photographs.collect(),
         }

@@ -72,7 +72,7 @@ impl App {
     pub fn filmstrip_length(&self) -> Option<usize> {
         let super::parts::Parts { model, jobs, .. } = &self.parts;
         let displayed = jobs.photograph.displayed(&model.photograph, self.parts.displayed().materials())?;
-        displayed.filmstrip.map(|strip| strip.len())
+        displayed.filmstrip.map(|strip| strip.count())
     }
 
     /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.

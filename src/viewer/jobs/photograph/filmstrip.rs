@@ -35,7 +35,7 @@ pub struct Filmstrip {
 
 impl Filmstrip {
     /// The number of photographs.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.capture.photographs.len()
     }
 

@@ -35,7 +35,7 @@ pub fn ui(
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 5.0;
                 ui.add_space(2.0);
-                for index in 0..strip.len() {
+                for index in 0..strip.count() {
                     if thumbnail(ui, strip, index, texture, current == Some(index)).clicked() {
                         clicked = Some(index);
                     }
@@ -52,9 +52,9 @@ fn about(ui: &mut egui::Ui, strip: Option<&Filmstrip>, current: Option<usize>) {
     let text = match (strip, current) {
         (None, _) => "Reading the capture...".to_owned(),
         (Some(strip), Some(current)) => {
-            format!("Photograph {} of {} of the capture", current + 1, strip.len())
+            format!("Photograph {} of {} of the capture", current + 1, strip.count())
         }
-        (Some(strip), None) => format!("{} photographs of the capture", strip.len()),
+        (Some(strip), None) => format!("{} photographs of the capture", strip.count()),
     };
     ui.label(RichText::new(text).small());
     let Some(strip) = strip else { return };
