@@ -262,3 +262,43 @@ def test_a_photograph_has_differences_as_arrays_and_a_scene(materials: Materials
         svbrdf.photo(photo, materials[0], scene=scene, difference="angle")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="corners: expected 4, found 2"):
         svbrdf.photo(photo, materials[0], scene=scene, corners=[(0, 0), (1, 1)])
+
+
+@pytest.fixture
+def captured(materials: Materials, tmp_path: Path) -> Path:
+    """A capture of the ground truth in six scenes, the third photograph of which is twice as bright."""
+    listed = []
+    for k in range(6):
+        scene = svbrdf.Scene("near", (0.0, 0.0, 2.0), (0.2 * k - 0.5, 0.1 * k, 2.0))
+        np.save(tmp_path / f"{k}.npy", (2 if k == 2 else 1) * svbrdf.render(materials[0], scene))
+        listed.append({"file": f"{k}.npy", "scene": scene._asdict()})
+    (tmp_path / "capture.json").write_text(json.dumps({"photographs": listed}))
+    return tmp_path
+
+
+def test_a_capture_is_that_of_the_command_line(program: str, materials: Materials, captured: Path) -> None:
+    paths = [materials[0], *materials[1]]
+    report = svbrdf.capture(captured, paths, hold_out=["5.npy"])
+    right = report.results[0]
+    assert (right.material, right.factor, report.notes) == ("gt", 1.0, ())
+    assert [one.outlier.exposure for one in right.photographs] == [k == 2 for k in range(6)]
+    assert [(means.photographs, means.count) for means in right.means] == [("fitted", 5), ("held out", 1)]
+    assert report.photographs[5].held_out
+    assert report.scenes[1].light == (-0.3, 0.1, 2.0)
+    command = [program, "photo", "--capture", str(captured), *map_to_text(paths), "--hold-out", "5"]
+    printed = {
+        output: subprocess.run([*command, "--format", output], check=True, capture_output=True, text=True).stdout
+        for output in ("text", "json", "csv")
+    }
+    assert report.to_dict() == json.loads(printed["json"])
+    assert str(report) + "\n" == printed["text"]
+    assert_is_csv(report.to_pandas(), printed["csv"])
+    assert set(report.to_dict()) <= set(dir(report))
+    each = svbrdf.capture(captured / "capture.json", paths[0], exposure="photograph")
+    assert each.results[0].photographs[2].factor == pytest.approx(0.5)
+    with pytest.raises(svbrdf.Error, match="unknown photograph `7`; use one of: 0.npy, 1.npy"):
+        svbrdf.capture(captured, paths, hold_out=["7"])
+    with pytest.raises(svbrdf.Error, match="unknown exposure `none`; use one of: capture, photograph"):
+        svbrdf.capture(captured, paths, exposure="none")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="clip: expected a number above 0, found 0"):
+        svbrdf.capture(captured, paths, clip=0)

@@ -156,7 +156,7 @@ impl Cli {
             Subcommands::Worst(args) => worst::run(&args, given),
             Subcommands::Map(args) => map::run(&args, given),
             Subcommands::Metrics(args) => metrics::run(&args, given),
-            Subcommands::Photo(args) => photo::run(&args, given),
+            Subcommands::Photo(args) => photo::run(args, given),
             Subcommands::Study(args) => study::run(&args, given),
             Subcommands::Info(args) => info::run(&args, given),
             Subcommands::Convert(args) => convert::run(&args),

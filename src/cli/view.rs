@@ -7,6 +7,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
 #[cfg(feature = "viewer")]
 use svbrdf_core::model::scene::Scene;
+use svbrdf_files::capture::Capture;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 #[cfg(feature = "viewer")]
@@ -22,7 +23,8 @@ use super::output::exit::tell;
     scenes of the loss")))]
 #[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
 pub struct ViewArgs {
-    /// Compares renderings with this photograph, in the place of the ground truth
+    /// Compares renderings with this photograph, in the place of the ground truth; or with those of a capture: its folder, or the
+    /// file that lists them
     #[arg(long, value_name = "FILE")]
     photo: Option<PathBuf>,
 
@@ -47,6 +49,9 @@ pub fn run(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
         [path, ..] if Session::is_named(path) => given.check(&modes::SESSION)?,
         [] | [_] => given.check(&modes::NO_PREDICTION)?,
         _ => {}
+    }
+    if args.photo.as_deref().is_some_and(Capture::is_named) {
+        given.check(&modes::VIEW_CAPTURE)?;
     }
     let closed = open_window(args);
     if let Err(CommandError::Library(Error::NoWindow { .. } | Error::NoAdapter { .. })) = closed {
@@ -91,6 +96,11 @@ fn open_window(args: ViewArgs) -> Result<(), CommandError> {
 #[cfg(feature = "viewer")]
 fn photograph_of(args: &ViewArgs) -> Result<Option<(SessionPhotograph, Option<Scene>)>, CommandError> {
     let Some(path) = args.photo.clone() else { return Ok(None) };
+    if Capture::is_named(&path) {
+        let capture = Capture::read(&path)?;
+        let scene = capture.photographs.first().map(|one| one.scene);
+        return Ok(capture.session_photograph(0).map(|photograph| (photograph, scene)));
+    }
     let scene = args.photo_scene.specified()?;
     Ok(Some((args.photo_reading.of_session(path), scene)))
 }

@@ -100,6 +100,11 @@ pub enum Error {
         finite, light and view above the plane", path.display())]
     BadScene { path: PathBuf, problem: String },
 
+    /// A capture cannot be used: a folder of photographs with their lights and views.
+    #[error("{} is not a usable capture: {problem}; expected a folder with capture.json, or with the JSON file of a MaterialGAN \
+        capture", path.display())]
+    BadCapture { path: PathBuf, problem: String },
+
     /// A loss is above the limit that was given for it.
     #[error("{name} has a loss of {loss}, above the limit of {limit}")]
     AboveLimit { name: String, loss: f64, limit: f64 },

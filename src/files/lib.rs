@@ -18,6 +18,7 @@
 //! ```
 
 pub mod atomic;
+pub mod capture;
 pub mod dataset;
 pub mod export;
 pub mod inputs;

@@ -2,13 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
-use svbrdf_core::model::scene::{Kind, Scene, SceneFile};
+use svbrdf_core::model::scene::{Scene, SceneFile};
 
 use crate::atomic::Destination;
+use crate::capture::Calibration;
 use crate::open::NamedFile;
 use crate::read::Sidecar;
 use crate::session::Session;
@@ -69,8 +68,8 @@ pub fn read_one(paths: &[PathBuf]) -> Result<Option<FileScenes>, Error> {
 }
 
 fn parse(text: &str) -> Result<Vec<Scene>, String> {
-    let scenes = match serde_json::from_str::<Capture>(text) {
-        Ok(capture) => capture.scenes()?,
+    let scenes = match serde_json::from_str::<Calibration>(text) {
+        Ok(calibration) => calibration.scenes()?,
         Err(_) => serde_json::from_str::<SceneFile>(text).map_err(|e| e.to_string())?.scenes,
     };
     if scenes.is_empty() {
@@ -82,38 +81,10 @@ fn parse(text: &str) -> Result<Vec<Scene>, String> {
     Ok(scenes)
 }
 
-/// The calibration of photographs (Guo et al. 2020, MaterialGAN).
-#[derive(Debug, Deserialize)]
-struct Capture {
-    #[serde(alias = "image_size")]
-    im_size: f64,
-    camera_pos: Vec<[f64; 3]>,
-    light_pos: Vec<[f64; 3]>,
-    idx: Option<Vec<usize>>,
-}
-
-impl Capture {
-    fn scenes(&self) -> Result<Vec<Scene>, String> {
-        if !self.im_size.is_finite() || self.im_size <= 0.0 {
-            return Err(format!("its im_size is {}, not a width", self.im_size));
-        }
-        if self.camera_pos.len() != self.light_pos.len() {
-            let [cameras, lights] = [self.camera_pos.len(), self.light_pos.len()];
-            return Err(format!("it lists {cameras} camera_pos and {lights} light_pos"));
-        }
-        let order = self.idx.clone().unwrap_or_else(|| (0..self.camera_pos.len()).collect());
-        let scaled = |position: [f64; 3]| position.map(|c| c * 2.0 / self.im_size);
-        let scene = |index: usize| {
-            let missing = || format!("its idx names position {index} of {}", self.camera_pos.len());
-            let camera = *self.camera_pos.get(index).ok_or_else(missing)?;
-            Ok(Scene { kind: Kind::Near, view: scaled(camera), light: scaled(self.light_pos[index]) })
-        };
-        order.into_iter().map(scene).collect()
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use svbrdf_core::model::scene::Kind;
+
     use super::*;
 
     const CAPTURE: &str = r#"{"im_size": 4, "idx": [2, 0], "camera_pos": [[-3, 3, 16], [0, 3, 16], [3, 1, 16]],

@@ -76,6 +76,9 @@ pub struct SessionPhotograph {
     /// Whether the falloff of the light is divided out.
     #[serde(default)]
     pub falloff: bool,
+    /// The file that lists the capture to which it belongs. In a file, it is relative to the folder of the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub capture: Option<PathBuf>,
 }
 
 impl Session {
@@ -112,6 +115,8 @@ impl Session {
         }
         if let Some(photograph) = &mut session.photograph {
             photograph.path = named(&photograph.path, path)?;
+            photograph.capture =
+                photograph.capture.as_ref().map(|capture| named(capture, path)).transpose()?;
         }
         for material in &mut session.materials {
             match (&mut material.path, material.built_in) {
@@ -127,7 +132,10 @@ impl Session {
     pub fn outside(&self, path: &Path) -> Vec<&Path> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let materials = self.materials.iter().filter_map(|material| material.path.as_deref());
-        let photograph = self.photograph.iter().map(|photograph| photograph.path.as_path());
+        let photograph = self.photograph.iter();
+        let photograph = photograph
+            .flat_map(|photograph| std::iter::once(&photograph.path).chain(&photograph.capture))
+            .map(PathBuf::as_path);
         materials.chain(photograph).filter(|file| is_outside(file, folder)).collect()
     }
 
@@ -146,7 +154,9 @@ impl Session {
             material.path = material.path.as_ref().map(|path| relative(&absolute(path), &folder));
         }
         if let Some(photograph) = &mut session.photograph {
-            photograph.path = relative(&absolute(&photograph.path), &folder);
+            let relative = |path: &PathBuf| relative(&absolute(path), &folder);
+            photograph.path = relative(&photograph.path);
+            photograph.capture = photograph.capture.as_ref().map(relative);
         }
         let failed = |e: serde_json::Error| Error::Internal(format!("a session cannot be written: {e}"));
         let mut value = serde_json::to_value(&session).map_err(failed)?;
@@ -195,7 +205,7 @@ mod tests {
     fn photograph(path: PathBuf) -> SessionPhotograph {
         let read = PhotographOptions { transfer: Some(Transfer::Srgb), clip: None };
         let corners = Some([[1.0, 2.0], [90.5, 1.0], [88.0, 70.0], [3.0, 69.0]]);
-        SessionPhotograph { path, read, corners, falloff: true }
+        SessionPhotograph { path, read, corners, falloff: true, capture: None }
     }
 
     #[test]

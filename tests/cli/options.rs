@@ -36,7 +36,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 42] = [
+const MODES: [(&str, Shows); 43] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -71,6 +71,7 @@ const MODES: [(&str, Shows); 42] = [
     ("metrics gt.png tilted.png --protocol matfusion", Shows::Everything),
     ("photo photo.png gt.png a.png --scene one.json", Shows::Everything),
     ("photo photo.png gt.png --flash --fov 45 -o x.png", Shows::Everything),
+    ("photo --capture cap gt.png a.png", Shows::Everything),
     ("info gt.png", Shows::Everything),
     ("convert gt.png x.png", Shows::Everything),
     ("convert gt.png x.exr", Shows::Everything),
@@ -88,6 +89,7 @@ const MODES: [(&str, Shows); 42] = [
         "view gt.png a.png --photo photo.png --flash --fov 45",
         Shows::Refusals(&[&["verbose", "scene", "scene-number"]]),
     ),
+    ("view gt.png a.png --photo cap", Shows::Refusals(&[&WITHOUT_PHOTO])),
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
@@ -135,6 +137,9 @@ const VALUES: [(&str, &str); 70] = [
     ("exposure", "1"),
     ("show", "diffuse"),
     ("photo difference", "absolute"),
+    ("photo exposure", "photograph"),
+    ("capture", "cap"),
+    ("hold-out", "photo"),
     ("range", "0.125"),
     ("columns", "roughness"),
     ("journal", "kept.jsonl"),
@@ -196,6 +201,13 @@ fn fixture() -> TempDir {
     });
     fs::write(of(SESSION), session.to_string()).unwrap();
     succeed(folder.path(), "render b.png -o photo.png");
+    fs::create_dir(of("cap")).unwrap();
+    fs::copy(of("photo.png"), of("cap/photo.png")).unwrap();
+    succeed(folder.path(), "render b.png -o cap/second.png --light 0.5,0.5,1");
+    let photographs =
+        ["photo", "second"].map(|name| format!(r#"{{"file": "{name}.png", "scene": {scene}}}"#));
+    let capture = format!(r#"{{"photographs": [{}]}}"#, photographs.join(", "));
+    fs::write(of("cap/capture.json"), capture).unwrap();
     let pixels = |name: &str| image::open(of(name)).unwrap().into_rgb8();
     let (top, bottom) = (pixels("gt.png"), pixels("b.png"));
     let at = |x, y| if y < 8 { *top.get_pixel(x, y) } else { *bottom.get_pixel(x, y - 8) };

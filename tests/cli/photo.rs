@@ -132,3 +132,109 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
     let sizes = json(at, "photo.png gt.png big.png --scene two.json --scene-number 1");
     assert_eq!(sizes["results"].as_array().unwrap().len(), 2);
 }
+
+/// A capture in `cap` of `gt.png`, in six scenes: pictures of 8 bits, of which `4.png` is a stop darker.
+fn captured() -> TempDir {
+    let folder = folder();
+    let at = folder.path();
+    std::fs::create_dir(at.join("cap")).unwrap();
+    let mut listed = Vec::new();
+    for (k, light) in
+        ["-0.5,0.5,1", "0,0.5,1.2", "0.5,0.5,1", "-0.5,0,1.5", "0,0,1", "0.5,-0.5,1.1"].iter().enumerate()
+    {
+        let exposure = if k == 4 { -2 } else { -1 };
+        let args = format!("render gt.png -o cap/{k}.png --view 0,0,2 --light {light} --exposure {exposure}");
+        succeed(at, &args);
+        listed.push(format!(
+            r#"{{"file": "{k}.png", "scene": {{"kind": "near", "view": [0, 0, 2], "light": [{light}]}}}}"#
+        ));
+    }
+    let text = format!(r#"{{"photographs": [{}]}}"#, listed.join(", "));
+    std::fs::write(at.join("cap/capture.json"), text).unwrap();
+    folder
+}
+
+#[test]
+fn a_capture_has_one_exposure_and_names_the_photograph_that_is_off() {
+    let folder = captured();
+    let at = folder.path();
+    let found = json(at, "--capture cap b.png gt.png a.png");
+    let names: Vec<_> = found["results"].as_array().unwrap().iter().map(|r| r["material"].clone()).collect();
+    assert_eq!(names, ["gt", "a", "b"]);
+    let right = &found["results"][0];
+    let ev = right["exposure_ev"].as_f64().unwrap();
+    assert!((ev - 1.0).abs() < 0.02, "{ev}");
+    let marks = right["photographs"].as_array().unwrap().iter().map(|one| one["outlier"]["exposure"] == true);
+    assert_eq!(marks.collect::<Vec<_>>(), [false, false, false, false, true, false]);
+    assert_eq!(found["exposure"], "capture");
+    // The JSON is a scene file.
+    std::fs::write(at.join("scenes.json"), found.to_string()).unwrap();
+    succeed(at, "loss gt.png a.png --scenes scenes.json");
+
+    let text = succeed(at, "photo --capture cap/capture.json gt.png a.png --hold-out 4,5.png");
+    for words in [
+        "differences from the 6 photographs of cap/capture.json, sRGB since it stores integers",
+        "one exposure for all photographs, not fitted to those that are held out: 4.png, 5.png",
+        "4.png is an outlier for 2 of 2 materials (numbers of gt): the exposure that fits it alone is +1.0",
+        "2 held out",
+        "outlier, held out",
+    ] {
+        assert!(text.contains(words), "{words} is missing in\n{text}");
+    }
+    let csv = succeed(at, "photo --capture cap gt.png a.png --exposure photograph --format csv");
+    let mut reader = csv::Reader::from_reader(csv.as_bytes());
+    let heading = reader.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let cell = |row: usize, name: &str| &rows[row][heading.iter().position(|head| head == name).unwrap()];
+    assert_eq!((rows.len(), cell(0, "photographs"), cell(0, "factor")), (2 * 7, "all", ""));
+    assert_eq!(
+        (cell(5, "photograph"), cell(5, "outlier"), cell(5, "exposure")),
+        ("4.png", "true", "photograph")
+    );
+    let [ev, own] = ["exposure_ev", "own_exposure_ev"].map(|name| cell(5, name).parse::<f64>().unwrap());
+    assert!(ev == own && (ev - 2.0).abs() < 0.02, "{ev}, {own}");
+}
+
+#[test]
+fn a_capture_that_cannot_be_used_is_refused_with_what_to_do() {
+    let folder = captured();
+    let at = folder.path();
+    let text = std::fs::read_to_string(at.join("cap/capture.json")).unwrap();
+    let write = |name: &str, from: &str, to: &str| {
+        std::fs::create_dir(at.join(name)).unwrap();
+        std::fs::write(at.join(name).join("capture.json"), text.replace(from, to)).unwrap();
+    };
+    write("absent", "", "");
+    write("absolute", "\"0.png\"", "\"/0.png\"");
+    write("above", "\"file\": \"", "\"file\": \"../cap/");
+    write("corners", "\"photographs\"", "\"corners\": [[0, 0], [9, 0], [8, 8], [0, 8]], \"photographs\"");
+    std::fs::create_dir(at.join("empty")).unwrap();
+    for (args, code, words) in [
+        ("--capture cap", 64, "required"),
+        ("--capture empty gt.png", 1, "empty is not a usable capture: found neither of them"),
+        ("--capture nowhere gt.png", 1, "cannot read nowhere"),
+        ("--capture absent gt.png", 1, "0.png"),
+        ("--capture absolute gt.png", 1, "--allow-outside"),
+        ("--capture one.json gt.png", 1, "unknown field `scenes`"),
+        ("--capture cap gt.png --hold-out 9.png", 1, "unknown photograph `9.png`; use one of: 0.png, 1.png"),
+        ("--capture cap gt.png --exposure none", 64, "capture, photograph"),
+        ("--capture cap gt.png --scene one.json", 64, "cannot be used with"),
+        ("--capture cap gt.png -o x.png", 64, "cannot be used with"),
+        ("photo.png gt.png --flash --fov 45 --hold-out 1", 64, "--capture"),
+        ("--capture cap gt.png --clip 0.0001", 1, "lit and not clipped"),
+    ] {
+        let stderr = fail(at, &format!("photo {args}"), code);
+        assert!(stderr.contains(words), "{args}: {stderr}");
+    }
+    // The area of the corners is judged by the photograph.
+    std::fs::copy(at.join("cap/0.png"), at.join("corners/0.png")).unwrap();
+    assert!(
+        fail(at, "photo --capture corners gt.png", 1)
+            .contains("within the 8 x 8 pixels of the photograph, found 9,0")
+    );
+    // A photograph outside of the folder is named.
+    let output = super::run_in(at, "photo --capture above gt.png");
+    assert!(output.status.success());
+    let stderr = super::text(&output.stderr);
+    assert!(stderr.contains("0.png lies outside of the folder of above/capture.json"), "{stderr}");
+}

@@ -2,6 +2,7 @@
 
 use exr::prelude::Compression;
 use svbrdf_core::model::scene::SceneFile;
+use svbrdf_files::capture::Capture;
 use svbrdf_files::read::read_photograph;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::{Session, SessionMaterial};
@@ -19,6 +20,12 @@ const SIDECAR: &str = r#"{"albedo": "srgb", "dielectric-f0": 0.05, "grid": "4x1"
 
 const SCENES: &str = r#"{"scenes": [{"light": [0.1, 0.2, 1.5], "view": [0, 0, 2], "kind": "near"},
     {"light": [0.1, 0.2, 1.5e0], "view": [-0.3, 0, 2], "kind": "distant"}]}"#;
+
+const CAPTURE: &str = r#"{"falloff": true, "transfer": "srgb", "clip": 0.98, "photographs": [{"file": "packed.png",
+    "scene": {"kind": "near", "view": [0, 0, 2], "light": [0.1, 0.2, 1.5]}, "corners": [[0, 0], [4, 0], [4, 4], [0, 4]]}]}"#;
+
+const CALIBRATION: &str = r#"{"target_dir": "target", "im_size": 6.8, "idx": [1, 0], "camera_pos": [[-3, 3, 16], [0, 3, 16]],
+    "light_pos": [[-3, 3, 16], [0, 3, 16]], "light_pow": [1500, 1500, 1500]}"#;
 
 fn pictures() -> Vec<Vec<u8>> {
     use Compression::{B44, B44A, DWAA, DWAB, PIZ, PXR24, RLE, Uncompressed, ZIP1, ZIP16};
@@ -81,6 +88,7 @@ fn seeds() -> Vec<(&'static str, Vec<Vec<u8>>)> {
         ("picture", pictures()),
         ("photograph", pictures()),
         ("scene_file", vec![text(SCENES)]),
+        ("capture", [CAPTURE, CALIBRATION].map(text).into()),
         ("mtlx", [GLTF_PBR, STANDARD_SURFACE, OPEN_PBR, USD].map(text).into()),
         ("mtl", vec![text(mtl::PBR)]),
         ("gltf", vec![gltf_text(), text(GLTF_OF_EXTENSIONS), text(GLTF_OF_GLOSS)]),
@@ -101,6 +109,7 @@ fn open(target: &str, folder: &Path, bytes: &[u8]) -> Result<(), Error> {
     match target {
         "picture" => read_bytes::<f32>("fuzzed", bytes, &STRIP).map(drop),
         "photograph" => read_photograph(&put("fuzzed.png"), &Default::default()).map(drop),
+        "capture" => Capture::read(&put("fuzzed.json")).map(drop),
         "scene_file" => scene_file::read(&put("fuzzed.json")).map(drop),
         "session" => Session::read(&put("fuzzed.svbrdf-session.json")).map(drop),
         "sidecar" => {

@@ -46,7 +46,7 @@ pub(super) fn photograph(folder: &Path) -> PathBuf {
 
 fn source(path: &Path) -> SessionPhotograph {
     let read = PhotographOptions::default();
-    SessionPhotograph { path: path.to_owned(), read, corners: Some(CORNERS), falloff: false }
+    SessionPhotograph { path: path.to_owned(), read, corners: Some(CORNERS), falloff: false, capture: None }
 }
 
 /// The comparisons of the core.

@@ -172,8 +172,13 @@ fn photographed() {
     let (path, corners) = photograph_from_the_side(folder.path());
     let mut window = built_in();
     window.set_size(SIZE);
-    let photograph =
-        SessionPhotograph { path, read: Default::default(), corners: Some(corners), falloff: false };
+    let photograph = SessionPhotograph {
+        path,
+        read: Default::default(),
+        corners: Some(corners),
+        falloff: false,
+        capture: None,
+    };
     let light = PhotographLight::Flash { fov_degrees: 45.0 };
     apply(&mut window, PhotographCommand::Open { photograph, light });
     window.get_by_label("Light and view").click();

@@ -16,6 +16,15 @@ are those of the command line, bit for bit. `svbrdf.torch` has the same loss for
 """
 
 from ._blame import Attribution, BlameReport, MapShare, blame
+from ._capture import (
+    CaptureMeans,
+    CaptureMeasure,
+    CaptureOutlier,
+    CapturePhotograph,
+    CaptureReport,
+    CaptureResult,
+    capture,
+)
 from ._core import Error, __version__
 from ._dataset import DatasetLoss, DatasetReport, MethodSummary, MetricSummary, rank_dataset
 from ._diagnose import DiagnoseReport, Diagnosis, Finding, diagnose
@@ -35,6 +44,12 @@ __all__ = [
     "AssumptionWarning",
     "Attribution",
     "BlameReport",
+    "CaptureMeans",
+    "CaptureMeasure",
+    "CaptureOutlier",
+    "CapturePhotograph",
+    "CaptureReport",
+    "CaptureResult",
     "Convention",
     "DatasetLoss",
     "DatasetReport",
@@ -70,6 +85,7 @@ __all__ = [
     "__version__",
     "blame",
     "built_in",
+    "capture",
     "diagnose",
     "figure",
     "loss",

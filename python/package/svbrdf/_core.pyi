@@ -60,6 +60,10 @@ class PhotoItems(TypedDict):
     notes: list[str]
     differences: list[bytearray]
 
+class CaptureItems(TypedDict):
+    views: Views
+    notes: list[str]
+
 def loss(
     ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
 ) -> Views: ...
@@ -104,6 +108,7 @@ def metrics(
     ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
 ) -> Views: ...
 def photo(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> PhotoItems: ...
+def capture(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> CaptureItems: ...
 def rank_dataset(asked: Mapping[str, Any], progress: Report) -> Views: ...
 
 class PageItems(TypedDict):

@@ -79,7 +79,7 @@ def photo(
     flash: bool = False,
     fov: float | None = None,
     corners: Sequence[tuple[float, float]] | None = None,
-    transfer: Literal["linear", "srgb"] | None = None,
+    transfer: Literal["linear", "srgb", "gamma2.2"] | None = None,
     clip: float | None = None,
     falloff: bool = False,
     difference: Literal["log", "absolute", "relative"] = "log",

@@ -129,3 +129,8 @@ pub const INFO: Mode =
 /// `view`.
 pub const VIEW: Mode =
     Mode { reason: "the window lists what is noticed and assumed", unused: &[&["verbose"]] };
+/// `view --photo` with a capture.
+pub const VIEW_CAPTURE: Mode = Mode {
+    reason: "a capture lists the lights and views of its photographs, and how they are read",
+    unused: &[&["scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"]],
+};

@@ -50,7 +50,7 @@ pub struct PhotoReadingArgs {
     corners: Option<Vec<[f64; 2]>>,
 
     /// Transfer curve of the photograph [default: linear for floats and PNG files that declare it, srgb for other integers]
-    #[arg(long, value_name = "linear|srgb", requires = "photo")]
+    #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "photo")]
     transfer: Option<Transfer>,
 
     /// Stored value from which on a pixel is clipped, where 1 is the largest integer [default: 1, none for floats]
@@ -113,7 +113,7 @@ impl PhotoReadingArgs {
     #[cfg(feature = "viewer")]
     pub fn of_session(&self, path: PathBuf) -> SessionPhotograph {
         let corners = self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok());
-        SessionPhotograph { path, read: self.options(), corners, falloff: self.falloff }
+        SessionPhotograph { path, read: self.options(), corners, falloff: self.falloff, capture: None }
     }
 
     /// The corners in a photograph of `size`.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_files::capture::CaptureExposure;
 
 use crate::cli::args::ComparisonArgs;
 use crate::cli::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
@@ -14,9 +15,18 @@ use crate::cli::output::report::ReportFormat;
 /// exposure of the rendering, and is printed: the median of rendering / photograph. Then the log, absolute and relative
 /// differences are printed, the material with the smallest mean log difference first. Clipped pixels are left out. Beyond the
 /// four corners, nothing is aligned or calibrated.
+///
+/// With --capture: each material is compared with all photographs of a capture, which lists their lights and views. One factor for
+/// all photographs is fitted, and the mean log difference, RMSE and SSIM are printed for each photograph and as means with their
+/// intervals over photographs. A photograph far from the others is named. docs/photographs.md describes the files of a capture.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf photo photo.jpg a.png b.png --flash --fov 45")]
-#[command(mut_arg("ground_truth", |arg| arg.value_name("MATERIAL").required(true).help(
+#[command(
+    override_usage = "svbrdf photo [OPTIONS] <PHOTO> <MATERIAL>...\n       svbrdf photo [OPTIONS] --capture <FOLDER> <MATERIAL>..."
+)]
+#[command(
+    after_help = "Examples:\n  svbrdf photo photo.jpg a.png b.png --flash --fov 45\n  svbrdf photo --capture card_blue a.png b.png"
+)]
+#[command(mut_arg("ground_truth", |arg| arg.value_name("MATERIAL").required_unless_present("capture").help(
     "Material: a packed or layered image, a folder, a name prefix, or a session file of the window")))]
 #[command(mut_arg("predictions", |arg| arg.value_name("MATERIAL").help("More materials")))]
 pub struct PhotoArgs {
@@ -25,13 +35,16 @@ pub struct PhotoArgs {
     pub photo: PathBuf,
 
     #[command(flatten)]
+    pub capture: PhotoCaptureArgs,
+
+    #[command(flatten)]
     pub scene: PhotoSceneArgs,
 
     #[command(flatten)]
     pub reading: PhotoReadingArgs,
 
     /// Writes the difference of each material: .exr for numbers, .png for colours
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", conflicts_with = "capture")]
     pub output: Option<PathBuf>,
 
     /// The difference that is written: log, absolute or relative
@@ -44,4 +57,32 @@ pub struct PhotoArgs {
 
     #[command(flatten)]
     pub comparison: ComparisonArgs,
+}
+
+/// A capture in the place of the photograph.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Photograph")]
+pub struct PhotoCaptureArgs {
+    /// Folder of a capture, or the file that lists its photographs: capture.json, or the JSON file of MaterialGAN (render.json)
+    #[arg(long, value_name = "FOLDER")]
+    #[arg(conflicts_with_all = ["scene", "scene_number", "flash", "fov", "corners", "falloff"])]
+    pub capture: Option<PathBuf>,
+
+    /// What one factor is fitted to: capture (all photographs) or photograph (each)
+    #[arg(long, value_name = "WHAT", default_value = "capture", requires = "capture")]
+    pub exposure: CaptureExposure,
+
+    /// Photographs to which the exposure is not fitted; the others and these have means of their own
+    #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "capture")]
+    pub hold_out: Vec<String>,
+}
+
+impl PhotoArgs {
+    /// The first argument without an option, which is a material where there is a capture, put before the others.
+    pub fn shift_materials(&mut self) {
+        let materials = &mut self.comparison.materials;
+        if let Some(second) = materials.ground_truth.replace(std::mem::take(&mut self.photo)) {
+            materials.predictions.insert(0, second);
+        }
+    }
 }

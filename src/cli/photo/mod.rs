@@ -1,6 +1,7 @@
 //! `svbrdf photo`: renderings against a photograph.
 
 mod args;
+mod capture;
 mod output;
 
 use svbrdf_core::error::Error;
@@ -21,7 +22,14 @@ pub use args::PhotoArgs;
 ///
 /// # Errors
 /// Where the photograph, a scene or a material cannot be read or used, or the file cannot be written.
-pub fn run(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
+pub fn run(mut args: PhotoArgs, given: &Given) -> Result<(), CommandError> {
+    match args.capture.capture.take() {
+        Some(capture) => capture::run(args, &capture, given),
+        None => of_photograph(&args, given),
+    }
+}
+
+fn of_photograph(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
     let destination = args.output.as_deref().map(Destination::<PictureFormat>::new).transpose()?;
     let known = PhotoReport::DIFFERENCES;
     if !known.contains(&args.difference) {
@@ -60,20 +68,30 @@ pub fn run(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
     Ok(put(&args.format.write(&report)?)?)
 }
 
-/// Notes for each size of `materials` where the whole photograph of size (`w`, `h`) has another shape.
-fn note_stretching(args: &PhotoArgs, [w, h]: [usize; 2], materials: &[Material<f32>]) {
-    let mut sizes: Vec<[usize; 2]> = Vec::new();
-    for size in materials.iter().map(Material::size) {
-        let [width, height] = size;
+/// Notes for each size of `materials` where the whole photograph has another shape.
+fn note_stretching(args: &PhotoArgs, size: [usize; 2], materials: &[Material<f32>]) {
+    if args.reading.is_whole() {
+        let remedy = "--corners gives the corners of the material in it";
+        stretched(size, materials.iter().map(Material::size), remedy).iter().for_each(|note| tell(note));
+    }
+}
+
+/// A note about each of `sizes` of materials where a photograph of the size (`w`, `h`) has another shape.
+fn stretched([w, h]: [usize; 2], sizes: impl Iterator<Item = [usize; 2]>, remedy: &str) -> Vec<String> {
+    let mut noted: Vec<[usize; 2]> = Vec::new();
+    for [width, height] in sizes {
         let ratio = (w * height) as f64 / (h * width) as f64;
-        if args.reading.is_whole() && !(0.99..=1.01).contains(&ratio) && !sizes.contains(&size) {
-            sizes.push(size);
-            tell(&format!(
-                "note: all {w} x {h} pixels of the photograph are taken as the {width} x {height} texels of the material; \
-                 --corners gives the corners of the material in it"
-            ));
+        if !(0.99..=1.01).contains(&ratio) && !noted.contains(&[width, height]) {
+            noted.push([width, height]);
         }
     }
+    let note = |[width, height]: [usize; 2]| {
+        format!(
+            "note: all {w} x {h} pixels of the photograph are taken as the {width} x {height} texels of the material; \
+             {remedy}"
+        )
+    };
+    noted.into_iter().map(note).collect()
 }
 
 fn write_differences(

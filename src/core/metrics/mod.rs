@@ -3,11 +3,13 @@
 mod dome_points;
 mod maps;
 mod matfusion;
+mod pictures;
 mod renderings;
 mod ssim;
 
 pub use maps::of_maps;
 pub use matfusion::{matfusion_renderings, of_matfusion};
+pub use pictures::{PictureMetrics, of_pictures};
 pub use renderings::of_renderings;
 
 /// A number and what it is.

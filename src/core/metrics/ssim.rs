@@ -20,10 +20,23 @@ pub(super) fn ssim11(pairs: &[[f64; 2]], [width, height]: [usize; 2]) -> Option<
     }
     let planes = pairs.chunks_exact(width * height);
     let count = planes.len() * (width - WINDOW + 1) * (height - WINDOW + 1);
-    Some(planes.map(|plane| sum_of_plane(plane, width)).sum::<f64>() / count as f64)
+    let sum = |plane| similarities(plane, width).iter().sum::<f64>();
+    Some(planes.map(sum).sum::<f64>() / count as f64)
 }
 
-fn sum_of_plane(pairs: &[[f64; 2]], width: usize) -> f64 {
+/// [`ssim11`] over the windows without NaN; `None` where there is none.
+pub(super) fn ssim11_without_nan(pairs: &[[f64; 2]], [width, height]: [usize; 2]) -> Option<f64> {
+    if width < WINDOW || height < WINDOW {
+        return None;
+    }
+    let planes = pairs.chunks_exact(width * height);
+    let known = planes.flat_map(|plane| similarities(plane, width)).filter(|value| !value.is_nan());
+    let (sum, count) = known.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / count as f64)
+}
+
+/// The similarity of each window that lies inside a plane.
+fn similarities(pairs: &[[f64; 2]], width: usize) -> Vec<f64> {
     let weighted = |value: fn(&[f64; 2]) -> f64| blurred(pairs.iter().map(value).collect(), width);
     let (a, b) = (weighted(|[a, _]| *a), weighted(|[_, b]| *b));
     let (aa, bb, ab) = (weighted(|[a, _]| a * a), weighted(|[_, b]| b * b), weighted(|[a, b]| a * b));
@@ -34,7 +47,7 @@ fn sum_of_plane(pairs: &[[f64; 2]], width: usize) -> f64 {
         (2.0 * mean_a * mean_b + C1) * (2.0 * of_both + C2)
             / ((mean_a * mean_a + mean_b * mean_b + C1) * (of_a + of_b + C2))
     };
-    (0..a.len()).map(similarity).sum()
+    (0..a.len()).map(similarity).collect()
 }
 
 /// The weighted means of the windows that lie inside a plane.

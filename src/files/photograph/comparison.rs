@@ -10,7 +10,7 @@ use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 
-use super::exposure;
+use super::exposure::Ratios;
 use super::rectified::Rectified;
 
 /// A rendering and the photograph at its exposure.
@@ -36,6 +36,23 @@ impl Rectified {
         convention: &Convention,
         progress: &Progress,
     ) -> Result<PhotographComparison, Error> {
+        let rendering = self.rendering(material, scene, convention, progress)?;
+        let factor = self.ratios(&rendering, convention.epsilon).factor();
+        let factor = factor.ok_or_else(|| self.no_exposure(material.name()))?;
+        Ok(self.at(factor, rendering, convention.epsilon))
+    }
+
+    /// Renders `material`, which has the size of the photograph's texels.
+    ///
+    /// # Errors
+    /// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::Cancelled`].
+    pub(crate) fn rendering(
+        &self,
+        material: &Material<f32>,
+        scene: &Scene,
+        convention: &Convention,
+        progress: &Progress,
+    ) -> Result<Image<f32>, Error> {
         let size = [self.image.width, self.image.height];
         if material.size() != size {
             return Err(Error::SizesDiffer {
@@ -46,20 +63,30 @@ impl Rectified {
                 remedy: "rectify the photograph to the size of the material",
             });
         }
-        let rendering = render::render_f32(material, scene, convention, progress)?;
-        let factor = exposure::factor(&self.image, &rendering, convention.epsilon);
-        let factor = factor.ok_or_else(|| Error::NoExposure {
-            name: material.name().to_owned(),
-            problem: match self.clipped() == self.image.pixels.len() {
-                true => "every texel of the photograph is clipped".to_owned(),
-                false => "no part of the material is lit in both".to_owned(),
-            },
-        })?;
+        render::render_f32(material, scene, convention, progress)
+    }
+
+    /// The ratios of `rendering` and the photograph.
+    pub(crate) fn ratios(&self, rendering: &Image<f32>, epsilon: f64) -> Ratios {
+        Ratios::of(&self.image, rendering, epsilon)
+    }
+
+    /// The photograph, multiplied by `factor`, and `rendering`.
+    pub(crate) fn at(&self, factor: f64, rendering: Image<f32>, epsilon: f64) -> PhotographComparison {
         // A stored value below 0 is noise: there is no negative radiance.
         let expose = |value: f32| if value.is_nan() { value } else { (value * factor as f32).max(0.0) };
         let pixels = self.image.pixels.iter().map(|pixel| pixel.map(expose)).collect();
-        let photograph = Image { width: size[0], height: size[1], pixels };
-        Ok(PhotographComparison { factor, photograph, rendering, epsilon: convention.epsilon })
+        let photograph = Image { width: self.image.width, height: self.image.height, pixels };
+        PhotographComparison { factor, photograph, rendering, epsilon }
+    }
+
+    /// The error of a photograph that has no factor for the material `name`.
+    fn no_exposure(&self, name: &str) -> Error {
+        let problem = match self.clipped() == self.image.pixels.len() {
+            true => "every texel of the photograph is clipped",
+            false => "no part of the material is lit in both",
+        };
+        Error::NoExposure { name: name.to_owned(), problem: problem.to_owned() }
     }
 }
 

@@ -41,6 +41,7 @@ mod report;
 
 pub use comparison::PhotographComparison;
 pub use corners::Corners;
+pub(crate) use exposure::Ratios;
 pub use rectified::Rectified;
 pub use report::{PhotoReport, PhotoResult, PhotoSetting};
 

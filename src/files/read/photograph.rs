@@ -24,6 +24,9 @@ pub enum Transfer {
     Linear,
     /// The curve of IEC 61966-2-1.
     Srgb,
+    /// A power of 2.2.
+    #[serde(rename = "gamma2.2")]
+    Gamma22,
 }
 
 /// How a photograph is read.
@@ -52,13 +55,14 @@ pub struct Photograph {
 }
 
 impl Transfer {
-    pub const ALL: [Self; 2] = [Self::Linear, Self::Srgb];
+    pub const ALL: [Self; 3] = [Self::Linear, Self::Srgb, Self::Gamma22];
 
     /// The name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
             Self::Srgb => "srgb",
+            Self::Gamma22 => "gamma2.2",
         }
     }
 
@@ -66,6 +70,7 @@ impl Transfer {
         match self {
             Self::Linear => Albedo::Linear,
             Self::Srgb => Albedo::Srgb,
+            Self::Gamma22 => Albedo::Gamma22,
         }
     }
 }
@@ -75,6 +80,7 @@ impl fmt::Display for Transfer {
         f.write_str(match self {
             Self::Linear => "linear",
             Self::Srgb => "sRGB",
+            Self::Gamma22 => "gamma 2.2",
         })
     }
 }
@@ -105,7 +111,15 @@ impl Photograph {
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`].
 pub fn read_photograph(path: &Path, options: &PhotographOptions) -> Result<Photograph, Error> {
-    let (raster, mut notes) = decode::photograph(&NamedFile::by_user(path))?;
+    read_named_photograph(&NamedFile::by_user(path), options)
+}
+
+/// Reads the photograph `file`, as [`read_photograph`].
+pub(crate) fn read_named_photograph(
+    file: &NamedFile,
+    options: &PhotographOptions,
+) -> Result<Photograph, Error> {
+    let (raster, mut notes) = decode::photograph(file)?;
     let declared_linear = Note::LinearGamma(Subject::Photograph);
     let (transfer, transfer_from) = match options.transfer {
         Some(transfer) => (transfer, "as specified"),
@@ -130,7 +144,10 @@ fn is_clipped(channels: [&Samples; 3], index: usize, clip: f64) -> bool {
 
 fn linear(raster: &Raster, channels: [&Samples; 3], clipped: &[bool], transfer: Transfer) -> Image<f32> {
     let curve = transfer.curve();
-    let [r, g, b] = Samples::decoded_three::<f32>(channels, |value| transfer::linear(value, curve));
+    // A power of a number below 0, which is noise, is NaN.
+    let least = if curve == Albedo::Gamma22 { 0.0 } else { f64::NEG_INFINITY };
+    let [r, g, b] =
+        Samples::decoded_three::<f32>(channels, |value| transfer::linear(value.max(least), curve));
     let pixel = |index: usize| {
         let rgb = [r[index], g[index], b[index]];
         if clipped[index] { rgb.map(|value| if value.is_finite() { value } else { 0.0 }) } else { rgb }

@@ -6,6 +6,7 @@ use eframe::egui;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_files::capture::Capture;
 use svbrdf_files::open::allow_outside;
 use svbrdf_files::photograph::flash;
 use svbrdf_files::scene_file;
@@ -132,13 +133,13 @@ fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
 
 /// Compares renderings with a photograph, under its light and view.
 fn open_photograph(parts: &mut Parts, photograph: SessionPhotograph, light: &PhotographLight) {
-    let scene = match light {
-        PhotographLight::AsNow => Ok(parts.model.view.scene),
-        PhotographLight::Flash { fov_degrees } => flash(*fov_degrees),
-        PhotographLight::File { path, number } => scene_of(path, *number),
+    let opened = if Capture::is_named(&photograph.path) {
+        first_of_capture(&photograph.path)
+    } else {
+        scene_of_photograph(light, parts.model.view.scene).map(|scene| (photograph, scene))
     };
-    match (scene, &mut parts.ui.dialogs.photograph) {
-        (Ok(scene), _) => {
+    match (opened, &mut parts.ui.dialogs.photograph) {
+        (Ok((photograph, scene)), _) => {
             parts.ui.dialogs.photograph = None;
             let stamp = Stamp::of(&photograph.path);
             parts.model.show_photograph(photograph, stamp, Some(scene));
@@ -146,6 +147,23 @@ fn open_photograph(parts: &mut Parts, photograph: SessionPhotograph, light: &Pho
         (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
         (Err(error), None) => parts.model.report([Message::Failed(error)]),
     }
+}
+
+/// Light and view of a photograph; `now` are those of the window.
+fn scene_of_photograph(light: &PhotographLight, now: Scene) -> Result<Scene, Error> {
+    match light {
+        PhotographLight::AsNow => Ok(now),
+        PhotographLight::Flash { fov_degrees } => flash(*fov_degrees),
+        PhotographLight::Scene(scene) => Ok(*scene),
+        PhotographLight::File { path, number } => scene_of(path, *number),
+    }
+}
+
+/// The first photograph of the capture at `path`, with its light and view.
+fn first_of_capture(path: &Path) -> Result<(SessionPhotograph, Scene), Error> {
+    let capture = Capture::read(path)?;
+    let first = capture.session_photograph(0).zip(capture.photographs.first().map(|one| one.scene));
+    first.ok_or_else(|| Error::Internal("a capture without photographs".to_owned()))
 }
 
 fn save_assumptions(parts: &mut Parts, index: usize) {

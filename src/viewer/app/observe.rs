@@ -68,6 +68,13 @@ impl App {
         self.parts.model.photograph.source().and_then(|source| source.corners)
     }
 
+    /// The number of photographs in the filmstrip, once they have been read.
+    pub fn filmstrip_length(&self) -> Option<usize> {
+        let super::parts::Parts { model, jobs, .. } = &self.parts;
+        let displayed = jobs.photograph.displayed(&model.photograph, self.parts.displayed().materials())?;
+        displayed.filmstrip.map(|strip| strip.count())
+    }
+
     /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.
     pub fn displayed_materials(&self) -> Vec<(&str, &Material<f32>)> {
         self.parts.jobs.panes.displayed.iter().map(|one| (one.name(), one.material())).collect()

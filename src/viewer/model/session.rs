@@ -64,8 +64,10 @@ impl Model {
         let view = &self.view;
         let convention = view.convention.clone();
         let mut session = Session::new(materials.collect(), view.scene, convention, view.exposure_ev);
+        let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
         session.photograph = self.photograph.source().map(|source| SessionPhotograph {
-            path: std::path::absolute(&source.path).unwrap_or_else(|_| source.path.clone()),
+            path: absolute(&source.path),
+            capture: source.capture.as_ref().map(absolute),
             ..source.clone()
         });
         let (display, loss) = (Some(view.display.clone()), Some(self.settings.loss.clone()));

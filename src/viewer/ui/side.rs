@@ -35,7 +35,7 @@ pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextu
         let card = PhotographCard { photograph, names, is_compared };
         bare(egui::Panel::bottom("photograph"), ui)
             .resizable(false)
-            .show(ui, |ui| commands.extend(card.ui(ui)));
+            .show(ui, |ui| commands.extend(card.ui(ui, textures)));
     }
     let scroll = egui::ScrollArea::vertical().id_salt(model.settings.tab as usize);
     scroll.auto_shrink([false, false]).show(ui, |ui| {

@@ -1,9 +1,11 @@
 //! Jobs of a photograph in the place of the ground truth: read, brought onto the texels, and compared with every material.
 
 pub mod compared;
+pub mod filmstrip;
 pub mod keys;
 pub mod picture;
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use compared::Photographs;
@@ -23,6 +25,7 @@ use crate::viewer::model::material::source::file_name;
 use crate::viewer::model::view::state::ViewState;
 
 use compared::{ComparedKey, compare, key};
+use filmstrip::Filmstrip;
 use keys::{ReadKey, RectifiedKey};
 
 /// The jobs on the photograph that renderings are compared with.
@@ -32,6 +35,8 @@ pub struct PhotographJobs {
     rectified: Latest<RectifiedKey, Arc<Rectified>>,
     compared: Latest<ComparedKey, Arc<Photographs>>,
     picture: Latest<ReadKey, Arc<Picture>>,
+    /// Of the file that lists the capture.
+    filmstrip: Latest<PathBuf, Arc<Filmstrip>>,
 }
 
 /// The photograph as the panes and the panel display it.
@@ -46,6 +51,8 @@ pub struct DisplayedPhotograph<'a> {
     pub all: Option<&'a Arc<Photographs>>,
     /// While the corners are edited.
     pub corners: Option<EditedCorners<'a>>,
+    /// The photographs of the capture to which it belongs, once they have been read.
+    pub filmstrip: Option<&'a Arc<Filmstrip>>,
 }
 
 /// The photograph as it was taken, and the corners of the material in it.
@@ -108,7 +115,8 @@ impl PhotographJobs {
         }
         let error = self.rectify(work, state);
         let error = error.or_else(|| self.compare(work, state));
-        [None, error.or_else(|| self.draw(work, state, longest))]
+        let error = error.or_else(|| self.draw(work, state, longest));
+        [None, error.or_else(|| self.list(work, state))]
     }
 
     /// Lets everything that is on the adapter be sent again.
@@ -125,6 +133,18 @@ impl PhotographJobs {
                 let photograph = photograph.ok_or_else(|| Error::Internal("no photograph".to_owned()))?;
                 Ok(Arc::new(picture::picture(&photograph, longest)))
             })
+        })
+    }
+
+    /// The photographs of the capture to which the photograph belongs, once it is there.
+    fn list(&mut self, work: &JobContext<'_>, state: &PhotographState) -> Option<Error> {
+        let wanted = state.source().and_then(|source| source.capture.clone());
+        if wanted.is_some() && self.photograph(state).is_none() {
+            return None;
+        }
+        self.filmstrip.follow(wanted, |path| {
+            let path = path.clone();
+            Job::start(work.waker, move |progress| filmstrip::read(&path, progress).map(Arc::new))
         })
     }
 
@@ -184,12 +204,14 @@ impl PhotographJobs {
             }
         });
         let all = self.compared.get().filter(|(of, _)| of.is_of(materials) && of_now(&of.rectified.read));
+        let filmstrip = self.filmstrip.get().filter(|(of, _)| source.capture.as_ref() == Some(of));
         Some(DisplayedPhotograph {
             source,
             photograph,
             clipped: rectified.map(|(_, rectified)| rectified.clipped_share()),
             all: all.map(|(_, all)| all),
             corners,
+            filmstrip: filmstrip.map(|(_, strip)| strip),
         })
     }
 

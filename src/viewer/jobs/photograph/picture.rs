@@ -40,7 +40,7 @@ fn reduced(image: &Image<f32>, longest: usize) -> Image<f32> {
 }
 
 /// The exposure, in stops, at which the brightest 1% of the pixels clips.
-fn exposure(image: &Image<f32>) -> f32 {
+pub(super) fn exposure(image: &Image<f32>) -> f32 {
     let step = image.pixels.len().div_ceil(SAMPLED).max(1);
     let brightest = |pixel: &[f32; 3]| pixel.iter().copied().fold(0.0, f32::max);
     let mut values: Vec<f32> = image.pixels.iter().step_by(step).map(brightest).collect();

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use svbrdf_core::model::scene::Scene;
 use svbrdf_files::photograph::Corners;
 use svbrdf_files::read::Transfer;
 use svbrdf_files::session::SessionPhotograph;
@@ -12,7 +13,8 @@ pub enum PhotographCommand {
     ShowOpen(bool),
     /// Puts a path into the dialog.
     Fill(PathBuf),
-    /// Compares renderings with this photograph, and sets light and view.
+    /// Compares renderings with this photograph, and sets light and view. A folder or JSON is a capture, of which the first
+    /// photograph is compared, in its own light and view.
     Open {
         photograph: SessionPhotograph,
         light: PhotographLight,
@@ -36,6 +38,8 @@ pub enum PhotographLight {
     AsNow,
     /// A flash at the camera.
     Flash { fov_degrees: f64 },
+    /// Those of a photograph of a capture.
+    Scene(Scene),
     /// A scene of a file.
     File { path: PathBuf, number: usize },
 }

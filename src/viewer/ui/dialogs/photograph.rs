@@ -66,7 +66,11 @@ impl PhotographDialog {
 
     fn contents(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let field = egui::TextEdit::singleline(&mut self.path).hint_text("photo.jpg, or drop a file here");
-        self.field.ui(ui, "Photograph: PNG, JPEG, EXR or another picture format", field);
+        self.field.ui(
+            ui,
+            "Photograph: PNG, JPEG, EXR or another picture format; or the folder of a capture, which has its own lights",
+            field,
+        );
         self.field.problem(ui);
         if ui
             .button("Browse...")
@@ -93,6 +97,7 @@ impl PhotographDialog {
                 read: Default::default(),
                 corners: None,
                 falloff: self.falloff,
+                capture: None,
             };
             self.field.clear();
             commands.push(PhotographCommand::Open { photograph, light: self.chosen() }.into());

@@ -8,7 +8,9 @@ use svbrdf_files::read::Transfer;
 use crate::viewer::jobs::photograph::DisplayedPhotograph;
 use crate::viewer::model::command::{Command, PhotographCommand};
 use crate::viewer::ui::photograph::corner_editor::CORNER_NAMES;
+use crate::viewer::ui::photograph::filmstrip;
 use crate::viewer::ui::widgets::number;
+use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
 
 /// Height of the list of factors, in points.
@@ -25,7 +27,22 @@ pub struct PhotographCard<'a> {
 }
 
 impl PhotographCard<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    /// While a photograph of a capture is being read, the card keeps the height that it had.
+    pub fn ui(&self, ui: &mut egui::Ui, textures: &mut PanelTextures) -> Vec<Command> {
+        let (id, top) = (egui::Id::unique("height of the photograph card"), ui.cursor().top());
+        let commands = self.contents(ui, textures);
+        let height = ui.cursor().top() - top;
+        if self.photograph.photograph.is_some() && self.photograph.all.is_some() {
+            ui.data_mut(|data| data.insert_temp(id, height));
+        } else if self.photograph.source.capture.is_some()
+            && let Some(before) = ui.data(|data| data.get_temp::<f32>(id))
+        {
+            ui.add_space((before - height).max(0.0));
+        }
+        commands
+    }
+
+    fn contents(&self, ui: &mut egui::Ui, textures: &mut PanelTextures) -> Vec<Command> {
         let mut commands = Vec::new();
         let source = self.photograph.source;
         ui.horizontal(|ui| {
@@ -41,6 +58,10 @@ impl PhotographCard<'_> {
                     .on_hover_text(source.path.display().to_string());
             });
         });
+        if source.capture.is_some() {
+            let strip = self.photograph.filmstrip.map(AsRef::as_ref);
+            commands.extend(filmstrip::ui(ui, source, strip, textures));
+        }
         let Some(photograph) = self.photograph.photograph else {
             ui.add(egui::Spinner::new());
             return commands;

@@ -2,3 +2,4 @@
 
 pub mod card;
 pub mod corner_editor;
+mod filmstrip;

@@ -1,0 +1,101 @@
+//! The calibration of the captures of MaterialGAN (Guo et al. 2020): positions and light in centimetres.
+
+use std::path::PathBuf;
+
+use serde::Deserialize;
+
+use svbrdf_core::model::scene::{Kind, Scene};
+
+/// A JSON file of MaterialGAN, such as `render.json` or `optim_latent_256.json`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Calibration {
+    /// The width of the material in centimetres.
+    #[serde(alias = "image_size")]
+    im_size: f64,
+    camera_pos: Vec<[f64; 3]>,
+    light_pos: Vec<[f64; 3]>,
+    /// The numbers of the photographs, which also name their files; without, all.
+    idx: Option<Vec<usize>>,
+    /// The power of the light, RGB; radiance is `light_pow * f * NoL / distance^2`.
+    light_pow: Option<[f64; 3]>,
+    /// The folder of the photographs.
+    pub target_dir: Option<PathBuf>,
+}
+
+/// The power of a light whose radiance is stored.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightPower {
+    /// The mean over RGB, where the unit of length is half the width of the material.
+    pub mean: f64,
+    /// Red, green and blue over their mean.
+    pub colour: [f64; 3],
+}
+
+impl LightPower {
+    /// Whether red, green and blue are equal.
+    pub fn is_white(&self) -> bool {
+        self.colour.iter().all(|channel| (channel - 1.0).abs() < 1e-9)
+    }
+}
+
+impl Calibration {
+    /// The scene of each photograph, in units of half the width of the material.
+    ///
+    /// # Errors
+    /// The problem, where the numbers make no sense.
+    pub fn scenes(&self) -> Result<Vec<Scene>, String> {
+        if !self.im_size.is_finite() || self.im_size <= 0.0 {
+            return Err(format!("its im_size is {}, not a width", self.im_size));
+        }
+        if self.camera_pos.len() != self.light_pos.len() {
+            let [cameras, lights] = [self.camera_pos.len(), self.light_pos.len()];
+            return Err(format!("it lists {cameras} camera_pos and {lights} light_pos"));
+        }
+        let scaled = |position: [f64; 3]| position.map(|c| c * 2.0 / self.im_size);
+        let scene = |index: usize| {
+            let missing = || format!("its idx names position {index} of {}", self.camera_pos.len());
+            let camera = *self.camera_pos.get(index).ok_or_else(missing)?;
+            Ok(Scene { kind: Kind::Near, view: scaled(camera), light: scaled(self.light_pos[index]) })
+        };
+        self.numbers().into_iter().map(scene).collect()
+    }
+
+    /// The numbers of the photographs, in the order of [`Self::scenes`].
+    pub fn numbers(&self) -> Vec<usize> {
+        self.idx.clone().unwrap_or_else(|| (0..self.camera_pos.len()).collect())
+    }
+
+    /// The power of the light, where there is one.
+    ///
+    /// # Errors
+    /// The problem, where it is no power.
+    pub fn power(&self) -> Result<Option<LightPower>, String> {
+        let Some(power) = self.light_pow else { return Ok(None) };
+        if !power.iter().all(|channel| channel.is_finite() && *channel > 0.0) {
+            let [r, g, b] = power;
+            return Err(format!("expected a light_pow of three numbers above 0, found {r}, {g}, {b}"));
+        }
+        let mean = power.iter().sum::<f64>() / 3.0;
+        let half_width = 0.5 * self.im_size;
+        Ok(Some(LightPower { mean: mean / half_width.powi(2), colour: power.map(|channel| channel / mean) }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_power_of_a_light_is_in_half_widths() {
+        let of = |power: &str| {
+            let text = format!(
+                r#"{{"im_size": 4, "camera_pos": [], "light_pos": [], "light_pow": {power}, "_comment": "cm"}}"#
+            );
+            serde_json::from_str::<Calibration>(&text).unwrap().power()
+        };
+        let expected = LightPower { mean: 375.0, colour: [2.0, 0.5, 0.5] };
+        assert_eq!(of("[3000, 750, 750]"), Ok(Some(expected)));
+        assert_eq!(of("null"), Ok(None));
+        assert!(of("[1500, 0, 1500]").unwrap_err().contains("above 0, found 1500, 0, 1500"));
+    }
+}

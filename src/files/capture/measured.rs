@@ -1,0 +1,111 @@
+//! Measures of a material against the photographs of a capture, and their means.
+
+use svbrdf_core::loss::Estimate;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::Scene;
+
+use super::outliers::Outlier;
+
+/// A material against one photograph.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CapturedResult {
+    pub scene: Scene,
+    /// Whether the exposure of the capture is not fitted to it.
+    pub is_held_out: bool,
+    /// What the photograph was multiplied by; `None` where no factor fits.
+    pub factor: Option<f64>,
+    /// The factor that fits this photograph alone; `None` where none does.
+    pub own_factor: Option<f64>,
+    /// The mean log difference over the texels that are not clipped, and the root mean square difference and SSIM of sRGB
+    /// values; `None` where all is clipped.
+    pub log: Option<f64>,
+    pub rmse: Option<f64>,
+    pub ssim: Option<f64>,
+    pub texels: usize,
+    /// Number of texels that are left out.
+    pub clipped: usize,
+    pub outlier: Outlier,
+}
+
+/// A material against all photographs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialResult {
+    pub material: String,
+    /// (width, height) in texels.
+    pub size: [usize; 2],
+    /// The factor on all photographs; `None` where each has its own.
+    pub factor: Option<f64>,
+    /// In the order of the capture.
+    pub photographs: Vec<CapturedResult>,
+}
+
+/// The means over a group of photographs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaptureGroup {
+    /// `all`, `fitted` or `held out`.
+    pub name: &'static str,
+    /// The number of photographs.
+    pub count: usize,
+    /// Each with its interval over photographs; `None` where no photograph has the measure.
+    pub log: Option<Estimate>,
+    pub rmse: Option<Estimate>,
+    pub ssim: Option<Estimate>,
+}
+
+impl CapturedResult {
+    /// The factor that fits this photograph alone, in stops.
+    pub fn own_ev(&self) -> Option<f64> {
+        self.own_factor.map(f64::log2)
+    }
+}
+
+impl MaterialResult {
+    /// All photographs, or where some are held out, the others and these.
+    pub fn groups(&self) -> Vec<CaptureGroup> {
+        let group = |name, wanted: &dyn Fn(&CapturedResult) -> bool| {
+            let of: Vec<&CapturedResult> = self.photographs.iter().filter(|one| wanted(one)).collect();
+            CaptureGroup {
+                name,
+                count: of.len(),
+                log: estimate(&of, |one| one.log),
+                rmse: estimate(&of, |one| one.rmse),
+                ssim: signed_estimate(&of, |one| one.ssim),
+            }
+        };
+        if self.photographs.iter().any(|one| one.is_held_out) {
+            vec![group("fitted", &|one| !one.is_held_out), group("held out", &|one| one.is_held_out)]
+        } else {
+            vec![group("all", &|_| true)]
+        }
+    }
+
+    /// What results are ordered by: the mean log difference of the photographs that are held out, or of all.
+    pub fn log(&self) -> f64 {
+        let log = self.groups().pop().and_then(|group| group.log);
+        log.map_or(f64::INFINITY, |log| log.mean)
+    }
+}
+
+fn values(
+    of: &[&CapturedResult],
+    measure: impl Fn(&CapturedResult) -> Option<f64>,
+) -> Option<(Vec<Scene>, Vec<f64>)> {
+    let known: (Vec<_>, Vec<_>) =
+        of.iter().filter_map(|one| measure(one).map(|value| (one.scene, value))).unzip();
+    (!known.0.is_empty()).then_some(known)
+}
+
+/// The mean of a measure that is not negative.
+fn estimate(of: &[&CapturedResult], measure: impl Fn(&CapturedResult) -> Option<f64>) -> Option<Estimate> {
+    values(of, measure).map(|(scenes, values)| Estimate::of_scenes(&scenes, &values))
+}
+
+/// The mean of a measure of at most 1.
+fn signed_estimate(
+    of: &[&CapturedResult],
+    measure: impl Fn(&CapturedResult) -> Option<f64>,
+) -> Option<Estimate> {
+    let (scenes, values) = values(of, measure)?;
+    let e = Estimate::of_difference(Sampler::Random, &scenes, &values, &vec![0.0; values.len()]);
+    Some(Estimate { interval95: e.interval95.map(|[low, high]| [low, high.min(1.0)]), ..e })
+}

@@ -1,0 +1,122 @@
+//! The filmstrip of a capture.
+
+use serde_json::json;
+
+use svbrdf::viewer::model::command::{DisplayCommand, PhotographCommand, PhotographLight};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
+use svbrdf_files::session::SessionPhotograph;
+
+use super::photograph::{apply, materials, wait_for_it};
+use super::*;
+
+fn scene(k: usize) -> Scene {
+    let light = [0.4 * k as f64 - 0.8, 0.3, 1.8];
+    Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light }
+}
+
+/// A capture of the ground truth in five scenes, of which photograph `k` is `k + 1` times as bright.
+fn capture() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = &materials()[0];
+    let listed = (0..5).map(|k| {
+        let rendering = render_f32(truth, &scene(k), &PRINTED, &Progress::default()).unwrap();
+        let values: Vec<f32> =
+            rendering.pixels.iter().flatten().map(|value| (k + 1) as f32 * value).collect();
+        let bytes = pictures::npy([256, 256, 3], &values);
+        std::fs::write(folder.path().join(format!("{k}.npy")), bytes).unwrap();
+        json!({"file": format!("{k}.npy"), "scene": scene(k)})
+    });
+    let text = json!({"photographs": listed.collect::<Vec<_>>()}).to_string();
+    std::fs::write(folder.path().join("capture.json"), text).unwrap();
+    folder
+}
+
+fn opened<'a>(folder: &tempfile::TempDir) -> Window<'a> {
+    let mut window = built_in();
+    let photograph = SessionPhotograph {
+        path: folder.path().to_owned(),
+        read: Default::default(),
+        corners: None,
+        falloff: false,
+        capture: None,
+    };
+    apply(&mut window, PhotographCommand::Open { photograph, light: PhotographLight::AsNow });
+    wait_for_it(&mut window);
+    wait_for_strip(&mut window);
+    window
+}
+
+fn wait_for_strip(window: &mut Window<'_>) {
+    wait(window, "the filmstrip", |app| app.filmstrip_length().is_some());
+    window.run_steps(2);
+}
+
+fn factor(window: &Window<'_>) -> f64 {
+    window.state().against_photograph().unwrap()[0].factor
+}
+
+/// Where the controls around the strip are.
+fn places(window: &Window<'_>) -> Vec<egui::Rect> {
+    let labels = ["Close photograph", "Light and view", "Photograph 1: 0.npy", "Divide out falloff"];
+    labels.iter().map(|label| window.get_by_label(label).rect()).collect()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_click_on_the_filmstrip_compares_with_another_photograph_and_moves_nothing() {
+    let folder = capture();
+    let mut window = opened(&folder);
+    let view = |window: &Window<'_>| window.state().parts.model.view.scene;
+    assert_eq!(view(&window), scene(0));
+    assert!((factor(&window) - 1.0).abs() < 1e-6);
+    window.get_by_label("Photograph 1 of 5 of the capture");
+    let before = places(&window);
+
+    window.get_by_label("Photograph 3: 2.npy").click();
+    // While it is read and compared, too.
+    for _ in 0..40 {
+        window.step();
+        let now = ["Close photograph", "Light and view", "Photograph 1: 0.npy"]
+            .map(|label| window.get_by_label(label).rect());
+        assert_eq!(now[..], before[..3]);
+    }
+    wait_for_it(&mut window);
+    assert_eq!(view(&window), scene(2));
+    assert!((factor(&window) - 1.0 / 3.0).abs() < 1e-6, "{}", factor(&window));
+    assert_eq!(places(&window), before);
+    window.get_by_label("Photograph 3 of 5 of the capture");
+
+    window.run_steps(30);
+    apply(&mut window, DisplayCommand::Undo);
+    wait_for_it(&mut window);
+    assert_eq!(view(&window), scene(0));
+    assert!((factor(&window) - 1.0).abs() < 1e-6);
+    apply(&mut window, PhotographCommand::Close);
+    assert!(window.query_by_label("Photograph 1: 0.npy").is_none());
+    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_session_keeps_the_capture_and_a_broken_one_is_refused() {
+    let folder = capture();
+    let mut window = opened(&folder);
+    let session = window.state().parts.model.session();
+    let photograph = session.photograph.as_ref().unwrap();
+    assert_eq!(photograph.capture.as_deref(), Some(folder.path().join("capture.json").as_path()));
+    apply(&mut window, PhotographCommand::Close);
+    window.state_mut().parts.model.open_session(&session);
+    wait_for_strip(&mut window);
+    window.get_by_label("Photograph 1 of 5 of the capture");
+
+    let text = std::fs::read_to_string(folder.path().join("capture.json")).unwrap();
+    std::fs::write(folder.path().join("capture.json"), text.replace("scene", "sene")).unwrap();
+    let path = folder.path().to_owned();
+    let photograph = SessionPhotograph { path, capture: None, ..photograph.clone() };
+    apply(&mut window, PhotographCommand::Open { photograph, light: PhotographLight::AsNow });
+    let messages = window.state().messages();
+    assert!(messages.iter().any(|message| message.contains("unknown field `sene`")), "{messages:?}");
+}
