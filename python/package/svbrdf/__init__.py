@@ -24,7 +24,7 @@ from ._material import Assumption, AssumptionWarning, Material, built_in, read, 
 from ._metrics import Metrics, MetricsReport, metrics
 from ._photo import PhotoReport, PhotoResult, PhotoStatistics, photo
 from ._report import Estimate, Report
-from ._scenes import CONVENTIONS, Convention, Scene, read_scenes, render, sample_scenes
+from ._scenes import CONVENTIONS, Convention, Scene, named_scenes, read_scenes, render, sample_scenes
 from ._show import show
 from ._why import MapReport, MapSummary, ScenesLoss, ScenesReport, Worst, WorstReport, map, scenes, worst
 
@@ -72,6 +72,7 @@ __all__ = [
     "loss",
     "map",
     "metrics",
+    "named_scenes",
     "photo",
     "rank",
     "rank_dataset",
