@@ -193,7 +193,11 @@ fn ssim_is_that_of_scikit_image() {
     // Smaller than a window.
     let names = |height| {
         let small = of_maps(&material(&a, [24, height]), &material(&b, [24, height])).unwrap();
-        small.iter().filter(|metric| metric.name.starts_with("ssim")).map(|metric| metric.name).collect::<Vec<_>>()
+        small
+            .iter()
+            .filter(|metric| metric.name.starts_with("ssim"))
+            .map(|metric| metric.name)
+            .collect::<Vec<_>>()
     };
     assert!(names(10).iter().all(|name| name.starts_with("ssim7")) && names(10).len() == 4);
     assert!(names(6).is_empty());

@@ -24,9 +24,8 @@ fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
 fn expected(window: &Window<'_>) -> [Vec<f32>; 2] {
     let view = &window.state().parts.model.view;
     let materials: Vec<_> = window.state().materials().collect();
-    let render = |index: usize| {
-        render_f32(materials[index], &view.scene, &PRINTED, &Progress::default()).unwrap()
-    };
+    let render =
+        |index: usize| render_f32(materials[index], &view.scene, &PRINTED, &Progress::default()).unwrap();
     let of = |index| flip(&render(0), &render(index), view.exposure_ev);
     [1, 2].map(|index| of(index).into_iter().map(|v| (v + v + v) / 3.0).collect())
 }
@@ -83,7 +82,11 @@ fn texels_have_the_colours_and_the_readout_of_flip() {
             window.run_steps(2);
             let [x, y] = texel_read(&window).unwrap();
             let value = maps[slot - 1][y * 256 + x];
-            assert_eq!(column(&window, &format!("{slot} ")), format!("{slot} {value:8.4}"), "{title}: {x}, {y}");
+            assert_eq!(
+                column(&window, &format!("{slot} ")),
+                format!("{slot} {value:8.4}"),
+                "{title}: {x}, {y}"
+            );
             reads.push((at, value));
         }
         hover(&mut window, egui::pos2(600.0, 20.0));
@@ -108,18 +111,15 @@ fn a_saved_flip_has_its_numbers() {
     let maps = settle(&mut window);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("flip.exr");
-    let request = SaveRequest {
-        kind: SaveKind::Renderings,
-        path: path.clone(),
-        size: [0; 2],
-        handles: true,
-    };
+    let request = SaveRequest { kind: SaveKind::Renderings, path: path.clone(), size: [0; 2], handles: true };
     apply(&mut window, WindowCommand::Save(request));
     wait(&mut window, "the file", |app| !app.messages().is_empty());
     let saved = exr::prelude::read_first_rgba_layer_from_file(
         &path,
         |size, _| (size.width(), vec![[0f32; 3]; size.area()]),
-        |(width, pixels), at, (r, g, b, _): (f32, f32, f32, f32)| pixels[at.y() * *width + at.x()] = [r, g, b],
+        |(width, pixels), at, (r, g, b, _): (f32, f32, f32, f32)| {
+            pixels[at.y() * *width + at.x()] = [r, g, b]
+        },
     );
     let (width, saved) = saved.unwrap().layer_data.channel_data.pixels;
     let left = width - 256;

@@ -23,7 +23,7 @@ class MetricSummary:
     """None where it is infinite: that of the PSNR, where maps of a material are equal."""
     median: float | None
     interval95_materials: tuple[float, float] | None
-    """The 95% interval of the mean over all materials like these; None for fewer than 3, and where the mean is infinite."""
+    """The 95% interval of the mean over all materials like these; None for fewer than 3, and for an infinite mean."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +69,8 @@ class DatasetLoss:
     interval95: tuple[float, float] | None
     error: str | None
     metrics: Mapping[str, float | None]
-    """Of the maps by name, None for the infinite PSNR of equal maps; empty where they were not asked for or the maps cannot be
-    compared."""
+    """Of the maps by name, None for the infinite PSNR of equal maps; empty where they were not asked for or the maps
+    cannot be compared."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

@@ -81,8 +81,8 @@ def metrics(
     Raises:
         OSError: A file cannot be read.
         svbrdf.Error: A material or a scene cannot be used, or the sizes differ.
-        ValueError: Options of sampled scenes are given together with `scenes`, or scenes, a convention, an exposure or a
-            material of arrays with a protocol; or the exposure is no finite number.
+        ValueError: Options of sampled scenes are given together with `scenes`, or scenes, a convention, an exposure or
+            a material of arrays with a protocol; or the exposure is no finite number.
     """
     if protocol is not None:
         if protocol != "matfusion":

@@ -27,10 +27,10 @@ enum Lights {
     Papers,
     /// One flash at the camera, straight above the centre, at the distance of --fov
     Flash,
-    /// Nine flashes at the camera (MaterialGAN)
+    /// Nine flashes at the camera (Guo et al. 2020, MaterialGAN)
     #[value(name = "flash-9")]
     Flash9,
-    /// 128 lights on the hemisphere, the camera above the centre (MatFusion)
+    /// 128 lights on the hemisphere, the camera above the centre (Sartor and Peers 2023)
     Hemisphere,
 }
 
@@ -50,9 +50,7 @@ impl LightsArgs {
         }
         let named = match self.lights {
             Lights::Papers => return Ok(None),
-            Lights::Flash => {
-                NamedScenes::Flash { fov_degrees: self.fov.unwrap_or(NamedScenes::FOV_DEGREES) }
-            }
+            Lights::Flash => NamedScenes::Flash { fov_degrees: self.fov.unwrap_or(NamedScenes::FOV_DEGREES) },
             Lights::Flash9 => NamedScenes::Flash9,
             Lights::Hemisphere => NamedScenes::Hemisphere,
         };

@@ -18,11 +18,8 @@ type Measures = &'static [(&'static str, fn(&[[f64; 2]]) -> f64)];
 type Similarities = &'static [(&'static str, fn(&[[f64; 2]], [usize; 2]) -> Option<f64>)];
 
 const NORMAL_UNIT: Measures = &[("rmse_normal_unit", rmse)];
-const NORMAL_STORED: Measures = &[
-    ("rmse_normal_stored", rmse),
-    ("l1_normal_stored", l1),
-    ("psnr_normal_stored", peak_ratio),
-];
+const NORMAL_STORED: Measures =
+    &[("rmse_normal_stored", rmse), ("l1_normal_stored", l1), ("psnr_normal_stored", peak_ratio)];
 const DIFFUSE_LINEAR: Measures = &[
     ("rmse_diffuse_linear", rmse),
     ("l1_diffuse_linear", l1),
@@ -57,13 +54,9 @@ const ROUGHNESS: Measures = &[
 ];
 const ROUGHNESS_ALPHA: Measures = &[("rmse_roughness_alpha", rmse)];
 const BASE_LINEAR: Measures = &[("rmse_base_colour_linear", rmse)];
-const BASE_SRGB: Measures = &[
-    ("rmse_base_colour_srgb", rmse),
-    ("l1_base_colour_srgb", l1),
-    ("psnr_base_colour_srgb", peak_ratio),
-];
-const METALLIC: Measures =
-    &[("rmse_metallic", rmse), ("l1_metallic", l1), ("psnr_metallic", peak_ratio)];
+const BASE_SRGB: Measures =
+    &[("rmse_base_colour_srgb", rmse), ("l1_base_colour_srgb", l1), ("psnr_base_colour_srgb", peak_ratio)];
+const METALLIC: Measures = &[("rmse_metallic", rmse), ("l1_metallic", l1), ("psnr_metallic", peak_ratio)];
 
 const NORMAL_SIMILARITY: Similarities =
     &[("ssim11_gaussian_normal_stored", ssim11), ("ssim7_uniform_normal_stored", ssim7)];
@@ -138,16 +131,13 @@ pub(super) fn stored(pairs: &[[f64; 2]]) -> Pairs {
 /// Base colour and metallic of all texels.
 fn base_pairs(diffuse: &[[f64; 2]], specular: &[[f64; 2]]) -> (Pairs, Pairs) {
     let texels = diffuse.len() / 3;
-    let (mut base, mut metallic) = (vec![[0.0; 2]; diffuse.len()], vec![[0.0; 2]; texels]);
-    for texel in 0..texels {
-        for side in 0..2 {
-            let at = |pairs: &[[f64; 2]]| [0, 1, 2].map(|c| pairs[c * texels + texel][side]);
-            let (rgb, m) = base_and_metallic(at(diffuse), at(specular));
-            metallic[texel][side] = m;
-            (0..3).for_each(|c| base[c * texels + texel][side] = rgb[c]);
-        }
-    }
-    (base, metallic)
+    let of = |side: usize| -> Vec<([f64; 3], f64)> {
+        let at = |pairs: &[[f64; 2]], texel: usize| [0, 1, 2].map(|c| pairs[c * texels + texel][side]);
+        (0..texels).map(|texel| base_and_metallic(at(diffuse, texel), at(specular, texel))).collect()
+    };
+    let both: Vec<_> = of(0).into_iter().zip(of(1)).collect();
+    let channel = |c: usize| both.iter().map(move |((a, _), (b, _))| [a[c], b[c]]);
+    ((0..3).flat_map(channel).collect(), both.iter().map(|((_, a), (_, b))| [*a, *b]).collect())
 }
 
 pub(super) fn rmse(pairs: &[[f64; 2]]) -> f64 {

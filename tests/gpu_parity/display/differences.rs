@@ -19,7 +19,11 @@ fn differences_of(kind: Difference, quantity: Quantity, pair: &[Material<f32>; 2
     let image =
         |material| quantity.image(material, &ABOVE, &PRINTED, &Progress::default()).expect("rendered");
     let [prediction, ground_truth] = pair.each_ref().map(image);
-    kind.of_images(&ground_truth, &prediction, DifferenceParams { epsilon: PRINTED.epsilon, exposure_ev: 0.0 })
+    kind.of_images(
+        &ground_truth,
+        &prediction,
+        DifferenceParams { epsilon: PRINTED.epsilon, exposure_ev: 0.0 },
+    )
 }
 
 /// Their colours.

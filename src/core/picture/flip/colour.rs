@@ -60,7 +60,8 @@ pub(super) fn hunt_lab(rgb: [f32; 3]) -> [f32; 3] {
 
 /// X, Y and Z of linear RGB with the primaries of sRGB.
 fn xyz([r, g, b]: [f32; 3]) -> [f32; 3] {
-    const RED: [f32; 3] = [10_135_552.0 / 24_577_794.0, 2_613_072.0 / 12_288_897.0, 1_425_312.0 / 73_733_382.0];
+    const RED: [f32; 3] =
+        [10_135_552.0 / 24_577_794.0, 2_613_072.0 / 12_288_897.0, 1_425_312.0 / 73_733_382.0];
     const GREEN: [f32; 3] =
         [8_788_810.0 / 24_577_794.0, 8_788_810.0 / 12_288_897.0, 8_788_810.0 / 73_733_382.0];
     const BLUE: [f32; 3] =
@@ -105,7 +106,8 @@ mod tests {
         let scale = ColourScale::new();
         let [green, blue] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(hunt_lab);
         assert!((scale.difference(green, blue) - 1.0).abs() < 1e-6);
-        let grays = [0.0, 0.01, 0.1, 0.5, 1.0].map(|gray| scale.difference(hunt_lab([0.0; 3]), hunt_lab([gray; 3])));
+        let grays =
+            [0.0, 0.01, 0.1, 0.5, 1.0].map(|gray| scale.difference(hunt_lab([0.0; 3]), hunt_lab([gray; 3])));
         assert!(grays[0] == 0.0 && grays.windows(2).all(|pair| pair[0] < pair[1]), "{grays:?}");
     }
 }

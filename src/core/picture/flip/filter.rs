@@ -58,9 +58,8 @@ impl Filters {
         let margin = self.lightness.len() / 2;
         let opponent = opponent(image, gain, [first, end], margin);
         let width = image.width;
-        let filtered = |plane: &[f32], weights: &[f32]| {
-            down(&across(plane, width, weights), width, weights, margin)
-        };
+        let filtered =
+            |plane: &[f32], weights: &[f32]| down(&across(plane, width, weights), width, weights, margin);
         let [y, cx, cz] = &opponent;
         let (y_seen, cx_seen) = (filtered(y, &self.lightness), filtered(cx, &self.red_green));
         let [cz_1, cz_2] = self.blue_yellow.each_ref().map(|weights| filtered(cz, weights));
@@ -134,9 +133,8 @@ fn down(plane: &[f32], width: usize, weights: &[f32], margin: usize) -> Vec<f32>
 fn feature(pixels_per_degree: f32) -> [Vec<f32>; 3] {
     let deviation = 0.5 * FEATURE * pixels_per_degree;
     let radius = (3.0 * deviation).ceil() as i32;
-    let sampled = |of: &dyn Fn(f32) -> f32| -> Vec<f32> {
-        (-radius..=radius).map(|x| of(x as f32)).collect()
-    };
+    let sampled =
+        |of: &dyn Fn(f32) -> f32| -> Vec<f32> { (-radius..=radius).map(|x| of(x as f32)).collect() };
     let gaussian = |x: f32| (-(x * x) / (2.0 * deviation * deviation)).exp();
     [
         normalized(sampled(&gaussian)),
@@ -147,7 +145,7 @@ fn feature(pixels_per_degree: f32) -> [Vec<f32>; 3] {
 
 fn normalized(weights: Vec<f32>) -> Vec<f32> {
     let sum: f32 = weights.iter().sum();
-    scaled(weights, 1.0 / sum)
+    weights.into_iter().map(|weight| weight / sum).collect()
 }
 
 fn scaled(weights: Vec<f32>, factor: f32) -> Vec<f32> {

@@ -28,8 +28,7 @@ pub fn flip(ground_truth: &Image<f32>, prediction: &Image<f32>, exposure_ev: f32
     let mut map = vec![0.0; width * height];
     map.par_chunks_mut(BAND * width).enumerate().for_each(|(number, band)| {
         let rows = [number * BAND, number * BAND + band.len() / width];
-        let [truth, predicted] =
-            [ground_truth, prediction].map(|image| filters.seen(image, gain, rows));
+        let [truth, predicted] = [ground_truth, prediction].map(|image| filters.seen(image, gain, rows));
         for (index, value) in band.iter_mut().enumerate() {
             let colour = scale.difference(truth.colours[index], predicted.colours[index]);
             let edges = (truth.edges[index] - predicted.edges[index]).abs();
@@ -78,15 +77,15 @@ mod tests {
     #[test]
     fn one_pixel_is_seen_in_its_neighbourhood_in_every_band() {
         let flat = image(40, 200, |_, _| [0.2; 3]);
-        for row in [0, 63, 64, 130, 199] {
+        for row in [0_usize, 63, 64, 130, 199] {
             let spot = image(40, 200, |x, y| if (x, y) == (20, row) { [0.9; 3] } else { [0.2; 3] });
             let map = flip(&flat, &spot, 0.0);
             let at = |x: usize, y: usize| map[y * 40 + x];
             assert!(at(20, row) > 0.1 && at(20, row) > at(23, row) && at(23, row) > 0.0, "{row}");
-            let far = (0..200).filter(|y| y.abs_diff(row) > 10).flat_map(|y| (0..40).map(move |x| at(x, y)));
+            let far = (0..200_usize).filter(|y| y.abs_diff(row) > 10).flat_map(|y| (0..40).map(move |x| at(x, y)));
             assert_eq!(far.fold(0.0, f32::max), 0.0, "{row}");
             if let (Some(above), true) = (row.checked_sub(2), row < 198) {
-                assert!((at(20, above) - at(20, row + 2)).abs() < 1e-6, "{row}");
+                assert!((at(20, above) - at(20, row + 2)).abs() < 1e-5, "{row}");
             }
         }
     }

@@ -311,8 +311,12 @@ impl Viewport {
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
             let photographs = scenery.photograph.and_then(|photograph| photograph.all).map(AsRef::as_ref);
-            let readout =
-                Readout { materials: scenery.materials, state, computed_maps: scenery.computed_maps, photographs };
+            let readout = Readout {
+                materials: scenery.materials,
+                state,
+                computed_maps: scenery.computed_maps,
+                photographs,
+            };
             placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
                 (PhotographUse::Displayed, Some(photographs)) => {
                     readout::photograph(photographs, index, texel)
