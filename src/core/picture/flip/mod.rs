@@ -82,7 +82,8 @@ mod tests {
             let map = flip(&flat, &spot, 0.0);
             let at = |x: usize, y: usize| map[y * 40 + x];
             assert!(at(20, row) > 0.1 && at(20, row) > at(23, row) && at(23, row) > 0.0, "{row}");
-            let far = (0..200_usize).filter(|y| y.abs_diff(row) > 10).flat_map(|y| (0..40).map(move |x| at(x, y)));
+            let far =
+                (0..200_usize).filter(|y| y.abs_diff(row) > 10).flat_map(|y| (0..40).map(move |x| at(x, y)));
             assert_eq!(far.fold(0.0, f32::max), 0.0, "{row}");
             if let (Some(above), true) = (row.checked_sub(2), row < 198) {
                 assert!((at(20, above) - at(20, row + 2)).abs() < 1e-5, "{row}");
