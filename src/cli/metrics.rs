@@ -51,6 +51,7 @@ pub fn run(args: &MetricsArgs, given: &Given) -> Result<(), CommandError> {
         given.check(&modes::PROTOCOL)?;
         return protocol::run(&args.protocol, &job, args.format);
     }
+    given.check(&modes::NO_PROTOCOL)?;
     let (sampling, scenes) = args.scenes.scenes(&job.convention, given)?;
     let rendered = RenderedScenes {
         scenes: &scenes,

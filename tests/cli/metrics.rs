@@ -104,6 +104,8 @@ fn what_a_protocol_cannot_do_is_refused() {
         ("metrics --protocol matfusion gt.png a.png --near 3", 64, "cannot be used with"),
         ("metrics --protocol matfusion gt.png a.png --resize-to gt", 64, "leave out --resize-to"),
         ("metrics gt.png a.png --renderings out", 64, "--protocol"),
+        ("metrics gt.png a.png --lights flash --renderings out", 64, "leave out --renderings"),
+        ("metrics gt.png a.png --near 3 --renderings out", 64, "leave out --renderings"),
         ("metrics --protocol other gt.png a.png", 64, "matfusion"),
         ("metrics --protocol matfusion gt.png a.png --lights flash", 64, "cannot be used with"),
         ("metrics --protocol matfusion gt.png a.png --exposure 1", 64, "cannot be used with"),

@@ -87,6 +87,10 @@ pub const MAP_OVER_DIRECTIONS: Mode =
 pub const PROTOCOL: Mode =
     Mode { reason: "a protocol compares materials as they are", unused: &[&["resize-to"]] };
 
+/// `metrics` without a protocol. The parser alone would not refuse this beside options that exclude a protocol.
+pub const NO_PROTOCOL: Mode =
+    Mode { reason: "only a --protocol writes renderings", unused: &[&["renderings"]] };
+
 /// `rank` of the predictions of one ground truth.
 pub const RANK_PREDICTIONS: Mode = Mode {
     reason: "a ranking of the predictions of one material has no journal, no samples and no metrics, unlike one with --dataset or \
