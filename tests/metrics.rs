@@ -1,10 +1,13 @@
 //! Metrics against closed forms.
 
 use svbrdf_core::material::{Material, Planes};
-use svbrdf_core::metrics::{Metric, of_maps, of_renderings};
-use svbrdf_core::model::convention::Convention;
+use svbrdf_core::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
+use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::picture::flip::mean_flip;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
 use svbrdf_files::samples;
 
 /// Two texels of one normal, with diffuse, specular and roughness of each.
@@ -44,28 +47,88 @@ fn metrics_of_maps_have_their_closed_forms() {
     // Twice as large everywhere: nothing is left once it is scaled.
     assert_is(&got, "rmse_specular_linear_scaled", 0.0);
     assert_is(&got, "rmse_specular_linear", ((0.02_f64.powi(2) + 0.1_f64.powi(2)) / 2.0).sqrt());
+    assert_is(&got, "rmse_diffuse_linear_minus1_to_1", 2.0 * 0.2 / 2.0_f64.sqrt());
+    assert_is(&got, "psnr_diffuse_linear", -10.0 * (0.04_f64 / 2.0).log10());
+    assert_is(&got, "psnr_normal_stored", -20.0 * (0.5 * chord / 3.0_f64.sqrt()).log10());
     assert_is(&got, "rmse_roughness", 0.1 / 2.0_f64.sqrt());
+    assert_is(&got, "rmse_roughness_minus1_to_1", 0.2 / 2.0_f64.sqrt());
     assert_is(&got, "rmse_roughness_alpha", 0.11 / 2.0_f64.sqrt());
     let faulty = of_maps(&predicted, &two([0.0, 0.0, 1.0], [0.5, 0.1], [0.04, 0.2], [0.5, 0.21])).unwrap();
     assert!(faulty.iter().any(|m| m.name == "l1_roughness" && (m.value - 0.05).abs() > 1e-3));
 }
 
+/// What two texels of a base colour and a metallic are as diffuse and specular (glTF 2.0, appendix B.2).
+fn of_base(base: [f64; 2], metallic: [f64; 2]) -> Material<f64> {
+    let both = [0, 1].map(|i| (base[i], metallic[i]));
+    let diffuse = both.map(|(b, m)| b * (1.0 - m));
+    let specular = both.map(|(b, m)| 0.04 * (1.0 - m) + b * m);
+    two([0.0, 0.0, 1.0], diffuse, specular, [0.5; 2])
+}
+
+#[test]
+fn base_colour_and_metallic_have_the_errors_of_the_maps_that_they_are_stored_as() {
+    let (base, metallic) = ([[0.5, 0.9], [0.7, 0.6]], [[0.0, 1.0], [0.2, 0.6]]);
+    let got = of_maps(&of_base(base[0], metallic[0]), &of_base(base[1], metallic[1])).unwrap();
+    let rmse = |a: [f64; 2], b: [f64; 2]| ((0..2).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>() / 2.0).sqrt();
+    // Roots of a quadratic equation: half of the digits.
+    let is = |name: &str, expected: f64| {
+        let found = got.iter().find(|metric| metric.name == name).unwrap().value;
+        assert!((found - expected).abs() < 1e-7, "{name}: {found}, not {expected}");
+    };
+    is("rmse_base_colour_linear", rmse(base[0], base[1]));
+    is("rmse_metallic", rmse(metallic[0], metallic[1]));
+    is("l1_metallic", 0.3);
+    is("psnr_metallic", -20.0 * rmse(metallic[0], metallic[1]).log10());
+    let encoded = base.map(|base| base.map(|x: f64| 1.055 * x.powf(1.0 / 2.4) - 0.055));
+    is("rmse_base_colour_srgb", rmse(encoded[0], encoded[1]));
+    is("l1_base_colour_srgb", (0..2).map(|i| (encoded[0][i] - encoded[1][i]).abs()).sum::<f64>() / 2.0);
+}
+
+/// Renderings at no exposure.
+fn rendered(scenes: &[Scene]) -> RenderedScenes<'_> {
+    RenderedScenes { scenes, sampler: Sampler::Random, convention: &PRINTED, exposure_ev: 0.0 }
+}
+
+fn value(metrics: &[Metric], name: &str) -> Metric {
+    *metrics.iter().find(|metric| metric.name == name).unwrap_or_else(|| panic!("no {name}"))
+}
+
 #[test]
 fn equal_materials_differ_by_nothing() {
     let truth = samples::load::<f32>().unwrap().ground_truth.material;
-    for metric in of_maps(&truth, &truth).unwrap() {
-        let expected = if metric.name.starts_with("ssim") { 1.0 } else { 0.0 };
-        assert!((metric.value - expected).abs() < 1e-14, "{}: {}", metric.name, metric.value);
-    }
-    let scenes = Sampler::Random.scenes(0, 2, 1, &Convention::default());
-    let renderings =
-        of_renderings(&truth, &truth, &scenes, &Convention::default(), &Progress::default()).unwrap();
-    for metric in renderings {
-        match metric.name {
-            name if name.starts_with("psnr") => assert_eq!(metric.value, f64::INFINITY, "{name}"),
-            name if name.starts_with("ssim") => assert!((metric.value - 1.0).abs() < 1e-14, "{name}"),
-            name => assert_eq!(metric.value, 0.0, "{name}"),
+    let scenes = Sampler::Random.scenes(0, 2, 2, &Convention::default());
+    let renderings = of_renderings(&truth, &truth, &rendered(&scenes), &Progress::default()).unwrap();
+    for metric in of_maps(&truth, &truth).unwrap().into_iter().chain(renderings) {
+        let (name, value) = (metric.name, metric.value);
+        match name {
+            _ if name.starts_with("psnr") => assert_eq!(value, f64::INFINITY, "{name}"),
+            _ if name.starts_with("ssim") => assert!((value - 1.0).abs() < 1e-13, "{name}: {value}"),
+            _ => assert!(value.abs() < 1e-14, "{name}: {value}"),
         }
+    }
+}
+
+#[test]
+fn means_over_scenes_have_the_interval_of_these_scenes_and_an_exposure_changes_them() {
+    let samples = samples::load::<f32>().unwrap();
+    let (truth, predicted) = (samples.ground_truth.material, &samples.predictions[1].material);
+    let of = |rendered: &RenderedScenes<'_>| {
+        of_renderings(&truth, predicted, rendered, &Progress::default()).unwrap()
+    };
+    let scenes = Sampler::Random.scenes(0, 3, 2, &PRINTED);
+    let all = of(&rendered(&scenes));
+    let each: Vec<f64> =
+        scenes.iter().map(|scene| value(&of(&rendered(&[*scene])), "flip_rendering_clipped").value).collect();
+    let expected = svbrdf_core::loss::Estimate::of_scenes(&scenes, &each);
+    let flip = value(&all, "flip_rendering_clipped");
+    assert!((flip.value - expected.mean).abs() < 1e-12);
+    assert_eq!(flip.interval95, expected.interval95);
+    let [low, high] = value(&all, "rmse_rendering_clipped_srgb").interval95.unwrap();
+    assert!(low < value(&all, "rmse_rendering_clipped_srgb").value && high < 1.0, "{low}, {high}");
+    assert!(value(&of(&rendered(&scenes[..1])), "flip_rendering_clipped").interval95.is_none());
+    let bright = of(&RenderedScenes { exposure_ev: 1.0, ..rendered(&scenes) });
+    for name in ["flip_rendering_clipped", "rmse_rendering_clipped_linear", "psnr_rendering_clipped_srgb"] {
+        assert!((value(&bright, name).value / value(&all, name).value - 1.0).abs() > 0.01, "{name}");
     }
 }
 
@@ -74,14 +137,9 @@ fn renderings_of_diffuse_materials_have_their_closed_form() {
     // Without specular reflectance at normal incidence: d / pi NoL / l.z = d / pi, but for the Fresnel term, which is tiny here.
     let material = |d| two([0.0, 0.0, 1.0], [d; 2], [0.0; 2], [1.0; 2]).cast::<f32>();
     let direction = [0.0, 0.0, 1.0];
-    let scene = svbrdf_core::model::scene::Scene {
-        kind: svbrdf_core::model::scene::Kind::Distant,
-        view: direction,
-        light: direction,
-    };
+    let scene = Scene { kind: Kind::Distant, view: direction, light: direction };
     let got =
-        of_renderings(&material(0.9), &material(0.3), &[scene], &Convention::default(), &Progress::default())
-            .unwrap();
+        of_renderings(&material(0.9), &material(0.3), &rendered(&[scene]), &Progress::default()).unwrap();
     let [linear, psnr] = ["rmse_rendering_clipped_linear", "psnr_rendering_clipped_linear"]
         .map(|name| got.iter().find(|metric| metric.name == name).unwrap().value);
     let expected = 0.6 / std::f64::consts::PI;
@@ -129,9 +187,20 @@ fn ssim_is_that_of_scikit_image() {
     assert_is(&got, "ssim11_gaussian_specular_srgb", 0.909_353_940_148_961_8);
     assert_is(&got, "ssim11_gaussian_roughness", 0.946_986_647_374_802_6);
     assert_is(&got, "ssim11_gaussian_normal_stored", 1.0);
+    assert_is(&got, "ssim7_uniform_diffuse_srgb", 0.913_961_696_783_317_4);
+    assert_is(&got, "ssim7_uniform_roughness", 0.949_632_108_006_939_6);
+    assert_is(&got, "ssim7_uniform_normal_stored", 1.0);
     // Smaller than a window.
-    let small = of_maps(&material(&a, [24, 10]), &material(&b, [24, 10])).unwrap();
-    assert!(small.iter().all(|metric| !metric.name.starts_with("ssim")));
+    let names = |height| {
+        let small = of_maps(&material(&a, [24, height]), &material(&b, [24, height])).unwrap();
+        small
+            .iter()
+            .filter(|metric| metric.name.starts_with("ssim"))
+            .map(|metric| metric.name)
+            .collect::<Vec<_>>()
+    };
+    assert!(names(10).iter().all(|name| name.starts_with("ssim7")) && names(10).len() == 4);
+    assert!(names(6).is_empty());
 }
 
 /// The functions of the released code (JAX in double precision, NumPy and SciPy):
@@ -227,4 +296,45 @@ mod matfusion {
             }
         }
     }
+}
+
+/// flip-evaluator 1.7, the means of its error maps of linear pictures in f64:
+///
+/// ```python
+/// # One row for each scene, here `scenes`: at 0 EV and at 2 EV in turn; a column for each prediction.
+/// clipped = [np.clip(x * 2.0**ev, 0, 1).astype(np.float32) for x in (truth, predicted)]
+/// flip_evaluator.evaluate(*clipped, "LDR", inputsRGB=False, applyMagma=False)[0].astype(np.float64).mean()
+/// ```
+#[test]
+fn flip_is_that_of_flip_evaluator() {
+    const EXPECTED: [[f64; 2]; 10] = [
+        [0.207_441_64, 0.160_866_36],
+        [0.259_476_89, 0.173_071_26],
+        [0.242_466_36, 0.161_194_01],
+        [0.372_323_86, 0.230_017_46],
+        [0.273_109_65, 0.149_710_82],
+        [0.406_031_38, 0.247_417_44],
+        [0.172_767_57, 0.108_829_47],
+        [0.198_548_05, 0.151_579_38],
+        [0.119_718_47, 0.097_936_33],
+        [0.187_602_72, 0.171_077_82],
+    ];
+    let samples = samples::load::<f32>().unwrap();
+    let scenes = Sampler::Random.scenes(0, 7, 3, &PRINTED);
+    let mut worst = 0.0_f64;
+    for (index, (scene, expected)) in scenes.iter().zip(EXPECTED).enumerate() {
+        let render = |material| render_f32(material, scene, &PRINTED, &Progress::default()).unwrap();
+        let truth = render(&samples.ground_truth.material);
+        let exposure_ev = [0.0, 2.0][index % 2];
+        for (prediction, expected) in samples.predictions.iter().zip(expected) {
+            let found = mean_flip(&truth, &render(&prediction.material), exposure_ev);
+            let off = (found - expected).abs();
+            assert!(off < 1e-6, "{index}, {}: {found}, not {expected}", prediction.material.name());
+            worst = worst.max(off);
+            // A planted fault: half a stop.
+            let darker = mean_flip(&truth, &render(&prediction.material), exposure_ev - 0.5);
+            assert!((darker - expected).abs() > 1e-4, "{index}: {darker}");
+        }
+    }
+    println!("largest deviation of a mean: {worst:e}");
 }

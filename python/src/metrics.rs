@@ -5,7 +5,8 @@ use std::path::Path;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use svbrdf_core::loss::{Request, check_same_size};
-use svbrdf_core::metrics::{of_maps, of_matfusion, of_renderings};
+use svbrdf_core::metrics::{RenderedScenes, of_maps, of_matfusion, of_renderings};
+use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::report::MetricsReport;
 use svbrdf_files::read;
 
@@ -15,13 +16,14 @@ use crate::material::{CoreMaterial, read_options};
 use crate::report::Views;
 use crate::work;
 
-/// The metrics of the maps and renderings of `predictions`.
+/// The metrics of the maps and renderings of `predictions`. `exposure` is that of the renderings in stops.
 #[pyfunction]
 pub fn metrics(
     py: Python<'_>,
     ground_truth: &CoreMaterial,
     predictions: Vec<PyRef<'_, CoreMaterial>>,
     asked: Asked,
+    exposure: f32,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
     let (convention, request) = (asked.convention()?, asked.request()?);
@@ -30,17 +32,23 @@ pub fn metrics(
         _ => None,
     };
     let scenes = request.scenes(&convention).map_err(exception)?.unwrap_or_default();
+    let rendered = RenderedScenes {
+        scenes: &scenes,
+        sampler: sampling.map_or(Sampler::Random, |sampling| sampling.sampler),
+        convention: &convention,
+        exposure_ev: exposure,
+    };
     let all = singles(ground_truth, &predictions);
     let mut results = Vec::new();
     for (prediction, name) in all[1..].iter().zip(asked.predictions()) {
         let metrics = work::run(py, progress, |progress| {
-            let of_renderings = of_renderings(&all[0], prediction, &scenes, &convention, progress)?;
+            let of_renderings = of_renderings(&all[0], prediction, &rendered, progress)?;
             Ok([of_maps(&all[0], prediction)?, of_renderings].concat())
         })?;
         results.push((name.clone(), metrics));
     }
     let compared = asked.compared(&all[0], &convention);
-    Views::new(&MetricsReport::new(&compared, sampling.as_ref(), &scenes, results))
+    Views::new(&MetricsReport::new(&compared, sampling.as_ref(), &rendered, results))
 }
 
 /// The metrics of MatFusion's evaluation. Files are read anew: it compares normals of the lengths that are stored.

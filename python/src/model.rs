@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use svbrdf_core::loss::{Sampling, Texels};
 use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_files::scene_file;
 
@@ -93,6 +94,14 @@ pub fn sample_scenes(
     let sampler = sampler.parse().map_err(exception)?;
     let sampling = Sampling { near, distant, seed, sampler, texels: Texels::All };
     let scenes = sampling.scenes(&convention).map_err(exception)?;
+    Ok(scenes.iter().map(SceneTuple::from).collect())
+}
+
+/// The scenes of a set with a name; `fov` is the field of view of `flash` in degrees.
+#[pyfunction]
+pub fn named_scenes(name: &str, fov: Option<f64>) -> PyResult<Vec<SceneTuple>> {
+    let named = NamedScenes::named(name, fov.unwrap_or(NamedScenes::FOV_DEGREES)).map_err(exception)?;
+    let scenes = named.scenes().map_err(exception)?;
     Ok(scenes.iter().map(SceneTuple::from).collect())
 }
 

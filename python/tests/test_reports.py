@@ -33,6 +33,14 @@ CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
         lambda gt, p: svbrdf.scenes(gt, p, near=9, distant=4, top=5),
     ),
     "metrics": (["--near", "2", "--seed", "3"], lambda gt, p: svbrdf.metrics(gt, p, near=2, seed=3)),
+    "metrics at an exposure": (
+        ["--lights", "flash-9", "--exposure", "1"],
+        lambda gt, p: svbrdf.metrics(gt, p, scenes=svbrdf.named_scenes("flash-9"), exposure=1),
+    ),
+    "loss of named scenes": (
+        ["--lights", "flash", "--fov", "30"],
+        lambda gt, p: svbrdf.loss(gt, p, scenes=svbrdf.named_scenes("flash", fov=30)),
+    ),
     "metrics of a protocol": (["--protocol", "matfusion"], lambda gt, p: svbrdf.metrics(gt, p, protocol="matfusion")),
     "photo": (["--flash", "--fov", "45", "--falloff"], lambda photo, p: photo_of(photo, p)),
 }
@@ -94,6 +102,21 @@ def test_a_protocol_takes_files_with_their_options_and_no_scenes(materials: Mate
         svbrdf.metrics(svbrdf.Material(**maps(13, 11)), predictions, protocol="matfusion")
     with pytest.raises(ValueError, match="near: not used with protocol"):
         svbrdf.metrics(ground_truth, predictions, near=2, protocol="matfusion")
+    with pytest.raises(ValueError, match="exposure: not used with protocol"):
+        svbrdf.metrics(ground_truth, predictions, exposure=0, protocol="matfusion")
+
+
+def test_metrics_over_scenes_have_intervals_and_a_finite_exposure(materials: Materials) -> None:
+    ground_truth, predictions = materials
+    report = svbrdf.metrics(ground_truth, predictions, near=4, distant=3)
+    for result in report.results:
+        low, high = result.intervals95["flip_rendering_clipped"]
+        flip = result.metrics["flip_rendering_clipped"]
+        assert flip is not None and low < flip < high
+        assert "rmse_roughness" not in result.intervals95
+    assert report.exposure_ev == 0.0
+    with pytest.raises(ValueError, match="finite number of stops"):
+        svbrdf.metrics(ground_truth, predictions, exposure=math.nan)
 
 
 def printed(program: str, case: str, materials: Materials, output: str) -> str:

@@ -8,6 +8,7 @@ use svbrdf_core::report::{BlameReport, Compared, Report as _};
 use svbrdf_core::why::attribute;
 use svbrdf_files::scene_file;
 
+use super::args::lights::LightsArgs;
 use super::args::{ComparisonArgs, Given, values};
 use super::job::ComparisonJob;
 use super::output::report::ReportFormat;
@@ -37,8 +38,11 @@ pub struct BlameArgs {
     seed: u64,
 
     /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
-    #[arg(help_heading = "Scenes", long, value_name = "FILE", conflicts_with_all = ["target_error", "seed"])]
+    #[arg(help_heading = "Scenes", long, value_name = "FILE", conflicts_with_all = ["target_error", "seed", "lights", "fov"])]
     scenes: Option<PathBuf>,
+
+    #[command(flatten)]
+    lights: LightsArgs,
 
     /// Output format
     #[arg(long, value_enum, default_value_t)]
@@ -56,9 +60,10 @@ pub struct BlameArgs {
 pub fn run(args: &BlameArgs, given: &Given) -> Result<(), CommandError> {
     let job = ComparisonJob::new(&args.comparison, given)?;
     job.materials.check_predictions()?;
-    let request = match &args.scenes {
-        Some(path) => Request::Listed(scene_file::read(path)?),
-        None => Request::Accuracy { target: args.target_error, seed: args.seed },
+    let request = match (&args.scenes, args.lights.scenes(given)?) {
+        (_, Some(scenes)) => Request::Listed(scenes),
+        (Some(path), None) => Request::Listed(scene_file::read(path)?),
+        (None, None) => Request::Accuracy { target: args.target_error, seed: args.seed },
     };
     let opened = job.materials.open::<f32>()?;
     let one = |prediction: &Material<f32>| {

@@ -10,6 +10,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::report::{LossReport, Report as _};
 use svbrdf_files::scene_file;
 
+use super::args::lights::LightsArgs;
 use super::args::values::{duration, percent};
 use super::args::{ComparisonArgs, Given, modes};
 use super::job::ComparisonJob;
@@ -64,8 +65,11 @@ pub struct LossArgs {
     time_budget: Option<Duration>,
 
     /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
-    #[arg(help_heading = "Scenes", long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
+    #[arg(help_heading = "Scenes", long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler", "lights", "fov"])]
     scenes: Option<PathBuf>,
+
+    #[command(flatten)]
+    lights: LightsArgs,
 
     /// Floating-point precision
     #[arg(long, value_name = "f32|f64", default_value = "f32")]
@@ -133,10 +137,12 @@ impl LossJob {
         if let Some(Request::Listed(_)) = saved {
             given.check(&modes::SESSION_SCENES)?;
         }
-        let question = match saved {
-            Some(request) => request.into(),
-            None if chooses_scenes(args) => request(args)?.into(),
-            None => Question::of_seed(args.seed.unwrap_or(0)),
+        let named = args.lights.scenes(given)?;
+        let question = match (saved, named) {
+            (Some(request), _) => request.into(),
+            (None, Some(scenes)) => Request::Listed(scenes).into(),
+            (None, None) if chooses_scenes(args) => request(args)?.into(),
+            (None, None) => Question::of_seed(args.seed.unwrap_or(0)),
         };
         check_backend(args, &question)?;
         Ok(Self { comparison, question, device: args.backend })
@@ -188,9 +194,9 @@ fn on_backend<T: Compute>(comparison: Comparison<'_, T>, request: &Request) -> R
 
 /// Whether an option chooses which scenes and texels are compared; a seed does not.
 fn chooses_scenes(args: &LossArgs) -> bool {
-    let LossArgs { near, distant, sampler, texels, target_error, time_budget, scenes, .. } = args;
+    let LossArgs { near, distant, sampler, texels, target_error, time_budget, scenes, lights, .. } = args;
     let counts = near.is_some() || distant.is_some() || sampler.is_some() || texels.is_some();
-    counts || target_error.is_some() || time_budget.is_some() || scenes.is_some()
+    counts || target_error.is_some() || time_budget.is_some() || scenes.is_some() || lights.is_named()
 }
 
 /// A graphics adapter compares all texels, in f32.

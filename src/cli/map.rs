@@ -80,7 +80,7 @@ pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
     };
     let map = match args.over {
         Over::Texels => {
-            let (_, scenes) = args.scenes.scenes(comparison.convention())?;
+            let (_, scenes) = args.scenes.scenes(comparison.convention(), given)?;
             watched("rendering", |progress| MapReport::over_texels(&comparison, &scenes, progress))?
         }
         Over::Lights => over(Endpoint::Light)?,

@@ -20,7 +20,8 @@ use super::output::{CommandError, exit, watched};
 #[derive(Debug, clap::Args)]
 pub struct ProtocolArgs {
     /// Computes what the released code of a publication computes, without neural networks
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["near", "distant", "seed", "sampler", "scenes", "convention"])]
+    #[arg(long, value_name = "NAME")]
+    #[arg(conflicts_with_all = ["near", "distant", "seed", "sampler", "scenes", "lights", "fov", "convention", "exposure"])]
     protocol: Option<Protocol>,
 
     /// Writes the renderings of the protocol, a file of NumPy for each material, into a folder: for LPIPS and the like

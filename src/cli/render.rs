@@ -87,7 +87,7 @@ pub fn run(args: &RenderArgs, given: &Given) -> Result<(), CommandError> {
     check_heights(&materials)?;
     let (values, renderer) = job.values(&materials)?;
     let RenderJob { comparison: ComparisonJob { convention, .. }, destination, scene, exposure_ev, .. } = job;
-    let Pictures { images, content } = job.content.of_values(values, &convention);
+    let Pictures { images, content } = job.content.of_values(values, &convention, exposure_ev);
     let sources = materials.iter().map(|m| m.name().to_owned()).collect();
     let provenance = Provenance { content, scene, convention, exposure_ev, sources, renderer };
     Ok(stoppable(|progress| destination.write(&images, &provenance, progress))?)

@@ -38,7 +38,7 @@ pub struct ScenesArgs {
 pub fn run(args: &ScenesArgs, given: &Given) -> Result<(), CommandError> {
     let job = ComparisonJob::new(&args.comparison, given)?;
     job.materials.check_predictions()?;
-    let request = args.scenes.request()?;
+    let request = args.scenes.request(given)?;
     let opened = job.materials.open::<f32>()?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();

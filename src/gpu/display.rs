@@ -129,6 +129,8 @@ fn constants(params: &DisplayParams, nearest: bool) -> Constants {
             Difference::Signed => 4,
             Difference::Relative => 5,
             Difference::Angle => 6,
+            // Not of single texels: always computed.
+            Difference::Flip => 7,
         },
     };
     let encoding = match params.encoding {

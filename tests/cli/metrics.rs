@@ -67,6 +67,36 @@ fn the_protocol_of_matfusion_compares_values_as_stored() {
 }
 
 #[test]
+fn metrics_of_renderings_have_intervals_and_an_exposure() {
+    let folder = folder();
+    let args = "metrics gt.png a.png b.png --near 8 --distant 4";
+    let found = json(&succeed(folder.path(), &format!("{args} --format json --exposure 1")));
+    assert_eq!(found["exposure_ev"], 1.0);
+    let entry = &found["results"][1];
+    let flip = entry["metrics"]["flip_rendering_clipped"].as_f64().unwrap();
+    let ends = entry["intervals95"]["flip_rendering_clipped"].as_array().unwrap();
+    let [low, high] = [0, 1].map(|end| ends[end].as_f64().unwrap());
+    assert!(0.0 <= low && low < flip && flip < high, "{low}, {flip}, {high}");
+    assert!(entry["intervals95"].get("rmse_roughness").is_none());
+    let text = succeed(folder.path(), &format!("{args} --exposure 1"));
+    assert!(text.contains("renderings at 1 EV, clipped to [0, 1]\n"), "{text}");
+    let line = text.lines().find(|line| line.starts_with("flip_rendering_clipped")).unwrap();
+    assert!(
+        line.contains(&format!("{flip:.6}")) && line.contains(&format!("{low:.6} to {high:.6}")),
+        "{line}"
+    );
+    let csv = succeed(folder.path(), &format!("{args} --exposure 1 --format csv"));
+    let mut rows = csv::Reader::from_reader(csv.as_bytes());
+    let titles: Vec<String> = rows.headers().unwrap().iter().map(str::to_owned).collect();
+    assert_eq!(titles[4..], ["b", "b interval95_low", "b interval95_high"]);
+    let row = rows.records().map(Result::unwrap).find(|row| &row[0] == "flip_rendering_clipped").unwrap();
+    assert_eq!(row[5].parse::<f64>().unwrap(), low);
+    let dark = json(&succeed(folder.path(), &format!("{args} --format json")));
+    assert_eq!(dark["results"][1]["metrics"]["rmse_roughness"], entry["metrics"]["rmse_roughness"]);
+    assert_ne!(dark["results"][1]["metrics"]["flip_rendering_clipped"].as_f64().unwrap(), flip);
+}
+
+#[test]
 fn what_a_protocol_cannot_do_is_refused() {
     let folder = folder();
     for (args, code, problem) in [
@@ -74,7 +104,12 @@ fn what_a_protocol_cannot_do_is_refused() {
         ("metrics --protocol matfusion gt.png a.png --near 3", 64, "cannot be used with"),
         ("metrics --protocol matfusion gt.png a.png --resize-to gt", 64, "leave out --resize-to"),
         ("metrics gt.png a.png --renderings out", 64, "--protocol"),
+        ("metrics gt.png a.png --lights flash --renderings out", 64, "leave out --renderings"),
+        ("metrics gt.png a.png --near 3 --renderings out", 64, "leave out --renderings"),
         ("metrics --protocol other gt.png a.png", 64, "matfusion"),
+        ("metrics --protocol matfusion gt.png a.png --lights flash", 64, "cannot be used with"),
+        ("metrics --protocol matfusion gt.png a.png --exposure 1", 64, "cannot be used with"),
+        ("metrics gt.png a.png --exposure nan", 64, "stops"),
         ("rank gt.png a.png --metrics", 64, "svbrdf metrics"),
     ] {
         let stderr = fail(folder.path(), args, code);
@@ -104,7 +139,16 @@ fn a_ranking_of_a_data_set_has_metrics_of_the_maps() {
     }
     let table = succeed(folder.path(), rank);
     assert!(table.contains("metric, mean over materials") && table.contains("rmse_roughness"), "{table}");
+    // The PSNR of equal maps is infinite, of all others finite.
+    let psnr = |method: usize, map: &str| &found["methods"][method]["metrics"][map]["mean"];
+    assert_eq!((psnr(0, "psnr_normal_stored"), psnr(1, "psnr_normal_stored")), (&Value::Null, &Value::Null));
+    assert!(psnr(0, "psnr_roughness").as_f64() > psnr(1, "psnr_roughness").as_f64());
     let latex = succeed(folder.path(), &format!("{rank} --format latex"));
+    assert!(
+        latex.contains("psnr\\_normal\\_stored $\\uparrow$ & \\textbf{$\\infty$} & \\textbf{$\\infty$} \\\\"),
+        "{latex}"
+    );
+    assert!(latex.contains("psnr\\_roughness $\\uparrow$ & \\textbf{30.0690} & 16.0896 \\\\"), "{latex}");
     assert_eq!(latex.matches("\\begin{tabular}").count(), 2, "{latex}");
     // The roughness of theirs is worse in every material, the normals are the same.
     assert!(latex.contains("rmse\\_roughness $\\downarrow$ & \\textbf{0.0314} & 0.1569 \\\\"), "{latex}");

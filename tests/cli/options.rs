@@ -40,6 +40,7 @@ const MODES: [(&str, Shows); 43] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
+    ("loss gt.png a.png --lights flash", Shows::Everything),
     ("loss s.svbrdf-session.json", Shows::Everything),
     ("loss", Shows::Everything),
     ("render gt.png a.png -o x.png", Shows::Everything),
@@ -68,6 +69,7 @@ const MODES: [(&str, Shows); 43] = [
     ("map gt.png a.png -o x.csv --over lights --side 8", Shows::Everything),
     ("map gt.png a.png -o x.csv --over views --side 8", Shows::Everything),
     ("metrics gt.png a.png", Shows::Everything),
+    ("metrics gt.png a.png --lights flash-9", Shows::Everything),
     ("metrics gt.png tilted.png --protocol matfusion", Shows::Everything),
     ("photo photo.png gt.png a.png --scene one.json", Shows::Everything),
     ("photo photo.png gt.png --flash --fov 45 -o x.png", Shows::Everything),
@@ -93,7 +95,7 @@ const MODES: [(&str, Shows); 43] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 70] = [
+const VALUES: [(&str, &str); 68] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -126,6 +128,7 @@ const VALUES: [(&str, &str); 70] = [
     ("seed", "5"),
     ("sampler", "random"),
     ("scenes", "one.json"),
+    ("lights", "flash"),
     ("texels", "3"),
     ("target-error", "25%"),
     ("time-budget", "1ms"),

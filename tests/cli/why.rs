@@ -25,7 +25,7 @@ fn blame_adds_up_in_every_format() {
     assert_eq!(csv.lines().count(), 9);
     assert!(csv.starts_with("prediction,map,shapley,standard_error,"), "{csv}");
     let listed = succeed(folder.path(), "blame gt.png a.png --scenes one.json");
-    assert!(listed.contains("1 near-field and 0 distant scenes from a file"), "{listed}");
+    assert!(listed.contains("1 near-field and 0 distant scenes, listed"), "{listed}");
 }
 
 /// A metal and a rougher, darker prediction: what the roughness adds to the light that is seen off the highlight, the specular takes away.

@@ -49,7 +49,7 @@ fn rendered(
     convention: &Convention,
     exposure: f32,
 ) -> Vec<Vec<[u8; 3]>> {
-    let pictures = content.pictures(materials, scene, convention, &Progress::default()).unwrap();
+    let pictures = content.pictures(materials, scene, convention, exposure, &Progress::default()).unwrap();
     let colours = |image: &svbrdf_core::image::Image<f32>| {
         image.pixels.iter().map(|rgb| pictures.content.colour(*rgb, exposure)).collect()
     };
@@ -97,7 +97,7 @@ fn maps_and_coloured_differences_are_those_of_render() {
             let off = largest(&picture(&mut page, index, None), core);
             assert!(off <= PAGE_PIXELS, "{quantity:?} of {index}: off by {off}");
         }
-        for kind in Difference::all(quantity) {
+        for kind in Difference::pointwise(quantity) {
             let state = json!({ quantity.name(): kind.key() });
             page.evaluate(&format!("Object.assign(window.svbrdf.figure.state.kinds, {state})"));
             let coloured = ColouredDifference { kind: *kind, range: Some(kind.default_range()) };
@@ -120,7 +120,7 @@ fn readouts_are_those_of_the_core() {
     for scene in sample(5, 4, 4, &PRINTED) {
         for quantity in Quantity::ALL {
             show(&mut page, &scene, quantity, 0.0);
-            for kind in Difference::all(quantity) {
+            for kind in Difference::pointwise(quantity) {
                 let state = json!({ quantity.name(): kind.key() });
                 page.evaluate(&format!("Object.assign(window.svbrdf.figure.state.kinds, {state})"));
                 for texel in [[0, 0], [47, 0], [5, 31], [20, 20]] {

@@ -56,6 +56,7 @@ fn difference(kind: Difference, g: [f64; 3], p: [f64; 3]) -> f64 {
             // Of unit vectors: the arc cosine loses half of the digits where they are close.
             if dot > 0.0 { 2.0 * (chord / 2.0).asin().to_degrees() } else { dot.acos().to_degrees() }
         }
+        Difference::Flip => f64::NAN,
     }
 }
 
@@ -108,7 +109,7 @@ fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
     press(&mut window, egui::Key::D);
     for quantity in Quantity::ALL {
         let values = values(quantity);
-        for &kind in Difference::all(quantity) {
+        for &kind in Difference::pointwise(quantity) {
             let state = &mut window.state_mut().parts.model.view;
             state.display.quantity = quantity;
             state.display.differences.choose(quantity, kind);

@@ -49,7 +49,7 @@ fn saved_renderings_are_what_is_selected() {
     let shown = PictureContent { quantity: Quantity::Normal, difference: Some(difference) };
     let (scene, convention) =
         (window.state().parts.model.view.scene, window.state().parts.model.view.convention());
-    let pictures = shown.pictures(&materials, &scene, &convention, &Progress::default()).unwrap();
+    let pictures = shown.pictures(&materials, &scene, &convention, 3.0, &Progress::default()).unwrap();
     let image = &pictures.images[0];
     for (i, rgb) in image.pixels.iter().enumerate() {
         let (x, y) = (i % image.width, i / image.width);

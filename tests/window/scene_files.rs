@@ -172,3 +172,20 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     assert!(messages[0].contains("expected one scene file, found"), "{messages:?}");
     window.get_by_label("3 scenes of render.json");
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn scenes_with_a_name_are_those_of_the_loss_until_they_are_removed() {
+    use svbrdf_core::model::named_scenes::flash_9;
+    let mut window = by_scenes();
+    window.get_by_label("Named...").click();
+    window.run_steps(4);
+    window.get_by_label("flash-9").click();
+    window.run_steps(4);
+    let request = |window: &Window<'_>| window.state().parts.model.settings.loss.request();
+    assert_eq!(request(&window), svbrdf_core::loss::Request::Listed(flash_9().into()));
+    window.get_by_label("9 scenes of flash-9");
+    window.get_by_label("Remove scenes").click();
+    window.run_steps(4);
+    assert!(matches!(request(&window), svbrdf_core::loss::Request::Accuracy { .. }));
+}

@@ -34,7 +34,7 @@ from ._metrics import Metrics, MetricsReport, metrics
 from ._page import Figure, figure, report
 from ._photo import PhotoReport, PhotoResult, PhotoStatistics, photo
 from ._report import Estimate, Report
-from ._scenes import CONVENTIONS, Convention, Scene, read_scenes, render, sample_scenes
+from ._scenes import CONVENTIONS, Convention, Scene, named_scenes, read_scenes, render, sample_scenes
 from ._show import show
 from ._why import MapReport, MapSummary, ScenesLoss, ScenesReport, Worst, WorstReport, map, scenes, worst
 
@@ -91,6 +91,7 @@ __all__ = [
     "loss",
     "map",
     "metrics",
+    "named_scenes",
     "photo",
     "rank",
     "rank_dataset",

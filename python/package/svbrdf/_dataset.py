@@ -19,10 +19,11 @@ from ._report import Report, pair, views
 class MetricSummary:
     """A metric of the maps of a method over the materials."""
 
-    mean: float
-    median: float
+    mean: float | None
+    """None where it is infinite: that of the PSNR, where maps of a material are equal."""
+    median: float | None
     interval95_materials: tuple[float, float] | None
-    """The 95% interval of the mean over all materials like these; None for fewer than 3."""
+    """The 95% interval of the mean over all materials like these; None for fewer than 3, and for an infinite mean."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +68,9 @@ class DatasetLoss:
     standard_error: float | None
     interval95: tuple[float, float] | None
     error: str | None
-    metrics: Mapping[str, float]
-    """Of the maps by name; empty where they were not asked for or the maps cannot be compared."""
+    metrics: Mapping[str, float | None]
+    """Of the maps by name, None for the infinite PSNR of equal maps; empty where they were not asked for or the maps
+    cannot be compared."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

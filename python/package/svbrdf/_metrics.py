@@ -1,5 +1,6 @@
 """Metrics beside the loss."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -19,7 +20,9 @@ class Metrics:
 
     prediction: str
     metrics: Mapping[str, float | None]
-    """By name; None for the infinite PSNR of equal renderings."""
+    """By name; None for the infinite PSNR of equal maps or renderings."""
+    intervals95: Mapping[str, tuple[float, float]]
+    """The 95% intervals of means over sampled scenes by name, where they are known."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -29,6 +32,8 @@ class MetricsReport(Report):
     ground_truth: str
     convention: str | None = None
     """The convention of the renderings; None for those of a protocol."""
+    exposure_ev: float | None = None
+    """The exposure of the renderings in stops; None for those of a protocol."""
     protocol: str | None = None
     """The published evaluation."""
     results: tuple[Metrics, ...]
@@ -45,10 +50,11 @@ def metrics(
     sampler: Literal["random", "sobol"] | None = None,
     scenes: Scenes | None = None,
     convention: str | None = None,
+    exposure: float | None = None,
     protocol: Literal["matfusion"] | None = None,
     progress: bool | Progress = False,
 ) -> MetricsReport:
-    """Metrics of maps and renderings: root mean square and mean absolute differences, angles, SSIM and PSNR.
+    """Metrics of maps and renderings: root mean square and mean absolute differences, angles, PSNR, SSIM and FLIP.
 
     With `protocol`, what the released code of a publication computes, without neural networks.
 
@@ -67,6 +73,7 @@ def metrics(
         sampler: "sobol", the default, or "random".
         scenes: These scenes, or those of a scene file, in place of sampled ones.
         convention: A name of `svbrdf.CONVENTIONS`; "printed" where no protocol is given.
+        exposure: That of the renderings in stops, before they are clipped; 0 where no protocol is given.
         protocol: "matfusion": Sartor and Peers 2023, score.py. Takes files, since normals are compared as
             stored.
         progress: True for a bar of tqdm, or a function of (steps done, steps in all).
@@ -74,27 +81,43 @@ def metrics(
     Raises:
         OSError: A file cannot be read.
         svbrdf.Error: A material or a scene cannot be used, or the sizes differ.
-        ValueError: Options of sampled scenes are given together with `scenes`, or scenes, a convention or a material of
-            arrays with a protocol.
+        ValueError: Options of sampled scenes are given together with `scenes`, or scenes, a convention, an exposure or
+            a material of arrays with a protocol; or the exposure is no finite number.
     """
     if protocol is not None:
         if protocol != "matfusion":
             raise ValueError(f"protocol: expected 'matfusion', found {protocol!r}")
         check_unused(
-            "protocol", near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes, convention=convention
+            "protocol",
+            near=near,
+            distant=distant,
+            seed=seed,
+            sampler=sampler,
+            scenes=scenes,
+            convention=convention,
+            exposure=exposure,
         )
         asked = Asked(ground_truth, predictions, convention="printed", precision="f64")
         with reported("rendering", progress) as report:
             return _of(_core.matfusion(*asked.core, asked.options, report))
+    if exposure is not None and not math.isfinite(exposure):
+        raise ValueError(f"exposure: expected a finite number of stops, found {exposure}")
     choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
     asked = Asked(ground_truth, predictions, convention=convention or "printed", **choice)
     with reported("rendering", progress) as report:
-        return _of(_core.metrics(*asked.core, report))
+        return _of(_core.metrics(*asked.core, exposure or 0.0, report))
 
 
 def _of(found: "_core.Views") -> MetricsReport:
     """The report of its views."""
     arguments = views(found)
     values = arguments["_values"]
-    results = tuple(Metrics(**entry) for entry in values["results"])
+    results = tuple(
+        Metrics(
+            entry["prediction"],
+            entry["metrics"],
+            {name: (low, high) for name, (low, high) in entry.get("intervals95", {}).items()},
+        )
+        for entry in values["results"]
+    )
     return MetricsReport(**arguments, **{**values, "results": results})

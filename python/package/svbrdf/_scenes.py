@@ -90,6 +90,29 @@ def sample_scenes(
     return scenes_of(_core.sample_scenes(near, distant, seed, sampler, convention))
 
 
+def named_scenes(name: Literal["flash", "flash-9", "hemisphere"], *, fov: float | None = None) -> list[Scene]:
+    """The scenes of a set with a name, for every argument `scenes`.
+
+    "flash" is one flash at the camera, straight above the centre; "flash-9" the nine flashes at the camera of
+    MaterialGAN (Guo et al. 2020); "hemisphere" the 128 lights on the hemisphere of MatFusion (Sartor and Peers 2023),
+    with the camera above the centre. `sample_scenes` has those of the papers (Algorithms 1 and 2).
+
+    >>> [len(named_scenes(name)) for name in ("flash", "flash-9", "hemisphere")]
+    [1, 9, 128]
+
+    Args:
+        name: The name of the set.
+        fov: The angle in degrees that the width of the material spans at the camera of "flash"; 45 by default.
+
+    Raises:
+        ValueError: A field of view is given for a set that has none.
+        svbrdf.Error: There is no such set, or the field of view is not between 0.1 and 179 degrees.
+    """
+    if fov is not None and name != "flash":
+        raise ValueError(f"fov: a field of view belongs to 'flash', found {name!r}")
+    return scenes_of(_core.named_scenes(name, fov))
+
+
 def read_scenes(path: str | os.PathLike[str]) -> list[Scene]:
     """The scenes of a scene file: `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`.
 

@@ -2,6 +2,7 @@
 
 pub mod comparison;
 pub mod given;
+pub mod lights;
 pub mod modes;
 pub mod photograph;
 pub mod reading;

@@ -41,7 +41,7 @@ const PAIR: &[&str] = &["gt-albedo", "resize-to"];
 const OF_PREDICTIONS: &[&str] =
     &["pred-albedo", "pred-specular-albedo", "pred-normal-y", "pred-roughness", "pred-energy"];
 /// The scenes of a command that samples them.
-const SCENES: &[&str] = &["near", "distant", "seed", "sampler", "scenes"];
+const SCENES: &[&str] = &["near", "distant", "seed", "sampler", "scenes", "lights", "fov"];
 /// The one scene of a picture.
 const ONE_SCENE: &[&str] = &["view", "light", "distant"];
 
@@ -52,6 +52,15 @@ pub const SESSION: Mode = Mode {
 };
 /// Any command with a ground truth alone.
 pub const NO_PREDICTION: Mode = Mode { reason: "there is no prediction", unused: &[OF_PREDICTIONS] };
+
+/// Any command with a fixed set of scenes.
+pub const NAMED_SCENES: Mode = Mode {
+    reason: "the scenes of this name are a fixed list",
+    unused: &[&["near", "distant", "seed", "sampler", "texels", "target-error", "time-budget"]],
+};
+/// Any command whose scenes are not those of one flash.
+pub const NO_FLASH: Mode =
+    Mode { reason: "a field of view belongs to `--lights flash`", unused: &[&["fov"]] };
 
 /// `loss` with a session whose scenes are of a file.
 pub const SESSION_SCENES: Mode =
@@ -82,6 +91,10 @@ pub const MAP_OVER_DIRECTIONS: Mode =
 /// `metrics --protocol`.
 pub const PROTOCOL: Mode =
     Mode { reason: "a protocol compares materials as they are", unused: &[&["resize-to"]] };
+
+/// `metrics` without a protocol. The parser alone would not refuse this beside options that exclude a protocol.
+pub const NO_PROTOCOL: Mode =
+    Mode { reason: "only a --protocol writes renderings", unused: &[&["renderings"]] };
 
 /// `rank` of the predictions of one ground truth.
 pub const RANK_PREDICTIONS: Mode = Mode {

@@ -9,7 +9,10 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_files::scene_file;
 
+use super::Given;
+use super::lights::LightsArgs;
 use super::values::triple;
+use crate::cli::output::CommandError;
 
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Scenes")]
@@ -31,8 +34,11 @@ pub struct SceneArgs {
     sampler: Sampler,
 
     /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler", "lights", "fov"])]
     scenes: Option<PathBuf>,
+
+    #[command(flatten)]
+    lights: LightsArgs,
 }
 
 impl SceneArgs {
@@ -40,11 +46,15 @@ impl SceneArgs {
     ///
     /// # Errors
     /// As [`SceneArgs::request`].
-    pub fn scenes(&self, convention: &Convention) -> Result<(Option<Sampling>, Vec<Scene>), Error> {
-        match self.request()? {
+    pub fn scenes(
+        &self,
+        convention: &Convention,
+        given: &Given,
+    ) -> Result<(Option<Sampling>, Vec<Scene>), CommandError> {
+        match self.request(given)? {
             Request::Listed(scenes) => Ok((None, scenes)),
             Request::Scenes(sampling) => Ok((Some(sampling), sampling.scenes(convention)?)),
-            _ => Err(Error::Internal("scenes without a list".to_owned())),
+            _ => Err(Error::Internal("scenes without a list".to_owned()).into()),
         }
     }
 
@@ -56,8 +66,11 @@ impl SceneArgs {
     /// The request for these scenes on all texels.
     ///
     /// # Errors
-    /// Where a scene file cannot be read, or there are no scenes.
-    pub fn request(&self) -> Result<Request, Error> {
+    /// Where a scene file cannot be read, or there are no scenes; [`CommandError::Usage`] for options that the scenes do not use.
+    pub fn request(&self, given: &Given) -> Result<Request, CommandError> {
+        if let Some(scenes) = self.lights.scenes(given)? {
+            return Ok(Request::Listed(scenes));
+        }
         if let Some(path) = &self.scenes {
             return Ok(Request::Listed(scene_file::read(path)?));
         }

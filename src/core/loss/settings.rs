@@ -24,12 +24,12 @@ pub enum Ask {
     File,
 }
 
-/// The scenes of a file.
+/// The scenes of a file, or of a set with a name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FileScenes {
-    /// The name of the file.
+    /// The name of the file or of the set.
     pub name: String,
-    /// The file itself, where it has been read; empty in a session, which holds its scenes.
+    /// The file itself, where it has been read; empty for a set, and in a session, which holds its scenes.
     #[serde(skip)]
     pub path: PathBuf,
     /// At least one.

@@ -17,11 +17,13 @@
 
 mod depth;
 mod grid;
+mod metallic;
 mod mix;
 pub mod resize;
 
 pub use depth::{Depth, half_normal};
 pub use grid::Grid;
+pub use metallic::base_and_metallic;
 pub use mix::Map;
 
 use glam::DVec3;

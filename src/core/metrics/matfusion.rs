@@ -3,22 +3,21 @@
 //! The released script computes in single precision, this module in double. Its renderer is not Algorithm 3: texels lie at pixel
 //! centres, R is multiplied by pi and clipped to [0, 1], diffuse is not scaled by (1 - specular), and roughness is at least 0.01.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Metric;
-use super::dome_points::DOME_POINTS;
 use super::maps::{pairs, rmse, stored};
 use crate::error::Error;
 use crate::image::Image;
 use crate::material::Planes;
 use crate::math::real::Real;
+use crate::model::named_scenes::{MATFUSION_DISTANCE, hemisphere};
+use crate::model::scene::Scene;
 use crate::progress::Progress;
 
-/// Distance of the light and the camera from the centre of the material, whose half width is 1.
-const DISTANCE: f64 = 2.41;
 /// Smallest cosine, denominator of D, and k of G; also added to the 4 of the specular term.
 const EPS: f64 = 1e-8;
 const LEAST_ROUGHNESS: f64 = 0.01;
@@ -38,7 +37,7 @@ pub fn of_matfusion<T: Real>(
 ) -> Result<Vec<Metric>, Error> {
     let normals = stored(&pairs(&ground_truth.normal, &prediction.normal));
     let roughness = [&ground_truth.roughness, &prediction.roughness].map(std::slice::from_ref);
-    let flash = DVec3::new(0.0, 0.0, DISTANCE);
+    let flash = DVec3::new(0.0, 0.0, MATFUSION_DISTANCE);
     progress.begin(2);
     let rerendered = |planes| -> Result<Vec<[f64; 3]>, Error> {
         let rendering = rendering(planes, size, flash);
@@ -46,13 +45,12 @@ pub fn of_matfusion<T: Real>(
     };
     let [truth, predicted] = [rerendered(ground_truth)?, rerendered(prediction)?];
     let distances = truth.as_flattened().iter().zip(predicted.as_flattened()).map(|(a, b)| (a - b).abs());
-    let metric = |name, value| Metric { name, value };
     Ok(vec![
-        metric("matfusion_rmse_diffuse", rmse(&pairs(&ground_truth.diffuse, &prediction.diffuse))),
-        metric("matfusion_rmse_specular", rmse(&pairs(&ground_truth.specular, &prediction.specular))),
-        metric("matfusion_rmse_roughness", rmse(&pairs(roughness[0], roughness[1]))),
-        metric("matfusion_rmse_normals", rmse(&normals)),
-        metric("matfusion_l1_rerender", distances.sum::<f64>() / truth.as_flattened().len() as f64),
+        Metric::exact("matfusion_rmse_diffuse", rmse(&pairs(&ground_truth.diffuse, &prediction.diffuse))),
+        Metric::exact("matfusion_rmse_specular", rmse(&pairs(&ground_truth.specular, &prediction.specular))),
+        Metric::exact("matfusion_rmse_roughness", rmse(&pairs(roughness[0], roughness[1]))),
+        Metric::exact("matfusion_rmse_normals", rmse(&normals)),
+        Metric::exact("matfusion_l1_rerender", distances.sum::<f64>() / truth.as_flattened().len() as f64),
     ])
 }
 
@@ -67,28 +65,20 @@ pub fn matfusion_renderings<T: Real>(
     size: [usize; 2],
     progress: &Progress,
 ) -> Result<Vec<Image<f32>>, Error> {
-    let points = DOME_POINTS.as_chunks::<2>().0;
-    progress.begin(points.len() as u64);
-    let one = |point: &[u32; 2]| -> Result<Image<f32>, Error> {
-        let rgb =
-            rendering(planes, size, DISTANCE * direction(point.map(|x| f64::from(x) / 2.0_f64.powi(30))));
+    let scenes = hemisphere();
+    progress.begin(scenes.len() as u64);
+    let one = |scene: &Scene| -> Result<Image<f32>, Error> {
+        let rgb = rendering(planes, size, scene.light.into());
         let pixels = rgb.into_iter().map(|rgb| rgb.map(|x| x as f32)).collect();
         progress.step()?;
         Ok(Image { width: size[0], height: size[1], pixels })
     };
-    points.par_iter().map(one).collect()
+    scenes.par_iter().map(one).collect()
 }
 
-/// The direction of a point of the unit square.
-fn direction([u, cosine]: [f64; 2]) -> DVec3 {
-    let sine = (1.0 - cosine * cosine).sqrt();
-    let (sine_phi, cosine_phi) = (u * TAU).sin_cos();
-    DVec3::new(sine * cosine_phi, sine * sine_phi, cosine)
-}
-
-/// The renderer of `nprast.py`: values in [0, 1], the camera at (0, 0, [`DISTANCE`]).
+/// The renderer of `nprast.py`: values in [0, 1], the camera at (0, 0, [`MATFUSION_DISTANCE`]).
 fn rendering<T: Real>(planes: &Planes<T>, [width, height]: [usize; 2], light: DVec3) -> Vec<[f64; 3]> {
-    let camera = DVec3::new(0.0, 0.0, DISTANCE);
+    let camera = DVec3::new(0.0, 0.0, MATFUSION_DISTANCE);
     let texel = |index: usize| {
         let (row, column) = (index / width, index % width);
         let x = 2.0 * (column as f64 + 0.5) / height as f64 - 1.0;

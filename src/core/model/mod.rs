@@ -15,6 +15,8 @@
 
 pub mod brdf;
 pub mod convention;
+mod hemisphere_points;
+pub mod named_scenes;
 pub mod sampler;
 pub mod scene;
 pub mod terms;

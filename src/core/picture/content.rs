@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::colour_map::difference_to_display;
-use super::difference::Difference;
+use super::difference::{Difference, DifferenceParams};
 use super::quantity::Quantity;
 use super::statistics::Distributions;
 use super::tone::to_display;
@@ -44,7 +44,8 @@ pub struct Pictures {
 }
 
 impl PictureContent {
-    /// The value of every material, or the difference of every material but the first, the ground truth.
+    /// The value of every material, or the difference of every material but the first, the ground truth. Values are not exposed;
+    /// differences are, where they depend on `exposure_ev`.
     ///
     /// # Errors
     /// Those of [`Quantity::image`].
@@ -53,27 +54,28 @@ impl PictureContent {
         materials: &[&Material<f32>],
         scene: &Scene,
         convention: &Convention,
+        exposure_ev: f32,
         progress: &Progress,
     ) -> Result<Pictures, Error> {
         let image = |material: &&Material<f32>| self.quantity.image(material, scene, convention, progress);
         let values = materials.iter().map(image).collect::<Result<Vec<_>, _>>()?;
-        Ok(self.of_values(values, convention))
+        Ok(self.of_values(values, convention, exposure_ev))
     }
 
     /// As [`PictureContent::pictures`], of values that have been computed.
-    pub fn of_values(self, values: Vec<Image<f32>>, convention: &Convention) -> Pictures {
+    pub fn of_values(self, values: Vec<Image<f32>>, convention: &Convention, exposure_ev: f32) -> Pictures {
         let (Some(difference), Some((ground_truth, predictions))) = (self.difference, values.split_first())
         else {
             return Pictures { images: values, content: self };
         };
-        let epsilon = convention.epsilon;
+        let params = DifferenceParams { epsilon: convention.epsilon, exposure_ev };
         let auto = || {
-            let of = |prediction| difference.kind.of_images(ground_truth, prediction, epsilon);
+            let of = |prediction| difference.kind.of_images(ground_truth, prediction, params);
             Distributions::of(&predictions.iter().map(of).collect::<Vec<_>>(), difference.kind.is_signed())
                 .auto_range
         };
         let range = Some(difference.range.unwrap_or_else(auto));
-        let images = predictions.iter().map(|p| difference.kind.picture(ground_truth, p, epsilon)).collect();
+        let images = predictions.iter().map(|p| difference.kind.picture(ground_truth, p, params)).collect();
         Pictures {
             images,
             content: Self { difference: Some(ColouredDifference { range, ..difference }), ..self },
@@ -117,6 +119,7 @@ impl PictureContent {
             Difference::Signed => "prediction - ground truth".to_owned(),
             Difference::Relative => format!("|prediction - ground truth| / {g}"),
             Difference::Angle => "angle in degrees".to_owned(),
+            Difference::Flip => "of exposed and clipped sRGB, 67 pixels per degree".to_owned(),
         };
         format!("{} of {}: {formula}{range}", kind.name(), self.quantity.name())
     }
@@ -149,11 +152,11 @@ mod tests {
     fn differences_are_those_of_the_predictions_and_share_a_range() {
         let convention = Convention::default();
         let values = vec![image(1.0), image(1.5), image(0.75)];
-        let pictures = difference(None).of_values(values.clone(), &convention);
+        let pictures = difference(None).of_values(values.clone(), &convention, 0.0);
         assert_eq!(pictures.images, [image(0.5), image(0.25)]);
         // Interpolated between the two largest of the differences 0.5 and 1.
         assert_eq!(pictures.content.difference.and_then(|d| d.range), Some(0.995));
-        let set = difference(Some(0.3)).of_values(values, &convention);
+        let set = difference(Some(0.3)).of_values(values, &convention, 0.0);
         assert_eq!(set.content.difference.and_then(|d| d.range), Some(0.3));
     }
 

@@ -1,6 +1,6 @@
 //! Differences of a prediction from the ground truth, as quantities with a unit and a range.
 //!
-//! `src/gpu/shaders/difference.wgsl` is the twin of [`Difference::of_texel`].
+//! `src/gpu/shaders/difference.wgsl` is the twin of [`Difference::of_texel`]; differences of neighbourhoods are computed here only.
 
 use std::str::FromStr;
 
@@ -8,6 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::flip::flip;
 use super::quantity::Quantity;
 use crate::error::Error;
 use crate::image::Image;
@@ -28,11 +29,32 @@ pub enum Difference {
     Relative,
     /// The angle between two unit normals, in degrees.
     Angle,
+    /// FLIP of the exposed renderings: what a person sees who alternates between them. Depends on the neighbourhood of a texel.
+    Flip,
+}
+
+/// What differences of renderings depend on besides the pictures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DifferenceParams {
+    /// Of the convention.
+    pub epsilon: f64,
+    /// In stops: of [`Difference::Flip`] alone.
+    pub exposure_ev: f32,
 }
 
 impl Difference {
     /// The differences that make sense for a quantity, the default first.
     pub fn all(quantity: Quantity) -> &'static [Self] {
+        match quantity {
+            Quantity::Rendering => {
+                &[Self::Log, Self::SignedLog, Self::Absolute, Self::Signed, Self::Relative, Self::Flip]
+            }
+            _ => Self::pointwise(quantity),
+        }
+    }
+
+    /// Those of [`Difference::all`] that compare texels one by one, the default first.
+    pub fn pointwise(quantity: Quantity) -> &'static [Self] {
         match quantity {
             Quantity::Rendering => {
                 &[Self::Log, Self::SignedLog, Self::Absolute, Self::Signed, Self::Relative]
@@ -51,6 +73,7 @@ impl Difference {
             Self::Signed => "signed difference",
             Self::Relative => "relative difference",
             Self::Angle => "angle",
+            Self::Flip => "FLIP",
         }
     }
 
@@ -63,6 +86,7 @@ impl Difference {
             Self::Signed => "signed",
             Self::Relative => "relative",
             Self::Angle => "angle",
+            Self::Flip => "flip",
         }
     }
 
@@ -75,6 +99,7 @@ impl Difference {
             Self::Signed => "p - g",
             Self::Relative => "|p - g| / g",
             Self::Angle => "degrees",
+            Self::Flip => "67 pixels per degree",
         }
     }
 
@@ -87,12 +112,12 @@ impl Difference {
     pub fn default_range(self) -> f64 {
         match self {
             Self::Log | Self::SignedLog => 2.0,
-            Self::Absolute | Self::Signed | Self::Relative => 1.0,
+            Self::Absolute | Self::Signed | Self::Relative | Self::Flip => 1.0,
             Self::Angle => 45.0,
         }
     }
 
-    /// The difference at one texel.
+    /// The difference at one texel; NaN for FLIP, which compares neighbourhoods.
     pub fn of_texel(self, ground_truth: [f32; 3], prediction: [f32; 3], epsilon: f64) -> f64 {
         match self {
             Self::Angle => angle(ground_truth, prediction),
@@ -100,7 +125,7 @@ impl Difference {
         }
     }
 
-    /// The difference of each channel at one texel; of an angle, the same three times.
+    /// The difference of each channel at one texel; of an angle, the same three times; NaN for FLIP.
     pub fn of_channels(self, ground_truth: [f32; 3], prediction: [f32; 3], epsilon: f64) -> [f64; 3] {
         let [g, p] = [ground_truth, prediction].map(|rgb| rgb.map(f64::from));
         let each = |of: &dyn Fn(f64, f64) -> f64| [0, 1, 2].map(|c| of(g[c], p[c]));
@@ -112,20 +137,43 @@ impl Difference {
             Self::Signed => each(&|g, p| p - g),
             Self::Relative => each(&|g, p| (p - g).abs() / (g + epsilon)),
             Self::Angle => [angle(ground_truth, prediction); 3],
+            Self::Flip => [f64::NAN; 3],
         }
     }
 
-    /// The difference of each channel of every texel of two pictures of one size.
-    pub fn picture(self, ground_truth: &Image<f32>, prediction: &Image<f32>, epsilon: f64) -> Image<f32> {
-        let texels = ground_truth.pixels.par_iter().zip(&prediction.pixels);
-        let pixels = texels.map(|(g, p)| self.of_channels(*g, *p, epsilon).map(|d| d as f32)).collect();
+    /// The difference of each channel of every texel of two pictures of one size; of FLIP, the same three times.
+    pub fn picture(
+        self,
+        ground_truth: &Image<f32>,
+        prediction: &Image<f32>,
+        params: DifferenceParams,
+    ) -> Image<f32> {
+        let pixels = match self {
+            Self::Flip => {
+                let map = flip(ground_truth, prediction, params.exposure_ev);
+                map.into_iter().map(|value| [value; 3]).collect()
+            }
+            _ => {
+                let texels = ground_truth.pixels.par_iter().zip(&prediction.pixels);
+                let channels = |(g, p): (&[f32; 3], &[f32; 3])| self.of_channels(*g, *p, params.epsilon);
+                texels.map(|texel| channels(texel).map(|d| d as f32)).collect()
+            }
+        };
         Image { width: ground_truth.width, height: ground_truth.height, pixels }
     }
 
     /// The difference of every texel of two pictures of one size, as [`Quantity::image`] gives them.
-    pub fn of_images(self, ground_truth: &Image<f32>, prediction: &Image<f32>, epsilon: f64) -> Vec<f32> {
+    pub fn of_images(
+        self,
+        ground_truth: &Image<f32>,
+        prediction: &Image<f32>,
+        params: DifferenceParams,
+    ) -> Vec<f32> {
+        if self == Self::Flip {
+            return flip(ground_truth, prediction, params.exposure_ev);
+        }
         let texels = ground_truth.pixels.par_iter().zip(&prediction.pixels);
-        texels.map(|(g, p)| self.of_texel(*g, *p, epsilon) as f32).collect()
+        texels.map(|(g, p)| self.of_texel(*g, *p, params.epsilon) as f32).collect()
     }
 }
 
@@ -153,13 +201,14 @@ impl FromStr for Difference {
 mod tests {
     use super::*;
 
-    const EVERY: [Difference; 6] = [
+    const EVERY: [Difference; 7] = [
         Difference::Log,
         Difference::SignedLog,
         Difference::Absolute,
         Difference::Signed,
         Difference::Relative,
         Difference::Angle,
+        Difference::Flip,
     ];
 
     #[test]
@@ -198,15 +247,17 @@ mod tests {
     #[test]
     fn a_picture_does_not_differ_from_itself() {
         let image = Image { width: 2, height: 1, pixels: vec![[0.0, 0.6, 0.8], [1.0, 0.0, 0.0]] };
+        let params = DifferenceParams { epsilon: 0.01, exposure_ev: 0.0 };
         for difference in EVERY {
-            assert_eq!(difference.of_images(&image, &image, 0.01), [0.0, 0.0], "{difference:?}");
+            assert_eq!(difference.of_images(&image, &image, params), [0.0, 0.0], "{difference:?}");
         }
     }
 
     #[test]
     fn every_quantity_has_a_difference() {
         for quantity in Quantity::ALL {
-            assert!(!Difference::all(quantity).is_empty(), "{quantity:?}");
+            let (all, pointwise) = (Difference::all(quantity), Difference::pointwise(quantity));
+            assert!(!pointwise.is_empty() && all.starts_with(pointwise), "{quantity:?}");
         }
     }
 }

@@ -27,6 +27,12 @@ impl Differences {
         chosen.map_or(Difference::all(quantity)[0], |(_, kind)| *kind)
     }
 
+    /// The chosen difference of `quantity` where it compares texels one by one, else the default one, and its range.
+    pub fn pointwise(&self, quantity: Quantity) -> (Difference, Option<f64>) {
+        let (chosen, all) = (self.kind(quantity), Difference::pointwise(quantity));
+        if all.contains(&chosen) { (chosen, self.range(quantity)) } else { (all[0], None) }
+    }
+
     /// Chooses a difference of `quantity`, if it has that one.
     pub fn choose(&mut self, quantity: Quantity, kind: Difference) {
         if Difference::all(quantity).contains(&kind) {

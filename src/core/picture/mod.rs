@@ -6,6 +6,7 @@ pub mod content;
 pub mod difference;
 pub mod differences;
 pub mod exposure;
+pub mod flip;
 pub mod quantity;
 pub mod statistics;
 pub mod tone;

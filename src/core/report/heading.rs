@@ -6,6 +6,7 @@ use crate::loss::Sampling;
 use crate::material::Material;
 use crate::math::real::Real;
 use crate::model::convention::Convention;
+use crate::model::named_scenes::NamedScenes;
 use crate::model::sampler::Sampler;
 use crate::model::scene::{Kind, Scene};
 
@@ -42,11 +43,14 @@ impl Compared {
 }
 
 /// The numbers of scenes, how they were sampled and the texels of each, for materials of `size`: a line. `None` for `sampling`: the
-/// scenes are of a file.
+/// scenes are listed, and may be a set with a name.
 pub fn scenes_line(sampling: Option<&Sampling>, scenes: &[Scene], size: [usize; 2]) -> String {
     let count = |kind| scenes.iter().filter(|scene| scene.kind == kind).count();
     let counts = format!("{} near-field and {} distant scenes", count(Kind::Near), count(Kind::Distant));
-    let Some(sampling) = sampling else { return counts + " from a file\n" };
+    let Some(sampling) = sampling else {
+        let named = NamedScenes::of(scenes).map(NamedScenes::description);
+        return named.map_or(counts.clone() + ", listed\n", |named| format!("{counts}: {named}\n"));
+    };
     let sampler = if sampling.sampler == Sampler::Sobol { ", scrambled Sobol" } else { "" };
     let texels = match sampling.texels.sampled(size) {
         None => String::new(),
@@ -65,6 +69,7 @@ pub fn position([x, y, z]: [f64; 3]) -> String {
 mod tests {
     use super::*;
     use crate::loss::Texels;
+    use crate::model::named_scenes::flash_9;
 
     #[test]
     fn a_line_about_scenes_has_the_texels_that_are_compared() {
@@ -77,6 +82,8 @@ mod tests {
         assert_eq!(line(Texels::Sampled(4)), of_all, "the maps have no more");
         assert!(line(Texels::Sampled(3)).ends_with(", 3 random texels per scene\n"));
         assert!(line(Texels::Sampled(1)).ends_with(", 1 random texel per scene\n"));
-        assert_eq!(scenes_line(None, &[], [2, 2]), "0 near-field and 0 distant scenes from a file\n");
+        assert_eq!(scenes_line(None, &[], [2, 2]), "0 near-field and 0 distant scenes, listed\n");
+        let nine = scenes_line(None, &flash_9(), [2, 2]);
+        assert!(nine.starts_with("9 near-field and 0 distant scenes: flash at the camera in nine"), "{nine}");
     }
 }

@@ -8,8 +8,7 @@ use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Table, aligned};
 use crate::loss::Sampling;
-use crate::metrics::Metric;
-use crate::model::scene::Scene;
+use crate::metrics::{Metric, RenderedScenes};
 
 /// The metrics of each prediction.
 #[derive(Clone, Debug, Serialize)]
@@ -18,6 +17,9 @@ pub struct MetricsReport {
     /// The convention of the renderings.
     #[serde(skip_serializing_if = "Option::is_none")]
     convention: Option<&'static str>,
+    /// The exposure of the renderings in stops.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exposure_ev: Option<f32>,
     /// The published evaluation.
     #[serde(skip_serializing_if = "Option::is_none")]
     protocol: Option<&'static str>,
@@ -33,22 +35,28 @@ struct MetricsEntry {
     /// Without an order of its own; an infinite PSNR, of equal renderings, is null in JSON.
     #[serde(serialize_with = "by_name")]
     metrics: Vec<Metric>,
+    /// The 95% intervals of means over sampled scenes, where they are known.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    intervals95: BTreeMap<&'static str, [f64; 2]>,
 }
 
 impl MetricsReport {
-    /// The metrics of maps and of renderings in `scenes`, which are of `sampling` unless they were listed. `results` are the name and
+    /// The metrics of maps and of renderings in `rendered`, which are of `sampling` unless they were listed. `results` are the name and
     /// the metrics of each prediction.
     pub fn new(
         compared: &Compared,
         sampling: Option<&Sampling>,
-        scenes: &[Scene],
+        rendered: &RenderedScenes<'_>,
         results: Vec<(String, Vec<Metric>)>,
     ) -> Self {
+        let scenes = scenes_line(sampling, rendered.scenes, compared.size);
+        let exposure = format!("renderings at {} EV, clipped to [0, 1]\n", rendered.exposure_ev);
         Self {
             ground_truth: compared.ground_truth.clone(),
             convention: Some(compared.convention),
+            exposure_ev: Some(rendered.exposure_ev),
             protocol: None,
-            heading: compared.heading("metrics") + &scenes_line(sampling, scenes, compared.size),
+            heading: compared.heading("metrics") + &scenes + &exposure,
             results: entries(results),
         }
     }
@@ -64,28 +72,55 @@ impl MetricsReport {
         Self {
             ground_truth: ground_truth.to_owned(),
             convention: None,
+            exposure_ev: None,
             protocol: Some("matfusion"),
             heading,
             results: entries(results),
         }
     }
 
-    /// The value of each prediction for each metric.
-    fn rows(&self) -> impl Iterator<Item = (&'static str, Vec<f64>)> {
+    /// The metrics of all predictions, by name.
+    fn rows(&self) -> impl Iterator<Item = (&'static str, Vec<Metric>)> {
         let names = self.results.first().map(|first| first.metrics.as_slice()).unwrap_or_default();
         names.iter().enumerate().map(|(index, metric)| {
-            (metric.name, self.results.iter().map(|result| result.metrics[index].value).collect())
+            (metric.name, self.results.iter().map(|result| result.metrics[index]).collect())
         })
     }
 
-    fn columns(&self) -> Vec<String> {
-        let names = self.results.iter().map(|result| result.prediction.clone());
-        ["metric".to_owned()].into_iter().chain(names).collect()
+    /// Whether metrics are means over scenes, which may have intervals.
+    fn has_scenes(&self) -> bool {
+        self.protocol.is_none()
+    }
+
+    /// The titles of a table, with columns for the interval of each prediction where there may be one.
+    fn columns(&self, interval: impl Fn(&str) -> Vec<String>) -> Vec<String> {
+        let of = |result: &MetricsEntry| {
+            let ends = if self.has_scenes() { interval(&result.prediction) } else { Vec::new() };
+            [result.prediction.clone()].into_iter().chain(ends)
+        };
+        ["metric".to_owned()].into_iter().chain(self.results.iter().flat_map(of)).collect()
+    }
+
+    /// The rows of a table: the name, then the cells of each prediction, the first of which is its value.
+    fn cells<C, const N: usize>(
+        &self,
+        name: impl Fn(&str) -> C,
+        cells: impl Fn(&Metric) -> [C; N],
+    ) -> impl Iterator<Item = Vec<C>> {
+        let used = if self.has_scenes() { N } else { 1 };
+        self.rows().map(move |(metric, values)| {
+            let of_all = values.iter().flat_map(|value| cells(value).into_iter().take(used));
+            [name(metric)].into_iter().chain(of_all).collect()
+        })
     }
 }
 
 fn entries(results: Vec<(String, Vec<Metric>)>) -> Vec<MetricsEntry> {
-    results.into_iter().map(|(prediction, metrics)| MetricsEntry { prediction, metrics }).collect()
+    let entry = |(prediction, metrics): (String, Vec<Metric>)| {
+        let known = metrics.iter().filter_map(|metric| Some((metric.name, metric.interval95?)));
+        MetricsEntry { prediction, intervals95: known.collect(), metrics }
+    };
+    results.into_iter().map(entry).collect()
 }
 
 fn by_name<S: Serializer>(metrics: &[Metric], serializer: S) -> Result<S::Ok, S::Error> {
@@ -95,18 +130,21 @@ fn by_name<S: Serializer>(metrics: &[Metric], serializer: S) -> Result<S::Ok, S:
 
 impl Report for MetricsReport {
     fn text(&self) -> String {
-        let row = |(name, values): (&str, Vec<f64>)| {
-            let values = values.into_iter().map(|value| format!("{value:.6}"));
-            [name.to_owned()].into_iter().chain(values).collect()
+        let cells = |metric: &Metric| {
+            let interval = metric.interval95.map(|[low, high]| format!("{low:.6} to {high:.6}"));
+            [format!("{:.6}", metric.value), interval.unwrap_or_default()]
         };
-        let rows: Vec<_> = [self.columns()].into_iter().chain(self.rows().map(row)).collect();
+        let titles = self.columns(|_| vec!["95%".to_owned()]);
+        let rows: Vec<_> = [titles].into_iter().chain(self.cells(|name| name.to_owned(), cells)).collect();
         format!("{}\n{}", self.heading, aligned(&rows))
     }
 
     fn table(&self) -> Table {
-        let row = |(name, values): (&str, Vec<f64>)| {
-            [name.into()].into_iter().chain(values.into_iter().map(Cell::from)).collect()
+        let cells = |metric: &Metric| {
+            let end = |end: usize| Cell::from(metric.interval95.map(|interval| interval[end]));
+            [metric.value.into(), end(0), end(1)]
         };
-        Table::new(self.columns(), self.rows().map(row))
+        let ends = |name: &str| ["low", "high"].map(|end| format!("{name} interval95_{end}")).into();
+        Table::new(self.columns(ends), self.cells(|name| Cell::from(name), cells))
     }
 }

@@ -7,12 +7,12 @@ use rand::{RngExt as _, SeedableRng as _};
 const RESAMPLES: usize = 2000;
 
 /// The 95% interval of the mean of what `values` are a sample of, by the bootstrap-t (Efron 1981); `None` for fewer than 3
-/// values.
+/// values, and where one is infinite.
 ///
 /// Resamples give the distribution of the studentized mean (m* - m) / s*; its quantiles take the place of those of Student's t. For
 /// means of few skewed values it covers better than BCa. The resamples are always the same ones.
 pub fn interval_of_mean(values: &[f64]) -> Option<[f64; 2]> {
-    if values.len() < 3 {
+    if values.len() < 3 || values.iter().any(|value| !value.is_finite()) {
         return None;
     }
     let (mean, error) = moments(values.iter().copied(), values.len());

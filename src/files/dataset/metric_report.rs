@@ -43,7 +43,7 @@ pub(super) fn latex_table(methods: &[MethodSummary], results: &[MaterialResult],
     let columns: Vec<_> = methods.iter().map(|method| summarize_metrics(method, results, pick)).collect();
     let row = |(name, best): (&String, &Vec<bool>)| {
         let cell = |(metrics, &best): (&BTreeMap<String, MetricSummary>, &bool)| {
-            metrics.get(name).map_or("--".to_owned(), |metric| bold(&format!("{:.4}", metric.mean), best))
+            metrics.get(name).map_or("--".to_owned(), |metric| bold(&number(metric.mean), best))
         };
         let cells: Vec<String> = columns.iter().zip(best).map(cell).collect();
         let arrow = if is_better_larger(name) { "$\\uparrow$" } else { "$\\downarrow$" };
@@ -53,6 +53,11 @@ pub(super) fn latex_table(methods: &[MethodSummary], results: &[MaterialResult],
     let names: Vec<String> = methods.iter().map(|method| escaped(method)).collect();
     let heading = format!("Metric, mean over materials & {}", names.join(" & "));
     format!("\n{}", latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
+}
+
+/// A number in LaTeX.
+fn number(value: f64) -> String {
+    if value.is_infinite() { "$\\infty$".to_owned() } else { format!("{value:.4}") }
 }
 
 fn cells(metric: Option<&MetricSummary>) -> [String; 2] {

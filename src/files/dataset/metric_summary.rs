@@ -15,7 +15,8 @@ use super::summary::Pick;
 pub struct MetricSummary {
     pub mean: f64,
     pub median: f64,
-    /// The 95% interval of the mean over all materials like these; `None` for fewer than 3.
+    /// The 95% interval of the mean over all materials like these; `None` for fewer than 3, and where the mean is infinite: that of the
+    /// PSNR, where maps of a material are equal.
     pub interval95_materials: Option<[f64; 2]>,
 }
 
@@ -41,7 +42,7 @@ pub fn is_better_larger(metric: &str) -> bool {
 }
 
 /// For each metric by name: which of `methods` is the best one, or cannot be separated from it. That is where the 95% interval of the
-/// mean of their differences, over the materials of both, includes 0 or is unknown.
+/// mean of their differences, over the materials of both, includes 0 or is unknown; or where an infinite one is not worse.
 pub fn best_by_metric(
     methods: &[&str],
     results: &[MaterialResult],
@@ -59,13 +60,21 @@ pub fn best_by_metric(
         let best = known.min_by(|a, b| cost(a).total_cmp(&cost(b)));
         let ties = |values: &&BTreeMap<usize, f64>| {
             let Some(best) = best.filter(|_| !values.is_empty()) else { return false };
-            let paired =
-                values.iter().filter_map(|(material, value)| Some(sign * (value - best.get(material)?)));
-            interval_of_mean(&paired.collect::<Vec<_>>()).is_none_or(|[low, _]| low <= 0.0)
+            let paired = values
+                .iter()
+                .filter_map(|(material, value)| Some(sign * difference(*value, *best.get(material)?)));
+            let paired: Vec<f64> = paired.collect();
+            let is_worse = mean(&paired) == f64::INFINITY;
+            !is_worse && interval_of_mean(&paired).is_none_or(|[low, _]| low <= 0.0)
         };
         of.iter().map(ties).collect()
     };
     names.into_iter().map(|name| (name.to_owned(), best_of(name))).collect()
+}
+
+/// a - b, and 0 for two infinities.
+fn difference(a: f64, b: f64) -> f64 {
+    if a == b { 0.0 } else { a - b }
 }
 
 fn mean(values: &[f64]) -> f64 {

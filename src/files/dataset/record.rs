@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use svbrdf_core::loss::Estimate;
 
@@ -95,9 +95,15 @@ pub struct PredictionResult {
     pub path: String,
     /// The loss, or why there is none.
     pub result: Result<KnownLoss, String>,
-    /// The metrics of its maps by name, where they were asked for.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    /// The metrics of its maps by name, where they were asked for; the PSNR of equal maps is infinite, in JSON null.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "with_infinities")]
     pub metrics: BTreeMap<String, f64>,
+}
+
+/// Metrics whose null is infinity, which JSON does not have.
+fn with_infinities<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, f64>, D::Error> {
+    let metrics = BTreeMap::<String, Option<f64>>::deserialize(deserializer)?;
+    Ok(metrics.into_iter().map(|(name, value)| (name, value.unwrap_or(f64::INFINITY))).collect())
 }
 
 /// A loss that is known.

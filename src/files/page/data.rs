@@ -119,7 +119,7 @@ fn kinds(quantity: Quantity) -> Vec<Kind> {
         signed: kind.is_signed(),
         range: kind.default_range(),
     };
-    Difference::all(quantity).iter().map(kind).collect()
+    Difference::pointwise(quantity).iter().map(kind).collect()
 }
 
 /// The colours of amounts from `low` to 1.
@@ -135,10 +135,12 @@ fn colours(map: fn(f32) -> [f32; 3], low: f32) -> Vec<String> {
 fn start(view: &View, materials: usize) -> Start<'_> {
     let display = &view.display;
     let differences = &display.differences;
-    let chosen = |quantity: Quantity| (quantity.name(), differences.kind(quantity).key());
-    let ranges = Quantity::ALL
-        .into_iter()
-        .filter_map(|quantity| Some((differences.kind(quantity).key(), differences.range(quantity)?)));
+    let chosen = |quantity: Quantity| (quantity.name(), differences.pointwise(quantity).0.key());
+    let range = |quantity: Quantity| {
+        let (kind, range) = differences.pointwise(quantity);
+        Some((kind.key(), range?))
+    };
+    let ranges = Quantity::ALL.into_iter().filter_map(range);
     Start {
         scene: view.scene,
         exposure: view.exposure_ev,

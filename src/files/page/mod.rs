@@ -126,8 +126,9 @@ impl Report<'_> {
     /// What the still picture displays.
     fn content(&self) -> PictureContent {
         let display = &self.view.display;
-        let kind = display.differences.kind(display.quantity);
-        let range = display.differences.range(display.quantity).unwrap_or_else(|| kind.default_range());
+        // The figure below it computes differences of single texels.
+        let (kind, range) = display.differences.pointwise(display.quantity);
+        let range = range.unwrap_or_else(|| kind.default_range());
         let difference = ColouredDifference { kind, range: Some(range) };
         let is_difference = display.difference && self.materials.len() > 1;
         PictureContent { quantity: display.quantity, difference: is_difference.then_some(difference) }

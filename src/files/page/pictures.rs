@@ -61,10 +61,10 @@ pub(super) fn still(
 ) -> Result<String, Error> {
     let progress = Progress::default();
     let value = PictureContent { difference: None, ..content };
-    let shown = content.pictures(materials, scene, convention, &progress)?;
+    let shown = content.pictures(materials, scene, convention, exposure_ev, &progress)?;
     let mut pictures = Vec::new();
     if shown.images.len() < materials.len() {
-        let ground_truth = value.pictures(&materials[..1], scene, convention, &progress)?;
+        let ground_truth = value.pictures(&materials[..1], scene, convention, exposure_ev, &progress)?;
         pictures.extend(ground_truth.images.iter().map(|image| coloured(image, value, exposure_ev, width)));
     }
     let content = shown.content;

@@ -5,7 +5,7 @@ use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
@@ -96,14 +96,19 @@ impl PhotographComparison {
         self.factor.log2()
     }
 
+    /// Both are compared at the exposure of the rendering.
+    fn params(&self) -> DifferenceParams {
+        DifferenceParams { epsilon: self.epsilon, exposure_ev: 0.0 }
+    }
+
     /// The difference of the rendering from the photograph, of each channel; NaN where the photograph is clipped.
     pub fn difference(&self, kind: Difference) -> Image<f32> {
-        kind.picture(&self.photograph, &self.rendering, self.epsilon)
+        kind.picture(&self.photograph, &self.rendering, self.params())
     }
 
     /// The difference of each texel, the mean over RGB; NaN where the photograph is clipped.
     pub fn differences(&self, kind: Difference) -> Vec<f32> {
-        kind.of_images(&self.photograph, &self.rendering, self.epsilon)
+        kind.of_images(&self.photograph, &self.rendering, self.params())
     }
 
     /// The statistics of the difference over the texels that are not clipped; `None` where there is none.

@@ -45,19 +45,4 @@ pub(crate) use exposure::Ratios;
 pub use rectified::Rectified;
 pub use report::{PhotoReport, PhotoResult, PhotoSetting};
 
-use svbrdf_core::error::Error;
-use svbrdf_core::model::scene::{Kind, Scene};
-
-/// The scene of a photograph taken with the flash at the camera, straight above the middle of the plane, whose width of 2 spans
-/// an angle of `fov_degrees`: light and view at the height 1 / tan(fov / 2).
-///
-/// # Errors
-/// [`Error::UnusableScene`] for an angle that is not between 0.1 and 179 degrees.
-pub fn flash(fov_degrees: f64) -> Result<Scene, Error> {
-    if !(0.1..=179.0).contains(&fov_degrees) {
-        let problem = format!("expected a field of view of 0.1 to 179 degrees, found {fov_degrees}");
-        return Err(Error::UnusableScene { problem });
-    }
-    let camera = [0.0, 0.0, (0.5 * fov_degrees.to_radians()).tan().recip()];
-    Ok(Scene { kind: Kind::Near, view: camera, light: camera })
-}
+pub use svbrdf_core::model::named_scenes::flash;

@@ -2,7 +2,6 @@
 
 mod curve;
 mod exr;
-mod metallic;
 mod png;
 
 use std::path::Path;

@@ -7,11 +7,10 @@ use std::path::Path;
 use png::{BitDepth, ColorType, Encoder};
 use rayon::prelude::*;
 
-use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::material::{Material, Planes, base_and_metallic};
 use svbrdf_core::progress::Progress;
 
 use super::curve::Curve;
-use super::metallic::base_and_metallic;
 use crate::atomic::{self, SOFTWARE};
 use crate::read::options::transfer::{encoded, encoded_roughness, linear, roughness};
 use crate::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};

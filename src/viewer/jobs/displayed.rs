@@ -9,7 +9,8 @@ use svbrdf_core::picture::statistics::Distributions;
 
 use super::Jobs;
 use super::panes::RangeKey;
-use super::panes::error_map::{ErrorMapSummary, ErrorMaps};
+use super::panes::computed_maps::ComputedMaps;
+use super::panes::error_map::ErrorMapSummary;
 use super::photograph::{DisplayedPhotograph, Photographs};
 use crate::viewer::model::Model;
 use crate::viewer::model::material::loaded::LoadedMaterial;
@@ -43,13 +44,16 @@ impl<'a> Displayed<'a> {
     }
 
     /// The error maps of what the panes display, once they are there.
-    pub fn current_error_maps(self) -> Option<&'a Arc<ErrorMaps>> {
+    pub fn current_error_maps(self) -> Option<&'a Arc<ComputedMaps>> {
         self.jobs.panes.error_map.get(self.materials(), self.view(), self.model.settings.loss.listed_scenes())
     }
 
-    /// The error maps, where the difference is the error map and they are there.
-    pub fn error_maps(self) -> Option<&'a Arc<ErrorMaps>> {
-        self.view().is_error_map().then(|| self.current_error_maps()).flatten()
+    /// The difference in the panes, where no shader computes it and it is there.
+    pub fn computed_maps(self) -> Option<&'a Arc<ComputedMaps>> {
+        if self.view().is_error_map() {
+            return self.current_error_maps();
+        }
+        self.jobs.panes.difference.maps(self.materials(), self.view())
     }
 
     pub fn error_map_summary(self) -> ErrorMapSummary {
@@ -57,9 +61,9 @@ impl<'a> Displayed<'a> {
         ErrorMapSummary { scenes, progress: self.jobs.panes.error_map.progress() }
     }
 
-    /// The photograph, where the panes compare renderings with one. Maps and the error map are compared with the ground truth.
+    /// The photograph, where the panes compare renderings with one. Maps, the error map and FLIP are of the ground truth.
     pub fn photograph(self) -> Option<DisplayedPhotograph<'a>> {
-        let is_rendering = self.view().display.quantity == Quantity::Rendering && !self.view().is_error_map();
+        let is_rendering = self.view().display.quantity == Quantity::Rendering && !self.view().is_computed();
         let photograph = self.jobs.photograph.displayed(&self.model.photograph, self.materials());
         let mut photograph = photograph.filter(|_| is_rendering && !self.materials().is_empty())?;
         photograph.corners = photograph.corners.filter(|_| !self.hides_corners);
@@ -77,7 +81,7 @@ impl<'a> Displayed<'a> {
             return self.jobs.photograph.distributions(&self.model.photograph, self.materials(), self.view());
         }
         if self.view().is_error_map() {
-            return self.error_maps().map(|maps| (&maps.distributions, true));
+            return self.current_error_maps().map(|maps| (&maps.distributions, true));
         }
         let distributions = self.jobs.panes.difference.distributions(self.materials(), self.view())?;
         Some((distributions, self.jobs.panes.difference.is_current(self.materials(), self.view())))

@@ -31,6 +31,7 @@ use loss::LossJob;
 use loss::scene::SceneLossJob;
 use loss::study::StudyJob;
 use panes::PaneJobs;
+use panes::difference::DifferenceJob;
 use panes::error_map::ErrorMapJob;
 use panes::mixture::MixtureJob;
 use photograph::PhotographJobs;
@@ -78,6 +79,7 @@ impl Jobs {
         self.uploads = Uploads::default();
         self.panes.mixture = MixtureJob::default();
         self.panes.error_map = ErrorMapJob::default();
+        self.panes.difference = DifferenceJob::default();
         self.photograph.forget_device();
     }
 

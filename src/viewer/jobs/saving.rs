@@ -58,8 +58,9 @@ pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = Destination::new(&path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
+        let Provenance { scene, convention, exposure_ev, .. } = &provenance;
         let Pictures { images, content } =
-            content.pictures(&all, &provenance.scene, &provenance.convention, progress)?;
+            content.pictures(&all, scene, convention, *exposure_ev, progress)?;
         provenance.content = content;
         destination.write(&images, &provenance, progress)?;
         Ok(path)

@@ -112,8 +112,8 @@ impl Model {
     /// Shows what is compared with a photograph: renderings in one scene.
     pub(super) fn compare_with_photograph(&mut self) {
         self.view.display.quantity = Quantity::Rendering;
-        if self.view.is_error_map() {
-            // It averages over scenes of which there is no photograph.
+        if self.view.is_computed() {
+            // Of the ground truth: there are no photographs of all scenes, and FLIP is not computed beside one.
             self.view.display.differences.choose(Quantity::Rendering, Difference::Log);
         }
     }

@@ -85,7 +85,7 @@ pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, view: &'a View
         swapped: model.swapped,
         reading: !displayed.jobs.openings.is_empty(),
         range: displayed.range(),
-        error_maps: displayed.error_maps().map(AsRef::as_ref),
+        computed_maps: displayed.computed_maps().map(AsRef::as_ref),
         photograph: displayed.photograph(),
         inspection: &model.inspection,
         losses: displayed.jobs.loss.finished(&model.materials, &model.loss_query()),

@@ -134,7 +134,7 @@ impl WindowUi {
         let bar = StatusBar {
             state: view,
             materials: displayed.materials(),
-            error_maps: displayed.error_maps().map(AsRef::as_ref),
+            computed_maps: displayed.computed_maps().map(AsRef::as_ref),
             photographs: displayed.photographs().map(AsRef::as_ref),
             texel: hovered.and_then(|hovered| view.texel_at(grid?, hovered.point)),
             hovered: hovered.map(|hovered| hovered.index),

@@ -6,7 +6,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::colour_map::{diverging, heat};
-use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 use svbrdf_gpu::{DisplayParams, DisplayedDifference, Shaded};
@@ -19,7 +19,11 @@ fn differences_of(kind: Difference, quantity: Quantity, pair: &[Material<f32>; 2
     let image =
         |material| quantity.image(material, &ABOVE, &PRINTED, &Progress::default()).expect("rendered");
     let [prediction, ground_truth] = pair.each_ref().map(image);
-    kind.of_images(&ground_truth, &prediction, PRINTED.epsilon)
+    kind.of_images(
+        &ground_truth,
+        &prediction,
+        DifferenceParams { epsilon: PRINTED.epsilon, exposure_ev: 0.0 },
+    )
 }
 
 /// Their colours.
@@ -41,7 +45,7 @@ fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
     let pair = [bumpy(8, 8), Material::uniform("flat", 8, 8, &up).expect("valid")];
     for quantity in Quantity::ALL {
         let [shown, reference] = pair.each_ref().map(|material| shaded(gpu, material, quantity));
-        for &kind in Difference::all(quantity) {
+        for &kind in Difference::pointwise(quantity) {
             let values = differences_of(kind, quantity, &pair);
             let largest = values.iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
             let difference = DisplayedDifference { kind, range: 0.9 * largest, is_computed: false };

@@ -1,15 +1,14 @@
-//! Statistics of the difference in the panes.
+//! Statistics of the difference in the panes, and the difference itself where it is of neighbourhoods of texels.
 
 use std::sync::Arc;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
-use svbrdf_core::progress::Progress;
 
+use super::computed_maps::ComputedMaps;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
@@ -27,20 +26,51 @@ struct DifferenceKey {
     kind: Difference,
     /// Of a rendering.
     scene: Option<Scene>,
+    /// Where the difference depends on it.
+    exposure_ev: Option<f32>,
     convention: &'static str,
+}
+
+/// What is computed of a difference.
+#[derive(Debug)]
+enum Compared {
+    /// Shaders compute the difference itself.
+    Texels(Distributions),
+    Maps(Arc<ComputedMaps>),
+}
+
+impl Compared {
+    fn distributions(&self) -> &Distributions {
+        match self {
+            Self::Texels(distributions) => distributions,
+            Self::Maps(maps) => &maps.distributions,
+        }
+    }
 }
 
 /// The statistics of the difference in the panes, and the computation of new ones.
 #[derive(Debug, Default)]
-pub struct DifferenceJob(Latest<DifferenceKey, Distributions>);
+pub struct DifferenceJob(Latest<DifferenceKey, Compared>);
 
 impl DifferenceJob {
     /// The distributions for the current materials and difference, perhaps of an earlier scene; one for each prediction.
     pub fn distributions(&self, materials: &[LoadedMaterial], state: &ViewState) -> Option<&Distributions> {
-        let (latest, distributions) = self.0.get()?;
+        self.latest(materials, state).map(Compared::distributions)
+    }
+
+    /// The difference of each prediction, perhaps of an earlier scene or exposure; `None` where shaders compute it.
+    pub fn maps(&self, materials: &[LoadedMaterial], state: &ViewState) -> Option<&Arc<ComputedMaps>> {
+        match self.latest(materials, state)? {
+            Compared::Maps(maps) => Some(maps),
+            Compared::Texels(_) => None,
+        }
+    }
+
+    fn latest(&self, materials: &[LoadedMaterial], state: &ViewState) -> Option<&Compared> {
+        let (latest, compared) = self.0.get()?;
         let now = key(materials, state);
         let same = (&latest.ids, latest.quantity, latest.kind) == (&now.ids, now.quantity, now.kind);
-        same.then_some(distributions)
+        same.then_some(compared)
     }
 
     /// Whether the distributions are up to date.
@@ -56,37 +86,34 @@ impl DifferenceJob {
 }
 
 fn key(materials: &[LoadedMaterial], state: &ViewState) -> DifferenceKey {
+    let kind = state.difference_kind();
     DifferenceKey {
         ids: materials.iter().map(LoadedMaterial::id).collect(),
         quantity: state.display.quantity,
-        kind: state.difference_kind(),
+        kind,
         scene: (state.display.quantity == Quantity::Rendering).then_some(state.scene),
+        exposure_ev: (kind == Difference::Flip).then_some(state.exposure_ev),
         convention: state.convention().name,
     }
 }
 
-fn start(work: &JobContext<'_>) -> Job<Distributions> {
-    let (materials, state) = (work.materials(), work.view);
+fn start(work: &JobContext<'_>) -> Job<Compared> {
+    let (materials, gpu, state) = (work.materials(), work.gpu.cloned(), work.view);
     let (quantity, kind) = (state.display.quantity, state.difference_kind());
     let (scene, convention) = (state.scene, state.convention());
+    let params = DifferenceParams { epsilon: convention.epsilon, exposure_ev: state.exposure_ev };
     Job::start(work.waker, move |progress| {
-        distributions(&materials, quantity, kind, &scene, &convention, progress)
+        let image =
+            |loaded: &Arc<ReadMaterial>| quantity.image(&loaded.material, &scene, &convention, progress);
+        let ground_truth = image(&materials[0])?;
+        let predictions = materials[1..].iter().map(image);
+        if kind == Difference::Flip {
+            let map = |prediction: Result<_, Error>| Ok(kind.picture(&ground_truth, &prediction?, params));
+            let maps = predictions.map(map).collect::<Result<Vec<_>, Error>>()?;
+            return ComputedMaps::new(maps, gpu.as_ref()).map(Arc::new).map(Compared::Maps);
+        }
+        let values = |prediction: Result<_, Error>| Ok(kind.of_images(&ground_truth, &prediction?, params));
+        let values = predictions.map(values).collect::<Result<Vec<_>, Error>>()?;
+        Ok(Compared::Texels(Distributions::of(&values, kind.is_signed())))
     })
-}
-
-fn distributions(
-    materials: &[Arc<ReadMaterial>],
-    quantity: Quantity,
-    kind: Difference,
-    scene: &Scene,
-    convention: &Convention,
-    progress: &Progress,
-) -> Result<Distributions, Error> {
-    let image = |loaded: &Arc<ReadMaterial>| quantity.image(&loaded.material, scene, convention, progress);
-    let ground_truth = image(&materials[0])?;
-    let values = materials[1..]
-        .iter()
-        .map(|prediction| Ok(kind.of_images(&ground_truth, &image(prediction)?, convention.epsilon)))
-        .collect::<Result<Vec<_>, Error>>()?;
-    Ok(Distributions::of(&values, kind.is_signed()))
 }

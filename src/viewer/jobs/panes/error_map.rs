@@ -3,15 +3,14 @@
 use std::sync::Arc;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::image::{Image, mean_of_channels};
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::why::error_maps;
-use svbrdf_gpu::{Gpu, Shaded};
+use svbrdf_gpu::Gpu;
 
+use super::computed_maps::ComputedMaps;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::latest::Latest;
@@ -29,16 +28,6 @@ struct ErrorMapKey {
     convention: &'static str,
 }
 
-/// The error maps of all predictions.
-#[derive(Debug)]
-pub struct ErrorMaps {
-    /// Of each prediction.
-    pub images: Vec<Image<f32>>,
-    /// Where there is an adapter.
-    shaded: Vec<Arc<Shaded>>,
-    pub distributions: Distributions,
-}
-
 /// What the legend reports of error maps besides their statistics.
 #[derive(Clone, Copy, Debug)]
 pub struct ErrorMapSummary {
@@ -50,7 +39,7 @@ pub struct ErrorMapSummary {
 
 /// The error maps of what the panes show.
 #[derive(Debug, Default)]
-pub struct ErrorMapJob(Latest<ErrorMapKey, Arc<ErrorMaps>>);
+pub struct ErrorMapJob(Latest<ErrorMapKey, Arc<ComputedMaps>>);
 
 impl ErrorMapJob {
     /// Takes over a result, and computes what is wanted now; where none is `is_visible`, the latest is kept.
@@ -76,7 +65,7 @@ impl ErrorMapJob {
         materials: &[LoadedMaterial],
         state: &ViewState,
         scenes: Request,
-    ) -> Option<&Arc<ErrorMaps>> {
+    ) -> Option<&Arc<ComputedMaps>> {
         let (of, maps) = self.0.get()?;
         (*of == key(materials, state, scenes)).then_some(maps)
     }
@@ -84,19 +73,6 @@ impl ErrorMapJob {
     /// The share of the texels that is done, while they are rendered.
     pub fn progress(&self) -> Option<f32> {
         self.0.running().map(Job::fraction)
-    }
-}
-
-impl ErrorMaps {
-    /// The map of the material at this index on the adapter.
-    pub fn shaded(&self, index: usize) -> Option<&Arc<Shaded>> {
-        self.shaded.get(index.checked_sub(1)?)
-    }
-
-    /// The value of the map of the material at this index at the texel (column, row): the mean over RGB.
-    pub fn at(&self, index: usize, [column, row]: [usize; 2]) -> f64 {
-        let image = index.checked_sub(1).and_then(|index| self.images.get(index));
-        image.map_or(f64::NAN, |image| f64::from(mean_of_channels(&image.pixels[row * image.width + column])))
     }
 }
 
@@ -111,18 +87,10 @@ fn maps(
     convention: &Convention,
     gpu: Option<&Gpu>,
     progress: &Progress,
-) -> Result<ErrorMaps, Error> {
+) -> Result<ComputedMaps, Error> {
     let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| &loaded.material).collect();
     let comparison = Comparison::new(materials[0], &materials[1..], *convention)?;
     let scenes = scenes.scenes(convention)?.unwrap_or_default();
     let images = error_maps(&comparison, &scenes, progress)?;
-    let means = |image: &Image<f32>| image.pixels.iter().map(mean_of_channels).collect();
-    let values: Vec<Vec<f32>> = images.iter().map(means).collect();
-    let distributions = Distributions::of(&values, false);
-    let upload = |gpu: &Gpu| {
-        let one = |image| Shaded::of_image(gpu, image).map(Arc::new);
-        images.iter().map(one).collect::<Result<Vec<_>, Error>>()
-    };
-    let shaded = gpu.map(upload).transpose()?.unwrap_or_default();
-    Ok(ErrorMaps { images, shaded, distributions })
+    ComputedMaps::new(images, gpu)
 }

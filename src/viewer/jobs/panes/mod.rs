@@ -1,5 +1,6 @@
 //! Jobs on what the panes display: the mixture, and numbers about values, differences, error maps and the rectangle.
 
+pub mod computed_maps;
 pub mod difference;
 pub mod error_map;
 pub mod histograms;

@@ -6,7 +6,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
-use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 use svbrdf_core::statistics::quantile;
@@ -77,7 +77,8 @@ fn log_differences(
 ) -> Result<Vec<f32>, Error> {
     let render = |material| render::render_f32(material, scene, &pair.convention, &progress.part());
     let [ground_truth, prediction] = [render(&materials[0])?, render(&materials[1])?];
-    Ok(Difference::Log.of_images(&ground_truth, &prediction, pair.convention.epsilon))
+    let params = DifferenceParams { epsilon: pair.convention.epsilon, exposure_ev: 0.0 };
+    Ok(Difference::Log.of_images(&ground_truth, &prediction, params))
 }
 
 /// Every n-th texel of a large material along both sides, so that fewer than [`LARGE`] are left; a smaller material itself.

@@ -47,6 +47,11 @@ impl ViewState {
         self.display.differences.is_error_map(self.display.quantity)
     }
 
+    /// Whether the difference is computed as a map, since no shader has it: the error map, or FLIP.
+    pub fn is_computed(&self) -> bool {
+        self.is_error_map() || self.difference_kind() == Difference::Flip
+    }
+
     /// The name of the chosen difference.
     pub fn difference_name(&self) -> &'static str {
         if self.is_error_map() { "error map" } else { self.difference_kind().name() }

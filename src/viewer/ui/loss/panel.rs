@@ -1,10 +1,12 @@
 //! Sampled rendering loss: its settings, its progress, its result.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
 use eframe::egui::{self, RichText, Slider};
 
-use svbrdf_core::loss::{Ask, LossSettings, Request, Texels};
+use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
+use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::Kind;
 
@@ -182,7 +184,8 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings, commands: &mut Vec<Co
         }
         if let Some(file) = &settings.file {
             let meaning = format!("The {} scenes of {}, on all texels", file.scenes.len(), file.name);
-            ui.selectable_value(&mut settings.ask, Ask::File, "File").on_hover_text(meaning);
+            let label = if NamedScenes::of(&file.scenes).is_some() { "Named" } else { "File" };
+            ui.selectable_value(&mut settings.ask, Ask::File, label).on_hover_text(meaning);
         }
     });
     match settings.ask {
@@ -211,8 +214,24 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings, commands: &mut Vec<Co
             if open.on_hover_text(hover).clicked() {
                 commands.push(WindowCommand::ShowOpen(true).into());
             }
+            named_scenes(ui, settings);
         }
     });
+}
+
+/// The menu of the scenes of publications.
+fn named_scenes(ui: &mut egui::Ui, settings: &mut LossSettings) {
+    let menu = ui.menu_button(RichText::new("Named...").small(), |ui| {
+        for named in NamedScenes::ALL {
+            let Ok(scenes) = named.scenes() else { continue };
+            if ui.button(named.name()).on_hover_text(named.description()).clicked() {
+                let name = named.name().to_owned();
+                *settings = settings.with_file(Some(FileScenes { name, path: PathBuf::new(), scenes }));
+                ui.close();
+            }
+        }
+    });
+    menu.response.on_hover_text("Compute the loss over the fixed scenes of a publication");
 }
 
 /// Which file the scenes are of, and the button that removes them.

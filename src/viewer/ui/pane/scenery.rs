@@ -3,7 +3,7 @@
 use svbrdf_core::loss::Loss;
 use svbrdf_gpu::DisplayMode;
 
-use crate::viewer::jobs::panes::error_map::ErrorMaps;
+use crate::viewer::jobs::panes::computed_maps::ComputedMaps;
 use crate::viewer::jobs::photograph::DisplayedPhotograph;
 use crate::viewer::model::inspection::Inspection;
 use crate::viewer::model::material::loaded::LoadedMaterial;
@@ -30,8 +30,8 @@ pub struct Scenery<'a> {
     pub reading: bool,
     /// The difference that has the last colour.
     pub range: f64,
-    /// Where the difference is the error map, the maps once they are there.
-    pub error_maps: Option<&'a ErrorMaps>,
+    /// Where the difference is a map that no shader computes, the maps once they are there.
+    pub computed_maps: Option<&'a ComputedMaps>,
     /// The photograph, where renderings are compared with one.
     pub photograph: Option<DisplayedPhotograph<'a>>,
     /// Pins and rectangle.

@@ -13,9 +13,12 @@ pub fn texels(
 ) -> Result<[PaneTexels; 2], &'static str> {
     let [material_id, reference] = [content.index, content.reference].map(|i| scenery.materials[i].id());
     let material = PaneTexels::Shaded(material_id);
-    if content.difference && scenery.state.is_error_map() {
-        let map = scenery.error_maps.and_then(|maps| maps.shaded(content.index));
-        gpu.give(material_id, map.ok_or("Averaging over the scenes of the loss...")?);
+    if content.difference && scenery.state.is_computed() {
+        let map = scenery.computed_maps.and_then(|maps| maps.shaded(content.index));
+        let is_error_map = scenery.state.is_error_map();
+        let hint =
+            if is_error_map { "Averaging over the scenes of the loss..." } else { "Computing FLIP..." };
+        gpu.give(material_id, map.ok_or(hint)?);
         return Ok([PaneTexels::Differences(material_id), PaneTexels::Shaded(reference)]);
     }
     let compares = content.difference || content.mode != DisplayMode::Value;

@@ -212,7 +212,7 @@ impl Viewport {
             difference: content.difference.then(|| DisplayedDifference {
                 kind: state.difference_kind(),
                 range: scenery.range as f32,
-                is_computed: state.is_error_map(),
+                is_computed: state.is_computed(),
             }),
             encoding: state.display.quantity.into(),
             show_clipping: state.display.show_clipping,
@@ -273,8 +273,8 @@ impl Viewport {
         }
         let grid = scenery.materials[0].grid();
         let is_large = grid.width * grid.height > BAND && (software || self.policy.is_slow());
-        // What is compared with an error map or a photograph, and what is saved, is never shaded in part.
-        let is_exact = self.is_exact || state.is_error_map() || scenery.photograph.is_some();
+        // What is compared with a computed map or a photograph, and what is saved, is never shaded in part.
+        let is_exact = self.is_exact || state.is_computed() || scenery.photograph.is_some();
         self.is_draft = moves && !is_exact;
         let part = if self.is_draft || is_large && !is_exact {
             shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state))
@@ -311,8 +311,12 @@ impl Viewport {
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
             let photographs = scenery.photograph.and_then(|photograph| photograph.all).map(AsRef::as_ref);
-            let readout =
-                Readout { materials: scenery.materials, state, error_maps: scenery.error_maps, photographs };
+            let readout = Readout {
+                materials: scenery.materials,
+                state,
+                computed_maps: scenery.computed_maps,
+                photographs,
+            };
             placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
                 (PhotographUse::Displayed, Some(photographs)) => {
                     readout::photograph(photographs, index, texel)

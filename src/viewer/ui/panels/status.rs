@@ -4,7 +4,7 @@ use eframe::egui::{self, RichText};
 
 use svbrdf_gpu::AdapterReport;
 
-use crate::viewer::jobs::panes::error_map::ErrorMaps;
+use crate::viewer::jobs::panes::computed_maps::ComputedMaps;
 use crate::viewer::jobs::photograph::Photographs;
 use crate::viewer::model::command::{Command, InspectionCommand};
 use crate::viewer::model::material::loaded::LoadedMaterial;
@@ -24,8 +24,8 @@ const PLACE: usize = 9;
 pub struct StatusBar<'a> {
     pub state: &'a ViewState,
     pub materials: &'a [LoadedMaterial],
-    /// Where the difference is the error map, the maps once they are there.
-    pub error_maps: Option<&'a ErrorMaps>,
+    /// Where the difference is a map that no shader computes, the maps once they are there.
+    pub computed_maps: Option<&'a ComputedMaps>,
     /// Where renderings are compared with a photograph, the photograph beside every slot.
     pub photographs: Option<&'a Photographs>,
     /// The texel under the pointer.
@@ -143,8 +143,8 @@ impl StatusBar<'_> {
     /// The numbers of material `index` at the texel, always of the same width.
     fn numbers(&self, index: usize) -> String {
         let unit = readout::unit(self.state, index);
-        let Self { materials, state, error_maps, photographs, .. } = *self;
-        let readout = Readout { materials, state, error_maps, photographs };
+        let Self { materials, state, computed_maps, photographs, .. } = *self;
+        let readout = Readout { materials, state, computed_maps, photographs };
         let numbers: Vec<String> = match self.texel {
             Some(texel) => readout::numbers(readout, index, self.state.display.difference, texel)
                 .into_iter()

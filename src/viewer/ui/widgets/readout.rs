@@ -3,7 +3,7 @@
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::viewer::jobs::panes::error_map::ErrorMaps;
+use crate::viewer::jobs::panes::computed_maps::ComputedMaps;
 use crate::viewer::jobs::photograph::Photographs;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::view::state::ViewState;
@@ -33,8 +33,8 @@ pub fn in_width(value: f64, width: usize, digits: usize) -> String {
 pub struct Readout<'a> {
     pub materials: &'a [LoadedMaterial],
     pub state: &'a ViewState,
-    /// Where the difference is the error map, the maps once they are there.
-    pub error_maps: Option<&'a ErrorMaps>,
+    /// Where the difference is a map that no shader computes, the maps once they are there.
+    pub computed_maps: Option<&'a ComputedMaps>,
     /// Where renderings are compared with a photograph, the photograph beside every material.
     pub photographs: Option<&'a Photographs>,
 }
@@ -42,9 +42,9 @@ pub struct Readout<'a> {
 /// The numbers of a pane at a texel: its value, or its difference from the ground truth or the photograph where the panes
 /// show that.
 pub fn numbers(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2]) -> Vec<f64> {
-    let Readout { materials, state, error_maps, photographs } = read;
-    if difference && index > 0 && state.is_error_map() {
-        return vec![error_maps.map_or(f64::NAN, |maps| maps.at(index, texel))];
+    let Readout { materials, state, computed_maps, photographs } = read;
+    if difference && index > 0 && state.is_computed() {
+        return vec![computed_maps.map_or(f64::NAN, |maps| maps.at(index, texel))];
     }
     let convention = state.convention();
     let value = |index: usize| {

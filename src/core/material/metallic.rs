@@ -3,9 +3,12 @@
 /// Reflectance of dielectrics at normal incidence.
 const DIELECTRIC: f64 = 0.04;
 
-/// Base colour b and metallic m for diffuse d and specular s, all of [0, 1]: the inverse of d = b (1 - m) and
-/// s = 0.04 (1 - m) + b m, exact for what these made and in the mean of the channels for all else.
-pub(super) fn base_and_metallic(diffuse: [f64; 3], specular: [f64; 3]) -> ([f64; 3], f64) {
+/// Base colour b and metallic m for diffuse d and specular s, linear and in [0, 1]: the inverse of d = b (1 - m) and
+/// s = 0.04 (1 - m) + b m (glTF 2.0, appendix B.2).
+///
+/// Exact for the diffuse and specular of a base colour and a metallic; of all else in the mean of the channels. Of the two solutions
+/// for m, the smaller one in [0, 1]: most materials are dielectrics.
+pub fn base_and_metallic(diffuse: [f64; 3], specular: [f64; 3]) -> ([f64; 3], f64) {
     let mean = |rgb: [f64; 3]| rgb.iter().sum::<f64>() / 3.0;
     let left = left(mean(diffuse), mean(specular));
     let base = |c: usize| (diffuse[c] + specular[c] - DIELECTRIC * left).clamp(0.0, 1.0);

@@ -1,11 +1,11 @@
-//! The directions of the light in the evaluation of MatFusion.
+//! Points of the unit square for the directions of the light in the evaluation of MatFusion.
 
 /// 128 points of the unit square, times 2^30: x, y, x, y and so on.
 ///
 /// `scipy.stats.qmc.Sobol(d=2, scramble=True, seed=51234).random_base2(7)`: the default seed of the released script. SciPy 1.10
 /// and 1.17 give the same points.
 #[rustfmt::skip]
-pub(super) const DOME_POINTS: [u32; 256] = [
+pub(super) const HEMISPHERE_POINTS: [u32; 256] = [
     81484463, 280183863, 823800736, 937182708, 578378617, 18494522, 397947510, 645215737, 518487583, 246944073,
     723916560, 701960330, 944078793, 521232708, 226760390, 947806343, 148093669, 82589565, 1024644074, 595801790,
     779205427, 356861808, 464572988, 841631411, 317693525, 451371523, 657389402, 1032348608, 877502339, 189665806,
