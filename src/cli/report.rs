@@ -11,7 +11,7 @@ use svbrdf_files::atomic::{check_place, write_text};
 use svbrdf_files::page::{Findings, Page, Report, View, exposure};
 
 use super::args::scenes::OneSceneArgs;
-use super::args::{ComparisonArgs, Given, modes, values};
+use super::args::{ComparisonArgs, Given, SeedArgs, modes, values};
 use super::job::ComparisonJob;
 use super::output::stop::stoppable;
 use super::output::{CommandError, exit, target, watched};
@@ -40,15 +40,8 @@ pub struct ReportArgs {
     #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     target_error: f64,
 
-    /// Seed of the sampled scenes
-    #[arg(
-        help_heading = "Scenes",
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    seed: u64,
+    #[command(flatten)]
+    seed: SeedArgs,
 
     #[command(flatten)]
     scene: OneSceneArgs,
@@ -89,7 +82,7 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
         display: session.map(|session| session.display().clone()).unwrap_or_default(),
     };
     let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect::<Vec<_>>());
-    let request = Request::Accuracy { target: args.target_error, seed: args.seed };
+    let request = Request::Accuracy { target: args.target_error, seed: args.seed.seed };
     let findings =
         |progress: &Progress| Findings::new(ground_truth, &predictions, job.convention, &request, progress);
     let has_findings = !args.figure && !predictions.is_empty();

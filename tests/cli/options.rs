@@ -90,7 +90,7 @@ const MODES: [(&str, Shows); 41] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 67] = [
+const VALUES: [(&str, &str); 68] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -122,6 +122,7 @@ const VALUES: [(&str, &str); 67] = [
     ("sampler", "random"),
     ("scenes", "one.json"),
     ("texels", "3"),
+    ("repeat", "b.png"),
     ("target-error", "25%"),
     ("time-budget", "1ms"),
     ("precision", "f64"),

@@ -7,7 +7,8 @@ use svbrdf_core::report::Report;
 use svbrdf_core::text::printable;
 use svbrdf_files::dataset::{Pick, Shard};
 
-use crate::cli::args::{ComparisonArgs, values};
+use crate::cli::args::floor::FloorArgs;
+use crate::cli::args::{ComparisonArgs, SeedArgs, values};
 use crate::cli::output::CommandError;
 
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
@@ -47,6 +48,11 @@ pub struct RankArgs {
     #[arg(long)]
     pub metrics: bool,
 
+    /// Adds the marks of `svbrdf diagnose` to a data set: how many materials of each method have which error of exposure, alignment or
+    /// reading, and how many losses the ground truth does not resolve
+    #[arg(long)]
+    pub diagnose: bool,
+
     /// Fails with exit code 1, after the result is printed, if a mean loss is larger than this
     #[arg(long, value_name = "LOSS", allow_hyphen_values = true)]
     pub fail_above: Option<f64>,
@@ -55,19 +61,15 @@ pub struct RankArgs {
     #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     pub target_error: f64,
 
-    /// Seed of the sampled scenes
-    #[arg(
-        help_heading = "Scenes",
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    pub seed: u64,
+    #[command(flatten)]
+    pub seed: SeedArgs,
 
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     pub format: RankFormat,
+
+    #[command(flatten)]
+    pub floor: FloorArgs,
 
     #[command(flatten)]
     pub comparison: ComparisonArgs,

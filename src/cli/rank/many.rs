@@ -61,8 +61,9 @@ fn evaluated(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<Mat
     let cases = cases(args)?;
     let ComparisonArgs { convention, materials } = &args.comparison;
     let convention = convention.unwrap_or_default();
-    let settings = DatasetSettings::new(convention.name, args.target_error, args.seed, &cases)
-        .with_metrics(args.metrics);
+    let settings = DatasetSettings::new(convention.name, args.target_error, args.seed.seed, &cases)
+        .with_metrics(args.metrics)
+        .with_diagnoses(args.diagnose);
     let cases = args.shard.map_or(cases.clone(), |shard| shard.part(cases));
     let reading = DatasetReading {
         ground_truths: materials.reading.of_ground_truth(),

@@ -132,7 +132,7 @@ fn difference(values: &[Option<KnownLoss>], best: &[Option<KnownLoss>]) -> Metho
 }
 
 /// The loss of a method for a material.
-fn picked(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss> {
+pub(super) fn picked(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss> {
     let of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
     let mut known: Vec<KnownLoss> = Vec::new();
     for prediction in of_method {
