@@ -31,7 +31,7 @@ use loss::scene::SceneLossJob;
 use loss::study::StudyJob;
 use panes::PaneJobs;
 use panes::error_map::ErrorMapJob;
-use panes::mixture::MixtureJob;
+use panes::replacement::ReplacementJob;
 use photograph::PhotographJobs;
 use reading::opening::Openings;
 use reading::read::Reader;
@@ -75,7 +75,7 @@ impl Jobs {
     pub fn replace_device(&mut self, gpu: Option<Gpu>) {
         self.gpu = gpu;
         self.uploads = Uploads::default();
-        self.panes.mixture = MixtureJob::default();
+        self.panes.replacement = ReplacementJob::default();
         self.panes.error_map = ErrorMapJob::default();
         self.photograph.forget_device();
     }
