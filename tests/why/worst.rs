@@ -83,7 +83,7 @@ fn brute_force(pair: &Pair, [near, distant]: [usize; 2], climbs: i32) -> f64 {
 }
 
 #[test]
-#[ignore = "takes minutes; docs/verification.md has its command and its result"]
+#[ignore = "takes minutes; docs/verification.md has its command"]
 fn the_worst_scene_of_real_materials_is_within_1_percent_of_brute_force() {
     let pairs = golden(32, 4);
     let ratio = |pair: &Pair| {

@@ -50,6 +50,7 @@ impl DiagnosisSection<'_> {
             if self.pairs.len() > 1 {
                 self.predictions(ui, commands);
             }
+            ui.add_space(4.0);
             self.sentence(ui, pair, diagnosed);
             self.remedy(ui, prediction, diagnosed, commands);
             self.lines(ui, pair, diagnosed, commands);
@@ -80,7 +81,11 @@ impl DiagnosisSection<'_> {
             let (font, painter) = (FontId::proportional(12.5), ui.painter());
             let left = pos2(area.left() + 4.0, area.center().y);
             painter.text(left, Align2::LEFT_CENTER, format!("{}  {name}", index + 1), font.clone(), ink);
-            let colour = if first.is_some() { theme::accent(ui.visuals()) } else { weak(ui) };
+            let colour = match first {
+                Some(_) if is_chosen => ink,
+                Some(_) => theme::accent(ui.visuals()),
+                None => weak(ui),
+            };
             painter.text(area.right_center() - vec2(SHARE, 0.0), Align2::RIGHT_CENTER, text, font, colour);
             let response = response.on_hover_text(match (diagnosed, change) {
                 (None, _) => "It is being diagnosed".to_owned(),
@@ -304,7 +309,7 @@ fn value_text(finding: &Finding) -> String {
 /// The value with its unit where there is room.
 fn value(finding: &Finding) -> String {
     match (finding.hypothesis, finding.unit) {
-        (Hypothesis::ExposureRgb, _) | (_, None) => value_text(finding),
+        (Hypothesis::ExposureRgb | Hypothesis::Subtexel, _) | (_, None) => value_text(finding),
         (_, Some(unit)) => format!("{} {unit}", value_text(finding)),
     }
 }
