@@ -117,7 +117,7 @@ fn expected_of(pair: [&Material<f32>; 2], changes: &[Change]) -> Vec<[f64; 2]> {
 /// The intervals of the loss and of the share under fitted stops, and under a fitted shift, hold what very many scenes give for the
 /// same stops and shift.
 #[test]
-#[ignore = "takes minutes; docs/verification.md has its command and its result"]
+#[ignore = "takes minutes; docs/verification.md has its command"]
 fn intervals_of_fitted_values_cover_95_percent() {
     const SEEDS: u64 = 100;
     /// Stops at which the loss over very many scenes is computed; it is linear between them.
