@@ -3,7 +3,7 @@
 //! The whole table, over pairs made for it, the built-in ones and those of `../shared`:
 //! `cargo test --release --no-default-features -- --ignored coverage --nocapture`
 
-mod measured;
+pub(crate) mod measured;
 mod pairs;
 mod table;
 

@@ -12,8 +12,8 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::rank;
 use svbrdf_files::dataset::{
-    KnownLoss, MaterialResult, Pick, PredictionResult, best_by_metric, interval_of_mean, summarize,
-    summarize_metrics,
+    KnownLoss, Mark, MaterialResult, Pick, PredictionResult, best_by_metric, interval_of_mean, summarize,
+    summarize_marks, summarize_metrics,
 };
 use svbrdf_files::samples;
 
@@ -107,9 +107,10 @@ fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
             path: String::new(),
             result,
             metrics: metrics.clone(),
+            marks: None,
         });
     }
-    MaterialResult { index, material: format!("m{index}"), seed: 0, scenes: 9, predictions }
+    MaterialResult { index, material: format!("m{index}"), seed: 0, scenes: 9, floor: None, predictions }
 }
 
 #[test]
@@ -134,6 +135,43 @@ fn methods_are_compared_over_the_materials_of_both() {
     let [low, high] = difference.interval95_materials.unwrap();
     assert!(0.05 < low && low < difference.mean && difference.mean < high && high < 0.052, "{difference:?}");
     assert!(a.ties_with_best() && !b.ties_with_best());
+}
+
+#[test]
+fn marks_are_counted_by_material_and_method_and_follow_the_pick() {
+    let mark = |hypothesis: &str| Mark {
+        hypothesis: hypothesis.to_owned(),
+        value: "flipped".into(),
+        share: 0.5,
+        remedy: None,
+    };
+    let methods = |floor: f64, marks: [&[&str]; 3], losses: [f64; 3]| {
+        let names = ["a", "a", "b"].into_iter().zip(losses.map(Some)).collect::<Vec<_>>();
+        let mut result = result(0, &names);
+        result.floor = Some(floor);
+        for (prediction, marks) in result.predictions.iter_mut().zip(marks) {
+            prediction.marks = Some(marks.iter().map(|name| mark(name)).collect());
+        }
+        result
+    };
+    let results = [
+        methods(0.1, [&["normal_y", "shift"], &[], &[]], [0.3, 0.2, 0.35]),
+        methods(0.1, [&["normal_y"], &["exposure"], &["shift"]], [0.05, 0.6, 0.4]),
+        // Not diagnosed.
+        result(2, &[("a", Some(0.3)), ("b", None)]),
+    ];
+    let of = |method, pick| summarize_marks(method, Some("b").filter(|best| *best != method), &results, pick);
+    let fixed = of("a", Pick::Fixed).unwrap();
+    assert_eq!((fixed.materials, fixed.marked, fixed.not_resolvable), (2, 2, 1));
+    assert_eq!(fixed.by, [("normal_y".to_owned(), 2), ("shift".to_owned(), 1)].into());
+    // 0.3 and 0.35 are nearer than the floor, 0.05 and 0.4 are not.
+    assert_eq!(fixed.to_best_not_resolvable, Some(1));
+    let best = of("a", Pick::Best).unwrap();
+    assert_eq!((best.marked, best.by.get("shift")), (1, None));
+    let mean = of("a", Pick::Mean).unwrap();
+    assert_eq!((mean.marked, mean.by["exposure"], mean.not_resolvable), (2, 1, 0));
+    assert_eq!(of("b", Pick::Fixed).unwrap().to_best_not_resolvable, None);
+    assert_eq!(summarize_marks("a", None, &results[2..], Pick::Fixed), None);
 }
 
 #[test]

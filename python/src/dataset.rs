@@ -25,6 +25,7 @@ pub struct DatasetAsked {
     pick: String,
     strict: bool,
     metrics: bool,
+    diagnose: bool,
     journal: Option<PathBuf>,
     /// Read options of the ground truths, then of the predictions, as JSON.
     read: [String; 2],
@@ -46,7 +47,8 @@ pub fn rank_dataset(
     };
     let cases = dataset::cases_of_folders(&asked.ground_truths, &asked.methods).map_err(exception)?;
     let settings = DatasetSettings::new(convention.name, asked.target_error, asked.seed, &cases)
-        .with_metrics(asked.metrics);
+        .with_metrics(asked.metrics)
+        .with_diagnoses(asked.diagnose);
     let journal = asked.journal.as_deref();
     let DatasetResults { results, recomputed } =
         work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, journal, progress))?;

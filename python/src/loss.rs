@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::str::FromStr;
 
 use pyo3::prelude::*;
-use svbrdf_core::diagnose::floor;
 use svbrdf_core::loss::{Comparison, Compute, Precision, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::rank::most_scenes;
@@ -14,6 +13,7 @@ use crate::asked::{Asked, singles};
 use crate::errors::exception;
 use crate::material::CoreMaterial;
 use crate::report::Views;
+use crate::why::floor_of;
 use crate::work;
 
 /// The losses of `predictions` against `ground_truth`.
@@ -50,7 +50,8 @@ fn answer<T: Compute>(
     work::run(py, progress, |progress| LossReport::answer(&comparison, &question, progress))
 }
 
-/// The ranking of `predictions` against `ground_truth`, and the index of each in its order.
+/// The ranking of `predictions` against `ground_truth`, and the index of each in its order; `repeats` are further captures of the
+/// ground truth.
 #[pyfunction]
 pub fn rank(
     py: Python<'_>,
@@ -58,6 +59,7 @@ pub fn rank(
     predictions: Vec<PyRef<'_, CoreMaterial>>,
     asked: Asked,
     target_error: f64,
+    repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Views, Vec<usize>)> {
     let (convention, materials) = (asked.convention()?, singles(ground_truth, &predictions));
@@ -67,11 +69,10 @@ pub fn rank(
     let request = Request::Accuracy { target: target_error, seed: asked.seed };
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
     let mut report = RankReport::new(asked.compared(all[0], &convention), target_error, asked.named(outcome));
-    let stored = &ground_truth.storage;
-    if stored.has_steps() {
-        let floor =
-            work::run(py, progress, |progress| floor(all[0], stored, &convention, asked.seed, progress))?;
-        report = report.with_floor(floor);
+    if ground_truth.storage.has_steps() || !repeats.is_empty() {
+        let (floor, captures) =
+            floor_of(py, (ground_truth, &repeats), &convention, asked.seed, progress)?;
+        report = report.with_floor(floor, captures);
     }
     Ok((Views::new(&report)?, report.places.iter().map(|place| place.index).collect()))
 }

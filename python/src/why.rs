@@ -1,11 +1,17 @@
 //! Causes of a loss: maps, scenes, texels and directions.
 
+use std::borrow::Cow;
+
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use svbrdf_core::diagnose::{self as diagnosis, Diagnosis};
-use svbrdf_core::loss::Comparison;
+use svbrdf_core::error::Error as CoreError;
+use svbrdf_core::loss::{Comparison, Estimate};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::report::{BlameReport, DiagnoseReport, MapReport, ScenesReport, WorstReport};
+use svbrdf_core::progress::Progress;
+use svbrdf_core::report::{BlameReport, Compared, DiagnoseReport, MapReport, ScenesReport, WorstReport};
 use svbrdf_core::why;
 
 use crate::arrays;
@@ -14,6 +20,47 @@ use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
 use crate::report::Views;
 use crate::work;
+
+/// A question that is asked of each prediction alone.
+struct Each<'a> {
+    convention: Convention,
+    /// The ground truth first.
+    materials: Vec<Cow<'a, Material<f32>>>,
+    asked: &'a Asked,
+}
+
+impl<'a> Each<'a> {
+    fn new(
+        ground_truth: &'a CoreMaterial,
+        predictions: &'a [PyRef<'_, CoreMaterial>],
+        asked: &'a Asked,
+    ) -> PyResult<Self> {
+        Ok(Self { convention: asked.convention()?, materials: singles(ground_truth, predictions), asked })
+    }
+
+    fn ground_truth(&self) -> &Material<f32> {
+        &self.materials[0]
+    }
+
+    fn compared(&self) -> Compared {
+        self.asked.compared(self.ground_truth(), &self.convention)
+    }
+
+    /// What `answer` computes for each prediction by its index, and its name.
+    fn answers<T: Send>(
+        &self,
+        py: Python<'_>,
+        progress: Option<&Bound<'_, PyAny>>,
+        answer: impl Fn(usize, &Material<f32>, &Progress) -> Result<T, CoreError> + Sync,
+    ) -> PyResult<Vec<(String, T)>> {
+        let named = self.materials[1..].iter().zip(self.asked.predictions()).enumerate();
+        let one = |(index, (prediction, name)): (usize, (&Cow<'a, Material<f32>>, &String))| {
+            let found = work::run(py, progress, |progress| answer(index, prediction, progress))?;
+            Ok((name.clone(), found))
+        };
+        named.map(one).collect()
+    }
+}
 
 /// The attributions of the losses of `predictions`.
 #[pyfunction]
@@ -24,43 +71,59 @@ pub fn blame(
     asked: Asked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let (convention, request) = (asked.convention()?, asked.request()?);
-    let all = singles(ground_truth, &predictions);
-    let mut attributions = Vec::new();
-    for (prediction, name) in all[1..].iter().zip(asked.predictions()) {
-        let found = work::run(py, progress, |progress| {
-            why::attribute(&all[0], prediction, &convention, &request, progress)
-        })?;
-        attributions.push(why::Attribution { prediction: name.clone(), ..found });
-    }
-    Views::new(&BlameReport::new(asked.compared(&all[0], &convention), &request, attributions))
+    let (each, request) = (Each::new(ground_truth, &predictions, &asked)?, asked.request()?);
+    let found = each.answers(py, progress, |_, prediction, progress| {
+        why::attribute(each.ground_truth(), prediction, &each.convention, &request, progress)
+    })?;
+    let attributions =
+        found.into_iter().map(|(prediction, found)| why::Attribution { prediction, ..found }).collect();
+    Views::new(&BlameReport::new(each.compared(), &request, attributions))
 }
 
-/// The diagnosis of the loss of each of `predictions`.
+/// The diagnosis of the loss of each of `predictions`; `repeats` are further captures of the ground truth.
 #[pyfunction]
 pub fn diagnose(
     py: Python<'_>,
     ground_truth: &CoreMaterial,
     predictions: Vec<PyRef<'_, CoreMaterial>>,
     asked: Asked,
+    repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let (convention, all) = (asked.convention()?, singles(ground_truth, &predictions));
-    let truth = &*all[0];
-    let floor = work::run(py, progress, |progress| {
-        diagnosis::floor(truth, &ground_truth.storage, &convention, asked.seed, progress)
+    let each = Each::new(ground_truth, &predictions, &asked)?;
+    let (floor, captures) = floor_of(py, (ground_truth, &repeats), &each.convention, asked.seed, progress)?;
+    let storages: Vec<_> = predictions.iter().map(|prediction| &prediction.storage).collect();
+    let found = each.answers(py, progress, |index, prediction, progress| {
+        let (truth, storage) = (each.ground_truth(), storages[index]);
+        diagnosis::diagnose(truth, prediction, storage, &each.convention, asked.seed, progress)
     })?;
-    let mut diagnoses = Vec::new();
-    for ((prediction, name), stored) in all[1..].iter().zip(asked.predictions()).zip(&predictions) {
-        let storage = &stored.storage;
-        let found = work::run(py, progress, |progress| {
-            diagnosis::diagnose(truth, prediction, storage, &convention, asked.seed, progress)
-        })?;
-        diagnoses.push(Diagnosis { prediction: name.clone(), ..found });
+    let diagnoses = found.into_iter().map(|(prediction, found)| Diagnosis { prediction, ..found }).collect();
+    let seams = diagnosis::seams(each.ground_truth());
+    let compared = each.compared();
+    Views::new(&DiagnoseReport { compared, seed: asked.seed, floor, captures, seams, diagnoses })
+}
+
+/// The loss that a ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of
+/// rounding.
+///
+/// # Errors
+/// Where a capture has another size.
+pub fn floor_of(
+    py: Python<'_>,
+    (ground_truth, repeats): (&CoreMaterial, &[PyRef<'_, CoreMaterial>]),
+    convention: &Convention,
+    seed: u64,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<(Estimate, Option<usize>)> {
+    let (truth, storage) = (ground_truth.single(), &ground_truth.storage);
+    if repeats.is_empty() {
+        let floor = |progress: &Progress| diagnosis::floor(&truth, storage, convention, seed, progress);
+        return Ok((work::run(py, progress, floor)?, None));
     }
-    let compared = asked.compared(truth, &convention);
-    let seams = diagnosis::seams(truth);
-    Views::new(&DiagnoseReport { compared, seed: asked.seed, floor, seams, diagnoses })
+    let repeats: Vec<Material<f32>> = repeats.iter().map(|repeat| repeat.single().into_owned()).collect();
+    let floor =
+        |progress: &Progress| diagnosis::floor_of_captures(&truth, &repeats, convention, seed, progress);
+    Ok((work::run(py, progress, floor)?, Some(1 + repeats.len())))
 }
 
 /// The worst scene of each of `predictions`.
@@ -72,15 +135,12 @@ pub fn worst(
     asked: Asked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let (convention, all) = (asked.convention()?, singles(ground_truth, &predictions));
-    let mut found = Vec::new();
-    for (prediction, name) in all[1..].iter().zip(asked.predictions()) {
-        let worst = work::run(py, progress, |progress| {
-            why::worst(&all[0], prediction, &convention, asked.seed, why::TAIL, progress)
-        })?;
-        found.push(why::Worst { prediction: name.clone(), ..worst });
-    }
-    Views::new(&WorstReport { compared: asked.compared(&all[0], &convention), tail: why::TAIL, found })
+    let each = Each::new(ground_truth, &predictions, &asked)?;
+    let found = each.answers(py, progress, |_, prediction, progress| {
+        why::worst(each.ground_truth(), prediction, &each.convention, asked.seed, why::TAIL, progress)
+    })?;
+    let found = found.into_iter().map(|(prediction, found)| why::Worst { prediction, ..found }).collect();
+    Views::new(&WorstReport { compared: each.compared(), tail: why::TAIL, found })
 }
 
 /// The `top` scenes with the largest losses.

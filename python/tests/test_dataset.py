@@ -59,6 +59,18 @@ def test_a_data_set_has_the_numbers_of_the_command_line(program: str, dataset: P
     assert list(report.to_pandas()["loss"].dropna()) == [loss for loss in expected if loss is not None]
 
 
+def test_the_marks_of_a_data_set_are_those_of_the_command_line(program: str, dataset: Path) -> None:
+    found = of_command_line(program, dataset, "--diagnose")
+    report = ranked(dataset, diagnose=True)
+    assert json.loads(json.dumps(report.to_dict())) == found
+    assert repr(report) + "\n" == text_of_command_line(program, dataset, "--diagnose")
+    expected = {entry["method"]: entry["marks"]["marked"] for entry in found["methods"]}
+    assert {method.method: method.marks.marked for method in report.methods if method.marks} == expected
+    marks = [result.marks for result in report.results if result.loss is not None]
+    assert all(mark is not None for mark in marks)
+    assert ranked(dataset).methods[0].marks is None
+
+
 def test_a_broken_file_is_a_result_that_says_why(dataset: Path) -> None:
     seen: list[tuple[int, int]] = []
     report = svbrdf.rank_dataset(

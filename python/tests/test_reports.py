@@ -90,7 +90,12 @@ def test_maps_of_8_bits_have_the_floor_of_the_command_line(program: str, tmp_pat
     assert "floor" in expected
     assert str(report) + "\n" == expected
     arrays = [svbrdf.Material(**maps(13, 11, seed)) for seed in range(3)]
-    assert "floor 0.0" not in str(svbrdf.rank(arrays[0], arrays[1:])), "arrays resolve every loss"
+    assert "floor" not in str(svbrdf.rank(arrays[0], arrays[1:])), "arrays resolve every loss"
+    repeated = compute(paths[0], paths[1:], repeats=paths[1])
+    command_line = [program, command, *paths, "--repeat", paths[1]]
+    expected = subprocess.run(command_line, check=True, capture_output=True, text=True).stdout
+    assert "the mean loss between 2 captures" in expected
+    assert str(repeated) + "\n" == expected
 
 
 def test_a_protocol_takes_files_with_their_options_and_no_scenes(materials: Materials) -> None:

@@ -8,8 +8,7 @@ use svbrdf_core::report::{BlameReport, Compared, Report as _};
 use svbrdf_core::why::attribute;
 use svbrdf_files::scene_file;
 
-use super::args::lights::LightsArgs;
-use super::args::{ComparisonArgs, Given, values};
+use super::args::{ComparisonArgs, Given, SeedArgs, values};
 use super::job::ComparisonJob;
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
@@ -27,15 +26,8 @@ pub struct BlameArgs {
     #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     target_error: f64,
 
-    /// Seed of the sampled scenes
-    #[arg(
-        help_heading = "Scenes",
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    seed: u64,
+    #[command(flatten)]
+    seed: SeedArgs,
 
     /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
     #[arg(help_heading = "Scenes", long, value_name = "FILE", conflicts_with_all = ["target_error", "seed", "lights", "fov"])]
@@ -60,10 +52,9 @@ pub struct BlameArgs {
 pub fn run(args: &BlameArgs, given: &Given) -> Result<(), CommandError> {
     let job = ComparisonJob::new(&args.comparison, given)?;
     job.materials.check_predictions()?;
-    let request = match (&args.scenes, args.lights.scenes(given)?) {
-        (_, Some(scenes)) => Request::Listed(scenes),
-        (Some(path), None) => Request::Listed(scene_file::read(path)?),
-        (None, None) => Request::Accuracy { target: args.target_error, seed: args.seed },
+    let request = match &args.scenes {
+        Some(path) => Request::Listed(scene_file::read(path)?),
+        None => Request::Accuracy { target: args.target_error, seed: args.seed.seed },
     };
     let opened = job.materials.open::<f32>()?;
     let one = |prediction: &Material<f32>| {

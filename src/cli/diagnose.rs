@@ -1,36 +1,34 @@
 //! `svbrdf diagnose`: whether something trivial explains a loss.
 
-use svbrdf_core::diagnose::{Storage, diagnose, floor, seams};
+use svbrdf_core::diagnose::{Storage, diagnose, seams};
 use svbrdf_core::material::Material;
 use svbrdf_core::report::{Compared, DiagnoseReport};
 
-use super::args::{ComparisonArgs, Given};
+use super::args::floor::FloorArgs;
+use super::args::{ComparisonArgs, Given, SeedArgs};
 use super::job::ComparisonJob;
+use super::job::floor::floor_of;
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
 
 /// Prints what an exposure, a shift, a symmetry or another reading of the files would lower the loss to
 ///
 /// Each hypothesis is fitted in the scenes of a pilot and evaluated in 192 others. A star marks those that lower the loss
-/// significantly and by at least 10%; the last column has the option that corrects the reading. Below: the loss that 8 bits of the
-/// ground truth leave (floor), and the loss between averages over larger and larger blocks (ladder). docs/diagnose.md describes each
+/// significantly and by at least 10%; the last column has the option that corrects the reading. Below: the loss that the
+/// ground truth cannot resolve (floor), and the loss between averages over larger and larger blocks (ladder). docs/diagnose.md describes each
 /// line. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  svbrdf diagnose gt.png a.png")]
 pub struct DiagnoseArgs {
-    /// Seed of the sampled scenes
-    #[arg(
-        help_heading = "Scenes",
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    seed: u64,
+    #[command(flatten)]
+    seed: SeedArgs,
 
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     format: ReportFormat,
+
+    #[command(flatten)]
+    floor: FloorArgs,
 
     #[command(flatten)]
     comparison: ComparisonArgs,
@@ -45,17 +43,14 @@ pub fn run(args: &DiagnoseArgs, given: &Given) -> Result<(), CommandError> {
     job.materials.check_predictions()?;
     let opened = job.materials.open::<f32>()?;
     let (truth, convention) = (&opened.ground_truth, &job.convention);
-    let [stored, storages @ ..] = opened.storages.as_slice() else {
-        return Ok(());
-    };
-    let floor = watched("dithering", |progress| floor(truth, stored, convention, args.seed, progress))?;
+    let seed = args.seed.seed;
+    let (floor, captures) = floor_of(&args.floor, &job, &opened, seed)?;
     let one = |(prediction, storage): (&Material<f32>, &Storage)| {
-        watched("diagnosing", |progress| {
-            diagnose(truth, prediction, storage, convention, args.seed, progress)
-        })
+        watched("diagnosing", |progress| diagnose(truth, prediction, storage, convention, seed, progress))
     };
-    let diagnoses = opened.predictions.iter().zip(storages).map(one).collect::<Result<Vec<_>, _>>()?;
+    let diagnoses =
+        opened.predictions.iter().zip(&opened.storages[1..]).map(one).collect::<Result<Vec<_>, _>>()?;
     let compared = Compared::new(truth, convention);
-    let report = DiagnoseReport { compared, seed: args.seed, floor, seams: seams(truth), diagnoses };
+    let report = DiagnoseReport { compared, seed, floor, captures, seams: seams(truth), diagnoses };
     Ok(exit::put(&args.format.write(&report)?)?)
 }

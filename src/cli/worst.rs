@@ -4,7 +4,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::report::{Compared, Report as _, WorstReport};
 use svbrdf_core::why::worst;
 
-use super::args::{ComparisonArgs, Given, values};
+use super::args::{ComparisonArgs, Given, SeedArgs, values};
 use super::job::ComparisonJob;
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
@@ -18,15 +18,8 @@ use super::output::{CommandError, exit, target, watched};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  svbrdf worst gt.png a.png")]
 pub struct WorstArgs {
-    /// Seed of the scenes that the search starts from
-    #[arg(
-        help_heading = "Scenes",
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    seed: u64,
+    #[command(flatten)]
+    seed: SeedArgs,
 
     /// Leaves out this share of the nearest distances, and as much of the farthest
     #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "0.5%")]
@@ -51,7 +44,7 @@ pub fn run(args: &WorstArgs, given: &Given) -> Result<(), CommandError> {
     let truth = &opened.ground_truth;
     let one = |prediction: &Material<f32>| {
         watched("searching", |progress| {
-            worst(truth, prediction, &job.convention, args.seed, args.distance_tail, progress)
+            worst(truth, prediction, &job.convention, args.seed.seed, args.distance_tail, progress)
         })
     };
     let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;

@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use svbrdf_core::error::Error;
+use svbrdf_core::diagnose::Change;
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map as MaterialMap;
 use svbrdf_core::picture::differences::Differences;
@@ -146,6 +146,16 @@ pub struct Display {
     pub isolated: Option<MaterialMap>,
     /// Whether [`Display::isolated`] is the only right one, and not the only wrong one.
     pub only_right: bool,
+    /// The change with which the chosen prediction is shown: one that a diagnosis found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corrected: Option<Change>,
+}
+
+impl Display {
+    /// Whether another material is shown in the place of the chosen prediction.
+    pub fn is_replaced(&self) -> bool {
+        self.isolated.is_some() || self.corrected.is_some()
+    }
 }
 
 impl Default for Display {
@@ -165,6 +175,7 @@ impl Default for Display {
             prediction: 0,
             isolated: None,
             only_right: false,
+            corrected: None,
         }
     }
 }

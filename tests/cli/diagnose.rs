@@ -86,6 +86,144 @@ fn every_format_has_every_line_and_rounding_is_below_the_floor() {
     let ranking = json(&succeed(folder.path(), &format!("rank truth.png near.png {READ} --format json")));
     assert_eq!(ranking["floor"], floor);
     assert!(succeed(folder.path(), &format!("rank truth.png near.png {READ}")).contains("not resolvable"));
+    let prediction = &ranking["ranking"][0];
+    assert_eq!((&prediction["resolvable"], &prediction["to_best_resolvable"]), (&false.into(), &Value::Null));
     let wrong = json(&succeed(folder.path(), "diagnose gt.png b.png --format json"));
     assert!(resolvable(&wrong["predictions"][0]), "{wrong}");
+}
+
+#[test]
+fn a_ranking_names_the_losses_and_differences_below_the_floor() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    write(&of("truth.png"), |_, texel| texel);
+    write(&of("near.png"), |_, [r, g, b]| [r, g + u8::from(r % 8 == 0), b]);
+    // Both far from the truth, and near each other.
+    let rough = |step: u8| {
+        move |tile: u32, texel: [u8; 3]| if tile == 2 { texel.map(|v| v + 60 + step) } else { texel }
+    };
+    write(&of("rough.png"), rough(0));
+    write(&of("same.png"), rough(1));
+    let rank = |predictions: &str, format: &str| {
+        succeed(folder.path(), &format!("rank truth.png {predictions} {READ} --format {format}"))
+    };
+    let of_ranking = |predictions: &str| {
+        let ranking = json(&rank(predictions, "json"));
+        let entry = |place: usize| {
+            let place = &ranking["ranking"][place];
+            ["resolvable", "to_best_resolvable"].map(|key| place[key].as_bool())
+        };
+        [entry(0), entry(1)]
+    };
+    assert_eq!(of_ranking("near.png rough.png"), [[Some(false), None], [Some(true), Some(true)]]);
+    assert_eq!(of_ranking("rough.png same.png"), [[Some(true), None], [Some(true), Some(false)]]);
+    let last = |predictions: &str, line: usize| {
+        let text = rank(predictions, "text");
+        let table = text.split("\n\n").nth(1).unwrap().to_owned();
+        table.lines().nth(line).unwrap().split("  ").last().unwrap().to_owned()
+    };
+    assert_eq!(last("rough.png same.png", 0), "not resolvable");
+    assert_eq!(last("rough.png same.png", 2), "difference");
+    assert_eq!(last("near.png rough.png", 1), "loss");
+    // Where all is resolvable, there is no such column.
+    write(&of("black.png"), |tile, texel| if tile == 1 { [0; 3] } else { texel });
+    assert_eq!(last("rough.png black.png", 0), "group");
+    let csv = rank("rough.png same.png", "csv");
+    assert!(csv.lines().next().unwrap().ends_with(",resolvable,to_best_resolvable"), "{csv}");
+    assert!(csv.lines().nth(2).unwrap().ends_with(",true,false"), "{csv}");
+}
+
+#[test]
+fn other_captures_of_the_ground_truth_give_its_floor() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    write(&of("truth.png"), |_, texel| texel);
+    write(&of("again.png"), |tile, texel| if tile == 1 { texel.map(|v| v - v / 8) } else { texel });
+    write(&of("more.png"), |tile, texel| if tile == 2 { texel.map(|v| v + 9) } else { texel });
+    write(&of("flat.png"), |tile, texel| if tile == 0 { [128, 128, 255] } else { texel });
+    let run = |command: &str, options: &str| {
+        json(&succeed(folder.path(), &format!("{command} truth.png flat.png {READ} {options} --format json")))
+    };
+    let scenes = "--near 128 --distant 64 --sampler sobol --format json";
+    let loss = |first: &str, second: &str| {
+        let printed = succeed(folder.path(), &format!("loss {first}.png {second}.png {READ} {scenes}"));
+        json(&printed)["results"][0]["loss"].as_f64().unwrap()
+    };
+    let pairs = [loss("truth", "again"), loss("truth", "more"), loss("again", "more")];
+    let expected = [pairs[0], pairs.iter().sum::<f64>() / 3.0];
+    for (captures, options) in [(2, "--repeat again.png"), (3, "--repeat again.png --repeat more.png")] {
+        let diagnosed = run("diagnose", options);
+        let ranked = run("rank", options);
+        assert_eq!([&diagnosed["captures"], &ranked["captures"]], [captures, captures]);
+        let expected = expected[captures - 2];
+        for floor in [&diagnosed["floor"]["mean"], &ranked["floor"]] {
+            let floor = floor.as_f64().unwrap();
+            assert!((floor / expected - 1.0).abs() < 1e-3, "{floor} {expected}");
+        }
+    }
+    assert_eq!(run("diagnose", "")["captures"], Value::Null);
+    let text = succeed(folder.path(), &format!("diagnose truth.png flat.png {READ} --repeat again.png"));
+    assert!(text.contains(", the mean loss between 2 captures: smaller losses"), "{text}");
+    write_tiles(&of("small.png"), 8, |_, _| [100; 3]);
+    let error = super::fail(folder.path(), &format!("rank truth.png flat.png {READ} --repeat small.png"), 1);
+    assert!(error.contains("8 x 8") && error.contains("32 x 32"), "{error}");
+}
+
+/// Three materials: `ours` has Y of two in the other direction and a third one that rounding explains, `theirs` is rougher than the truth.
+#[test]
+fn a_data_set_counts_the_materials_of_each_method_by_their_marks() {
+    let folder = folder();
+    for method in ["gt", "ours", "theirs"] {
+        std::fs::create_dir(folder.path().join(method)).unwrap();
+        for material in 0..3_u32 {
+            let path = folder.path().join(method).join(format!("m{material}.png"));
+            write(&path, |tile, [r, g, b]| match (method, tile) {
+                ("gt", _) => [r, g, b],
+                ("ours", 0) if material < 2 => [r, 255 - g, b],
+                ("ours", _) if material == 2 => [r, g + u8::from(r % 8 == 0), b],
+                ("theirs", 2) => [r + 60 + 9 * material as u8, g, b],
+                _ => [r, g, b],
+            });
+        }
+    }
+    let rank = |options: &str| {
+        succeed(folder.path(), &format!("rank --dataset gt ours theirs {READ} --target-error 10% {options}"))
+    };
+    let found = json(&rank("--diagnose --format json"));
+    let of = |method: &str| {
+        let all = found["methods"].as_array().unwrap();
+        all.iter().find(|entry| entry["method"] == method).unwrap()["marks"].clone()
+    };
+    let (ours, theirs) = (of("ours"), of("theirs"));
+    assert_eq!(
+        (&ours["materials"], &ours["marked"], &ours["by"]["normal_y"]),
+        (&3.into(), &2.into(), &2.into())
+    );
+    assert_eq!(
+        (&ours["not_resolvable"], &theirs["not_resolvable"]),
+        (&1.into(), &0.into()),
+        "{ours} {theirs}"
+    );
+    let marks = &found["results"][0]["predictions"][0]["marks"];
+    assert_eq!(marks[0]["remedy"], "--pred-normal-y down");
+    assert!(found["results"][0]["floor"].as_f64().unwrap() > 0.0);
+    let text = rank("--diagnose");
+    let row = |name: &str| -> Vec<String> {
+        let line =
+            text.lines().find(|line| line.starts_with(name)).unwrap_or_else(|| panic!("{name}: {text}"));
+        line.split_whitespace().skip(name.split(' ').count()).map(str::to_owned).collect()
+    };
+    let order: Vec<&str> =
+        found["methods"].as_array().unwrap().iter().map(|m| m["method"].as_str().unwrap()).collect();
+    assert_eq!(row("number of materials"), order);
+    let by = |method: &str| row("by normal_y")[order.iter().position(|one| *one == method).unwrap()].clone();
+    assert_eq!([by("ours"), by("theirs")], ["2", "0"]);
+    let csv = rank("--diagnose --format csv");
+    assert!(csv.lines().next().unwrap().ends_with(",floor,resolvable,marked"), "{csv}");
+    assert_eq!(csv.lines().filter(|line| line.ends_with(",true,normal_y")).count(), 2, "{csv}");
+    // A run that was kept prints the same, and has what results depend on in its head.
+    rank("--diagnose --journal run.jsonl");
+    assert_eq!(rank("--diagnose --journal run.jsonl"), text);
+    assert_eq!(succeed(folder.path(), "rank --merge run.jsonl"), text);
+    assert!(!rank("").contains("number of materials"));
 }

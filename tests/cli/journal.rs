@@ -50,6 +50,7 @@ fn a_journal_of_other_options_of_reading_is_refused() {
         ("--albedo gamma2.2 --convention guided-2020", r#"convention is "printed", but "guided-2020""#),
         ("--albedo gamma2.2 --seed 3", "seed is 0, but 3 in this run"),
         ("--albedo gamma2.2 --metrics", "metrics"),
+        ("--albedo gamma2.2 --diagnose", "diagnose is unspecified, but true"),
     ] {
         let stderr = fail(folder.path(), &run(options), 1);
         assert!(stderr.contains("of other settings") && stderr.contains(difference), "{options}: {stderr}");

@@ -130,6 +130,7 @@ const VALUES: [(&str, &str); 68] = [
     ("scenes", "one.json"),
     ("lights", "flash"),
     ("texels", "3"),
+    ("repeat", "b.png"),
     ("target-error", "25%"),
     ("time-budget", "1ms"),
     ("precision", "f64"),

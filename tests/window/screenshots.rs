@@ -39,6 +39,8 @@ fn opened<'a>() -> Window<'a> {
     window.set_size(SIZE);
     window.run_steps(4);
     tab(&mut window, "Why");
+    window.get_by_label("Would something trivial explain it?").click();
+    window.run_steps(12);
     window.get_by_label("Light and view").click();
     window.run_steps(12);
     wait(&mut window, "the attribution", |app| app.attribution().is_some());

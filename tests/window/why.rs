@@ -1,5 +1,6 @@
 //! The tab *Why*: maps, scenes, directions, and the loss while the light moves.
 
+mod diagnosis;
 mod directions;
 mod error_map;
 mod maps;
@@ -14,12 +15,14 @@ use svbrdf_files::samples;
 
 use super::*;
 
-/// The built-in pair with the tab open, in a window that shows all of it.
+/// The built-in pair with the tab open, in a window that shows all of it but the diagnosis, which is folded.
 fn opened<'a>() -> Window<'a> {
     let mut window = built_in();
     window.set_size(vec2(1200.0, 1800.0));
     window.run_steps(4);
     tab(&mut window, "Why");
+    window.get_by_label("Would something trivial explain it?").click();
+    window.run_steps(12);
     window
 }
 
@@ -86,7 +89,10 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
     window.set_size(vec2(1200.0, 1800.0));
     let nothing = |window: &Window<'_>| {
         let app = window.state();
-        app.attribution().is_none() && app.listed_scenes().is_none() && app.direction_map().is_none()
+        app.diagnosis().is_none()
+            && app.attribution().is_none()
+            && app.listed_scenes().is_none()
+            && app.direction_map().is_none()
     };
     let rest = |window: &mut Window<'_>| {
         for _ in 0..60 {
@@ -98,11 +104,13 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
     assert!(nothing(&window), "the tab of the loss is open");
     tab(&mut window, "Why");
     window.get_by_label("Which map").click();
+    window.get_by_label("Would something trivial explain it?").click();
     window.run_steps(4);
     wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
     wait(&mut window, "the directions", |app| app.direction_map().is_some());
     rest(&mut window);
     assert!(window.state().attribution().is_none(), "its section is folded");
+    assert!(window.state().diagnosis().is_none(), "its section is folded");
     window.get_by_label("Which map").click();
     window.run_steps(4);
     wait(&mut window, "the attribution", |app| app.attribution().is_some());

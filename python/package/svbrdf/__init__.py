@@ -26,7 +26,7 @@ from ._capture import (
     capture,
 )
 from ._core import Error, __version__
-from ._dataset import DatasetLoss, DatasetReport, MethodSummary, MetricSummary, rank_dataset
+from ._dataset import DatasetLoss, DatasetReport, MarkSummary, MethodSummary, MetricSummary, rank_dataset
 from ._diagnose import DiagnoseReport, Diagnosis, Finding, diagnose
 from ._loss import Difference, FewScenes, Loss, LossReport, RankedPrediction, RankReport, loss, rank
 from ._material import Assumption, AssumptionWarning, Material, built_in, read, write
@@ -66,6 +66,7 @@ __all__ = [
     "MapReport",
     "MapShare",
     "MapSummary",
+    "MarkSummary",
     "Material",
     "MethodSummary",
     "MetricSummary",

@@ -1,12 +1,15 @@
 """The arguments that the comparisons have in common."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from . import _core
 from ._arrays import Precision
 from ._material import Material, Source, opened
+from ._progress import Report as Progress
+from ._progress import reported
+from ._report import views
 from ._scenes import Scene, read_scenes
 
 Scenes = Sequence[Scene] | Source
@@ -55,6 +58,30 @@ class Asked:
     def core(self) -> tuple[_core.CoreMaterial, list[_core.CoreMaterial], dict[str, Any]]:
         """The first arguments of the function."""
         return self.ground_truth._core, [prediction._core for prediction in self.predictions], self._options
+
+
+def answered(
+    ask: Callable[..., _core.Views], asked: Asked, doing: str, progress: bool | Progress, *more: Any
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The arguments of `Report` from a report of the core, and its values: called by a function of the package.
+
+    Args:
+        ask: The function of the core.
+        asked: Its first arguments.
+        doing: The title of the bar of the progress.
+        progress: What the function of the package was given.
+        more: Further arguments of the function of the core.
+    """
+    with reported(doing, progress) as report:
+        found = ask(*asked.core, *more, report)
+    arguments = views(found, stacklevel=4)
+    return arguments, arguments["_values"]
+
+
+def repeated(repeats: Predictions | Sequence[Material | Source]) -> list[_core.CoreMaterial]:
+    """Further captures of a ground truth, opened."""
+    materials = [repeats] if isinstance(repeats, Material | str | os.PathLike) else repeats
+    return [opened(material, "f32")._core for material in materials]
 
 
 def listed(materials: Predictions, argument: str) -> Sequence[Material | Source]:

@@ -4,11 +4,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import _core
-from ._asked import Asked, Predictions, Scenes, check_goals
+from ._asked import Asked, Predictions, Scenes, answered, check_goals
 from ._material import Material, Source
 from ._progress import Report as Progress
-from ._progress import reported
-from ._report import Estimate, Report, estimate, views
+from ._report import Estimate, Report, estimate
 
 
 @dataclass(frozen=True)
@@ -100,10 +99,7 @@ def blame(
     if scenes is None and target_error is None:
         target_error = 0.01
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed, scenes=scenes, target_error=target_error)
-    with reported("rendering", progress) as report:
-        found = _core.blame(*asked.core, report)
-    arguments = views(found)
-    values = arguments["_values"]
+    arguments, values = answered(_core.blame, asked, "rendering", progress)
     attributions = tuple(_attribution(entry) for entry in values["attributions"])
     return BlameReport(**arguments, **{**values, "attributions": attributions})
 

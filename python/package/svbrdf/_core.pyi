@@ -73,6 +73,7 @@ def rank(
     predictions: Sequence[CoreMaterial],
     asked: Mapping[str, Any],
     target_error: float,
+    repeats: Sequence[CoreMaterial],
     progress: Report,
 ) -> tuple[Views, list[int]]: ...
 def blame(
@@ -96,7 +97,11 @@ def map(
     progress: Report,
 ) -> MapItems: ...
 def diagnose(
-    ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
+    ground_truth: CoreMaterial,
+    predictions: Sequence[CoreMaterial],
+    asked: Mapping[str, Any],
+    repeats: Sequence[CoreMaterial],
+    progress: Report,
 ) -> Views: ...
 def matfusion(
     ground_truth: CoreMaterial,

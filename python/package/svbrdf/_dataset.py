@@ -27,6 +27,22 @@ class MetricSummary:
 
 
 @dataclass(frozen=True)
+class MarkSummary:
+    """The marks of a method over the materials that were diagnosed."""
+
+    materials: int
+    """The number of materials with a diagnosis."""
+    marked: int
+    """The number of these with any mark."""
+    by: Mapping[str, int]
+    """The number of materials that are marked by each hypothesis."""
+    not_resolvable: int
+    """The number of materials whose loss is not above the floor of the ground truth."""
+    to_best_not_resolvable: int | None
+    """The number of materials whose difference to the best method is not above it; None for the best."""
+
+
+@dataclass(frozen=True)
 class MethodSummary:
     """A method over the materials that it has a loss of."""
 
@@ -48,6 +64,8 @@ class MethodSummary:
     """Whether the materials cannot separate it from the best."""
     metrics: Mapping[str, MetricSummary]
     """Of the maps by name; empty where they were not asked for."""
+    marks: MarkSummary | None
+    """None where no diagnosis was asked for."""
 
 
 @dataclass(frozen=True)
@@ -68,9 +86,12 @@ class DatasetLoss:
     standard_error: float | None
     interval95: tuple[float, float] | None
     error: str | None
-    metrics: Mapping[str, float | None]
-    """Of the maps by name, None for the infinite PSNR of equal maps; empty where they were not asked for or the maps
-    cannot be compared."""
+    metrics: Mapping[str, float]
+    """Of the maps by name; empty where they were not asked for or the maps cannot be compared."""
+    floor: float | None
+    """The loss that the ground truth cannot resolve; None where no diagnosis was asked for."""
+    marks: tuple[Mapping[str, Any], ...] | None
+    """The marked findings, the largest share first: `hypothesis`, `value`, `share`, `remedy`; None where not asked for."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -107,6 +128,7 @@ def rank_dataset(
     pick: Literal["fixed", "mean", "best"] = "fixed",
     strict: bool = False,
     metrics: bool = False,
+    diagnose: bool = False,
     journal: Source | None = None,
     read_ground_truth: Mapping[str, Any] | None = None,
     read_predictions: Mapping[str, Any] | None = None,
@@ -127,6 +149,8 @@ def rank_dataset(
         pick: Which of several predictions counts: the first, the mean of their losses, or the best.
         strict: Whether guesses in reading are errors.
         metrics: Whether to compute metrics of the maps, too: RMSE, L1, angles and SSIM. docs/metrics.md defines them.
+        diagnose: Whether to mark what an error of exposure, alignment or reading explains of each loss, as
+            `svbrdf.diagnose` does, and the losses that the ground truth does not resolve.
         journal: A file that keeps results while they come: an interrupted run continues where it was. It is the file of
             `svbrdf rank --dataset --journal`, which can continue it, too.
         read_ground_truth: Options of `svbrdf.read` for the ground truths, such as `{"albedo": "srgb"}`.
@@ -147,6 +171,7 @@ def rank_dataset(
         "pick": pick,
         "strict": strict,
         "metrics": metrics,
+        "diagnose": diagnose,
         "journal": journal,
         "read": [_options(given) for given in (read_ground_truth, read_predictions)],
     }
@@ -172,7 +197,9 @@ def _summary(entry: dict[str, Any]) -> MethodSummary:
         name: MetricSummary(**{**metric, "interval95_materials": pair(metric["interval95_materials"])})
         for name, metric in entry.get("metrics", {}).items()
     }
-    return MethodSummary(**{**entry, **{name: pair(entry[name]) for name in intervals}, "metrics": metrics})
+    marks = None if entry.get("marks") is None else MarkSummary(**entry["marks"])
+    summary = {**entry, **{name: pair(entry[name]) for name in intervals}, "metrics": metrics, "marks": marks}
+    return MethodSummary(**summary)
 
 
 def _result(result: dict[str, Any], entry: dict[str, Any]) -> DatasetLoss:
@@ -189,6 +216,8 @@ def _result(result: dict[str, Any], entry: dict[str, Any]) -> DatasetLoss:
         interval95=pair(known["interval95"]),
         error=entry["result"].get("Err"),
         metrics=entry.get("metrics", {}),
+        floor=result.get("floor"),
+        marks=None if entry.get("marks") is None else tuple(entry["marks"]),
     )
 
 

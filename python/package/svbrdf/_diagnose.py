@@ -1,14 +1,14 @@
 """Whether something trivial explains a loss."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from . import _core
-from ._asked import Asked, Predictions
+from ._asked import Asked, Predictions, answered, repeated
 from ._material import Material, Source
 from ._progress import Report as Progress
-from ._progress import reported
-from ._report import Estimate, Report, estimate, views
+from ._report import Estimate, Report, estimate
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,8 @@ class DiagnoseReport(Report):
     seed: int
     floor: Estimate
     """The loss that the ground truth cannot resolve."""
+    captures: int | None
+    """The number of captures that the floor is the mean loss between; None: it is that of rounding."""
     seams: list[dict[str, Any]]
     """Those of the ground truth."""
     predictions: tuple[Diagnosis, ...]
@@ -74,6 +76,7 @@ def diagnose(
     predictions: Predictions,
     *,
     seed: int = 0,
+    repeats: Material | Source | Sequence[Material | Source] = (),
     convention: str = "printed",
     progress: bool | Progress = False,
 ) -> DiagnoseReport:
@@ -90,6 +93,8 @@ def diagnose(
         ground_truth: A material, or the path of one.
         predictions: One or several materials of the same size, or paths.
         seed: Names the sampled scenes.
+        repeats: Other captures of the ground truth: the floor is the mean loss between all captures in place of the
+            loss that rounding leaves.
         convention: A name of `svbrdf.CONVENTIONS`.
         progress: True for a bar of tqdm, or a function of (steps done, steps in all).
 
@@ -98,9 +103,7 @@ def diagnose(
         svbrdf.Error: A material cannot be used, or the sizes differ.
     """
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
-    with reported("diagnosing", progress) as report:
-        arguments = views(_core.diagnose(*asked.core, report))
-    values = arguments["_values"]
+    arguments, values = answered(_core.diagnose, asked, "diagnosing", progress, repeated(repeats))
     diagnoses = tuple(_diagnosis(entry) for entry in values["predictions"])
     return DiagnoseReport(**arguments, **{**values, "floor": estimate(values["floor"]), "predictions": diagnoses})
 

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from . import _core
 from ._arrays import Precision
-from ._asked import Asked, Predictions, Scenes, check_goals, check_unused
+from ._asked import Asked, Predictions, Scenes, check_goals, check_unused, repeated
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
@@ -122,6 +122,10 @@ class RankedPrediction:
     """Its loss minus that of the best prediction, in the same scenes; None for the best."""
     group: int
     """From 1. Predictions of one group are not separated from its first at 95% confidence."""
+    resolvable: bool | None
+    """Whether the loss is above the floor; None without a floor."""
+    to_best_resolvable: bool | None
+    """Whether the difference to the best is above the floor."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -139,6 +143,8 @@ class RankReport(Report):
     target_reached: bool
     floor: float | None
     """The loss that the ground truth cannot resolve; None: the depth of its files is not known here."""
+    captures: int | None
+    """The number of captures that the floor is the mean loss between; None: it is that of rounding."""
     ranking: tuple[RankedPrediction, ...]
 
 
@@ -224,6 +230,7 @@ def rank(
     *,
     target_error: float = 0.01,
     seed: int = 0,
+    repeats: Material | Source | Sequence[Material | Source] = (),
     convention: str = "printed",
     progress: bool | Progress = False,
 ) -> RankReport:
@@ -234,12 +241,13 @@ def rank(
     >>> [(place.prediction, place.group) for place in svbrdf.rank(ground_truth, predictions).ranking]
     [('wrong roughness', 1), ('blurred normals', 2)]
 
-    Args and errors are those of `svbrdf.loss`. At most 786,432 / (predictions + 1) scenes are sampled.
+    Args and errors are those of `svbrdf.loss`, `repeats` those of `svbrdf.diagnose`. At most 786,432 / (predictions + 1)
+    scenes are sampled.
     """
     check_goals(target_error=target_error)
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
     with reported("rendering", progress) as report:
-        found, order = _core.rank(*asked.core, target_error, report)
+        found, order = _core.rank(*asked.core, target_error, repeated(repeats), report)
     arguments = views(found)
     values = arguments["_values"]
     ranking = [

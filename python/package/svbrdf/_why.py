@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._arrays import from_bytes
-from ._asked import Asked, Predictions, Scenes, check_unused
+from ._asked import Asked, Predictions, Scenes, answered, check_unused
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
@@ -171,10 +171,7 @@ def worst(
         svbrdf.Error: A material cannot be used, or the sizes differ.
     """
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
-    with reported("searching", progress) as report:
-        found = _core.worst(*asked.core, report)
-    arguments = views(found)
-    values = arguments["_values"]
+    arguments, values = answered(_core.worst, asked, "searching", progress)
     results = tuple(Worst(**{**entry, "interval95": pair(entry["interval95"])}) for entry in values["results"])
     return WorstReport(**arguments, **{**values, "results": results, "scenes": scenes_from(values["scenes"])})
 
@@ -219,10 +216,7 @@ def scenes(
     """
     choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
     asked = Asked(ground_truth, predictions, convention=convention, **choice)
-    with reported("rendering", progress) as report:
-        found = _core.scenes(*asked.core, top, report)
-    arguments = views(found)
-    values = arguments["_values"]
+    arguments, values = answered(_core.scenes, asked, "rendering", progress, top)
     results = tuple(ScenesLoss(**{**entry, "losses": tuple(entry["losses"])}) for entry in values["results"])
     return ScenesReport(**arguments, **{**values, "results": results, "scenes": scenes_from(values["scenes"])})
 

@@ -1,6 +1,7 @@
 //! Arguments that several subcommands share, their values, and the options that a mode of a subcommand does not use.
 
 pub mod comparison;
+pub mod floor;
 pub mod given;
 pub mod lights;
 pub mod modes;
@@ -13,4 +14,5 @@ pub mod wildcards;
 
 pub use comparison::{ComparisonArgs, MaterialArgs};
 pub use given::Given;
+pub use scenes::SeedArgs;
 pub use trust::TrustArgs;

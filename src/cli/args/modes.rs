@@ -98,19 +98,14 @@ pub const NO_PROTOCOL: Mode =
 
 /// `rank` of the predictions of one ground truth.
 pub const RANK_PREDICTIONS: Mode = Mode {
-    reason: "a ranking of the predictions of one material has no journal, no samples and no metrics, unlike one with --dataset or \
-        --pairs (`svbrdf metrics` prints metrics)",
-    unused: &[&["journal", "shard", "pick", "metrics", "output", "figures"]],
-};
-/// `rank` of a data set in a format that is printed.
-pub const RANK_PRINTED: Mode = Mode {
-    reason: "only --format html writes a file, and figures beside it",
-    unused: &[&["output", "figures"]],
+    reason: "a ranking of the predictions of one material has no journal, no samples, no metrics and no marks, unlike one with \
+        --dataset or --pairs (`svbrdf metrics` and `svbrdf diagnose` print them)",
+    unused: &[&["journal", "shard", "pick", "metrics", "diagnose"]],
 };
 /// `rank --dataset` and `rank --pairs`.
 pub const RANK_DATA_SET: Mode = Mode {
-    reason: "materials of a data set are not resized, and remarks on their reading not printed",
-    unused: &[&["resize-to", "verbose"]],
+    reason: "materials of a data set are not resized and have one capture each, and remarks on their reading are not printed",
+    unused: &[&["resize-to", "verbose", "repeat"]],
 };
 /// `rank --merge`.
 pub const RANK_MERGE: Mode = Mode {
@@ -119,7 +114,17 @@ pub const RANK_MERGE: Mode = Mode {
         READING,
         PAIR,
         OF_PREDICTIONS,
-        &["verbose", "journal", "shard", "target-error", "seed", "metrics", "convention", "figures"],
+        &[
+            "verbose",
+            "journal",
+            "shard",
+            "target-error",
+            "seed",
+            "metrics",
+            "diagnose",
+            "repeat",
+            "convention",
+        ],
     ],
 };
 

@@ -81,6 +81,20 @@ impl SceneArgs {
     }
 }
 
+/// The seed of a command that samples its scenes itself.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct SeedArgs {
+    /// Seed of the sampled scenes
+    #[arg(
+        help_heading = "Scenes",
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
+    pub seed: u64,
+}
+
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Light and view")]
 pub struct OneSceneArgs {

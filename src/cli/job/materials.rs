@@ -14,7 +14,7 @@ use svbrdf_files::open::is_pipe_at;
 use svbrdf_files::read::{self, Assumption, Binding, Certainty, Read, What};
 use svbrdf_files::samples;
 use svbrdf_files::session::Session;
-use svbrdf_files::source::MaterialSource;
+use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
 use crate::cli::args::{Given, MaterialArgs, modes};
@@ -133,6 +133,27 @@ impl MaterialJob {
             readings,
             _memory: memory,
         })
+    }
+
+    /// Further captures of the ground truth, read as it is, and resized to it where materials are resized.
+    ///
+    /// # Errors
+    /// Those of the reader.
+    pub fn repeats(
+        &self,
+        paths: &[PathBuf],
+        ground_truth: &Material<f32>,
+    ) -> Result<Vec<Material<f32>>, CommandError> {
+        let one = |path: &PathBuf| {
+            let place = Place::Path(path.clone());
+            let material =
+                noted(self.read(&MaterialSource { place, ..self.sources[0].clone() })?, self.verbose);
+            Ok(match self.resize_to {
+                Some(_) => material.resized(ground_truth.size())?,
+                None => material,
+            })
+        };
+        paths.iter().map(one).collect()
     }
 
     fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {

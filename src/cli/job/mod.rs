@@ -1,5 +1,6 @@
 //! A job: what a command compares, resolved once from its arguments before anything is computed.
 
+pub mod floor;
 pub mod materials;
 pub mod session;
 

@@ -8,7 +8,8 @@ use svbrdf_core::text::printable;
 use svbrdf_files::dataset::{Pick, Shard};
 use svbrdf_files::page::Figures;
 
-use crate::cli::args::{ComparisonArgs, values};
+use crate::cli::args::floor::FloorArgs;
+use crate::cli::args::{ComparisonArgs, SeedArgs, values};
 use crate::cli::output::CommandError;
 
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
@@ -48,6 +49,11 @@ pub struct RankArgs {
     #[arg(long)]
     pub metrics: bool,
 
+    /// Adds the marks of `svbrdf diagnose` to a data set: how many materials of each method have which error of exposure, alignment or
+    /// reading, and how many losses the ground truth does not resolve
+    #[arg(long)]
+    pub diagnose: bool,
+
     /// Fails with exit code 1, after the result is printed, if a mean loss is larger than this
     #[arg(long, value_name = "LOSS", allow_hyphen_values = true)]
     pub fail_above: Option<f64>,
@@ -56,15 +62,8 @@ pub struct RankArgs {
     #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
     pub target_error: f64,
 
-    /// Seed of the sampled scenes
-    #[arg(
-        help_heading = "Scenes",
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    pub seed: u64,
+    #[command(flatten)]
+    pub seed: SeedArgs,
 
     /// Output format
     #[arg(long, value_enum, default_value_t)]
@@ -77,6 +76,9 @@ pub struct RankArgs {
     /// Writes interactive figures of materials beside the page: all, or worst:N, those of the N largest mean losses
     #[arg(long, value_name = "all|worst:N")]
     pub figures: Option<Figures>,
+
+    #[command(flatten)]
+    pub floor: FloorArgs,
 
     #[command(flatten)]
     pub comparison: ComparisonArgs,

@@ -1,6 +1,5 @@
 //! Many predictions of one ground truth.
 
-use svbrdf_core::diagnose::floor;
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::rank::most_scenes;
 use svbrdf_core::report::{Compared, RankReport, Report as _};
@@ -8,6 +7,7 @@ use svbrdf_core::report::{Compared, RankReport, Report as _};
 use super::args::{RankArgs, RankFormat, check_limit};
 use crate::cli::args::{Given, modes, wildcards};
 use crate::cli::job::ComparisonJob;
+use crate::cli::job::floor::floor_of;
 use crate::cli::output::{CommandError, exit, target, watched};
 
 pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
@@ -24,15 +24,13 @@ pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?
         .at_most(most_scenes(predictions.len()));
-    let request = Request::Accuracy { target: args.target_error, seed: args.seed };
+    let request = Request::Accuracy { target: args.target_error, seed: args.seed.seed };
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let compared = Compared::new(&opened.ground_truth, &job.convention);
     let mut report = RankReport::new(compared, args.target_error, outcome);
-    if let Some(stored) = opened.storages.first().filter(|stored| stored.has_steps()) {
-        let floor = watched("dithering", |progress| {
-            floor(&opened.ground_truth, stored, &job.convention, args.seed, progress)
-        })?;
-        report = report.with_floor(floor);
+    if opened.storages[0].has_steps() || !args.floor.repeats.is_empty() {
+        let (floor, captures) = floor_of(&args.floor, &job, &opened, args.seed.seed)?;
+        report = report.with_floor(floor, captures);
     }
     exit::put(&args.format.write(&report, RankReport::latex)?)?;
     target::warn_of(report.missed(), job.materials.strict)?;

@@ -1,7 +1,7 @@
 //! Predictions with changes applied.
 
 use super::change::Change;
-use super::shift::{interior, shifted};
+use super::shift::interior;
 use super::storage::Storage;
 use crate::error::Error;
 use crate::material::Material;
@@ -24,25 +24,20 @@ impl Corrected {
         storage: &Storage,
     ) -> Result<Self, Error> {
         let mut corrected = Self { material: prediction.clone(), texels: None, stops: None };
+        let mut changes = changes.to_vec();
+        changes.sort_by_key(|change| match change {
+            Change::Reading(_) => 0,
+            Change::Symmetry(_) => 1,
+            Change::Shift(_) => 2,
+            Change::Exposure(_) => 3,
+        });
         for change in changes {
-            if let Change::Reading(reading) = change {
-                corrected.material = reading.applied(&corrected.material, storage)?;
-            }
-        }
-        for change in changes {
-            if let Change::Symmetry(symmetry) = change {
-                corrected.material = symmetry.applied(&corrected.material)?;
-            }
-        }
-        for change in changes {
-            match *change {
-                Change::Shift([right, down]) => {
-                    corrected.material = shifted(&corrected.material, [-right, -down])?;
-                    corrected.texels = Some(interior(prediction.size(), [-right, -down]));
-                }
+            match change {
                 Change::Exposure(stops) => corrected.stops = Some(stops),
+                Change::Shift(by) => corrected.texels = Some(interior(prediction.size(), by.map(|by| -by))),
                 Change::Symmetry(_) | Change::Reading(_) => {}
             }
+            corrected.material = change.applied(&corrected.material, storage)?;
         }
         Ok(corrected)
     }

@@ -1,76 +1,83 @@
-//! The floor: the loss between a ground truth and itself within the steps that its maps are stored in.
+//! Dithering: a material whose stored values are moved within the steps that its maps are stored in.
 
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
 use super::storage::{Storage, Transfer};
 use crate::error::Error;
-use crate::loss::{Comparison, Estimate, Request, Sampling, Texels};
 use crate::material::{Material, Planes};
-use crate::model::convention::Convention;
-use crate::model::sampler::Sampler;
-use crate::progress::Progress;
-
-/// Dithered copies that are compared with the ground truth.
-const COPIES: u64 = 2;
-/// Scenes: near-field, distant.
-const SCENES: [usize; 2] = [128, 64];
-/// Texels of a scene up to which all are compared; of larger maps an eighth as many.
-const TEXELS: usize = 1 << 16;
 
 /// The material with every stored value moved by up to half a step of its map, uniformly; normals are normalized again.
+///
+/// Roughness moves as the value that its map stores: r, 1 - r, r^2 for alpha, r^(1 / 2.2). The two values of an anisotropic map, which
+/// are not known any more, count as r^2 each.
 ///
 /// # Errors
 /// Those of [`Material::new`], which values of a material do not give.
 pub fn dithered(material: &Material<f32>, storage: &Storage, seed: u64) -> Result<Material<f32>, Error> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
-    let mut moved = |plane: &[f32], step: f64, transfer: Transfer| -> Vec<f32> {
-        let step = step as f32;
-        let one = |x: &f32| {
-            let stored = transfer.encode(*x) + step * (generator.random::<f32>() - 0.5);
-            transfer.decode(stored.clamp(0.0, 1.0))
-        };
-        plane.iter().map(one).collect()
-    };
     let Planes { normal, diffuse, specular, roughness } = material.planes();
     let [of_normal, of_diffuse, of_specular, of_roughness] = storage.steps;
+    let transfer = |transfer: Transfer| (move |x: f32| transfer.encode(x), move |x: f32| transfer.decode(x));
+    let mut moved = |plane: &[f32], step: f64, (encode, decode): Code<'_>| -> Vec<f32> {
+        let step = step as f32;
+        let one = |x: &f32| decode((encode(*x) + step * (generator.random::<f32>() - 0.5)).clamp(0.0, 1.0));
+        plane.iter().map(one).collect()
+    };
     // Components of normals are stored as (n + 1) / 2.
-    let mut vector = |plane: &Vec<f32>| -> Vec<f32> {
-        let stored: Vec<f32> = plane.iter().map(|x| 0.5 * x + 0.5).collect();
-        moved(&stored, of_normal, Transfer::Linear).into_iter().map(|x| 2.0 * x - 1.0).collect()
+    let normal =
+        normal.each_ref().map(|plane| moved(plane, of_normal, (&|n| 0.5 * n + 0.5, &|c| 2.0 * c - 1.0)));
+    let (encode, decode) = transfer(storage.colours);
+    let diffuse = diffuse.each_ref().map(|plane| moved(plane, of_diffuse, (&encode, &decode)));
+    let (encode, decode) = transfer(storage.specular);
+    let specular = specular.each_ref().map(|plane| moved(plane, of_specular, (&encode, &decode)));
+    let mut roughness_as = |code: Code<'_>| moved(roughness, of_roughness, code);
+    let roughness = match storage.roughness.as_deref() {
+        Some("alpha") => roughness_as((&|r| r * r, &f32::sqrt)),
+        Some("axay") => {
+            let widths = [(); 2].map(|()| roughness_as((&|r| r * r, &|c| c)));
+            widths[0].iter().zip(&widths[1]).map(|(x, y)| (x * y).sqrt().sqrt()).collect()
+        }
+        Some("gamma2.2") => roughness_as((&|r| r.powf(1.0 / 2.2), &|c| c.powf(2.2))),
+        // 1 - r has the same steps as r.
+        _ => roughness_as((&|r| r, &|c| c)),
     };
-    let normal = normal.each_ref().map(&mut vector);
-    let planes = Planes {
-        normal,
-        diffuse: diffuse.each_ref().map(|plane| moved(plane, of_diffuse, storage.colours)),
-        specular: specular.each_ref().map(|plane| moved(plane, of_specular, storage.specular)),
-        roughness: moved(roughness, of_roughness, Transfer::Linear),
-    };
+    let planes = Planes { normal, diffuse, specular, roughness };
     Material::new(material.name(), material.width(), material.height(), planes)
 }
 
-/// The loss that a ground truth cannot resolve: the expected loss between it and a copy that is [`dithered`].
-///
-/// # Errors
-/// [`Error::Cancelled`].
-pub fn floor(
-    ground_truth: &Material<f32>,
-    storage: &Storage,
-    convention: &Convention,
-    seed: u64,
-    progress: &Progress,
-) -> Result<Estimate, Error> {
-    let copies = (0..COPIES).map(|copy| dithered(ground_truth, storage, seed.wrapping_add(copy)));
-    let copies = copies.collect::<Result<Vec<_>, Error>>()?;
-    let comparison = Comparison::new(ground_truth, &copies.iter().collect::<Vec<_>>(), *convention)?;
-    let [near, distant] = SCENES;
-    let all = ground_truth.width() * ground_truth.height() <= TEXELS;
-    let texels = if all { Texels::All } else { Texels::Sampled(TEXELS / 8) };
-    let sampling = Sampling { near, distant, seed, sampler: Sampler::Sobol, texels };
-    let outcome = comparison.without_pilot().run(&Request::Scenes(sampling), progress)?;
-    let mean = |scene: usize| {
-        outcome.losses.iter().map(|loss| loss.per_scene[scene]).sum::<f64>() / outcome.losses.len() as f64
-    };
-    let per_scene: Vec<f64> = (0..outcome.scenes.len()).map(mean).collect();
-    Ok(Estimate::of_sampled(Sampler::Sobol, &outcome.scenes, &per_scene))
+/// The stored value of a value in [0, 1], and the inverse.
+type Code<'a> = (&'a dyn Fn(f32) -> f32, &'a dyn Fn(f32) -> f32);
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::materials::{generated, with};
+    use super::*;
+
+    /// The largest change of roughness by the storage of this name.
+    fn largest(name: Option<&str>, roughness: f32) -> f32 {
+        let material = with(&generated(0, 32), |planes| planes.roughness.fill(roughness));
+        let storage = Storage { roughness: name.map(str::to_owned), ..Storage::default() };
+        let moved = dithered(&material, &storage, 1).unwrap();
+        moved.planes().roughness.iter().map(|r| (r - roughness).abs()).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn roughness_moves_by_half_a_step_of_what_its_map_stores() {
+        // Half a step in c, divided by the slope dc / dr.
+        let half = 0.5 / 255.0;
+        for (name, roughness, expected) in [
+            (None, 0.2, half),
+            (Some("gloss"), 0.2, half),
+            (Some("alpha"), 0.2, half / 0.4),
+            (Some("alpha"), 0.8, half / 1.6),
+            (Some("gamma2.2"), 0.2, half * 2.2 * 0.2_f32.powf(1.2 / 2.2)),
+        ] {
+            let found = largest(name, roughness);
+            assert!((0.97..1.03).contains(&(found / expected)), "{name:?} {roughness}: {found} {expected}");
+        }
+        // The mean of two uniform numbers is seldom as large as either.
+        let both = largest(Some("axay"), 0.2) / (half / 0.4);
+        assert!((0.8..1.0).contains(&both), "{both}");
+    }
 }

@@ -1,9 +1,14 @@
 //! Findings of a diagnosis: the loss under each hypothesis.
 
+use std::fmt;
+
 use serde::{Serialize, Serializer};
 
+use super::change::Change;
 use super::ladder::Rung;
+use super::remedy::Remedy;
 use super::seams::Seam;
+use super::storage::Storage;
 use crate::loss::Estimate;
 
 /// An explanation of a loss that is tried.
@@ -31,6 +36,29 @@ pub enum Hypothesis {
 }
 
 impl Hypothesis {
+    /// In the order of the lines.
+    const ALL: [Self; 13] = [
+        Self::Exposure,
+        Self::ExposureRgb,
+        Self::Shift,
+        Self::Subtexel,
+        Self::Symmetry,
+        Self::Resampling,
+        Self::NormalY,
+        Self::NormalX,
+        Self::AlbedoEncoding,
+        Self::SpecularEncoding,
+        Self::Roughness,
+        Self::Channels,
+        Self::Energy,
+    ];
+
+    /// The lines of a prediction that is stored so.
+    pub fn of(storage: &Storage) -> impl Iterator<Item = Self> {
+        let has_specular = !storage.base_colour;
+        Self::ALL.into_iter().filter(move |hypothesis| has_specular || *hypothesis != Self::SpecularEncoding)
+    }
+
     /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
@@ -80,6 +108,25 @@ pub enum Value {
     Name(&'static str),
 }
 
+/// Numbers have two decimals, texels none where they are whole; `0.40`, `-0.05 -0.03 -0.03`, `3 -2`, `flipped`.
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => f.write_str(&hundredths(*number)),
+            Self::Numbers(numbers) => f.write_str(&numbers.map(hundredths).join(" ")),
+            Self::Displacement([x, y]) if x.fract() == 0.0 && y.fract() == 0.0 => write!(f, "{x} {y}"),
+            Self::Displacement(displacement) => f.write_str(&displacement.map(hundredths).join(" ")),
+            Self::Name(name) => f.write_str(name),
+        }
+    }
+}
+
+/// Two decimals, without the sign of a number that rounds to 0.
+fn hundredths(number: f64) -> String {
+    let text = format!("{number:.2}");
+    if text == "-0.00" { "0.00".to_owned() } else { text }
+}
+
 /// The loss under a hypothesis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
@@ -100,7 +147,10 @@ pub struct Finding {
     /// Whether the loss falls significantly and by at least 10%, also after the corrections of the marked findings with larger shares.
     pub marked: bool,
     /// The option of the command line that corrects the reading.
-    pub remedy: Option<String>,
+    pub remedy: Option<Remedy>,
+    /// What is changed with the value; `None` where it changes nothing, or is not tested.
+    #[serde(skip)]
+    pub change: Option<Change>,
 }
 
 /// What might explain the loss of one prediction.
@@ -124,5 +174,18 @@ impl Diagnosis {
         let mut marked: Vec<_> = self.findings.iter().filter(|finding| finding.marked).collect();
         marked.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
         marked.into_iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_rounds_to_0_has_no_sign() {
+        let numbers = [-0.004, -0.0, 0.004, -0.006].map(|number| Value::Number(number).to_string());
+        assert_eq!(numbers, ["0.00", "0.00", "0.00", "-0.01"]);
+        assert_eq!(Value::Displacement([-0.001, 1.25]).to_string(), "0.00 1.25");
+        assert_eq!(Value::Numbers([-0.001, 0.2, -1.0]).to_string(), "0.00 0.20 -1.00");
     }
 }

@@ -22,11 +22,15 @@
 mod change;
 mod corrected;
 mod dither;
+mod evaluation;
 mod exposure;
 mod filtered;
 mod finding;
+mod floor;
 mod holm;
 mod ladder;
+mod marking;
+mod proposals;
 mod radiances;
 mod reading;
 mod remedy;
@@ -37,20 +41,24 @@ mod shift;
 mod storage;
 mod symmetry;
 mod trials;
+mod words;
 
 #[cfg(test)]
 pub(crate) mod tests;
 
-pub use dither::{dithered, floor};
+pub use change::Change;
+pub use dither::dithered;
 pub use exposure::best_stops;
 pub use filtered::filtered_roughness;
 pub use finding::{Diagnosis, Finding, Hypothesis, Value};
+pub use floor::{floor, floor_of_captures};
 pub use holm::holm;
 pub use ladder::{Rung, ladder};
 pub use reading::Reading;
+pub use remedy::Remedy;
 pub use seams::{Seam, seams};
 pub use search::diagnose;
-pub use sentence::sentence;
+pub use sentence::{sentence, sentence_of};
 pub use shift::{MOST_SHIFT, shifted};
 pub use storage::{Storage, Transfer};
 pub use symmetry::Symmetry;

@@ -1,5 +1,7 @@
 //! Other readings of the values of a material: sign of normals, encoding of colours, meaning of roughness.
 
+use serde::{Deserialize, Serialize};
+
 use super::storage::{Storage, Transfer};
 use crate::error::Error;
 use crate::material::{Material, Planes};
@@ -10,7 +12,8 @@ const DIELECTRIC: f32 = 0.04;
 /// A change of how the values of a prediction are read, made from the values as they were read.
 ///
 /// A base colour and metallic are recovered from diffuse and specular, for a reflectance of dielectrics of 0.04.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Reading {
     /// The y axis of normals in the other direction.
     NormalY,
@@ -47,6 +50,24 @@ impl Reading {
             Self::RedBlue => "swapped",
             Self::Unscaled => "unscaled",
             Self::Scaled => "scaled",
+        }
+    }
+
+    /// What it does, for titles.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::NormalY => "Y of normals flipped",
+            Self::NormalX => "X of normals flipped",
+            Self::Colours(Transfer::Linear) => "colours read as linear",
+            Self::Colours(_) => "colours read as sRGB",
+            Self::Specular(Transfer::Linear) => "specular read as linear",
+            Self::Specular(_) => "specular read as sRGB",
+            Self::Gloss => "1 - roughness",
+            Self::RootOfRoughness => "root of roughness",
+            Self::SquaredRoughness => "square of roughness",
+            Self::RedBlue => "red and blue swapped",
+            Self::Unscaled => "diffuse read as unscaled",
+            Self::Scaled => "diffuse read as scaled",
         }
     }
 

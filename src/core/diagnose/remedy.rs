@@ -1,29 +1,77 @@
-//! The options of the command line that correct how a prediction is read.
+//! The options of reading that correct how a prediction is read.
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
 
 use super::reading::Reading;
 use super::storage::{Storage, Transfer};
 
-/// The option of the command line that reads a prediction this way; `None`: there is none.
-pub(super) fn remedy(storage: &Storage, reading: Reading) -> Option<String> {
-    let present = storage.roughness.as_deref().unwrap_or("r");
-    let option = match reading {
-        Reading::NormalY if storage.normal_down => "--pred-normal-y up",
-        Reading::NormalY => "--pred-normal-y down",
-        Reading::Colours(Transfer::Linear) => "--pred-albedo linear",
-        Reading::Colours(_) => "--pred-albedo srgb",
-        Reading::Specular(Transfer::Linear) => "--pred-specular-albedo linear",
-        Reading::Specular(_) => "--pred-specular-albedo srgb",
-        Reading::Gloss if present == "gloss" => "--pred-roughness r",
-        Reading::Gloss if present == "r" => "--pred-roughness gloss",
-        Reading::RootOfRoughness if present == "r" => "--pred-roughness alpha",
-        Reading::SquaredRoughness if present == "alpha" => "--pred-roughness r",
-        Reading::Unscaled => "--pred-energy unscaled",
-        Reading::Scaled => "--pred-energy scaled",
-        Reading::NormalX
-        | Reading::RedBlue
-        | Reading::Gloss
-        | Reading::RootOfRoughness
-        | Reading::SquaredRoughness => return None,
-    };
-    Some(option.to_owned())
+/// An option of reading with the name of the value that corrects a prediction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    NormalY(&'static str),
+    Albedo(&'static str),
+    SpecularAlbedo(&'static str),
+    Roughness(&'static str),
+    Energy(&'static str),
+}
+
+impl Remedy {
+    /// The option that reads a prediction, which was read from `storage`, in this reading; `None`: there is none.
+    pub(super) fn of(storage: &Storage, reading: Reading) -> Option<Self> {
+        let present = storage.roughness.as_deref().unwrap_or("r");
+        let encoding = |transfer| if transfer == Transfer::Linear { "linear" } else { "srgb" };
+        match reading {
+            Reading::NormalY => Some(Self::NormalY(if storage.normal_down { "up" } else { "down" })),
+            Reading::Colours(to) => Some(Self::Albedo(encoding(to))),
+            Reading::Specular(to) => Some(Self::SpecularAlbedo(encoding(to))),
+            Reading::Gloss if present == "gloss" => Some(Self::Roughness("r")),
+            Reading::Gloss if present == "r" => Some(Self::Roughness("gloss")),
+            Reading::RootOfRoughness if present == "r" => Some(Self::Roughness("alpha")),
+            Reading::SquaredRoughness if present == "alpha" => Some(Self::Roughness("r")),
+            Reading::Unscaled => Some(Self::Energy("unscaled")),
+            Reading::Scaled => Some(Self::Energy("scaled")),
+            Reading::NormalX
+            | Reading::RedBlue
+            | Reading::Gloss
+            | Reading::RootOfRoughness
+            | Reading::SquaredRoughness => None,
+        }
+    }
+
+    /// The name of the value.
+    pub fn value(self) -> &'static str {
+        match self {
+            Self::NormalY(value)
+            | Self::Albedo(value)
+            | Self::SpecularAlbedo(value)
+            | Self::Roughness(value)
+            | Self::Energy(value) => value,
+        }
+    }
+
+    /// The name of the option.
+    pub fn option(self) -> &'static str {
+        match self {
+            Self::NormalY(_) => "normal-y",
+            Self::Albedo(_) => "albedo",
+            Self::SpecularAlbedo(_) => "specular-albedo",
+            Self::Roughness(_) => "roughness",
+            Self::Energy(_) => "energy",
+        }
+    }
+}
+
+/// The option of the command line for predictions: `--pred-normal-y down`.
+impl fmt::Display for Remedy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "--pred-{} {}", self.option(), self.value())
+    }
+}
+
+impl Serialize for Remedy {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
 }

@@ -1,6 +1,8 @@
 //! A diagnosis in words.
 
 use super::finding::{Diagnosis, Finding, Hypothesis, Value};
+use super::remedy::Remedy;
+use super::words::displacement;
 use crate::loss::Estimate;
 
 /// Least share of the loss, in percent, from which a cause is named.
@@ -15,18 +17,19 @@ pub fn sentence(diagnosis: &Diagnosis, floor: Option<&Estimate>) -> String {
     }
     if let Some(floor) = floor.filter(|floor| loss <= floor.mean) {
         return format!(
-            "The loss is not resolvable with this ground truth: rounding its maps alone gives {:.4}.",
+            "The loss is not resolvable with this ground truth, whose floor is {:.4}.",
             floor.mean
         );
     }
-    let sentences: Vec<String> = diagnosis.marked().map(of_finding).collect();
+    let sentences: Vec<String> = diagnosis.marked().map(sentence_of).collect();
     if sentences.is_empty() {
         return "No error of exposure, alignment or reading explains 10% of the loss.".to_owned();
     }
     sentences.join(" ")
 }
 
-fn of_finding(finding: &Finding) -> String {
+/// What a finding would lower the loss by, and its probable cause where the share is at least 50%.
+pub fn sentence_of(finding: &Finding) -> String {
     let share = 100.0 * finding.share.unwrap_or(0.0);
     let (correction, reason) = words(finding);
     // A small share is no evidence of a cause.
@@ -49,11 +52,7 @@ fn words(finding: &Finding) -> (String, &'static str) {
             ("A factor on each colour channel".to_owned(), ": its white balance differs")
         }
         (Hypothesis::Shift, Value::Displacement([right, down])) => (
-            format!(
-                "Moving the prediction by {} and {}",
-                texels(-right, ["right", "left"]),
-                texels(-down, ["down", "up"])
-            ),
+            format!("Moving the prediction {}", displacement([-right, -down])),
             ": it is probably misaligned",
         ),
         (Hypothesis::Symmetry, _) => (
@@ -61,11 +60,7 @@ fn words(finding: &Finding) -> (String, &'static str) {
             ": its rows, columns or axes probably differ from those of the ground truth",
         ),
         (Hypothesis::NormalY, _) => {
-            let direction = if finding.remedy.as_deref().is_some_and(|option| option.ends_with("up")) {
-                "up"
-            } else {
-                "down"
-            };
+            let direction = if finding.remedy == Some(Remedy::NormalY("up")) { "up" } else { "down" };
             let kind = if direction == "up" {
                 ": the file is probably OpenGL"
             } else {
@@ -100,9 +95,4 @@ fn words(finding: &Finding) -> (String, &'static str) {
 
 fn encoding(name: &str) -> &'static str {
     if name == "linear" { "linear" } else { "sRGB" }
-}
-
-fn texels(count: f64, [positive, negative]: [&str; 2]) -> String {
-    let unit = if count.abs() == 1.0 { "texel" } else { "texels" };
-    format!("{} {unit} {}", count.abs(), if count < 0.0 { negative } else { positive })
 }

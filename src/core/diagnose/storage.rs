@@ -1,9 +1,12 @@
 //! How the maps of a material are stored, as far as a diagnosis uses it.
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::srgb;
 
 /// The encoding of a stored colour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Transfer {
     /// Not known, as for arrays.
     #[default]

@@ -1,10 +1,13 @@
 //! The eight symmetries of a square: maps mirrored and turned, their normals with them.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::Error;
 use crate::material::{Material, Planes};
 
 /// A symmetry other than the identity. Only those that transpose need a square map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub struct Symmetry {
     /// Rows become columns; before the mirrorings.
     transposed: bool,
@@ -39,6 +42,20 @@ impl Symmetry {
             (true, false, true) => "rotate_90_counterclockwise",
             (true, true, true) => "anti_transpose",
             (false, false, false) => "none",
+        }
+    }
+
+    /// What it does, for titles.
+    pub(super) fn words(self) -> &'static str {
+        match (self.transposed, self.mirrored_x, self.mirrored_y) {
+            (false, true, false) => "mirrored left to right",
+            (false, false, true) => "mirrored top to bottom",
+            (false, true, true) => "rotated by 180 degrees",
+            (true, false, false) => "transposed",
+            (true, true, false) => "rotated by 90 degrees clockwise",
+            (true, false, true) => "rotated by 90 degrees counterclockwise",
+            (true, true, true) => "transposed about the other diagonal",
+            (false, false, false) => "unchanged",
         }
     }
 
@@ -89,6 +106,22 @@ impl Symmetry {
             roughness: moved(roughness),
         };
         Material::new(material.name(), width, height, planes)
+    }
+}
+
+impl From<Symmetry> for String {
+    fn from(symmetry: Symmetry) -> Self {
+        symmetry.name().to_owned()
+    }
+}
+
+impl TryFrom<String> for Symmetry {
+    type Error = Error;
+
+    fn try_from(name: String) -> Result<Self, Error> {
+        let known = || Self::ALL.map(Self::name).join(", ");
+        let found = Self::ALL.into_iter().find(|symmetry| symmetry.name() == name);
+        found.ok_or_else(|| Error::UnknownName { what: "symmetry", found: name, known: known() })
     }
 }
 

@@ -38,6 +38,11 @@ pub(super) struct Paired {
     pub(super) after: Vec<f64>,
 }
 
+/// The mean; 0 of none.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
 impl<'a> Trials<'a> {
     pub(super) fn new(
         [ground_truth, prediction]: [&'a Material<f32>; 2],

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::Report;
-use super::heading::Compared;
+use super::heading::{Compared, floor_line};
 use super::table::{Cell, Table, aligned};
 use crate::diagnose::{Diagnosis, Finding, Rung, Seam, Value, sentence};
 use crate::loss::Estimate;
@@ -37,6 +37,8 @@ pub struct DiagnoseReport {
     pub seed: u64,
     /// The loss that the ground truth cannot resolve.
     pub floor: Estimate,
+    /// The number of captures of the ground truth that the floor is the mean loss between; `None`: it is that of rounding.
+    pub captures: Option<usize>,
     /// The seams of the ground truth.
     pub seams: Vec<Seam>,
     /// One per prediction.
@@ -95,16 +97,6 @@ impl DiagnoseReport {
     }
 }
 
-fn text(value: &Value) -> String {
-    match value {
-        Value::Number(number) => format!("{number:.2}"),
-        Value::Numbers(numbers) => numbers.map(|number| format!("{number:.2}")).join(" "),
-        Value::Displacement([x, y]) if x.fract() == 0.0 && y.fract() == 0.0 => format!("{x} {y}"),
-        Value::Displacement([x, y]) => format!("{x:.2} {y:.2}"),
-        Value::Name(name) => (*name).to_owned(),
-    }
-}
-
 /// A number, a list of them in brackets, or a name.
 fn cell(value: &Value) -> Cell {
     match value {
@@ -123,23 +115,23 @@ fn row(finding: &Finding) -> Vec<String> {
     vec![
         if finding.marked { "*" } else { "" }.to_owned(),
         finding.hypothesis.name().to_owned(),
-        format!("{}{unit}", text(&finding.value)),
+        format!("{}{unit}", finding.value),
         number(finding.loss),
         interval,
         finding.share.map_or_else(|| "-".to_owned(), |share| format!("{:.1}%", 100.0 * share)),
-        finding.remedy.clone().filter(|_| finding.marked).unwrap_or_default(),
+        finding.remedy.filter(|_| finding.marked).map(|remedy| remedy.to_string()).unwrap_or_default(),
     ]
 }
 
 impl Report for DiagnoseReport {
     fn text(&self) -> String {
-        let floor = self.floor.mean;
         let first =
             self.diagnoses.iter().map(|diagnosis| self.text_of(diagnosis)).collect::<Vec<_>>().join("\n");
         format!(
-            "{}128 near-field and 64 distant scenes, seed {}, scrambled Sobol\nfloor of the ground truth {floor:.6}: smaller losses and differences are not resolvable\n\n{first}",
+            "{}128 near-field and 64 distant scenes, seed {}, scrambled Sobol\n{}\n{first}",
             self.compared.heading("diagnosis"),
-            self.seed
+            self.seed,
+            floor_line(&self.floor, self.captures)
         )
     }
 
@@ -162,7 +154,7 @@ impl Report for DiagnoseReport {
                 share_high,
                 finding.p.into(),
                 finding.marked.into(),
-                finding.remedy.clone().into(),
+                finding.remedy.map(|remedy| remedy.to_string()).into(),
             ]
         };
         let all = self.diagnoses.iter();
@@ -179,6 +171,7 @@ struct DiagnoseJson<'a> {
     compared: &'a Compared,
     seed: u64,
     floor: Estimate,
+    captures: Option<usize>,
     seams: &'a [Seam],
     predictions: Vec<DiagnosisEntry<'a>>,
 }
@@ -201,6 +194,7 @@ impl Serialize for DiagnoseReport {
             compared: &self.compared,
             seed: self.seed,
             floor: self.floor,
+            captures: self.captures,
             seams: &self.seams,
             predictions: self.diagnoses.iter().map(|diagnosis| self.entry(diagnosis)).collect(),
         }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::loss::Sampling;
+use crate::loss::{Estimate, Sampling};
 use crate::material::Material;
 use crate::math::real::Real;
 use crate::model::convention::Convention;
@@ -58,6 +58,17 @@ pub fn scenes_line(sampling: Option<&Sampling>, scenes: &[Scene], size: [usize; 
         Some(count) => format!(", {count} random texels per scene"),
     };
     format!("{counts}, seed {}{sampler}{texels}\n", sampling.seed)
+}
+
+/// The floor of the ground truth: a line. `captures`: the number of captures that it is the mean loss between; `None`: it is that of
+/// rounding.
+pub fn floor_line(floor: &Estimate, captures: Option<usize>) -> String {
+    let between =
+        captures.map(|count| format!(", the mean loss between {count} captures")).unwrap_or_default();
+    format!(
+        "floor of the ground truth {:.6}{between}: smaller losses and differences are not resolvable\n",
+        floor.mean
+    )
 }
 
 /// A position or direction as people read it.

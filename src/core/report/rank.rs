@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::Report;
-use super::heading::{Compared, scenes_line};
+use super::heading::{Compared, floor_line, scenes_line};
 use super::latex::{bold, escaped, latex};
 use super::missed::missed_by_any;
 use super::table::{Cell, Table, aligned};
@@ -11,9 +11,10 @@ use crate::error::Error;
 use crate::loss::{Estimate, Outcome};
 use crate::rank::{Ranked, places};
 
-const TITLES: [&str; 6] = ["prediction", "loss", "95% interval", "- best", "95% interval", "group"];
+const TITLES: [&str; 7] =
+    ["prediction", "loss", "95% interval", "- best", "95% interval", "group", "not resolvable"];
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 13] = [
     "place",
     "prediction",
     "loss",
@@ -25,6 +26,8 @@ const COLUMNS: [&str; 11] = [
     "to_best_high",
     "group",
     "target_reached",
+    "resolvable",
+    "to_best_resolvable",
 ];
 
 /// Predictions of one ground truth, best first, with what the data can separate.
@@ -38,28 +41,35 @@ pub struct RankReport {
     pub places: Vec<Ranked>,
     /// The loss that the ground truth cannot resolve, where the depth of its files is known.
     pub floor: Option<Estimate>,
+    /// The number of captures that the floor is the mean loss between.
+    pub captures: Option<usize>,
 }
 
 impl RankReport {
     /// The ranking of the predictions of `outcome`.
     pub fn new(compared: Compared, target_error: f64, outcome: Outcome) -> Self {
         let places = places(&outcome);
-        Self { compared, target_error, outcome, places, floor: None }
+        Self { compared, target_error, outcome, places, floor: None, captures: None }
     }
 
-    /// The same report with the loss that the ground truth cannot resolve.
+    /// The same report with the loss that the ground truth cannot resolve, and the number of captures that it is the mean loss between;
+    /// `None`: it is that of rounding.
     #[must_use]
-    pub fn with_floor(self, floor: Estimate) -> Self {
-        Self { floor: Some(floor), ..self }
+    pub fn with_floor(self, floor: Estimate, captures: Option<usize>) -> Self {
+        Self { floor: Some(floor), captures, ..self }
     }
 
-    /// A line about the floor; empty without one.
-    fn floor_line(&self) -> String {
-        let Some(floor) = &self.floor else { return String::new() };
-        format!(
-            "floor {:.6}: smaller losses and differences are not resolvable with this ground truth\n",
-            floor.mean
-        )
+    /// Whether the loss, and its difference to the best, are above the floor; `None` without a floor or a difference.
+    fn resolvable(&self, place: &Ranked) -> [Option<bool>; 2] {
+        let is_above = |value: f64| self.floor.as_ref().map(|floor| value > floor.mean);
+        let difference = place.to_best.and_then(|difference| is_above(difference.mean.abs()));
+        [is_above(self.outcome.losses[place.index].estimate.mean), difference]
+    }
+
+    /// What of a place is not resolvable: "loss", "difference" or both; empty where both are.
+    fn unresolvable(&self, place: &Ranked) -> String {
+        let parts = self.resolvable(place).into_iter().zip(["loss", "difference"]);
+        parts.filter(|(is, _)| *is == Some(false)).map(|(_, name)| name).collect::<Vec<_>>().join(", ")
     }
 
     /// A table for a paper: the first group in bold.
@@ -83,11 +93,17 @@ impl Report for RankReport {
             let [mean, _, interval] = loss.estimate.texts();
             let [difference, _, of_difference] =
                 place.to_best.map_or_else(|| [const { String::new() }; 3], |estimate| estimate.texts());
-            vec![loss.prediction.clone(), mean, interval, difference, of_difference, place.group.to_string()]
+            let group = place.group.to_string();
+            let unresolvable = self.unresolvable(place);
+            vec![loss.prediction.clone(), mean, interval, difference, of_difference, group, unresolvable]
         }));
+        if rows[1..].iter().all(|row| row.last().is_some_and(String::is_empty)) {
+            rows.iter_mut().for_each(|row| row.truncate(TITLES.len() - 1));
+        }
+        let floor = self.floor.as_ref().map(|floor| floor_line(floor, self.captures)).unwrap_or_default();
         let heading = self.compared.heading("rendering loss");
         let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes, self.compared.size);
-        format!("{heading}{scenes}{}\n{}", self.floor_line(), aligned(&rows))
+        format!("{heading}{scenes}{floor}\n{}", aligned(&rows))
     }
 
     fn table(&self) -> Table {
@@ -98,7 +114,8 @@ impl Report for RankReport {
             let start = [(number + 1).into(), loss.prediction.as_str().into(), loss.estimate.mean.into()];
             let to_best = [place.to_best.map(|estimate| estimate.mean).into(), to_low, to_high];
             let is_reached = loss.estimate.relative_error95() <= self.target_error;
-            let end = [place.group.into(), is_reached.into()];
+            let [resolvable, to_best_resolvable] = self.resolvable(place).map(Cell::from);
+            let end = [place.group.into(), is_reached.into(), resolvable, to_best_resolvable];
             start.into_iter().chain(Cell::errors(&loss.estimate)).chain(to_best).chain(end).collect()
         };
         Table::new(COLUMNS, self.places.iter().enumerate().map(row))
@@ -120,6 +137,8 @@ struct RankJson<'a> {
     target_reached: bool,
     /// The mean of the loss that the ground truth cannot resolve.
     floor: Option<f64>,
+    /// The number of captures that the floor is the mean loss between.
+    captures: Option<usize>,
     /// Best first.
     ranking: Vec<RankEntry<'a>>,
 }
@@ -131,16 +150,25 @@ struct RankEntry<'a> {
     /// The loss - the loss of the best prediction, over the same scenes.
     to_best: Option<Estimate>,
     group: usize,
+    /// Whether the loss is above the floor.
+    resolvable: Option<bool>,
+    /// Whether the difference to the best is.
+    to_best_resolvable: Option<bool>,
 }
 
 impl Serialize for RankReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { compared, target_error, outcome, places, floor } = self;
-        let entry = |place: &Ranked| RankEntry {
-            prediction: &outcome.losses[place.index].prediction,
-            loss: outcome.losses[place.index].estimate,
-            to_best: place.to_best,
-            group: place.group,
+        let Self { compared, target_error, outcome, places, floor, captures } = self;
+        let entry = |place: &Ranked| {
+            let [resolvable, to_best_resolvable] = self.resolvable(place);
+            RankEntry {
+                prediction: &outcome.losses[place.index].prediction,
+                loss: outcome.losses[place.index].estimate,
+                to_best: place.to_best,
+                group: place.group,
+                resolvable,
+                to_best_resolvable,
+            }
         };
         let object = RankJson {
             compared,
@@ -149,6 +177,7 @@ impl Serialize for RankReport {
             target_error: *target_error,
             target_reached: outcome.relative_error95() <= *target_error,
             floor: floor.map(|floor| floor.mean),
+            captures: *captures,
             ranking: places.iter().map(entry).collect(),
         };
         object.serialize(serializer)

@@ -6,6 +6,7 @@ use std::time::SystemTime;
 
 use rayon::prelude::*;
 
+use svbrdf_core::diagnose::{Storage, diagnose, floor};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Loss, Request, check_same_size};
 use svbrdf_core::material::Material;
@@ -15,9 +16,9 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::rank::most_scenes;
 
 use super::record::{
-    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, MaterialResult, PredictionResult,
+    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
-use crate::read::{self, ReadOptions};
+use crate::read::{self, Read, ReadOptions};
 
 /// The result of a material, and the files that it was computed from.
 #[derive(Debug)]
@@ -63,7 +64,7 @@ fn one(
     let seed = seed_of(settings.seed, case.index);
     let (truth, files) = open(&case.ground_truth, &reading.ground_truths, reading.strict);
     let mut read = vec![(case.ground_truth.clone(), files)];
-    let mut predictions: Vec<Result<Material<f32>, String>> = Vec::new();
+    let mut predictions: Vec<Result<OpenedMaterial, String>> = Vec::new();
     for candidate in &case.candidates {
         let (prediction, files) = match &truth {
             Ok(_) => open(&candidate.path, &reading.predictions, reading.strict),
@@ -72,57 +73,94 @@ fn one(
         read.push((candidate.path.clone(), files));
         predictions.push(prediction.and_then(|prediction| same_size(&truth, prediction)));
     }
-    let readable: Vec<&Material<f32>> = predictions.iter().flatten().collect();
+    let readable: Vec<&Material<f32>> = predictions.iter().flatten().map(|one| &one.material).collect();
     let outcome = match &truth {
         Ok(truth) if !readable.is_empty() => {
             let request = Request::Accuracy { target: settings.target_error, seed };
-            let comparison = Comparison::new(truth, &readable, convention)?;
+            let comparison = Comparison::new(&truth.material, &readable, convention)?;
             Some(comparison.at_most(most_scenes(readable.len())).run(&request, &progress.part())?)
         }
         _ => None,
     };
+    let floor = floor_of(&truth, settings, &convention, seed, progress)?;
     let mut losses = outcome.iter().flat_map(|outcome| &outcome.losses);
-    let result = |(candidate, prediction): (&Candidate, &Result<Material<f32>, String>)| {
-        let metrics = match (&truth, prediction) {
-            (Ok(truth), Ok(prediction)) if settings.metrics => metrics(truth, prediction),
-            _ => BTreeMap::new(),
-        };
+    let result = |(candidate, prediction): (&Candidate, &Result<OpenedMaterial, String>)| {
+        let pair = truth.as_ref().ok().zip(prediction.as_ref().ok());
+        let metrics = pair.filter(|_| settings.metrics).map(metrics).unwrap_or_default();
+        let marks = pair.filter(|_| settings.diagnose);
+        let marks = marks.map(|pair| marks_of(pair, &convention, seed, progress)).transpose()?;
         let loss = prediction.as_ref().map_err(Clone::clone);
         let loss = loss.and_then(|_| losses.next().map(known).ok_or_else(|| "no loss".to_owned()));
         let Candidate { method, sample, path } = candidate;
         let path = path.display().to_string();
-        PredictionResult { method: method.clone(), sample: *sample, path, result: loss, metrics }
+        Ok(PredictionResult { method: method.clone(), sample: *sample, path, result: loss, metrics, marks })
     };
-    let predictions = case.candidates.iter().zip(&predictions).map(result).collect();
+    let predictions =
+        case.candidates.iter().zip(&predictions).map(result).collect::<Result<Vec<_>, Error>>()?;
     let scenes = outcome.as_ref().map_or(0, |outcome| outcome.scenes.len());
-    let result =
-        MaterialResult { index: case.index, material: case.material.clone(), seed, scenes, predictions };
+    let (index, material) = (case.index, case.material.clone());
+    let result = MaterialResult { index, material, seed, scenes, floor, predictions };
     Ok(Evaluated { result, read, start })
 }
 
+/// A material that was read, and how it is stored.
+struct OpenedMaterial {
+    material: Material<f32>,
+    storage: Storage,
+}
+
 /// The material at `path`, or why it cannot be used; and the files that were read.
-fn open(path: &Path, options: &ReadOptions, strict: bool) -> (Result<Material<f32>, String>, Vec<PathBuf>) {
-    let read = match read::read(path, options, &Progress::default()) {
+fn open(path: &Path, options: &ReadOptions, strict: bool) -> (Result<OpenedMaterial, String>, Vec<PathBuf>) {
+    let read: Read<f32> = match read::read(path, options, &Progress::default()) {
         Ok(read) => read,
         Err(problem) => return (Err(problem.to_string()), Vec::new()),
     };
     let guesses = if strict { read.refuse_guesses(path) } else { Ok(()) };
-    (guesses.map(|()| read.material).map_err(|problem| problem.to_string()), read.files)
+    let storage = read.storage();
+    let opened = guesses.map(|()| OpenedMaterial { material: read.material, storage });
+    (opened.map_err(|problem| problem.to_string()), read.files)
 }
 
 /// The prediction, where it has the size of the ground truth.
 fn same_size(
-    truth: &Result<Material<f32>, String>,
-    prediction: Material<f32>,
-) -> Result<Material<f32>, String> {
-    let checked = truth.as_ref().map_or(Ok(()), |truth| check_same_size(truth, &prediction));
+    truth: &Result<OpenedMaterial, String>,
+    prediction: OpenedMaterial,
+) -> Result<OpenedMaterial, String> {
+    let checked =
+        truth.as_ref().map_or(Ok(()), |truth| check_same_size(&truth.material, &prediction.material));
     checked.map(|()| prediction).map_err(|problem| problem.to_string())
 }
 
 /// The metrics of the maps of materials of one size.
-fn metrics(truth: &Material<f32>, prediction: &Material<f32>) -> BTreeMap<String, f64> {
-    let metrics = of_maps(truth, prediction).unwrap_or_default();
+fn metrics((truth, prediction): (&OpenedMaterial, &OpenedMaterial)) -> BTreeMap<String, f64> {
+    let metrics = of_maps(&truth.material, &prediction.material).unwrap_or_default();
     metrics.into_iter().map(|metric| (metric.name.to_owned(), metric.value)).collect()
+}
+
+/// The floor of a ground truth that was read, where diagnoses are asked for.
+fn floor_of(
+    truth: &Result<OpenedMaterial, String>,
+    settings: &DatasetSettings,
+    convention: &Convention,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Option<f64>, Error> {
+    let truth = truth.as_ref().ok().filter(|_| settings.diagnose);
+    let of =
+        |truth: &OpenedMaterial| floor(&truth.material, &truth.storage, convention, seed, &progress.part());
+    Ok(truth.map(of).transpose()?.map(|floor| floor.mean))
+}
+
+/// The marks of the diagnosis of a prediction.
+fn marks_of(
+    (truth, prediction): (&OpenedMaterial, &OpenedMaterial),
+    convention: &Convention,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Vec<Mark>, Error> {
+    let OpenedMaterial { material, storage } = prediction;
+    let found = diagnose(&truth.material, material, storage, convention, seed, &progress.part())?;
+    Ok(found.marked().map(Mark::from).collect())
 }
 
 fn known(loss: &Loss) -> KnownLoss {

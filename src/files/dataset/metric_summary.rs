@@ -99,7 +99,7 @@ fn values_of<'a>(
 }
 
 /// The predictions of a material by a method that count: those with a loss.
-fn counted<'a>(result: &'a MaterialResult, method: &str, pick: Pick) -> Vec<&'a PredictionResult> {
+pub(super) fn counted<'a>(result: &'a MaterialResult, method: &str, pick: Pick) -> Vec<&'a PredictionResult> {
     let mut of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
     let loss =
         |prediction: &PredictionResult| prediction.result.as_ref().map_or(f64::INFINITY, |known| known.loss);

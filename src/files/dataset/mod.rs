@@ -10,6 +10,8 @@ mod fingerprint;
 mod journal;
 mod list;
 mod lock;
+mod mark_report;
+mod mark_summary;
 mod metric_report;
 mod metric_summary;
 mod record;
@@ -20,9 +22,10 @@ mod summary;
 pub use bootstrap::interval_of_mean;
 pub use journal::{Recomputed, merged};
 pub use list::{Shard, cases_of_folders, cases_of_table};
+pub use mark_summary::{MarkSummary, summarize_marks};
 pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
 pub use record::{
-    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, MaterialResult, PredictionResult,
+    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
 pub use report::DatasetReport;
 pub use run::{DatasetResults, run};

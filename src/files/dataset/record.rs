@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Deserializer, Serialize};
 
+use svbrdf_core::diagnose::Finding;
 use svbrdf_core::loss::Estimate;
 
 use crate::read::ReadOptions;
@@ -43,6 +44,9 @@ pub struct DatasetSettings {
     /// Whether results have metrics of the maps.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub metrics: bool,
+    /// Whether results have the marks of a diagnosis.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub diagnose: bool,
 }
 
 impl DatasetSettings {
@@ -55,13 +59,27 @@ impl DatasetSettings {
             }
         }
         let materials = cases.iter().map(|case| case.material.clone()).collect();
-        Self { convention: convention.to_owned(), target_error, seed, materials, methods, metrics: false }
+        Self {
+            convention: convention.to_owned(),
+            target_error,
+            seed,
+            materials,
+            methods,
+            metrics: false,
+            diagnose: false,
+        }
     }
 
     /// The same settings, with metrics of the maps or without.
     #[must_use]
     pub fn with_metrics(self, metrics: bool) -> Self {
         Self { metrics, ..self }
+    }
+
+    /// The same settings, with the marks of a diagnosis or without.
+    #[must_use]
+    pub fn with_diagnoses(self, diagnose: bool) -> Self {
+        Self { diagnose, ..self }
     }
 }
 
@@ -84,7 +102,17 @@ pub struct MaterialResult {
     pub seed: u64,
     /// The number of scenes.
     pub scenes: usize,
+    /// The loss that the ground truth cannot resolve, where diagnoses were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<f64>,
     pub predictions: Vec<PredictionResult>,
+}
+
+impl MaterialResult {
+    /// Whether a loss, or a difference of losses, is known not to be above the floor.
+    pub fn is_below_floor(&self, value: Option<f64>) -> bool {
+        self.floor.zip(value).is_some_and(|(floor, value)| value <= floor)
+    }
 }
 
 /// The result of one prediction.
@@ -98,6 +126,34 @@ pub struct PredictionResult {
     /// The metrics of its maps by name, where they were asked for; the PSNR of equal maps is infinite, in JSON null.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "with_infinities")]
     pub metrics: BTreeMap<String, f64>,
+    /// The marks of its diagnosis, the largest share first, where they were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marks: Option<Vec<Mark>>,
+}
+
+/// A marked finding of a diagnosis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// Its name, such as "exposure".
+    pub hypothesis: String,
+    /// A number, a list of numbers or a name.
+    pub value: serde_json::Value,
+    /// The part of the loss that disappears under the hypothesis.
+    pub share: f64,
+    /// The option of the command line that corrects the reading.
+    pub remedy: Option<String>,
+}
+
+impl From<&Finding> for Mark {
+    fn from(finding: &Finding) -> Self {
+        Self {
+            hypothesis: finding.hypothesis.name().to_owned(),
+            // Numbers and names have a value.
+            value: serde_json::to_value(&finding.value).unwrap_or_default(),
+            share: finding.share.unwrap_or(0.0),
+            remedy: finding.remedy.map(|remedy| remedy.to_string()),
+        }
+    }
 }
 
 /// Metrics whose null is infinity, which JSON does not have.

@@ -7,9 +7,11 @@ use serde::{Serialize, Serializer};
 use svbrdf_core::error::Error;
 use svbrdf_core::report::{Cell, Report, Table, aligned, bold, escaped, latex, missed};
 
+use super::mark_report;
+use super::mark_summary::MarkSummary;
 use super::metric_report;
 use super::metric_summary::{MetricSummary, summarize_metrics};
-use super::record::{DatasetSettings, MaterialResult, PredictionResult};
+use super::record::{DatasetSettings, Mark, MaterialResult, PredictionResult};
 use super::summary::{MethodSummary, Pick, summarize};
 
 const TITLES: [&str; 9] = [
@@ -37,6 +39,9 @@ const COLUMNS: [&str; 11] = [
     "path",
     "error",
 ];
+
+/// The columns of diagnoses.
+const MARKS: [&str; 3] = ["floor", "resolvable", "marked"];
 
 /// The results of a data set, and what they say about the methods.
 #[derive(Clone, Debug)]
@@ -108,12 +113,13 @@ impl Report for DatasetReport {
     fn text(&self) -> String {
         let DatasetSettings { convention, target_error, seed, materials, .. } = &self.settings;
         format!(
-            "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n\n{}{}",
+            "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n\n{}{}{}",
             self.results.len(),
             materials.len(),
             100.0 * target_error,
             self.pick,
             self.losses(),
+            mark_report::text(&self.methods, &self.results, self.pick),
             metric_report::text(&self.methods, &self.results, self.pick)
         )
     }
@@ -139,14 +145,22 @@ impl Report for DatasetReport {
                 prediction.result.as_ref().err().cloned().into(),
             ];
             let metrics = metrics.iter().map(|name| prediction.metrics.get(*name).copied().into());
-            start.into_iter().chain(numbers).chain(end).chain(metrics).collect()
+            let marks = self.settings.diagnose.then(|| marks(result, prediction));
+            start
+                .into_iter()
+                .chain(numbers)
+                .chain(end)
+                .chain(marks.into_iter().flatten())
+                .chain(metrics)
+                .collect()
         };
+        let of_marks = if self.settings.diagnose { &MARKS[..] } else { &[] };
         let rows = self
             .results
             .iter()
             .flat_map(|result| result.predictions.iter().map(move |prediction| (result, prediction)));
         Table::new(
-            COLUMNS.into_iter().chain(metrics.iter().copied()),
+            COLUMNS.into_iter().chain(of_marks.iter().copied()).chain(metrics.iter().copied()),
             rows.map(|(result, prediction)| row(result, prediction)),
         )
     }
@@ -160,6 +174,15 @@ impl Report for DatasetReport {
         let all = self.results.iter();
         all.flat_map(|result| result.predictions.iter().filter_map(|p| of(result, p))).collect()
     }
+}
+
+/// The cells of [`MARKS`]: the marks are names of hypotheses, the largest share first.
+fn marks(result: &MaterialResult, prediction: &PredictionResult) -> [Cell; MARKS.len()] {
+    let loss = prediction.result.as_ref().ok().map(|known| known.loss);
+    let resolvable = result.floor.zip(loss).map(|(floor, loss)| loss > floor);
+    let names =
+        |marks: &Vec<Mark>| marks.iter().map(|mark| mark.hypothesis.as_str()).collect::<Vec<_>>().join(" ");
+    [result.floor.into(), resolvable.into(), prediction.marks.as_ref().map(names).into()]
 }
 
 #[derive(Serialize)]
@@ -186,11 +209,14 @@ struct MethodEntry<'a> {
     /// Of the maps, by name.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     metrics: BTreeMap<String, MetricSummary>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    marks: Option<MarkSummary>,
 }
 
 impl Serialize for DatasetReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let Self { settings, pick, methods, results } = self;
+        let marks = |method: &str| mark_report::summary(method, methods, results, *pick);
         let methods = methods.iter().map(|summary| MethodEntry {
             method: &summary.method,
             materials: summary.materials,
@@ -205,6 +231,7 @@ impl Serialize for DatasetReport {
                 .and_then(|difference| difference.interval95_materials),
             ties_with_best: summary.ties_with_best(),
             metrics: summarize_metrics(&summary.method, results, *pick),
+            marks: marks(&summary.method),
         });
         DatasetJson { settings, pick: pick.to_string(), methods: methods.collect(), results }
             .serialize(serializer)

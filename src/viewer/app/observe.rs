@@ -1,5 +1,6 @@
 //! Observations of the window, for its tests.
 
+use svbrdf_core::diagnose::Diagnosis;
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::statistics::{Distributions, Histogram, Statistics};
@@ -87,6 +88,12 @@ impl App {
 
     fn pair(&self) -> Option<ComparedPair> {
         ComparedPair::of(&self.parts.model.materials.all, &self.parts.model.view)
+    }
+
+    /// The diagnosis of the chosen prediction, after the floor of the ground truth.
+    pub fn diagnosis(&self) -> Option<&Diagnosis> {
+        let seed = self.parts.model.settings.loss.seed;
+        self.parts.jobs.why.diagnosis.get(&self.pair()?, seed).map(|done| &done.diagnosis)
     }
 
     /// The attribution of the chosen prediction.

@@ -33,8 +33,7 @@ impl<'a> Displayed<'a> {
         Self { model, jobs, hides_corners: false, hides_handles: false }
     }
 
-    /// The materials in the panes, the ground truth first: with a mixture in the place of the chosen prediction where one is
-    /// displayed.
+    /// The materials in the panes, the ground truth first: with a replacement of the chosen prediction where one is displayed.
     pub fn materials(self) -> &'a [LoadedMaterial] {
         &self.jobs.panes.displayed
     }
@@ -93,12 +92,12 @@ impl<'a> Displayed<'a> {
         set.unwrap_or_else(|| self.auto_range())
     }
 
-    /// The automatic range of the difference. While a mixture is displayed it is that of the predictions themselves, so that
-    /// "only it wrong" and "only it right" have the same colours.
+    /// The automatic range of the difference. While a mixture or a corrected prediction is displayed it is that of the predictions
+    /// themselves, so that all have the same colours.
     pub fn auto_range(self) -> f64 {
         let computed =
             self.jobs.panes.auto_range.as_ref().filter(|(key, _)| *key == RangeKey::of(self.model));
-        let pinned = computed.filter(|_| self.view().display.isolated.is_some()).map(|(_, range)| *range);
+        let pinned = computed.filter(|_| self.view().display.is_replaced()).map(|(_, range)| *range);
         let latest = || self.distributions().map(|(distributions, _)| distributions.auto_range);
         pinned.or_else(latest).unwrap_or_else(|| self.view().difference_kind().default_range())
     }

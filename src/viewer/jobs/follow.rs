@@ -37,7 +37,7 @@ impl Jobs {
     pub fn follow(&mut self, model: &Model, parts: DisplayedParts) -> Findings {
         let mut findings = Findings::default();
         self.follow_losses(model);
-        self.follow_mixture(model, &mut findings);
+        self.follow_replacement(model, &mut findings);
         if let Some(gpu) = &self.gpu {
             self.uploads.send_missing(&self.waker, gpu, &model.materials.all);
         }
@@ -66,12 +66,12 @@ impl Jobs {
         self.few.poll(waker);
     }
 
-    fn follow_mixture(&mut self, model: &Model, findings: &mut Findings) {
+    fn follow_replacement(&mut self, model: &Model, findings: &mut Findings) {
         let Self { waker, gpu, uploads, panes, .. } = self;
         let (materials, view) = (&model.materials.all[..], &model.view);
         let work = JobContext { waker, gpu: gpu.as_ref(), materials, view };
-        findings.errors.extend(panes.mixture.follow(&work, uploads));
-        panes.displayed = panes.mixture.displayed(materials, view);
+        findings.errors.extend(panes.replacement.follow(&work, uploads));
+        panes.displayed = panes.replacement.displayed(materials, view);
     }
 
     /// The jobs of the tab *Why*, where it is open. The search for the worst scene goes on in other tabs, too.
@@ -112,7 +112,7 @@ impl Jobs {
             panes.error_map.follow(&work, averages, settings.loss.listed_scenes()),
         ];
         findings.errors.extend(errors.into_iter().flatten());
-        if view.display.isolated.is_none()
+        if !view.display.is_replaced()
             && let Some((distributions, _)) = Displayed::of(model, self).distributions()
         {
             self.panes.auto_range = Some((RangeKey::of(model), distributions.auto_range));

@@ -33,7 +33,7 @@ use loss::study::StudyJob;
 use panes::PaneJobs;
 use panes::difference::DifferenceJob;
 use panes::error_map::ErrorMapJob;
-use panes::mixture::MixtureJob;
+use panes::replacement::ReplacementJob;
 use photograph::PhotographJobs;
 use reading::opening::Openings;
 use reading::read::Reader;
@@ -77,7 +77,7 @@ impl Jobs {
     pub fn replace_device(&mut self, gpu: Option<Gpu>) {
         self.gpu = gpu;
         self.uploads = Uploads::default();
-        self.panes.mixture = MixtureJob::default();
+        self.panes.replacement = ReplacementJob::default();
         self.panes.error_map = ErrorMapJob::default();
         self.panes.difference = DifferenceJob::default();
         self.photograph.forget_device();

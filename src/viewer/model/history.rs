@@ -56,7 +56,7 @@ impl Parts for Moment {
             c.wipe != d.wipe,
             c.framing != d.framing,
             c.prediction != d.prediction,
-            (c.isolated, c.only_right) != (d.isolated, d.only_right),
+            (c.isolated, c.only_right, c.corrected) != (d.isolated, d.only_right, d.corrected),
             self.materials != other.materials,
             self.scenes != other.scenes,
             self.photograph != other.photograph,

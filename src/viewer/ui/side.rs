@@ -2,6 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
+use svbrdf_core::diagnose::Finding;
 use svbrdf_files::read::Certainty;
 
 use super::loss::panel::LossPanel;
@@ -44,11 +45,22 @@ pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextu
             Tab::Why => why_tab(ui, displayed, textures),
             Tab::Files => {
                 let (materials, openings) = (&model.materials, &jobs.openings);
-                MaterialsPanel { materials, openings, watch: model.settings.watch }.ui(ui)
+                let findings = findings(displayed);
+                MaterialsPanel { materials, openings, watch: model.settings.watch, findings }.ui(ui)
             }
         });
     });
     commands
+}
+
+/// The marked findings of each prediction that was diagnosed.
+fn findings(displayed: Displayed<'_>) -> Vec<Vec<&Finding>> {
+    let (model, jobs) = (displayed.model, displayed.jobs);
+    let of = |pair: &ComparedPair| {
+        let diagnosed = jobs.why.diagnosis.get(pair, model.settings.loss.seed);
+        diagnosed.into_iter().flat_map(|diagnosed| diagnosed.diagnosis.marked()).collect()
+    };
+    ComparedPair::all(&model.materials.all, &model.view).iter().map(of).collect()
 }
 
 fn tabs(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
@@ -125,6 +137,7 @@ fn why_tab(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelText
         state: &model.view,
         losses: jobs.scene_loss.get(&model.materials.all, &model.view),
         names: model.materials.predictions().iter().map(LoadedMaterial::name).collect(),
+        predictions: model.materials.predictions(),
         pairs: ComparedPair::all(&model.materials.all, &model.view),
         why: model.why,
         jobs: &jobs.why,

@@ -71,7 +71,8 @@ fn readings() {
             }
             let found = found(&truth, &error.applied(&truth, &linear).unwrap(), &linear);
             assert_eq!(only(&found), (hypothesis, Value::Name(correction.name())), "material {seed}");
-            assert_eq!(found.marked().next().unwrap().remedy.as_deref(), remedy);
+            let found = found.marked().next().unwrap().remedy.map(|remedy| remedy.to_string());
+            assert_eq!(found.as_deref(), remedy);
         }
     }
 }
@@ -93,7 +94,7 @@ fn encodings_of_colours() {
             let wrong = Reading::Colours(error).applied(&truth, other).unwrap();
             let found = found(&truth, &wrong, read_as);
             assert_eq!(only(&found), (Hypothesis::AlbedoEncoding, Value::Name(name)), "material {seed}");
-            let remedy = found.marked().next().unwrap().remedy.clone();
+            let remedy = found.marked().next().unwrap().remedy.map(|remedy| remedy.to_string());
             assert_eq!(remedy, Some(format!("--pred-albedo {name}")));
         }
     }
@@ -124,6 +125,11 @@ fn nothing_is_marked_without_an_error_or_with_others() {
     let same = found(&truth, &truth, &Storage::default());
     assert!(same.marked().next().is_none() && same.loss.mean == 0.0);
     assert_eq!(sentence(&same, None), "The prediction equals the ground truth.");
+    for storage in [Storage::default(), Storage { base_colour: true, ..Storage::default() }] {
+        let found = diagnose(&truth, &truth, &storage, &PRINTED, 1, &Progress::default()).unwrap();
+        let lines: Vec<_> = found.findings.iter().map(|finding| finding.hypothesis).collect();
+        assert_eq!(lines, Hypothesis::of(&storage).collect::<Vec<_>>());
+    }
     for seed in 0..4 {
         let found = found(&truth, &unexplained(&truth, seed), &Storage::default());
         assert!(found.marked().next().is_none(), "{found:#?}");

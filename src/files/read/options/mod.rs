@@ -7,6 +7,7 @@ mod grid;
 mod layered;
 mod order;
 mod preset;
+mod remedy;
 mod role;
 pub(crate) mod transfer;
 

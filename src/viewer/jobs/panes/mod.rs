@@ -1,17 +1,17 @@
-//! Jobs on what the panes display: the mixture, and numbers about values, differences, error maps and the rectangle.
+//! Jobs on what the panes display: the replacement of the chosen prediction, and numbers about values, differences, error maps and the rectangle.
 
 pub mod computed_maps;
 pub mod difference;
 pub mod error_map;
 pub mod histograms;
-pub mod mixture;
 pub mod region;
+pub mod replacement;
 
 use difference::DifferenceJob;
 use error_map::ErrorMapJob;
 use histograms::HistogramsJob;
-use mixture::MixtureJob;
 use region::RegionJob;
+use replacement::ReplacementJob;
 
 use svbrdf_core::picture::quantity::Quantity;
 
@@ -22,14 +22,14 @@ use crate::viewer::model::material::read::MaterialId;
 /// The jobs, and the materials in the panes.
 #[derive(Debug, Default)]
 pub struct PaneJobs {
-    /// The materials, with a mixture in the place of the chosen prediction where one is displayed.
+    /// The materials, with a replacement of the chosen prediction where one is displayed.
     pub displayed: Vec<LoadedMaterial>,
-    pub mixture: MixtureJob,
+    pub replacement: ReplacementJob,
     pub histograms: HistogramsJob,
     pub region: RegionJob,
     pub difference: DifferenceJob,
     pub error_map: ErrorMapJob,
-    /// The automatic range of the predictions themselves: that of a mixture would change with what is mixed.
+    /// The automatic range of the predictions themselves: that of a replacement would change with it.
     pub auto_range: Option<(RangeKey, f64)>,
 }
 

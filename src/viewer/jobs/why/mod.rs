@@ -1,7 +1,9 @@
 //! Jobs of the tab *Why*: where and by what the predictions are wrong.
 
 pub mod attribution;
+pub mod diagnosis;
 pub mod directions;
+pub mod one_by_one;
 pub mod pair;
 pub mod scenes;
 pub mod search;
@@ -12,10 +14,12 @@ use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::why::Worst;
 
+use crate::viewer::jobs::why::attribution::attributed;
 use crate::viewer::jobs::work::context::JobContext;
 use crate::viewer::model::settings::why::{WhySection, WhySections};
 
 pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
+pub use diagnosis::{Diagnosed, DiagnosisJob};
 pub use directions::{DirectionMaps, DirectionsJob, ScaledPicture};
 pub use pair::ComparedPair;
 pub use scenes::{SceneList, ScenesJob};
@@ -29,7 +33,7 @@ pub struct WhyQuery {
     pub sections: WhySections,
     /// The scenes that are listed.
     pub scenes: Request,
-    /// Seeds the scenes of the attribution.
+    /// Seeds the scenes of the attribution and the diagnosis.
     pub seed: u64,
     /// The endpoint that moves over the hemisphere.
     pub moved: Endpoint,
@@ -38,6 +42,7 @@ pub struct WhyQuery {
 /// The jobs of the tab.
 #[derive(Debug, Default)]
 pub struct WhyJobs {
+    pub diagnosis: DiagnosisJob,
     pub attribution: AttributionJob,
     pub scenes: ScenesJob,
     pub directions: DirectionsJob,
@@ -51,7 +56,14 @@ impl WhyJobs {
         let (waker, chosen, scene) = (work.waker, work.view.display.prediction, &work.view.scene);
         let is_open = |section| displayed && query.sections.is_open(section);
         let errors = [
-            self.attribution.follow(waker, is_open(WhySection::Maps), &pairs, chosen, query.seed),
+            self.diagnosis.follow(waker, is_open(WhySection::Diagnosis), (&pairs, chosen), query.seed),
+            self.attribution.follow(
+                waker,
+                is_open(WhySection::Maps),
+                (&pairs, chosen),
+                query.seed,
+                attributed,
+            ),
             self.scenes.follow(waker, is_open(WhySection::Scenes), pairs.get(chosen), query.scenes),
             self.directions.follow(waker, is_open(WhySection::Directions), &pairs, query.moved, scene),
         ];

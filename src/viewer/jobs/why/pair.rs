@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use svbrdf_core::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
@@ -17,6 +18,13 @@ use crate::viewer::model::view::state::ViewState;
 pub struct PairKey {
     /// Of the ground truth and of the prediction.
     ids: [MaterialId; 2],
+    convention: &'static str,
+}
+
+/// Identity of a ground truth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundTruthKey {
+    id: MaterialId,
     convention: &'static str,
 }
 
@@ -52,6 +60,18 @@ impl ComparedPair {
 
     pub fn prediction(&self) -> &Material<f32> {
         &self.materials[1].material
+    }
+
+    pub fn ground_truth_key(&self) -> GroundTruthKey {
+        GroundTruthKey { id: self.key.ids[0], convention: self.key.convention }
+    }
+
+    pub fn ground_truth_storage(&self) -> &Storage {
+        &self.materials[0].storage
+    }
+
+    pub fn prediction_storage(&self) -> &Storage {
+        &self.materials[1].storage
     }
 
     /// The comparison of the two, without a pilot.

@@ -39,14 +39,15 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
         DisplayCommand::SetWipe(at) => state.display.wipe = at.clamp(0.0, 1.0),
         DisplayCommand::ChoosePrediction(index) => {
             if index < model.materials.predictions().len() {
-                state.display.prediction = index;
+                choose(state, index);
             }
         }
-        DisplayCommand::Isolate(map) => state.display.isolated = map,
+        DisplayCommand::Isolate(map) => (state.display.isolated, state.display.corrected) = (map, None),
+        DisplayCommand::Correct(change) => (state.display.isolated, state.display.corrected) = (None, change),
         DisplayCommand::SetOnlyRight(on) => state.display.only_right = on,
         DisplayCommand::StepPrediction(by) => {
             let count = model.materials.predictions().len().max(1) as isize;
-            state.display.prediction = (state.display.prediction as isize + by).rem_euclid(count) as usize;
+            choose(state, (state.display.prediction as isize + by).rem_euclid(count) as usize);
         }
         DisplayCommand::Swap => model.swapped ^= true,
         DisplayCommand::Zoom { factor, at } => frame(model, |framed| framed.zoomed(factor, at)),
@@ -61,6 +62,13 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
         DisplayCommand::Redo => return undo::redo(model),
     }
     Vec::new()
+}
+
+/// Chooses a prediction. A correction is of one prediction.
+fn choose(state: &mut ViewState, prediction: usize) {
+    if prediction != state.display.prediction {
+        (state.display.prediction, state.display.corrected) = (prediction, None);
+    }
 }
 
 /// Sets the exposure by hand.

@@ -93,6 +93,7 @@ fn close(model: &mut Model, index: usize) {
     if index <= view.display.prediction {
         view.display.prediction = view.display.prediction.saturating_sub(1);
     }
+    view.display.corrected = None;
     view.display.prediction =
         view.display.prediction.min(model.materials.predictions().len().saturating_sub(1));
 }

@@ -9,6 +9,7 @@ pub mod photograph;
 
 pub use photograph::{PhotographCommand, PhotographLight};
 
+use svbrdf_core::diagnose::Change;
 use svbrdf_core::loss::{LossSettings, Sampling};
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::{Kind, Scene};
@@ -148,6 +149,8 @@ pub enum DisplayCommand {
     ChoosePrediction(usize),
     /// Shows the chosen prediction with this map alone wrong, or right; `None` shows the prediction itself.
     Isolate(Option<Map>),
+    /// Shows the chosen prediction with a change that a diagnosis found; `None` shows the prediction itself.
+    Correct(Option<Change>),
     /// Whether the isolated map is the only right one, and not the only wrong one.
     SetOnlyRight(bool),
     /// Chooses the prediction this many places on, around the end.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use svbrdf_core::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_files::memory::Reserved;
@@ -52,6 +53,8 @@ pub struct ReadMaterial {
     /// The training run that it is a step of.
     pub run: Option<RunId>,
     pub material: Material<f32>,
+    /// How its maps are stored, for its diagnosis.
+    pub storage: Storage,
     /// Remarks on the reading.
     pub notes: Vec<Note>,
     pub assumptions: Vec<Assumption>,
@@ -66,6 +69,7 @@ pub struct ReadMaterial {
 impl ReadMaterial {
     /// The material of what was read from `source`.
     pub fn new(source: Source, read: Read<f32>) -> Self {
+        let storage = read.storage();
         let files: Vec<_> =
             read.files.into_iter().map(|path| (Stamp::of(&path), path)).map(|(s, p)| (p, s)).collect();
         let Read { material, assumptions, notes, maps, options, saved, memory, .. } = read;
@@ -80,6 +84,7 @@ impl ReadMaterial {
             fit,
             run,
             material,
+            storage,
             notes,
             assumptions,
             maps,
@@ -108,6 +113,7 @@ impl ReadMaterial {
             fit: *fit,
             run: run.clone(),
             material,
+            storage: self.storage.clone(),
             notes: Vec::new(),
             assumptions: Vec::new(),
             maps: Vec::new(),

@@ -25,6 +25,8 @@ impl Default for WhyState {
 /// A section of the tab that can be folded; what is folded is not computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhySection {
+    /// Whether an error of exposure, alignment or reading explains the loss.
+    Diagnosis,
     /// How much of the loss comes from each map.
     Maps,
     /// Which scenes the loss comes from.
@@ -37,6 +39,7 @@ pub enum WhySection {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct WhySections {
+    diagnosis: bool,
     maps: bool,
     scenes: bool,
     directions: bool,
@@ -44,13 +47,14 @@ pub struct WhySections {
 
 impl Default for WhySections {
     fn default() -> Self {
-        Self { maps: true, scenes: true, directions: true }
+        Self { diagnosis: true, maps: true, scenes: true, directions: true }
     }
 }
 
 impl WhySections {
     pub fn is_open(self, section: WhySection) -> bool {
         match section {
+            WhySection::Diagnosis => self.diagnosis,
             WhySection::Maps => self.maps,
             WhySection::Scenes => self.scenes,
             WhySection::Directions => self.directions,
@@ -59,6 +63,7 @@ impl WhySections {
 
     pub fn open(&mut self, section: WhySection, on: bool) {
         match section {
+            WhySection::Diagnosis => self.diagnosis = on,
             WhySection::Maps => self.maps = on,
             WhySection::Scenes => self.scenes = on,
             WhySection::Directions => self.directions = on,

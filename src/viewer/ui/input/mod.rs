@@ -71,7 +71,7 @@ fn escape(displayed: Displayed<'_>, dialogs: &Dialogs) -> Command {
         () if model.inspection.is_armed => InspectionCommand::Arm(false).into(),
         () if model.inspection.region.is_some() => InspectionCommand::SetRegion(None).into(),
         () if jobs.why.search.busy().is_some() => WhyCommand::CancelSearch.into(),
-        () if model.view.display.isolated.is_some() => DisplayCommand::Isolate(None).into(),
+        () if model.view.display.is_replaced() => DisplayCommand::Isolate(None).into(),
         () => LossCommand::Cancel.into(),
     }
 }

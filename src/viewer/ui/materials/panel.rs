@@ -3,6 +3,7 @@
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, FontId, RichText};
 
+use svbrdf_core::diagnose::{Finding, sentence_of};
 use svbrdf_files::read::{Note, ReadOptions, Sidecar};
 
 use super::assumptions::{self, AssumedLine};
@@ -12,6 +13,7 @@ use crate::viewer::model::material::list::MaterialList;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::source::Origin;
 use crate::viewer::ui::widgets::read_options::read_options;
+use crate::viewer::ui::widgets::remedy::{is_offered, remedy_button};
 use crate::viewer::ui::widgets::theme;
 
 /// What the section shows.
@@ -20,6 +22,8 @@ pub struct MaterialsPanel<'a> {
     pub materials: &'a MaterialList,
     pub openings: &'a Openings,
     pub watch: bool,
+    /// The marked findings of each prediction that was diagnosed.
+    pub findings: Vec<Vec<&'a Finding>>,
 }
 
 impl MaterialsPanel<'_> {
@@ -55,7 +59,9 @@ impl MaterialsPanel<'_> {
         for (index, material) in self.materials.all.iter().enumerate() {
             ui.separator();
             // Its id changes whenever it is read again; what is unfolded stays unfolded.
-            ui.push_id(index, |ui| section(ui, index, material, &mut commands));
+            let findings = index.checked_sub(1).and_then(|prediction| self.findings.get(prediction));
+            let findings = findings.map(Vec::as_slice).unwrap_or_default();
+            ui.push_id(index, |ui| section(ui, index, material, findings, &mut commands));
         }
         commands
     }
@@ -123,7 +129,27 @@ fn line(ui: &mut egui::Ui, line: &AssumedLine) {
     ui.label(job);
 }
 
-fn section(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands: &mut Vec<Command>) {
+/// A finding about how the material was read, with the button that corrects it.
+fn finding_line(
+    ui: &mut egui::Ui,
+    index: usize,
+    material: &LoadedMaterial,
+    finding: &Finding,
+) -> Vec<Command> {
+    let Some(remedy) = finding.remedy.filter(|remedy| is_offered(material, *remedy)) else {
+        return Vec::new();
+    };
+    ui.label(RichText::new(sentence_of(finding)).small().color(ui.visuals().warn_fg_color));
+    remedy_button(ui, index, material, remedy)
+}
+
+fn section(
+    ui: &mut egui::Ui,
+    index: usize,
+    material: &LoadedMaterial,
+    findings: &[&Finding],
+    commands: &mut Vec<Command>,
+) {
     let loaded = &material.read;
     let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
     let colour = if index == 0 { theme::ground_truth(ui.visuals()) } else { ui.visuals().text_color() };
@@ -154,6 +180,7 @@ fn section(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands:
     for one in assumptions::lines(&loaded.assumptions) {
         line(ui, &one);
     }
+    commands.extend(findings.iter().flat_map(|finding| finding_line(ui, index, material, finding)));
     // Which file is which map stands in "As stored".
     for note in loaded.notes.iter().filter(|note| !note.is_routine()) {
         let text = RichText::new(note.to_string()).small();

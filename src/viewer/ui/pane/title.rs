@@ -10,7 +10,7 @@ use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
 use crate::viewer::ui::widgets::numbers::significant;
 use crate::viewer::ui::widgets::theme;
 
-/// Width of the button that shows all maps again, in points.
+/// Width of the button that shows the prediction itself again, in points.
 const BACK: f32 = 96.0;
 /// Mean width of a character, in points.
 const CHARACTER: f32 = 7.0;
@@ -32,7 +32,7 @@ pub fn title_bar(
     let text = text(scenery, content, usize::MAX);
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
-    let mixed = chosen && scenery.state.display.isolated.is_some();
+    let replaced = chosen && scenery.state.display.is_replaced();
     let back = Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()).shrink(2.0);
     let painter = ui.painter_at(rect);
     let colour = if content.index == 0 || !is_material {
@@ -40,9 +40,9 @@ pub fn title_bar(
     } else {
         ui.visuals().text_color()
     };
-    let loss = prediction.and_then(|index| scenery.losses?.get(index)).filter(|_| !mixed);
+    let loss = prediction.and_then(|index| scenery.losses?.get(index)).filter(|_| !replaced);
     let loss = loss.map(|loss| significant(&loss.estimate)[0].clone());
-    let room = if mixed { BACK } else { loss.as_ref().map_or(0.0, |_| LOSS) };
+    let room = if replaced { BACK } else { loss.as_ref().map_or(0.0, |_| LOSS) };
     let swatch = prediction.map(|index| theme::series(index, ui.visuals().dark_mode));
     let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
     if let Some(colour) = swatch {
@@ -69,8 +69,9 @@ pub fn title_bar(
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
         painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
     }
-    if mixed {
-        let button = ui.put(back, egui::Button::new(egui::RichText::new("Show all maps").small()));
+    if replaced {
+        let label = if scenery.state.display.corrected.is_some() { "Show original" } else { "Show all maps" };
+        let button = ui.put(back, egui::Button::new(egui::RichText::new(label).small()));
         if button.on_hover_text("Show the prediction itself again (Esc)").clicked() {
             return Some(DisplayCommand::Isolate(None).into());
         }

@@ -1,5 +1,6 @@
 //! Tab *Why*: maps, scenes and directions from which the losses of the predictions come.
 
+pub mod diagnosis;
 pub mod directions;
 pub mod maps;
 pub mod scenes;
@@ -11,12 +12,14 @@ use svbrdf_core::picture::quantity::Quantity;
 
 use crate::viewer::jobs::why::{ComparedPair, WhyJobs};
 use crate::viewer::model::command::{Command, DisplayCommand, WhyCommand};
+use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::settings::why::{WhySection, WhySections, WhyState};
 use crate::viewer::model::view::state::ViewState;
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
 
+use diagnosis::DiagnosisSection;
 use maps::MapsSection;
 
 /// Most predictions with high rows.
@@ -32,6 +35,7 @@ pub struct WhyPanel<'a> {
     pub losses: Option<(&'a [f64], bool)>,
     /// Of the predictions.
     pub names: Vec<&'a str>,
+    pub predictions: &'a [LoadedMaterial],
     /// The ground truth and each prediction.
     pub pairs: Vec<ComparedPair>,
     pub why: WhyState,
@@ -59,6 +63,11 @@ impl WhyPanel<'_> {
         });
         self.displayed_quantity(ui, &mut commands);
         for (section, title, question) in [
+            (
+                WhySection::Diagnosis,
+                "Would something trivial explain it?",
+                "Whether an exposure, a shift, a symmetry or another reading of the files explains the loss",
+            ),
             (WhySection::Maps, "Which map", "How much of the loss comes from each map"),
             (WhySection::Scenes, "Which scenes", "The scenes of the loss, worst first"),
             (
@@ -71,6 +80,10 @@ impl WhyPanel<'_> {
             let open = self.sections.is_open(section);
             let header = egui::CollapsingHeader::new(RichText::new(title).strong()).open(Some(open));
             let header = header.show_unindented(ui, |ui| match section {
+                WhySection::Diagnosis => {
+                    let Self { state, jobs, settings, pairs, predictions, .. } = self;
+                    DiagnosisSection { state, jobs, settings, pairs, predictions }.ui(ui, &mut commands);
+                }
                 WhySection::Maps => {
                     let Self { state, jobs, settings, pairs, names, .. } = self;
                     MapsSection { state, jobs, settings, pairs, names }.ui(ui, &mut commands);

@@ -8,6 +8,7 @@ pub mod numbers;
 pub mod plot;
 pub mod read_options;
 pub mod readout;
+pub mod remedy;
 pub mod texture;
 pub mod theme;
 

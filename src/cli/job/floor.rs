@@ -1,0 +1,33 @@
+//! The floor of a ground truth: that of rounding, or that of repeated captures.
+
+use svbrdf_core::diagnose::{floor, floor_of_captures};
+use svbrdf_core::loss::Estimate;
+
+use super::ComparisonJob;
+use super::materials::Opened;
+use crate::cli::args::floor::FloorArgs;
+use crate::cli::output::{CommandError, watched};
+
+/// The loss that the ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of
+/// rounding.
+///
+/// # Errors
+/// Where a capture cannot be read, or has another size.
+pub fn floor_of(
+    args: &FloorArgs,
+    job: &ComparisonJob,
+    opened: &Opened<f32>,
+    seed: u64,
+) -> Result<(Estimate, Option<usize>), CommandError> {
+    let (truth, convention) = (&opened.ground_truth, &job.convention);
+    if args.repeats.is_empty() {
+        let stored = &opened.storages[0];
+        let floor = watched("dithering", |progress| floor(truth, stored, convention, seed, progress))?;
+        return Ok((floor, None));
+    }
+    let repeats = job.materials.repeats(&args.repeats, truth)?;
+    let floor = watched("comparing captures", |progress| {
+        floor_of_captures(truth, &repeats, convention, seed, progress)
+    })?;
+    Ok((floor, Some(1 + repeats.len())))
+}

@@ -1,0 +1,50 @@
+//! Marks of the predictions of a data set beside the losses.
+
+use std::collections::BTreeSet;
+
+use svbrdf_core::report::aligned;
+
+use super::mark_summary::{MarkSummary, summarize_marks};
+use super::record::MaterialResult;
+use super::summary::{MethodSummary, Pick};
+
+/// The marks of a method; `methods` begin with the best one.
+pub(super) fn summary(
+    method: &str,
+    methods: &[MethodSummary],
+    results: &[MaterialResult],
+    pick: Pick,
+) -> Option<MarkSummary> {
+    let best = methods.first().map(|summary| summary.method.as_str()).filter(|best| *best != method);
+    summarize_marks(method, best, results, pick)
+}
+
+/// A table of the numbers of materials, a column for each method; empty without diagnoses.
+pub(super) fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
+    let columns: Vec<Option<MarkSummary>> =
+        methods.iter().map(|summary| self::summary(&summary.method, methods, results, pick)).collect();
+    let known: Vec<&MarkSummary> = columns.iter().flatten().collect();
+    if known.is_empty() {
+        return String::new();
+    }
+    let row = |name: &str, number: &dyn Fn(&MarkSummary) -> Option<usize>| {
+        let cell = |column: &Option<MarkSummary>| {
+            column.as_ref().and_then(number).map_or_else(|| "-".to_owned(), |number| number.to_string())
+        };
+        std::iter::once(name.to_owned()).chain(columns.iter().map(cell)).collect::<Vec<String>>()
+    };
+    let heading = ["number of materials".to_owned()];
+    let mut rows: Vec<Vec<String>> =
+        vec![heading.into_iter().chain(methods.iter().map(|summary| summary.method.clone())).collect()];
+    rows.push(row("diagnosed", &|marks| Some(marks.materials)));
+    rows.push(row("marked", &|marks| Some(marks.marked)));
+    let names: BTreeSet<&String> = known.iter().flat_map(|marks| marks.by.keys()).collect();
+    rows.extend(
+        names
+            .into_iter()
+            .map(|name| row(&format!("by {name}"), &|marks| Some(marks.by.get(name).copied().unwrap_or(0)))),
+    );
+    rows.push(row("loss not resolvable", &|marks| Some(marks.not_resolvable)));
+    rows.push(row("- best not resolvable", &|marks| marks.to_best_not_resolvable));
+    format!("\n{}", aligned(&rows))
+}

@@ -1,0 +1,60 @@
+//! Marks of diagnoses over all materials.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+use super::metric_summary::counted;
+use super::record::{MaterialResult, PredictionResult};
+use super::summary::{Pick, picked};
+
+/// The marks of a method over the materials that were diagnosed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MarkSummary {
+    /// The number of materials with a diagnosis.
+    pub materials: usize,
+    /// The number of these with any mark.
+    pub marked: usize,
+    /// The number of materials that are marked by each hypothesis.
+    pub by: BTreeMap<String, usize>,
+    /// The number of materials whose loss is not above the floor of the ground truth.
+    pub not_resolvable: usize,
+    /// The number of materials whose difference to the best method is not above it; `None` for the best.
+    pub to_best_not_resolvable: Option<usize>,
+}
+
+/// The marks of `method`; `best` is the best method, where it is another one. `None` where no prediction was diagnosed. Of several
+/// predictions of a material, those count that count for the loss; the material has the marks of all of them.
+pub fn summarize_marks(
+    method: &str,
+    best: Option<&str>,
+    results: &[MaterialResult],
+    pick: Pick,
+) -> Option<MarkSummary> {
+    let mut summary = MarkSummary {
+        materials: 0,
+        marked: 0,
+        by: BTreeMap::new(),
+        not_resolvable: 0,
+        to_best_not_resolvable: best.map(|_| 0),
+    };
+    for result in results {
+        let of = |prediction: &&PredictionResult| prediction.marks.is_some();
+        let diagnosed: Vec<_> = counted(result, method, pick).into_iter().filter(of).collect();
+        if diagnosed.is_empty() {
+            continue;
+        }
+        summary.materials += 1;
+        let marks = diagnosed.iter().flat_map(|prediction| prediction.marks.iter().flatten());
+        let names: BTreeSet<&str> = marks.map(|mark| mark.hypothesis.as_str()).collect();
+        summary.marked += usize::from(!names.is_empty());
+        names.into_iter().for_each(|name| *summary.by.entry(name.to_owned()).or_default() += 1);
+        let loss = |method: &str| picked(result, method, pick).map(|known| known.loss);
+        summary.not_resolvable += usize::from(result.is_below_floor(loss(method)));
+        if let (Some(best), Some(count)) = (best, &mut summary.to_best_not_resolvable) {
+            let difference = loss(method).zip(loss(best)).map(|(a, b)| (a - b).abs());
+            *count += usize::from(result.is_below_floor(difference));
+        }
+    }
+    (summary.materials > 0).then_some(summary)
+}

@@ -1,0 +1,79 @@
+//! Diagnoses of the losses of the predictions, and the floor of the ground truth.
+
+use std::time::{Duration, Instant};
+
+use svbrdf_core::diagnose::{Diagnosis, diagnose, floor};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::Estimate;
+use svbrdf_core::progress::Progress;
+
+use crate::viewer::jobs::why::one_by_one::OneByOne;
+use crate::viewer::jobs::why::pair::{ComparedPair, GroundTruthKey};
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::jobs::work::waker::Waker;
+
+/// A diagnosis, and the time that it took.
+#[derive(Clone, Debug)]
+pub struct Diagnosed {
+    pub diagnosis: Diagnosis,
+    pub elapsed: Duration,
+}
+
+/// The diagnoses of the predictions, after the floor.
+#[derive(Debug, Default)]
+pub struct DiagnosisJob {
+    floor: Latest<(GroundTruthKey, u64), Estimate>,
+    diagnoses: OneByOne<Diagnosed>,
+}
+
+impl DiagnosisJob {
+    /// Takes over a result, and computes the next one that is missing, as [`OneByOne::follow`] does.
+    pub fn follow(
+        &mut self,
+        waker: &Waker,
+        displayed: bool,
+        (pairs, chosen): (&[ComparedPair], usize),
+        seed: u64,
+    ) -> Option<Error> {
+        let Some(first) = pairs.first().filter(|_| displayed) else {
+            self.floor.pause();
+            return self.diagnoses.follow(waker, false, (pairs, chosen), seed, diagnosed);
+        };
+        let wanted = (first.ground_truth_key(), seed);
+        self.floor.drop_other(&wanted);
+        let error = self.floor.follow(Some(wanted), |_| {
+            let pair = first.clone();
+            Job::start(waker, move |progress| {
+                floor(pair.ground_truth(), pair.ground_truth_storage(), &pair.convention, seed, progress)
+            })
+        });
+        let is_next = self.floor.running().is_none();
+        error.or(self.diagnoses.follow(waker, is_next, (pairs, chosen), seed, diagnosed))
+    }
+
+    /// The diagnosis of this pair.
+    pub fn get(&self, pair: &ComparedPair, seed: u64) -> Option<&Diagnosed> {
+        self.diagnoses.get(pair, seed)
+    }
+
+    /// The loss that the ground truth of this pair cannot resolve.
+    pub fn floor(&self, pair: &ComparedPair, seed: u64) -> Option<&Estimate> {
+        let wanted = (pair.ground_truth_key(), seed);
+        self.floor.get().filter(|(key, _)| **key == wanted).map(|(_, floor)| floor)
+    }
+
+    /// The share of the work on the floor or a pair that is done and its time, while it goes on.
+    pub fn busy(&self) -> Option<(f32, Duration)> {
+        let floor = self.floor.running().map(|job| (job.fraction(), job.elapsed()));
+        floor.or_else(|| self.diagnoses.busy())
+    }
+}
+
+fn diagnosed(pair: &ComparedPair, seed: u64, progress: &Progress) -> Result<Diagnosed, Error> {
+    let start = Instant::now();
+    let (ground_truth, prediction) = (pair.ground_truth(), pair.prediction());
+    let diagnosis =
+        diagnose(ground_truth, prediction, pair.prediction_storage(), &pair.convention, seed, progress)?;
+    Ok(Diagnosed { diagnosis, elapsed: start.elapsed() })
+}

@@ -1,0 +1,78 @@
+//! Results of all predictions, computed one by one, the chosen prediction first.
+
+use std::time::Duration;
+
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
+
+use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
+use crate::viewer::jobs::work::job::Job;
+use crate::viewer::jobs::work::latest::Latest;
+use crate::viewer::jobs::work::waker::Waker;
+
+/// What a result depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ResultKey {
+    pair: PairKey,
+    seed: u64,
+}
+
+/// A result per prediction.
+#[derive(Debug)]
+pub struct OneByOne<R> {
+    latest: Latest<ResultKey, R>,
+    /// Those of present predictions that are there.
+    done: Vec<(ResultKey, R)>,
+}
+
+impl<R> Default for OneByOne<R> {
+    fn default() -> Self {
+        Self { latest: Latest::default(), done: Vec::new() }
+    }
+}
+
+impl<R: Clone + Send + 'static> OneByOne<R> {
+    /// Takes over a result, and computes the next one that is missing: of the `chosen` pair first. Where they are not
+    /// `displayed`, those that are there stay.
+    pub fn follow(
+        &mut self,
+        waker: &Waker,
+        displayed: bool,
+        (pairs, chosen): (&[ComparedPair], usize),
+        seed: u64,
+        compute: fn(&ComparedPair, u64, &Progress) -> Result<R, Error>,
+    ) -> Option<Error> {
+        if !displayed {
+            self.latest.pause();
+            return None;
+        }
+        self.done.retain(|(key, _)| key.seed == seed && pairs.iter().any(|pair| pair.key == key.pair));
+        let missing = |pair: &&ComparedPair| self.get(pair, seed).is_none();
+        let pair = pairs.get(chosen).into_iter().chain(pairs).find(missing)?;
+        let wanted = ResultKey { pair: pair.key, seed };
+        self.latest.drop_other(&wanted);
+        let error = self.latest.follow(Some(wanted), |_| {
+            let pair = pair.clone();
+            Job::start(waker, move |progress| compute(&pair, seed, progress))
+        });
+        if let Some((key, result)) = self.latest.get()
+            && *key == wanted
+        {
+            self.done.push((wanted, result.clone()));
+            // For the next one that is missing.
+            waker.wake();
+        }
+        error
+    }
+
+    /// The result of this pair.
+    pub fn get(&self, pair: &ComparedPair, seed: u64) -> Option<&R> {
+        let wanted = ResultKey { pair: pair.key, seed };
+        self.done.iter().find(|(key, _)| *key == wanted).map(|(_, result)| result)
+    }
+
+    /// The share of the work on a pair that is done and its time, while it goes on.
+    pub fn busy(&self) -> Option<(f32, Duration)> {
+        self.latest.running().map(|job| (job.fraction(), job.elapsed()))
+    }
+}

@@ -1,0 +1,39 @@
+//! Button that reads a prediction again with the option that a diagnosis suggests.
+
+use eframe::egui;
+
+use svbrdf_core::diagnose::Remedy;
+
+use crate::viewer::model::command::{Command, DisplayCommand, MaterialsCommand};
+use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::model::material::source::Origin;
+
+/// Whether a material can be read again with the option: one of a file that does not have it yet.
+pub fn is_offered(material: &LoadedMaterial, remedy: Remedy) -> bool {
+    let read = &material.read;
+    let with = read.options.with_remedy(remedy);
+    matches!(read.origin, Origin::Path(_)) && with.is_ok_and(|with| with != read.options)
+}
+
+/// The button for the material at `index`; a click reads it again, and shows it as it is read.
+pub fn remedy_button(
+    ui: &mut egui::Ui,
+    index: usize,
+    material: &LoadedMaterial,
+    remedy: Remedy,
+) -> Vec<Command> {
+    let name = remedy.option().replace('-', " ").replace("specular albedo", "specular");
+    let button = ui.small_button(format!("Read with {name} {}", remedy.value()));
+    let hover = format!(
+        "Read {} again with this option, as Change... in Files does; undo (Ctrl+Z) goes back. If the ground truth is the one that is \
+         read wrongly, change it instead",
+        material.name()
+    );
+    let clicked = button.on_hover_text(hover).clicked();
+    match material.read.options.with_remedy(remedy) {
+        Ok(read) if clicked => {
+            vec![DisplayCommand::Correct(None).into(), MaterialsCommand::ReadAs { index, read }.into()]
+        }
+        _ => Vec::new(),
+    }
+}

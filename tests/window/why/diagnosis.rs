@@ -1,0 +1,234 @@
+//! Whether something trivial explains the loss: the lines, the corrected prediction in its pane, and the reading that is offered.
+
+use std::path::{Path, PathBuf};
+
+use svbrdf_core::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose};
+use svbrdf_files::read::{NormalY, Order, ReadOptions};
+use svbrdf_files::samples::generate;
+
+use super::*;
+
+const SECTION: &str = "Would something trivial explain it?";
+const SIDE: u32 = 64;
+
+/// Writes a part of the built-in ground truth as a strip; `change` sees each stored texel of a map (0 normals, 1 diffuse).
+fn write(path: &Path, change: impl Fn(u32, u32, [u8; 3]) -> [u8; 3]) -> PathBuf {
+    let side = generate::SIDE as u32;
+    let strip = image::RgbImage::from_raw(4 * side, side, generate::pack(&generate::ground_truth())).unwrap();
+    let pixel = |x: u32, y: u32| {
+        let tile = x / SIDE;
+        image::Rgb(change(tile, x % SIDE, strip.get_pixel(tile * side + x % SIDE, y).0))
+    };
+    image::RgbImage::from_fn(4 * SIDE, SIDE, pixel).save(path).unwrap();
+    path.to_owned()
+}
+
+/// A window on a ground truth, a prediction with Y of normals in the other direction, and one whose left half is darker.
+fn on_files<'a>() -> (tempfile::TempDir, Window<'a>) {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str| folder.path().join(name);
+    let truth = write(&of("truth.png"), |_, _, texel| texel);
+    let flipped = write(&of("flipped.png"), |tile, _, [r, g, b]| match tile {
+        0 => [r, 255 - g, b],
+        _ => [r, g, b],
+    });
+    let darker = write(&of("darker.png"), |tile, x, texel| match tile {
+        1 if x < SIDE / 2 => texel.map(|v| v / 2),
+        _ => texel,
+    });
+    let mut window = built_in();
+    window.set_size(vec2(1200.0, 1800.0));
+    let order: Order = "ndrs".parse().unwrap();
+    let read =
+        ReadOptions { order: Some(order), preset: Some("deschaintre".parse().unwrap()), ..ReadOptions::AUTO };
+    let open = svbrdf::viewer::model::command::MaterialsCommand::Open {
+        paths: vec![truth, flipped, darker],
+        replace: true,
+        read,
+    };
+    let ctx = window.ctx.clone();
+    window.state_mut().apply(&ctx, open.into());
+    wait(&mut window, "the materials", |app| app.names() == ["truth", "flipped", "darker"]);
+    tab(&mut window, "Why");
+    for section in ["Which map", "Which scenes", "Which light or view"] {
+        window.get_by_label(section).click();
+        window.run_steps(4);
+    }
+    (folder, window)
+}
+
+fn wait_for_diagnosis(window: &mut Window<'_>) -> Diagnosis {
+    wait(window, "the diagnosis", |app| app.diagnosis().is_some());
+    window.state().diagnosis().unwrap().clone()
+}
+
+/// The accessible labels of the lines of the table, from above.
+fn lines(window: &Window<'_>) -> Vec<String> {
+    let nodes = window.query_all_by_label_contains(" of the loss");
+    let mut found: Vec<(f32, String)> = nodes
+        .filter_map(|node| {
+            let of = egui_kittest::kittest::NodeT::accesskit_node(&node);
+            Some((node.rect().top(), of.label().or_else(|| of.value())?))
+        })
+        .collect();
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.into_iter().map(|(_, label)| label).collect()
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_prediction() {
+    let (_folder, mut window) = on_files();
+    let found = wait_for_diagnosis(&mut window);
+    let materials: Vec<Material<f32>> = window.state().materials().cloned().collect();
+    let storage = window.state().parts.model.materials.all[1].read.storage.clone();
+    let expected =
+        diagnose(&materials[0], &materials[1], &storage, &PRINTED, 0, &Progress::default()).unwrap();
+    assert_eq!(found, expected);
+    let marked: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
+    assert_eq!(marked, [Hypothesis::NormalY]);
+    let lines = lines(&window);
+    assert_eq!(lines.len(), found.findings.len(), "{lines:?}");
+    let share = 100.0 * found.marked().next().unwrap().share.unwrap();
+    assert_eq!(lines[0], format!("Normal Y flipped: {share:.1}% of the loss, marked"));
+    assert!(lines[1..].iter().all(|line| !line.ends_with("marked")), "{lines:?}");
+    window.get_by_label_contains("Reading the normals with Y down would lower the loss by");
+    // The other prediction, whose error is none of these.
+    let other = "Diagnosis of darker: no mark";
+    for _ in 0..2000 {
+        window.step();
+        if window.query_by_label(other).is_some() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    window.get_by_label_contains("Diagnosis of flipped: Normal Y ");
+    window.get_by_label(other).click();
+    window.run_steps(3);
+    assert_eq!(window.state().parts.model.view.display.prediction, 1);
+    window.get_by_label("No error of exposure, alignment or reading explains 10% of the loss.");
+    assert!(window.query_by_label_contains("Read with").is_none());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_prediction_itself() {
+    let (_folder, mut window) = on_files();
+    wait_for_diagnosis(&mut window);
+    let original = window.state().materials().nth(1).unwrap().clone();
+    let storage = window.state().parts.model.materials.all[1].read.storage.clone();
+    let expected = Reading::NormalY.applied(&original, &storage).unwrap();
+    assert_ne!(expected, original, "a planted fault");
+    let rect = pane(&window, "1  flipped");
+    let before = pixels(&mut window, rect);
+    let ways: [fn(&mut Window<'_>); 4] = [
+        |window| window.get_by_label_contains("Normal Y flipped: ").click(),
+        |window| window.key_press(egui::Key::Escape),
+        |window| window.get_all_by_label("Show original").next().unwrap().click(),
+        |window| {
+            window.run_steps(30);
+            window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        },
+    ];
+    for back in ways {
+        window.run_steps(30);
+        window.get_by_label_contains("Normal Y flipped: ").click();
+        window.run_steps(3);
+        let name = "flipped, Y of normals flipped";
+        wait(&mut window, name, |app| app.displayed_materials()[1].0 == name);
+        assert_eq!(*window.state().displayed_materials()[1].1, expected);
+        assert_eq!(window.state().names()[1], "flipped", "the material itself is unchanged");
+        window.get_by_label(&format!("Title 1  {name}"));
+        assert!(pixels(&mut window, rect) != before);
+        back(&mut window);
+        window.run_steps(3);
+        assert_eq!(window.state().parts.model.view.display.corrected, None);
+        assert_eq!(*window.state().displayed_materials()[1].1, original);
+        assert!(pixels(&mut window, rect) == before);
+    }
+    // A correction is of one prediction.
+    window.get_by_label_contains("Symmetry ").click();
+    window.run_steps(3);
+    let corrected = window.state().parts.model.view.display.corrected;
+    assert!(matches!(corrected, Some(Change::Symmetry(_))), "{corrected:?}");
+    press(&mut window, egui::Key::Num2);
+    assert_eq!(window.state().parts.model.view.display.corrected, None);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
+    for place in ["Why", "Files"] {
+        let (_folder, mut window) = on_files();
+        wait_for_diagnosis(&mut window);
+        let wrong = window.state().materials().nth(1).unwrap().clone();
+        window.run_steps(30);
+        tab(&mut window, place);
+        if place == "Files" {
+            window.get_by_label_contains("Reading the normals with Y down would lower the loss by");
+        }
+        window.get_by_label("Read with normal y down").click();
+        window.run_steps(3);
+        wait(&mut window, "the file to be read again", |app| {
+            !app.is_reading() && app.parts.model.materials.all[1].read.options.normal_y == Some(NormalY::Down)
+        });
+        let [truth, read] = [0, 1].map(|index| window.state().materials().nth(index).unwrap().clone());
+        let far = |a: &Material<f32>, b: &Material<f32>| {
+            let pairs = a.planes().normal[1].iter().zip(&b.planes().normal[1]);
+            pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+        };
+        assert!(far(&read, &truth) < 0.02 && far(&wrong, &truth) > 0.1, "{place}");
+        // The file read rightly has no such finding.
+        assert!(window.query_by_label("Read with normal y down").is_none());
+        window.run_steps(30);
+        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        window.run_steps(3);
+        wait(&mut window, "the file to be read as before", |app| {
+            !app.is_reading() && *app.materials().nth(1).unwrap() == wrong
+        });
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn nothing_moves_while_it_is_diagnosed_and_a_folded_section_diagnoses_nothing() {
+    let (_folder, mut window) = on_files();
+    window.get_by_label(SECTION).click();
+    window.run_steps(12);
+    let convention = |window: &mut Window<'_>, name: &str| {
+        let command = svbrdf::viewer::model::command::SceneCommand::SetConvention(
+            svbrdf_core::model::convention::ALL.iter().find(|one| one.name == name).unwrap().name,
+        );
+        let ctx = window.ctx.clone();
+        window.state_mut().apply(&ctx, command.into());
+    };
+    // What is diagnosed is dropped.
+    convention(&mut window, "guided-2020");
+    for _ in 0..40 {
+        window.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    assert!(window.state().diagnosis().is_none(), "its section is folded");
+    window.get_by_label(SECTION).click();
+    window.run_steps(20);
+    assert!(window.state().diagnosis().is_none(), "it takes longer than that");
+    let tops = |window: &Window<'_>| {
+        let sections = ["Loss in this scene", SECTION, "Which map", "Which scenes", "Which light or view"];
+        let rows = window.query_all_by_label_contains(" of the loss");
+        let mut rows: Vec<egui::Rect> = rows.map(|node| node.rect()).collect();
+        rows.sort_by(|a, b| a.top().total_cmp(&b.top()));
+        (sections.map(|name| window.get_by_label(name).rect()), rows)
+    };
+    let before = tops(&window);
+    assert!(before.1.len() > 10, "{before:?}");
+    for _ in 0..6000 {
+        window.step();
+        assert_eq!(tops(&window), before);
+        if window.query_by_label("Diagnosis of darker: no mark").is_some() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    assert!(window.state().diagnosis().is_some());
+    assert_eq!(tops(&window), before);
+}
