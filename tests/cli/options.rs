@@ -36,7 +36,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 41] = [
+const MODES: [(&str, Shows); 43] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -73,6 +73,8 @@ const MODES: [(&str, Shows); 41] = [
     ("info gt.png", Shows::Everything),
     ("convert gt.png x.png", Shows::Everything),
     ("convert gt.png x.exr", Shows::Everything),
+    ("convert gt.png x.glb", Shows::Everything),
+    ("convert gt.png x.mtlx", Shows::Everything),
     ("study gt.png a.png -o none/x.csv", Shows::Refusals(&[])),
     ("study s.svbrdf-session.json -o none/x.csv", Shows::Refusals(&[&OF_SESSION])),
     (
@@ -90,7 +92,7 @@ const MODES: [(&str, Shows); 41] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 67] = [
+const VALUES: [(&str, &str); 68] = [
     ("albedo", "gamma2.2"),
     ("specular-albedo", "srgb"),
     ("normal-y", "down"),
@@ -134,6 +136,7 @@ const VALUES: [(&str, &str); 67] = [
     ("photo difference", "absolute"),
     ("range", "0.125"),
     ("columns", "roughness"),
+    ("crop", "1,1,3,3"),
     ("journal", "kept.jsonl"),
     ("shard", "1/2"),
     ("pick", "mean"),

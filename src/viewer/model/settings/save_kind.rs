@@ -55,8 +55,8 @@ impl SaveKind {
                  the same as `svbrdf render` writes. PNG as displayed, EXR as linear floats."
             }
             Self::Strip => {
-                "A labelled figure: a row per material; all maps, the rendering and its difference in columns; the same \
-                 as `svbrdf strip` writes."
+                "A labelled figure: a row per material; all maps, the rendering and its difference in columns; a rectangle \
+                 (Q) framed and magnified; the same as `svbrdf strip` writes."
             }
             Self::Session => {
                 "Paths of the files (relative to this one), assumptions, scene, display and loss settings. `svbrdf` opens \
