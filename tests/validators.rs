@@ -122,10 +122,13 @@ fn materialx_finds_its_documents_valid_and_sees_planted_faults() {
     for (path, (from, to)) in files.iter().zip([
         ("type=\"color3\" nodegraph", "type=\"float\"  nodegraph"),
         ("output=\"base_color\"", "output=\"base_tint_\""),
-        ("<open_pbr_surface ", "<open_pbr_surfice "),
     ]) {
         changed(path, from, to);
         let report = &found("python3", "-c", MATERIALX, std::slice::from_ref(path))[0];
         assert_eq!(report["valid"], false, "{from} as {to}: {report:#}");
     }
+    let textures = files[2].with_extension("").display().to_string() + "_textures";
+    fs::remove_file(Path::new(&textures).join("normal.exr")).unwrap();
+    let report = &found("python3", "-c", MATERIALX, &files[2..3])[0];
+    assert_eq!(report["missing"].as_array().unwrap().len(), 1, "{report:#}");
 }
