@@ -55,8 +55,7 @@ fn convert_writes_what_loss_finds_to_be_the_same() {
         assert!(loss < 1e-3, "{out}: {loss}");
     }
     assert!(
-        fail(folder.path(), "convert gt.png x.png --depth half", 64)
-            .contains("every other form 8 and 16")
+        fail(folder.path(), "convert gt.png x.png --depth half", 64).contains("every other form 8 and 16")
     );
     assert!(fail(folder.path(), "convert gt.png gt_folder", 1).contains("not there yet"));
     assert!(fail(folder.path(), "convert gt.png gt.mtlx", 1).contains("gt_textures"));

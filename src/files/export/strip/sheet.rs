@@ -138,7 +138,7 @@ mod tests {
     fn insets_stand_below_one_another_within_their_column_and_row() {
         let crops: Vec<Crop> =
             ["0,0,32,32", "100,90,64,20", "200,200,56,56"].map(|crop| crop.parse().unwrap()).into();
-        for (count, rows) in [(1, 256), (2, 256), (3, 256)] {
+        for count in 1..=3 {
             let names = ["gt".to_owned(), "a".to_owned()];
             let sheet = Sheet::new(&columns(2), [256, 256], &names, &crops[..count]);
             let mut free = 0;
@@ -148,7 +148,6 @@ mod tests {
                 assert!(free <= sheet.row, "{crop} of {count}");
                 assert!(offset[0] + crop.width * magnification + 2 * sheet.line <= sheet.widths[0], "{crop}");
             }
-            assert_eq!(sheet.row >= rows, true);
             assert!(sheet.lefts[1] >= sheet.lefts[0] + sheet.widths[0] + GAP);
         }
         let one = Sheet::new(&columns(1), [256, 256], &["gt".to_owned()], &crops[..1]);
