@@ -1,8 +1,9 @@
 //! Tells the tests what is there: the reference numbers beside the checkout, a graphics driver, a display to test the
-//! window on. A test that needs what is not there is reported as ignored, with the reason. Tells the program its commit and target.
+//! window on, the validators of formats. A test that needs what is not there is reported as ignored, with the reason. Tells the program its commit and target.
 
 use std::env;
 use std::path::Path;
+use std::process::Command;
 
 #[path = "build/adapter.rs"]
 mod adapter;
@@ -18,6 +19,12 @@ const BROWSERS: [&str; 2] = ["chromium", "chromium-browser"];
 
 /// What the test of the real window runs.
 const DESKTOP: [&str; 3] = ["Xvfb", "xdotool", "import"];
+
+/// What the tests of written glTF and MaterialX ask, with the variable that tells where libraries are.
+const VALIDATORS: [(&str, &str, [&str; 3]); 2] = [
+    ("has_gltf_validator", "NODE_PATH", ["node", "-e", "require('gltf-validator')"]),
+    ("has_materialx", "PYTHONPATH", ["python3", "-c", "import MaterialX"]),
+];
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -41,4 +48,13 @@ fn main() {
     let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());
     set("has_desktop", DESKTOP.iter().all(installed));
     set("has_browser", BROWSERS.iter().any(installed));
+
+    let runs = |[program, option, script]: [&str; 3]| {
+        let output = Command::new(program).args([option, script]).output();
+        output.is_ok_and(|output| output.status.success())
+    };
+    for (name, library, script) in VALIDATORS {
+        println!("cargo::rerun-if-env-changed={library}");
+        set(name, runs(script));
+    }
 }

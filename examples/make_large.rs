@@ -34,7 +34,7 @@ fn make(out: &Path, side: &str, depth: &str) -> Result<(), Error> {
     };
     let side = side.parse().map_err(unknown)?;
     let options = WriteOptions { depth: Some(depth.parse::<Depth>()?), ..WriteOptions::default() };
-    write::write(&large(side)?, out, FileKind::new(out, &options)?)
+    write::write(&large(side)?, out, FileKind::new(out, &options)?).map(drop)
 }
 
 /// The sample, repeated to fill a square of `side` texels, under a grain that keeps the files from being small.

@@ -3,6 +3,7 @@
 mod arrays;
 mod conventions;
 pub mod decoders;
+mod glb;
 mod killed;
 mod named_sets;
 mod normals;
@@ -13,6 +14,7 @@ mod png;
 mod practice;
 mod sets;
 mod sidecar;
+mod surfaces;
 mod texture_sets;
 mod whole_sets;
 mod written;

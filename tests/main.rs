@@ -36,4 +36,5 @@ mod scene_files;
 mod shaders;
 mod shared_materials;
 mod study;
+mod validators;
 mod why;

@@ -254,7 +254,7 @@ pub fn built_in(py: Python<'_>, precision: &str) -> PyResult<Vec<CoreMaterial>> 
     }
 }
 
-/// Writes a material.
+/// Writes a material. Returns what a form with base colour and metallic changes.
 #[pyfunction]
 pub fn write(
     py: Python<'_>,
@@ -263,12 +263,14 @@ pub fn write(
     depth: Option<&str>,
     preset: Option<&str>,
     preview: bool,
-) -> PyResult<()> {
+) -> PyResult<Option<String>> {
     let depth = depth.map(str::parse).transpose().map_err(exception)?;
     let like = preset.map(str::parse).transpose().map_err(exception)?;
     let kind = writing::FileKind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
     let material = material.single();
-    work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))
+    let surface =
+        work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))?;
+    Ok(surface.map(|surface| surface.to_string()))
 }
 
 /// Renders a material in one scene: the RGB values of all texels.

@@ -10,12 +10,17 @@ use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 use super::args::reading::ReadingArgs;
 use super::job::materials::{noted, read_one};
 use super::output::CommandError;
+use super::output::exit::tell;
 use super::output::stop::stoppable;
 
-/// Writes a material as one layered EXR, as a packed PNG or into a folder
+/// Writes a material as layered EXR, packed PNG, glTF, MaterialX or into a folder
 ///
 /// The extension of OUT selects the format: .exr is one layered EXR, linear; .png is a packed strip normal | diffuse |
-/// roughness | specular, linear; any other name is a folder of four PNG files, colours in sRGB.
+/// roughness | specular, linear; .glb is binary glTF, a plane with the material; .mtlx is MaterialX, an open_pbr_surface
+/// with a new folder OUT_textures of its pictures beside it; any other name is a folder of four PNG files, colours in sRGB.
+///
+/// glTF and MaterialX get base colour and metallic where these change diffuse and specular by at most one step of 8 bits,
+/// else specular as it is. A note states which, and what it changes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  svbrdf convert textures/ brick.exr")]
 pub struct ConvertArgs {
@@ -27,7 +32,7 @@ pub struct ConvertArgs {
     #[arg(value_name = "OUT", required = true)]
     output: PathBuf,
 
-    /// Type of the samples [default: half in EXR, 8 bits in PNG]
+    /// Type of the samples [default: half in a layered EXR, else 8 bits]; the pictures of MaterialX are EXR with half and float
     #[arg(long, value_name = "8|16|half|float")]
     depth: Option<Depth>,
 
@@ -65,5 +70,9 @@ pub fn run(args: &ConvertArgs) -> Result<(), CommandError> {
     let read = read_one(&args.material, &args.bindings, &args.reading)?;
     check_output(&args.output, &read.files)?;
     let material: Material<f32> = noted(read, args.reading.verbose);
-    Ok(stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))?)
+    let surface = stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))?;
+    if let Some(surface) = surface {
+        tell(&format!("note: {}: {surface}", args.output.display()));
+    }
+    Ok(())
 }

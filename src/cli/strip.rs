@@ -7,7 +7,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::export::PngDestination;
-use svbrdf_files::export::strip::{Column, Strip};
+use svbrdf_files::export::strip::{Column, Crop, Strip};
 use svbrdf_files::scene_file;
 
 use super::args::scenes::OneSceneArgs;
@@ -20,7 +20,8 @@ use super::render::difference_of;
 
 /// Writes a labelled figure: a row per material, a column per map, rendering or difference
 ///
-/// Every cell has the pixels that `svbrdf render` writes, one per texel. The row of GT has the legends of differences.
+/// Every cell has the pixels that `svbrdf render` writes, one per texel, but for the frames of crops. The row of GT has the
+/// scale bars of differences.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Example:\n  svbrdf strip gt.png a.png --columns normal,roughness:,rendering -o figure.png"
@@ -56,6 +57,11 @@ pub struct StripArgs {
     #[arg(long, value_name = "RANGE")]
     range: Option<Range>,
 
+    /// Rectangle of texels that is framed in every cell and magnified beside it: left, top, width, height; may be given
+    /// several times
+    #[arg(long = "crop", value_name = "X,Y,W,H")]
+    crops: Vec<Crop>,
+
     #[command(flatten)]
     comparison: ComparisonArgs,
 }
@@ -71,7 +77,7 @@ pub fn run(args: &StripArgs, given: &Given) -> Result<(), CommandError> {
     let columns = columns(args, session)?;
     check_options(&columns, given)?;
     let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
-    let strip = Strip { columns, convention: job.convention, exposure_ev };
+    let strip = Strip { columns, convention: job.convention, exposure_ev, crops: args.crops.clone() };
     let opened = job.materials.open::<f32>()?;
     opened.check_output(&args.output, args.scenes.as_deref())?;
     let materials = opened.into_all();

@@ -63,6 +63,17 @@ pub enum Error {
         remedy: &'static str,
     },
 
+    /// A crop of a figure reaches beyond the materials.
+    #[error("the crop {} reaches beyond the material: expected columns 0 to {} and rows 0 to {} of {} x {} texels, found \
+        columns {} to {} and rows {} to {}; move it, or make it smaller", crop.map(|n| n.to_string()).join(","),
+        size[0].saturating_sub(1), size[1].saturating_sub(1), size[0], size[1],
+        crop[0], last(crop[0], crop[2]), crop[1], last(crop[1], crop[3]))]
+    CropOutside {
+        /// Left, top, width and height.
+        crop: [usize; 4],
+        size: [usize; 2],
+    },
+
     /// Maps of one material have different shapes.
     #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; resize them so that the maps of a material have \
         one shape", first_size[0], first_size[1], second_size[0], second_size[1])]
@@ -246,15 +257,15 @@ pub enum Error {
 /// Why a material cannot be written to a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OutputProblem {
-    #[error("cannot be written: name an .exr file, a .png file or a folder")]
+    #[error("cannot be written: name an .exr, .png, .glb or .mtlx file or a folder")]
     Kind,
-    #[error("cannot have that depth; EXR has half and float, PNG and folders have 8 and 16")]
+    #[error("cannot have that depth; EXR has half and float, MaterialX all, every other form 8 and 16")]
     Depth,
     #[error("cannot have a preview; only EXR has one")]
     Preview,
-    /// An EXR is always in the project's own form.
-    #[error("cannot follow a preset; an EXR always has the project's own form")]
-    LayeredPreset,
+    /// EXR, glTF and MaterialX state what they hold.
+    #[error("cannot follow a preset; only a packed PNG and a folder do")]
+    NoPreset,
     #[error("cannot be packed in that way; deschaintre, gao, materialgan, lookahead and matfusion pack")]
     PackedPreset,
     #[error("cannot be a folder of that preset; materialgan and gltf have one")]
@@ -267,6 +278,11 @@ fn size(bytes: u64) -> String {
         0..0x4000_0000 => format!("{} MiB", bytes.div_ceil(1 << 20)),
         _ => format!("{:.1} GiB", bytes as f64 / (1u64 << 30) as f64),
     }
+}
+
+/// The last of `count` columns or rows.
+fn last(first: usize, count: usize) -> usize {
+    first.saturating_add(count.saturating_sub(1))
 }
 
 /// What a packed image has to be.

@@ -23,6 +23,8 @@ fn an_output_does_not_replace_a_file_that_was_read() {
     fs::copy(folder.path().join("gt.png"), folder.path().join("photo.png")).unwrap();
     GrayImage::from_pixel(8, 8, Luma([99])).save(folder.path().join("rough.png")).unwrap();
     succeed(folder.path(), "convert gt.png gt.exr");
+    succeed(folder.path(), "convert gt.png m.glb");
+    succeed(folder.path(), "convert gt.png m.mtlx");
     let before = contents(folder.path());
     for args in [
         "render gt.png -o gt.png",
@@ -35,6 +37,8 @@ fn an_output_does_not_replace_a_file_that_was_read() {
         "photo photo.png gt.png --flash --fov 45 -o gt.png",
         "study gt.png a.png --plot gt.png",
         "convert a.png a.png",
+        "convert m.glb m.glb",
+        "convert m.mtlx m.mtlx",
         "convert gt.png rough.png --map roughness=rough.png",
     ] {
         let error = fail(folder.path(), args, 1);

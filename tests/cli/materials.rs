@@ -47,7 +47,7 @@ fn info_says_what_was_assumed_and_strict_refuses_guesses() {
 #[test]
 fn convert_writes_what_loss_finds_to_be_the_same() {
     let folder = folder();
-    for out in ["gt.exr", "gt16.png", "gt_folder"] {
+    for out in ["gt.exr", "gt16.png", "gt_folder", "gt.glb", "gt.mtlx"] {
         let depth = if out == "gt.exr" { "float" } else { "16" };
         assert_eq!(succeed(folder.path(), &format!("convert gt.png {out} --depth {depth}")), "");
         let json = losses_as_json(folder.path(), &format!("gt.png {out}"));
@@ -55,10 +55,10 @@ fn convert_writes_what_loss_finds_to_be_the_same() {
         assert!(loss < 1e-3, "{out}: {loss}");
     }
     assert!(
-        fail(folder.path(), "convert gt.png x.png --depth half", 64)
-            .contains("PNG and folders have 8 and 16")
+        fail(folder.path(), "convert gt.png x.png --depth half", 64).contains("every other form 8 and 16")
     );
     assert!(fail(folder.path(), "convert gt.png gt_folder", 1).contains("not there yet"));
+    assert!(fail(folder.path(), "convert gt.png gt.mtlx", 1).contains("gt_textures"));
 }
 
 #[test]

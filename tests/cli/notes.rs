@@ -29,6 +29,33 @@ fn what_is_sure_is_only_said_when_asked_for() {
 }
 
 #[test]
+fn what_a_form_for_other_programs_loses_is_said() {
+    let folder = folder();
+    let at = folder.path();
+    let glb = notes(at, "convert gt.png x.glb");
+    let start = "x.glb: written as base colour (diffuse) and KHR_materials_specular, which change diffuse by";
+    let end = "; programs without this extension show specular 0.04";
+    assert!(glb.len() == 1 && glb[0].starts_with(start) && glb[0].ends_with(end), "{glb:?}");
+    assert!(glb[0].contains("; base colour and metallic would change diffuse by at most "), "{glb:?}");
+    let mtlx = notes(at, "convert gt.png x.mtlx");
+    assert!(mtlx.len() == 1 && mtlx[0].contains("weight, colour and index of refraction"), "{mtlx:?}");
+    // A material of base colour and metallic.
+    std::fs::create_dir(at.join("metal")).unwrap();
+    for (map, rgb) in [("basecolor", [180, 90, 60]), ("normal", [128, 128, 255]), ("roughness", [99; 3])] {
+        RgbImage::from_pixel(8, 8, Rgb(rgb)).save(at.join("metal").join(format!("{map}.png"))).unwrap();
+    }
+    RgbImage::from_fn(8, 8, |x, _| Rgb([if x < 4 { 255 } else { 0 }; 3]))
+        .save(at.join("metal/metallic.png"))
+        .unwrap();
+    for out in ["y.glb", "y.mtlx", "y --like gltf"] {
+        let said = notes(at, &format!("convert metal {out} --normal-y up"));
+        let kept = "written as base colour and metallic, which change diffuse by at most 0.0000 (mean 0.0000), specular by \
+                    at most 0.0000 (mean 0.0000)";
+        assert!(said.len() == 1 && said[0].ends_with(kept), "{said:?}");
+    }
+}
+
+#[test]
 fn what_is_unsure_or_changed_is_said_with_the_name_of_its_material() {
     let folder = folder();
     RgbImage::from_pixel(32, 8, Rgb([90, 90, 90])).save(folder.path().join("flat.png")).unwrap();

@@ -77,6 +77,8 @@ const MODES: [(&str, Shows); 43] = [
     ("info gt.png", Shows::Everything),
     ("convert gt.png x.png", Shows::Everything),
     ("convert gt.png x.exr", Shows::Everything),
+    ("convert gt.png x.glb", Shows::Everything),
+    ("convert gt.png x.mtlx", Shows::Everything),
     ("study gt.png a.png -o none/x.csv", Shows::Refusals(&[])),
     ("study s.svbrdf-session.json -o none/x.csv", Shows::Refusals(&[&OF_SESSION])),
     (
@@ -146,6 +148,7 @@ const VALUES: [(&str, &str); 68] = [
     ("hold-out", "photo"),
     ("range", "0.125"),
     ("columns", "roughness"),
+    ("crop", "1,1,3,3"),
     ("journal", "kept.jsonl"),
     ("shard", "1/2"),
     ("pick", "mean"),

@@ -206,6 +206,73 @@ fn a_strip_has_the_pixels_that_render_writes() {
 }
 
 #[test]
+fn a_strip_frames_crops_and_shows_them_magnified_beside_every_cell() {
+    let folder = folder();
+    let columns = "--columns diffuse,rendering,rendering:";
+    succeed(folder.path(), &format!("strip -o plain.png {columns}"));
+    succeed(folder.path(), &format!("strip -o crops.png {columns} --crop 40,60,32,20 --crop 0,200,30,56"));
+    let open = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgb8();
+    let (plain, strip) = (open("plain.png"), open("crops.png"));
+    let (side, line) = (256, 2);
+    let colours = [[230, 159, 0], [86, 180, 233]];
+    // Two insets share the height of a row: each is as large as its half allows.
+    let crops = [([40, 60], [32, 20], 6), ([0, 200], [30, 56], 2)];
+    let widest = crops.iter().map(|(_, size, times)| size[0] * times + 2 * line).max().unwrap();
+    let names = plain.width() as usize - 3 * (side + GAP);
+    let pitch = side + GAP + widest + GAP;
+    assert_eq!(strip.width() as usize, names + 3 * pitch);
+    assert_eq!(strip.height(), plain.height());
+    let at = |image: &image::RgbImage, x: usize, y: usize| image.get_pixel(x as u32, y as u32).0;
+    for (column, row) in [(0, 0), (0, 2), (1, 1), (2, 1), (2, 2)] {
+        let top = HEADER + row * (side + GAP);
+        let (old, new) = (names + column * (side + GAP), names + column * pitch);
+        let mut y = top;
+        for (([left, first], [width, height], times), colour) in crops.iter().zip(colours) {
+            let inset = new + side + GAP;
+            for dy in 0..height * times + 2 * line {
+                for dx in 0..width * times + 2 * line {
+                    let inner = (line..width * times + line).contains(&dx)
+                        && (line..height * times + line).contains(&dy);
+                    let expected = match inner {
+                        true => {
+                            at(&plain, old + left + (dx - line) / times, top + first + (dy - line) / times)
+                        }
+                        false => colour,
+                    };
+                    assert_eq!(at(&strip, inset + dx, y + dy), expected, "{column}, {row}: {dx}, {dy}");
+                }
+            }
+            y += height * times + 2 * line + GAP;
+            // The frame is around the crop, whose texels are as they were.
+            assert_eq!(at(&strip, new + left + width, top + first), colour, "{column}, {row}");
+            assert_eq!(at(&strip, new + left + width / 2, top + first - 1), colour, "{column}, {row}");
+            let [x, z] = [left + width / 2, first + height / 2];
+            assert_eq!(at(&strip, new + x, top + z), at(&plain, old + x, top + z), "{column}, {row}");
+        }
+        let far = [200, 30];
+        assert_eq!(at(&strip, new + far[0], top + far[1]), at(&plain, old + far[0], top + far[1]));
+    }
+    let bytes = std::fs::read(folder.path().join("crops.png")).unwrap();
+    let text = b"40,60,32,20 | 0,200,30,56";
+    assert!(bytes.windows(text.len()).any(|window| window == text));
+}
+
+#[test]
+fn a_crop_lies_within_the_materials() {
+    let folder = folder();
+    for crop in ["0,0,9,8", "8,0,1,1", "0,7,8,2"] {
+        let error = fail(folder.path(), &format!("strip gt.png a.png -o x.png --crop {crop}"), 1);
+        for part in [crop, "columns 0 to 7", "rows 0 to 7", "8 x 8 texels", "move it"] {
+            assert!(error.contains(part), "{part}: {error}");
+        }
+    }
+    for crop in ["0,0,8", "0,0,0,1", "a,b,c,d", "-1,0,2,2"] {
+        fail(folder.path(), &format!("strip gt.png a.png -o x.png --crop={crop}"), 64);
+    }
+    succeed(folder.path(), "strip gt.png a.png -o x.png --crop 0,0,8,8");
+}
+
+#[test]
 fn a_strip_has_a_column_for_each_scene_and_says_what_it_shows() {
     let folder = folder();
     let scenes = r#"{"scenes": [

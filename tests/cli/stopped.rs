@@ -42,6 +42,14 @@ fn is_interrupted(status: ExitStatus) -> bool {
     status.code() == Some(130) || matches!(status.signal(), Some(2 | 15))
 }
 
+/// Removes a file, a folder, or a document with its pictures.
+fn remove(target: &Path) {
+    if target.is_dir() { fs::remove_dir_all(target) } else { fs::remove_file(target) }.unwrap();
+    if target.extension().is_some_and(|extension| extension == "mtlx") {
+        fs::remove_dir_all(target.with_file_name("out_textures")).unwrap();
+    }
+}
+
 #[test]
 fn an_interrupt_at_any_moment_leaves_what_was_there() {
     let folder = folder();
@@ -50,6 +58,8 @@ fn an_interrupt_at_any_moment_leaves_what_was_there() {
         ("out.exr --depth float", "out.exr", "INT"),
         ("out.png --depth 16", "out.png", "TERM"),
         ("out", "out", "INT"),
+        ("out.glb", "out.glb", "TERM"),
+        ("out.mtlx --depth 16", "out.mtlx", "INT"),
     ] {
         let target = folder.path().join(target);
         let before = files(folder.path());
@@ -59,7 +69,7 @@ fn an_interrupt_at_any_moment_leaves_what_was_there() {
         let reading = started.elapsed();
         assert!(child.wait().unwrap().success());
         let writing_time = started.elapsed() - reading;
-        if target.is_dir() { fs::remove_dir_all(&target) } else { fs::remove_file(&target) }.unwrap();
+        remove(&target);
         assert_eq!(files(folder.path()), before);
 
         let mut cancelled = 0;
@@ -73,7 +83,7 @@ fn an_interrupt_at_any_moment_leaves_what_was_there() {
             assert!(finished || status.code() == Some(130) && !target.exists(), "{out}: {status}");
             cancelled += u32::from(!finished);
             if finished {
-                if target.is_dir() { fs::remove_dir_all(&target) } else { fs::remove_file(&target) }.unwrap();
+                remove(&target);
             }
             assert_eq!(files(folder.path()), before, "{out}: something is left");
         }

@@ -9,5 +9,6 @@ pub mod losses;
 pub mod pictures;
 pub mod png;
 pub mod points;
+pub mod surfaces;
 pub mod textures;
 pub mod tolerance;

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf::viewer::model::command::{
-    Command, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
+    Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
 };
+use svbrdf::viewer::model::inspection::Region;
 use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf::viewer::model::view::state::{Layout, Projection};
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
@@ -56,6 +57,24 @@ fn saved_renderings_are_what_is_selected() {
         assert_eq!(got.get_pixel(x as u32, y as u32).0, shown.colour(*rgb, 0.0), "{x}, {y}");
     }
     assert!(image.pixels.iter().any(|rgb| rgb[0] > 1.0), "the normals differ");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_saved_strip_has_the_rectangle_as_a_crop() {
+    let mut window = built_in();
+    let folder = tempfile::tempdir().unwrap();
+    let [plain, cropped] = ["plain.png", "cropped.png"].map(|name| folder.path().join(name));
+    save(&mut window, SaveKind::Strip, &plain, [0; 2]);
+    let region = Region { first: [40, 60], last: [71, 79] };
+    apply(&mut window, InspectionCommand::SetRegion(Some(region)));
+    save(&mut window, SaveKind::Strip, &cropped, [0; 2]);
+    let width = |path: &Path| image::open(path).unwrap().width();
+    // 7 times as large, for 252 pixels beside each of 6 cells of 256: with frames and gaps.
+    assert_eq!(width(&cropped) - width(&plain), 6 * (32 * 7 + 2 * 2 + 4));
+    let bytes = std::fs::read(&cropped).unwrap();
+    let text = b"40,60,32,20";
+    assert!(bytes.windows(text.len()).any(|window| window == text));
 }
 
 #[test]

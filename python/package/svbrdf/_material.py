@@ -228,23 +228,26 @@ def write(
     depth: Literal["8", "16", "half", "float"] | None = None,
     preset: str | None = None,
     preview: bool = False,
-) -> None:
-    """Writes a material: one layered EXR, a packed PNG, or a folder of PNG files, by the extension of `path`.
+) -> str | None:
+    """Writes a material: one layered EXR, a packed PNG, glTF, MaterialX, or a folder of PNG files, by the extension of `path`.
 
-    The file or folder appears when it is complete, or not at all.
+    The file or folder appears when it is complete, or not at all; a document of MaterialX after the folder of its pictures.
 
     Args:
         material: A material, or the path of one.
-        path: Ends with .exr or .png, or names a folder that is empty or does not exist.
+        path: Ends with .exr, .png, .glb or .mtlx, or names a folder that is empty or does not exist.
         depth: Bits of a PNG ("8", "16") or numbers of an EXR ("half", "float").
         preset: Whose names, order and encoding the files get.
         preview: Whether an EXR gets a rendering as its R, G and B.
+
+    Returns:
+        Of a form with base colour and metallic, how it expresses diffuse and specular, and what that changes.
 
     Raises:
         OSError: The file cannot be written.
         svbrdf.Error: The kind of file does not have this depth, preset or preview.
     """
-    _core.write(opened(material)._core, path, depth, preset, preview)
+    return _core.write(opened(material)._core, path, depth, preset, preview)
 
 
 def built_in(*, precision: Precision = "f32") -> list[Material]:

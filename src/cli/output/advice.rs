@@ -23,7 +23,7 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
         Error::NotPacked { grid: None, .. } => {
             "--order and --grid specify the tiles; --order d reads the whole picture as diffuse"
         }
-        Error::UnsupportedOutput { problem: OutputProblem::LayeredPreset, .. } => "leave out --like",
+        Error::UnsupportedOutput { problem: OutputProblem::NoPreset, .. } => "leave out --like",
         Error::UnsupportedOutput { problem: OutputProblem::FolderPreset, .. } => {
             "--like materialgan or gltf, or no --like, writes a folder"
         }

@@ -13,10 +13,11 @@ use svbrdf_core::image::Image;
 /// The family name of the font.
 const FONT: &str = "sans-serif";
 
-/// Which end of the text is at the point.
+/// Which part of the text is at the point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Anchor {
     Left,
+    Middle,
     Right,
 }
 
@@ -48,6 +49,7 @@ pub(super) fn draw(
     let area = BitMapBackend::with_buffer(picture.pixels.as_flattened_mut(), size).into_drawing_area();
     let side = match anchor {
         Anchor::Left => HPos::Left,
+        Anchor::Middle => HPos::Center,
         Anchor::Right => HPos::Right,
     };
     let ink = RGBColor(r, g, b);

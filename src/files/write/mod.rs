@@ -1,11 +1,18 @@
-//! Materials as files: one layered EXR, a packed PNG, a folder of PNG files.
+//! Materials as files: one layered EXR, a packed PNG, a folder of PNG files, binary glTF, MaterialX.
 
 mod curve;
 mod exr;
+mod glb;
+mod maps;
+mod metallic;
+mod mtlx;
+mod picture_exr;
 mod png;
+mod surface;
 
 use std::path::Path;
 
+pub use surface::{Change, Surface, SurfaceChanges, SurfaceForm, SurfaceTarget};
 pub use svbrdf_core::material::Depth;
 
 use svbrdf_core::error::{Error, OutputProblem};
@@ -16,13 +23,12 @@ use super::read::Preset;
 use crate::atomic;
 
 /// Kinds of files that materials are read from and not written into: as the name of a folder they are a mistake.
-const NOT_WRITTEN: [&str; 12] =
-    ["jpg", "jpeg", "tif", "tiff", "hdr", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json"];
+const NOT_WRITTEN: [&str; 10] = ["jpg", "jpeg", "tif", "tiff", "hdr", "npy", "npz", "gltf", "mtl", "json"];
 
 /// Options for the files to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
-    /// `None`: half in EXR, 8 bits in PNG.
+    /// `None`: half in a layered EXR, else 8 bits.
     pub depth: Option<Depth>,
     /// Whose names, order and encoding the files get.
     pub like: Option<Preset>,
@@ -43,6 +49,12 @@ pub enum FileKind {
     MaterialGan { sixteen: bool },
     /// Base colour, normals, and occlusion | roughness | metallic in one picture: loses specular that no metal has.
     Gltf { sixteen: bool },
+    /// A plane with the material, as binary glTF with PNG pictures in it: base colour and metallic, or specular by
+    /// `KHR_materials_specular` where that loses less.
+    Glb { sixteen: bool },
+    /// A document of MaterialX with an `open_pbr_surface`, and a new folder of pictures beside it, PNG or EXR: base colour and
+    /// metallic, or specular where that loses less.
+    Mtlx { depth: Depth },
 }
 
 impl FileKind {
@@ -57,17 +69,23 @@ impl FileKind {
         if NOT_WRITTEN.contains(&extension.as_str()) {
             return refuse(OutputProblem::Kind);
         }
-        let is_exr = extension == "exr";
-        if matches!(depth, Some(Depth::Half | Depth::Float)) != is_exr && depth.is_some() {
+        let depths: &[Depth] = match extension.as_str() {
+            "exr" => &[Depth::Half, Depth::Float],
+            "mtlx" => &[Depth::Eight, Depth::Sixteen, Depth::Half, Depth::Float],
+            _ => &[Depth::Eight, Depth::Sixteen],
+        };
+        if depth.is_some_and(|depth| !depths.contains(&depth)) {
             return refuse(OutputProblem::Depth);
         }
-        if preview && !is_exr {
+        if preview && extension != "exr" {
             return refuse(OutputProblem::Preview);
         }
         let sixteen = depth == Some(Depth::Sixteen);
         match (extension.as_str(), like) {
             ("exr", None) => Ok(Self::Exr { half: depth != Some(Depth::Float), preview }),
-            ("exr", Some(_)) => refuse(OutputProblem::LayeredPreset),
+            ("glb", None) => Ok(Self::Glb { sixteen }),
+            ("mtlx", None) => Ok(Self::Mtlx { depth: depth.unwrap_or(Depth::Eight) }),
+            ("exr" | "glb" | "mtlx", Some(_)) => refuse(OutputProblem::NoPreset),
             ("png", like) => {
                 let like = like.unwrap_or(Preset::Deschaintre);
                 let refused = || refuse(OutputProblem::PackedPreset);
@@ -81,11 +99,13 @@ impl FileKind {
     }
 }
 
-/// Writes `material`: the file or folder appears when it is complete, or not at all.
+/// Writes `material`: the file or folder appears when it is complete, or not at all; a document of MaterialX after its pictures.
+/// Returns how a form with base colour and metallic expresses diffuse and specular, and what that changes; `None` of forms that
+/// have all four maps.
 ///
 /// # Errors
 /// [`Error::Unwritable`]; a folder that is there and not empty is not replaced.
-pub fn write(material: &Material<f32>, path: &Path, kind: FileKind) -> Result<(), Error> {
+pub fn write(material: &Material<f32>, path: &Path, kind: FileKind) -> Result<Option<Surface>, Error> {
     write_watched(material, path, kind, &Progress::default())
 }
 
@@ -98,7 +118,7 @@ pub fn write_watched(
     path: &Path,
     kind: FileKind,
     progress: &Progress,
-) -> Result<(), Error> {
+) -> Result<Option<Surface>, Error> {
     let folder = |files: &[png::Picture<'_>], sixteen| {
         png::folder(path, material, files, sixteen, progress).map_err(|source| {
             match progress.is_cancelled() {
@@ -113,13 +133,33 @@ pub fn write_watched(
     };
     match kind {
         FileKind::Exr { half, preview } => {
-            atomic::replace(path, progress, |file| exr::write(file, material, half, preview))
+            atomic::replace(path, progress, |file| exr::write(file, material, half, preview))?;
         }
         FileKind::Packed { sixteen, like } => {
-            atomic::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))
+            atomic::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))?;
         }
-        FileKind::Folder { sixteen } => folder(&png::PLAIN, sixteen),
-        FileKind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen),
-        FileKind::Gltf { sixteen } => folder(&png::GLTF, sixteen),
+        FileKind::Folder { sixteen } => folder(&png::PLAIN, sixteen)?,
+        FileKind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen)?,
+        FileKind::Gltf { sixteen } => {
+            let surface = Surface::metallic(material, png_depth(sixteen), progress);
+            folder(&png::GLTF, sixteen)?;
+            return Ok(Some(surface));
+        }
+        FileKind::Glb { sixteen } => {
+            let depth = png_depth(sixteen);
+            let surface = Surface::choose(material, SurfaceTarget::Gltf, depth, progress)?;
+            atomic::replace(path, progress, |file| glb::write(file, material, &surface, depth, progress))?;
+            return Ok(Some(surface));
+        }
+        FileKind::Mtlx { depth } => {
+            let surface = Surface::choose(material, SurfaceTarget::OpenPbr, depth, progress)?;
+            mtlx::write(path, material, &surface, depth, progress)?;
+            return Ok(Some(surface));
+        }
     }
+    Ok(None)
+}
+
+fn png_depth(sixteen: bool) -> Depth {
+    if sixteen { Depth::Sixteen } else { Depth::Eight }
 }

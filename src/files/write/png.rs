@@ -1,167 +1,53 @@
 //! Materials as PNG files: a packed strip, or a folder of one picture a map.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
 use png::{BitDepth, ColorType, Encoder};
 use rayon::prelude::*;
 
-use svbrdf_core::material::{Material, Planes, base_and_metallic};
+use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 
-use super::curve::Curve;
+use super::maps::{Curves, MapEncoding, WrittenMap};
 use crate::atomic::{self, SOFTWARE};
-use crate::read::options::transfer::{encoded, encoded_roughness, linear, roughness};
-use crate::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
+use crate::read::{Order, Preset};
 
 /// About how many bytes of a picture are computed before they are compressed.
 const BAND_BYTES: usize = 1 << 20;
 
-/// The map in a picture.
-#[derive(Clone, Copy, Debug)]
-enum WrittenMap {
-    Normal,
-    Diffuse,
-    Specular,
-    Roughness,
-    Base,
-    /// Occlusion (none), roughness, metallic.
-    Orm,
-}
-
-/// The encoding of colours and roughness.
-#[derive(Clone, Copy, Debug)]
-struct MapEncoding {
-    diffuse: Albedo,
-    specular: Albedo,
-    roughness: Roughness,
-    normal_y: NormalY,
-    energy: Energy,
-}
-
-impl From<Preset> for MapEncoding {
-    fn from(preset: Preset) -> Self {
-        let ReadOptions { albedo, specular, roughness, normal_y, energy, .. } = preset.options();
-        let diffuse = albedo.unwrap_or(Albedo::Linear);
-        Self {
-            diffuse,
-            specular: specular.unwrap_or(diffuse),
-            roughness: roughness.unwrap_or(Roughness::R),
-            normal_y: normal_y.unwrap_or(NormalY::Up),
-            energy: energy.unwrap_or(Energy::Scaled),
-        }
-    }
-}
-
-impl MapEncoding {
-    const SRGB: Self = Self {
-        diffuse: Albedo::Srgb,
-        specular: Albedo::Srgb,
-        roughness: Roughness::R,
-        normal_y: NormalY::Up,
-        energy: Energy::Scaled,
-    };
-    const MATERIAL_GAN: Self = Self {
-        diffuse: Albedo::Gamma22,
-        specular: Albedo::Gamma22,
-        roughness: Roughness::Gamma22,
-        ..Self::SRGB
-    };
-
-    fn text(&self) -> String {
-        let Self { diffuse, specular, roughness, normal_y, energy } = self;
-        format!(
-            "diffuse {diffuse}, specular {specular}, roughness {roughness}, normal y {normal_y}, energy {energy}"
-        )
-    }
-
-    /// The curves of diffuse, of specular, of roughness and of what is stored as it is.
-    fn curves(&self, sixteen: bool) -> Curves {
-        let top = if sixteen { u16::MAX } else { 255 };
-        let colour = |albedo| match albedo {
-            Albedo::Linear => Curve::plain(top, |value| value),
-            _ => Curve::rising(top, move |value| encoded(value, albedo), |value| linear(value, albedo)),
-        };
-        let code = self.roughness;
-        let roughness = match code {
-            Roughness::Gamma22 => {
-                Curve::rising(top, move |r| encoded_roughness(r, code), |value| roughness(value, code))
-            }
-            _ => Curve::plain(top, move |r| encoded_roughness(r, code)),
-        };
-        let plain = Curve::plain(top, |value| value);
-        Curves { diffuse: colour(self.diffuse), specular: colour(self.specular), roughness, plain }
-    }
-
-    /// (red, green, blue) of the texel at `index`, as integers.
-    fn of(&self, material: &Material<f32>, map: WrittenMap, index: usize, curves: &Curves) -> [u16; 3] {
-        let Planes { normal, diffuse, specular, roughness } = material.planes();
-        let at = |planes: &[Vec<f32>; 3]| planes.each_ref().map(|plane| f64::from(plane[index]));
-        let rough = || curves.roughness.code(f64::from(roughness[index]));
-        let colour = |rgb: [f64; 3], curve: &Curve| rgb.map(|value| curve.code(value));
-        match map {
-            WrittenMap::Normal => {
-                let [x, y, z] = at(normal);
-                let y = if self.normal_y == NormalY::Up { y } else { -y };
-                [x, y, z].map(|n| curves.plain.code((0.5 * n + 0.5).clamp(0.0, 1.0)))
-            }
-            WrittenMap::Diffuse if self.energy == Energy::Unscaled => {
-                let [d, s] = [at(diffuse), at(specular)];
-                colour([0, 1, 2].map(|c| d[c] * (1.0 - s[c])), &curves.diffuse)
-            }
-            WrittenMap::Diffuse => colour(at(diffuse), &curves.diffuse),
-            WrittenMap::Specular => colour(at(specular), &curves.specular),
-            WrittenMap::Roughness => [rough(); 3],
-            WrittenMap::Base => colour(base_and_metallic(at(diffuse), at(specular)).0, &curves.diffuse),
-            WrittenMap::Orm => {
-                let metallic = base_and_metallic(at(diffuse), at(specular)).1;
-                [curves.plain.code(1.0), rough(), curves.plain.code(metallic)]
-            }
-        }
-    }
-}
-
-/// How the values of a material become integers.
-struct Curves {
-    diffuse: Curve,
-    specular: Curve,
-    roughness: Curve,
-    plain: Curve,
-}
-
 /// A file of a folder.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Picture<'a> {
-    name: &'a str,
-    map: WrittenMap,
-    encoding: MapEncoding,
+pub(super) struct Picture<'a> {
+    pub name: &'a str,
+    pub map: WrittenMap,
+    pub encoding: MapEncoding,
 }
 
-const fn picture(name: &str, map: WrittenMap, encoding: MapEncoding) -> Picture<'_> {
+pub(super) const fn picture(name: &str, map: WrittenMap, encoding: MapEncoding) -> Picture<'_> {
     Picture { name, map, encoding }
 }
 
-pub(crate) const PLAIN: [Picture<'_>; 4] = [
+pub(super) const PLAIN: [Picture<'_>; 4] = [
     picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
     picture("diffuse", WrittenMap::Diffuse, MapEncoding::SRGB),
     picture("roughness", WrittenMap::Roughness, MapEncoding::SRGB),
     picture("specular", WrittenMap::Specular, MapEncoding::SRGB),
 ];
-pub(crate) const MATERIAL_GAN: [Picture<'_>; 4] = [
+pub(super) const MATERIAL_GAN: [Picture<'_>; 4] = [
     picture("nom", WrittenMap::Normal, MapEncoding::MATERIAL_GAN),
     picture("dif", WrittenMap::Diffuse, MapEncoding::MATERIAL_GAN),
     picture("rgh", WrittenMap::Roughness, MapEncoding::MATERIAL_GAN),
     picture("spe", WrittenMap::Specular, MapEncoding::MATERIAL_GAN),
 ];
-pub(crate) const GLTF: [Picture<'_>; 3] = [
+pub(super) const GLTF: [Picture<'_>; 3] = [
     picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
     picture("basecolor", WrittenMap::Base, MapEncoding::SRGB),
     picture("occlusion_roughness_metallic", WrittenMap::Orm, MapEncoding::SRGB),
 ];
 
 /// Four tiles in a row, as `like` orders and encodes them.
-pub(crate) fn packed(
+pub(super) fn packed(
     file: impl Write,
     material: &Material<f32>,
     like: Preset,
@@ -186,34 +72,38 @@ pub(crate) fn packed(
     })
 }
 
-/// Fills a temporary folder beside `path` and renames it.
-pub(crate) fn folder(
+/// A new folder of pictures.
+pub(super) fn folder(
     path: &Path,
     material: &Material<f32>,
     files: &[Picture<'_>],
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(atomic::folder_of(path))?;
-    files.par_iter().try_for_each(|Picture { name, map, encoding }| {
-        let mut file = fs::File::create(temporary.path().join(format!("{name}.png")))?;
-        let (tiles, curves) = (&[*map][..], encoding.curves(sixteen));
-        let rows = Rows { material, tiles, encoding: *encoding, curves, sixteen, progress };
-        let buffer = io::BufWriter::new(atomic::Watched::new(&mut file, progress));
-        rows.write(buffer, &encoding.text(), |first, band| {
-            band.chunks_mut(rows.row_bytes())
-                .enumerate()
-                .try_for_each(|(row, bytes)| rows.put(first + row, bytes))
-        })?;
-        file.sync_all()
-    })?;
-    atomic::check(progress)?;
-    // Only an empty folder gives way to a rename.
-    fs::rename(temporary.path(), path)?;
-    #[cfg(unix)]
-    fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
-    let _ = temporary.keep();
-    Ok(())
+    atomic::new_folder(path, progress, |folder| {
+        files.par_iter().try_for_each(|picture| {
+            atomic::new_file(&folder.join(format!("{}.png", picture.name)), progress, |file| {
+                one(file, material, picture, sixteen, progress)
+            })
+        })
+    })
+}
+
+/// The picture of one map.
+pub(super) fn one(
+    file: impl Write,
+    material: &Material<f32>,
+    Picture { map, encoding, .. }: &Picture<'_>,
+    sixteen: bool,
+    progress: &Progress,
+) -> io::Result<()> {
+    let (tiles, curves) = (&[*map][..], encoding.curves(sixteen));
+    let rows = Rows { material, tiles, encoding: *encoding, curves, sixteen, progress };
+    rows.write(file, &encoding.text(), |first, band| {
+        band.chunks_mut(rows.row_bytes())
+            .enumerate()
+            .try_for_each(|(row, bytes)| rows.put(first + row, bytes))
+    })
 }
 
 /// The rows of a picture; in each row one tile beside the other.
@@ -241,7 +131,7 @@ impl Rows<'_> {
         let (width, pixel) = (self.material.width(), self.pixel_bytes());
         for (map, tile) in self.tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
             for (index, out) in (row * width..).zip(tile.chunks_exact_mut(pixel)) {
-                put(self.encoding.of(self.material, *map, index, &self.curves), out);
+                put(self.encoding.codes(self.material, *map, index, &self.curves), out);
             }
         }
         Ok(())

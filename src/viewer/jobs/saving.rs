@@ -11,7 +11,7 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::report::{Compared, Report as _, ScenesReport};
 use svbrdf_files::atomic::{self, Destination};
-use svbrdf_files::export::strip::{Column, Strip};
+use svbrdf_files::export::strip::{Column, Crop, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::scene_file;
 
@@ -19,6 +19,7 @@ use super::displayed::Displayed;
 use super::why::ComparedPair;
 use super::work::job::Job;
 use super::work::waker::Waker;
+use crate::viewer::model::inspection::Region;
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::model::material::read::ReadMaterial;
 
@@ -67,7 +68,7 @@ pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     })
 }
 
-/// Starts to write the figure of all materials to `path`.
+/// Starts to write the figure of all materials to `path`, the rectangle magnified.
 pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let state = &displayed.model.view;
     let (all, names) = (materials(displayed.materials()), names(displayed.materials()));
@@ -82,7 +83,13 @@ pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
         content.push(PictureContent { quantity: Quantity::Rendering, difference });
     }
     let columns = content.into_iter().map(|content| Column { content, scene: state.scene }).collect();
-    let strip = Strip { columns, convention: state.convention(), exposure_ev: state.exposure_ev };
+    let region = displayed.model.inspection.region;
+    let crop = |region: Region| {
+        let ([left, top], [width, height]) = (region.first, region.size());
+        Crop { left, top, width, height }
+    };
+    let crops = region.into_iter().map(crop).collect();
+    let strip = Strip { columns, convention: state.convention(), exposure_ev: state.exposure_ev, crops };
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = PngDestination::new(&path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();

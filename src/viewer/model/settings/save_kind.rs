@@ -59,8 +59,8 @@ impl SaveKind {
                  the same as `svbrdf render` writes. PNG as displayed, EXR as linear floats."
             }
             Self::Strip => {
-                "A labelled figure: a row per material; all maps, the rendering and its difference in columns; the same \
-                 as `svbrdf strip` writes."
+                "A labelled figure: a row per material; all maps, the rendering and its difference in columns; a rectangle \
+                 (Q) framed and magnified; the same as `svbrdf strip` writes."
             }
             Self::Report => {
                 "One HTML file for any browser, offline: the figure with light and view to drag, losses, the share of each \
