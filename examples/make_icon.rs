@@ -9,7 +9,7 @@ use image::imageops::{FilterType, resize};
 use image::{Rgba, RgbaImage};
 use svbrdf::{Convention, Kind, Progress, Scene, built_in, render};
 use svbrdf_core::picture::colour_map::difference_to_display;
-use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::picture::tone::to_display;
 
 const SIDE: u32 = 256;
@@ -23,7 +23,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rendered = |material| render(material, &scene, &convention, &Progress::default());
     let ground_truth = rendered(&materials.ground_truth.material)?;
     let prediction = rendered(&materials.predictions[0].material)?;
-    let differences = Difference::Log.of_images(&ground_truth, &prediction, convention.epsilon);
+    let params = DifferenceParams { epsilon: convention.epsilon, exposure_ev: 0.0 };
+    let differences = Difference::Log.of_images(&ground_truth, &prediction, params);
     let icon = RgbaImage::from_fn(SIDE, SIDE, |x, y| {
         let at = (y * SIDE + x) as usize;
         let [r, g, b] = if x + y < SIDE {

@@ -55,7 +55,11 @@ pub fn capture(
 ) -> PyResult<CaptureItems> {
     let setting = asked.setting()?;
     let outside = setting.capture.outside().map(|file| {
-        format!("{} lies outside of the folder of {}, which names it", file.display(), setting.capture.file.display())
+        format!(
+            "{} lies outside of the folder of {}, which names it",
+            file.display(),
+            setting.capture.file.display()
+        )
     });
     let mut notes: Vec<String> = outside.collect();
     let materials: Vec<_> = materials.iter().map(|material| material.single()).collect();

@@ -70,8 +70,7 @@ pub fn rank(
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
     let mut report = RankReport::new(asked.compared(all[0], &convention), target_error, asked.named(outcome));
     if ground_truth.storage.has_steps() || !repeats.is_empty() {
-        let (floor, captures) =
-            floor_of(py, (ground_truth, &repeats), &convention, asked.seed, progress)?;
+        let (floor, captures) = floor_of(py, (ground_truth, &repeats), &convention, asked.seed, progress)?;
         report = report.with_floor(floor, captures);
     }
     Ok((Views::new(&report)?, report.places.iter().map(|place| place.index).collect()))

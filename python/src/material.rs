@@ -268,8 +268,7 @@ pub fn write(
     let like = preset.map(str::parse).transpose().map_err(exception)?;
     let kind = writing::FileKind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
     let material = material.single();
-    let surface =
-        work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))?;
+    let surface = work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))?;
     Ok(surface.map(|surface| surface.to_string()))
 }
 

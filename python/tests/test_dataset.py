@@ -109,6 +109,8 @@ def test_metrics_are_those_of_the_command_line(program: str, dataset: Path, pick
     expected = [prediction for result in found["results"] for prediction in result["predictions"]]
     assert [dict(result.metrics) for result in report.results] == [p.get("metrics", {}) for p in expected]
     worse, better = (report.methods[i].metrics["rmse_roughness"] for i in (1, 0))
+    assert worse.mean is not None
+    assert better.mean is not None
     assert worse.mean > better.mean > 0
     assert worse.interval95_materials is not None
     assert f"{worse.mean:.6f}" in repr(report)

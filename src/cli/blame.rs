@@ -8,6 +8,7 @@ use svbrdf_core::report::{BlameReport, Compared, Report as _};
 use svbrdf_core::why::attribute;
 use svbrdf_files::scene_file;
 
+use super::args::lights::LightsArgs;
 use super::args::{ComparisonArgs, Given, SeedArgs, values};
 use super::job::ComparisonJob;
 use super::output::report::ReportFormat;
@@ -52,9 +53,10 @@ pub struct BlameArgs {
 pub fn run(args: &BlameArgs, given: &Given) -> Result<(), CommandError> {
     let job = ComparisonJob::new(&args.comparison, given)?;
     job.materials.check_predictions()?;
-    let request = match &args.scenes {
-        Some(path) => Request::Listed(scene_file::read(path)?),
-        None => Request::Accuracy { target: args.target_error, seed: args.seed.seed },
+    let request = match (&args.scenes, args.lights.scenes(given)?) {
+        (_, Some(scenes)) => Request::Listed(scenes),
+        (Some(path), None) => Request::Listed(scene_file::read(path)?),
+        (None, None) => Request::Accuracy { target: args.target_error, seed: args.seed.seed },
     };
     let opened = job.materials.open::<f32>()?;
     let one = |prediction: &Material<f32>| {

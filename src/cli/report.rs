@@ -12,8 +12,8 @@ use svbrdf_files::page::{Findings, Labels, Page, Repetition, Report, View, check
 use svbrdf_files::session_window::Layout;
 
 use super::args::scenes::OneSceneArgs;
-use super::args::{ComparisonArgs, Given, SeedArgs, modes, values};
-use super::job::ComparisonJob;
+use super::args::{ComparisonArgs, Given, modes, values};
+use super::job::{ComparisonJob, SessionSettings};
 use super::output::stop::stoppable;
 use super::output::{CommandError, exit, target, watched};
 
@@ -41,8 +41,18 @@ pub struct ReportArgs {
     #[arg(long, value_name = "LANGUAGE", default_value = "en")]
     language: Labels,
 
-    #[command(flatten)]
-    seed: SeedArgs,
+    /// Layout that the figure begins with: side-by-side, wipe or single [default: side-by-side, or as in the session]
+    #[arg(long, value_name = "LAYOUT")]
+    layout: Option<Layout>,
+
+    /// Samples as many scenes as this relative error of the loss needs at 95% confidence [default: 1%, or the scenes of the
+    /// session]
+    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true)]
+    target_error: Option<f64>,
+
+    /// Seed of the sampled scenes [default: 0, or as in the session]
+    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
+    seed: Option<u64>,
 
     #[command(flatten)]
     scene: OneSceneArgs,
@@ -70,7 +80,6 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
     opened.check_output(&args.output, None)?;
     let view = view(args, &job, &opened.ground_truth)?;
     let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect::<Vec<_>>());
-    let request = Request::Accuracy { target: args.target_error, seed: args.seed.seed };
     let findings =
         |progress: &Progress| Findings::new(ground_truth, &predictions, job.convention, &request, progress);
     let has_findings = !args.figure && !predictions.is_empty();

@@ -1,5 +1,6 @@
 //! The session file: a comparison that another person can open, with everything that it takes.
 
+use std::iter;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -154,9 +155,9 @@ impl Session {
             material.path = material.path.as_ref().map(|path| relative(&absolute(path), &folder));
         }
         if let Some(photograph) = &mut session.photograph {
-            let relative = |path: &PathBuf| relative(&absolute(path), &folder);
-            photograph.path = relative(&photograph.path);
-            photograph.capture = photograph.capture.as_ref().map(relative);
+            for path in iter::once(&mut photograph.path).chain(&mut photograph.capture) {
+                *path = relative(&absolute(path), &folder);
+            }
         }
         let failed = |e: serde_json::Error| Error::Internal(format!("a session cannot be written: {e}"));
         let mut value = serde_json::to_value(&session).map_err(failed)?;

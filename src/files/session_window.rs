@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use svbrdf_core::diagnose::Change;
+use svbrdf_core::error::Error;
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map as MaterialMap;
 use svbrdf_core::picture::differences::Differences;

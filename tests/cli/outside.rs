@@ -214,11 +214,11 @@ fn what_the_system_does_not_give_is_an_error() {
         let output = command.envs([("RAYON_NUM_THREADS", "1"), ("MALLOC_ARENA_MAX", "1")]).output().unwrap();
         let said = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{limit}: {said}");
-        said
+        said.to_owned()
     });
     let refused =
-        |said: &&String| said.contains("large.png: ") && said.contains("which the system does not give");
-    assert!(said.iter().any(|said| refused(&said)), "{said:?}");
+        |said: &str| said.contains("large.png: ") && said.contains("which the system does not give");
+    assert!(said.iter().any(|said| refused(said)), "{said:?}");
 }
 
 #[test]

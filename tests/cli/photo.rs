@@ -216,7 +216,7 @@ fn a_capture_that_cannot_be_used_is_refused_with_what_to_do() {
         ("--capture absent gt.png", 1, "0.png"),
         ("--capture absolute gt.png", 1, "--allow-outside"),
         ("--capture one.json gt.png", 1, "unknown field `scenes`"),
-        ("--capture cap gt.png --hold-out 9.png", 1, "unknown photograph `9.png`; use one of: 0.png, 1.png"),
+        ("--capture cap gt.png --hold-out 9.png", 64, "unknown photograph `9.png`; use one of: 0.png, 1.png"),
         ("--capture cap gt.png --exposure none", 64, "capture, photograph"),
         ("--capture cap gt.png --scene one.json", 64, "cannot be used with"),
         ("--capture cap gt.png -o x.png", 64, "cannot be used with"),

@@ -4,8 +4,8 @@ use super::*;
 
 /// The kinds of the save dialog, as steps back from the path field.
 const SESSION: usize = 2;
-const STRIP: usize = 3;
-const RENDERINGS: usize = 4;
+const STRIP: usize = 4;
+const RENDERINGS: usize = 5;
 
 /// Saves with the proposed name, by the keyboard.
 fn save(desktop: &Desktop, kind: usize, name: &str) {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use svbrdf_files::dataset::{
-    DatasetReport, DatasetSettings, KnownLoss, MaterialResult, Pick, PredictionResult,
+    DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Pick, PredictionResult,
 };
 use svbrdf_files::page::ranking;
 
@@ -18,8 +18,17 @@ pub const READY: &str = "document.querySelectorAll('[aria-sort]').length > 0";
 fn prediction(method: &str, loss: Result<f64, &str>) -> PredictionResult {
     let known = |loss: f64| KnownLoss { loss, standard_error: 0.01, interval95: [loss - 0.02, loss + 0.02] };
     let result = loss.map(known).map_err(str::to_owned);
+    let mark = Mark { hypothesis: HOSTILE.to_owned(), value: json!(1), share: 0.5, remedy: None };
+    let marks = Some(if method == "ours" { vec![mark] } else { Vec::new() });
     let metrics = BTreeMap::from([("normal_angle_mean".to_owned(), 12.5)]);
-    PredictionResult { method: method.to_owned(), sample: 0, path: HOSTILE.to_owned(), result, metrics }
+    PredictionResult {
+        method: method.to_owned(),
+        sample: 0,
+        path: HOSTILE.to_owned(),
+        result,
+        metrics,
+        marks,
+    }
 }
 
 /// A ranking of two methods over five materials.
@@ -32,6 +41,7 @@ pub fn page() -> String {
         material: names[index].to_owned(),
         seed: 0,
         scenes: 500 + index,
+        floor: None,
         predictions: vec![prediction("ours", Ok(ours[index])), prediction(HOSTILE, theirs[index])],
     });
     let settings = DatasetSettings {
@@ -41,6 +51,7 @@ pub fn page() -> String {
         materials: names.map(str::to_owned).to_vec(),
         methods: vec!["ours".to_owned(), HOSTILE.to_owned()],
         metrics: true,
+        diagnose: true,
     };
     ranking(&DatasetReport::new(settings, results.collect(), Pick::Fixed), &[])
 }
@@ -49,8 +60,9 @@ pub fn page() -> String {
 fn names_add_no_elements_to_a_ranking() {
     let html = page();
     let count = |text: &str| html.matches(text).count();
-    assert_eq!([count("<script"), count("</script"), count("<img"), count("<tbody")], [1, 1, 0, 3]);
+    assert_eq!([count("<script"), count("</script"), count("<img"), count("<tbody")], [1, 1, 0, 4]);
     assert!(count("&lt;/td&gt;&lt;/script&gt;") >= 5, "{html}");
+    assert!(html.contains("<td>5</td><td>0</td></tr>"), "the marks of ours, and none of the other method");
     assert!(html.contains("<td>worse</td>") && html.contains("<td>best</td>"));
 }
 

@@ -13,6 +13,7 @@ mod device_loss;
 mod differences;
 mod files;
 mod files_tab;
+mod filmstrip;
 mod flip;
 mod gestures;
 mod key_presses;

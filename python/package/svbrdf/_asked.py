@@ -61,7 +61,7 @@ class Asked:
 
 
 def answered(
-    ask: Callable[..., _core.Views], asked: Asked, doing: str, progress: bool | Progress, *more: Any
+    ask: "Callable[..., _core.Views]", asked: Asked, doing: str, progress: bool | Progress, *more: Any
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """The arguments of `Report` from a report of the core, and its values: called by a function of the package.
 

@@ -86,12 +86,14 @@ class DatasetLoss:
     standard_error: float | None
     interval95: tuple[float, float] | None
     error: str | None
-    metrics: Mapping[str, float]
-    """Of the maps by name; empty where they were not asked for or the maps cannot be compared."""
+    metrics: Mapping[str, float | None]
+    """Of the maps by name, None for the infinite PSNR of equal maps; empty where they were not asked for or the maps
+    cannot be compared."""
     floor: float | None
     """The loss that the ground truth cannot resolve; None where no diagnosis was asked for."""
     marks: tuple[Mapping[str, Any], ...] | None
-    """The marked findings, the largest share first: `hypothesis`, `value`, `share`, `remedy`; None where not asked for."""
+    """The marked findings, the largest share first: `hypothesis`, `value`, `share`, `remedy`; None where not asked
+    for."""
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)

@@ -241,8 +241,8 @@ def rank(
     >>> [(place.prediction, place.group) for place in svbrdf.rank(ground_truth, predictions).ranking]
     [('wrong roughness', 1), ('blurred normals', 2)]
 
-    Args and errors are those of `svbrdf.loss`, `repeats` those of `svbrdf.diagnose`. At most 786,432 / (predictions + 1)
-    scenes are sampled.
+    Args and errors are those of `svbrdf.loss`, `repeats` those of `svbrdf.diagnose`. At most 786,432 /
+    (predictions + 1) scenes are sampled.
     """
     check_goals(target_error=target_error)
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed)

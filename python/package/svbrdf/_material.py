@@ -229,9 +229,10 @@ def write(
     preset: str | None = None,
     preview: bool = False,
 ) -> str | None:
-    """Writes a material: one layered EXR, a packed PNG, glTF, MaterialX, or a folder of PNG files, by the extension of `path`.
+    """Writes a material by the extension of `path`: layered EXR, packed PNG, glTF, MaterialX, or a folder of PNG files.
 
-    The file or folder appears when it is complete, or not at all; a document of MaterialX after the folder of its pictures.
+    The file or folder appears when it is complete, or not at all; a document of MaterialX after the folder of its
+    pictures.
 
     Args:
         material: A material, or the path of one.

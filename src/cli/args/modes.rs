@@ -100,7 +100,12 @@ pub const NO_PROTOCOL: Mode =
 pub const RANK_PREDICTIONS: Mode = Mode {
     reason: "a ranking of the predictions of one material has no journal, no samples, no metrics and no marks, unlike one with \
         --dataset or --pairs (`svbrdf metrics` and `svbrdf diagnose` print them)",
-    unused: &[&["journal", "shard", "pick", "metrics", "diagnose"]],
+    unused: &[&["journal", "shard", "pick", "metrics", "diagnose", "output", "figures"]],
+};
+/// `rank` of a data set in a format that is printed.
+pub const RANK_PRINTED: Mode = Mode {
+    reason: "only --format html writes a file, and figures beside it",
+    unused: &[&["output", "figures"]],
 };
 /// `rank --dataset` and `rank --pairs`.
 pub const RANK_DATA_SET: Mode = Mode {
@@ -124,6 +129,7 @@ pub const RANK_MERGE: Mode = Mode {
             "diagnose",
             "repeat",
             "convention",
+            "figures",
         ],
     ],
 };
@@ -147,6 +153,11 @@ pub const INFO: Mode =
 /// `view`.
 pub const VIEW: Mode =
     Mode { reason: "the window lists what is noticed and assumed", unused: &[&["verbose"]] };
+/// `photo` with one photograph.
+pub const PHOTO_ALONE: Mode = Mode {
+    reason: "exposures of a capture and photographs that are held out are those of --capture",
+    unused: &[&["exposure", "hold-out"]],
+};
 /// `view --photo` with a capture.
 pub const VIEW_CAPTURE: Mode = Mode {
     reason: "a capture lists the lights and views of its photographs, and how they are read",

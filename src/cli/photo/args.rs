@@ -23,9 +23,7 @@ use crate::cli::output::report::ReportFormat;
 #[command(
     override_usage = "svbrdf photo [OPTIONS] <PHOTO> <MATERIAL>...\n       svbrdf photo [OPTIONS] --capture <FOLDER> <MATERIAL>..."
 )]
-#[command(
-    after_help = "Examples:\n  svbrdf photo photo.jpg a.png b.png --flash --fov 45\n  svbrdf photo --capture card_blue a.png b.png"
-)]
+#[command(after_help = "Example:\n  svbrdf photo photo.jpg a.png b.png --flash --fov 45")]
 #[command(mut_arg("ground_truth", |arg| arg.value_name("MATERIAL").required_unless_present("capture").help(
     "Material: a packed or layered image, a folder, a name prefix, or a session file of the window")))]
 #[command(mut_arg("predictions", |arg| arg.value_name("MATERIAL").help("More materials")))]
@@ -69,11 +67,11 @@ pub struct PhotoCaptureArgs {
     pub capture: Option<PathBuf>,
 
     /// What one factor is fitted to: capture (all photographs) or photograph (each)
-    #[arg(long, value_name = "WHAT", default_value = "capture", requires = "capture")]
+    #[arg(long, value_name = "WHAT", default_value = "capture")]
     pub exposure: CaptureExposure,
 
     /// Photographs to which the exposure is not fitted; the others and these have means of their own
-    #[arg(long, value_name = "NAME", value_delimiter = ',', requires = "capture")]
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub hold_out: Vec<String>,
 }
 

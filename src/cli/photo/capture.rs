@@ -5,7 +5,8 @@ use std::path::Path;
 use svbrdf_core::material::Material;
 use svbrdf_files::capture::{Capture, CaptureReport, CaptureSetting};
 
-use super::{PhotoArgs, stretched};
+use super::args::PhotoArgs;
+use super::stretching::stretched;
 use crate::cli::args::Given;
 use crate::cli::job::ComparisonJob;
 use crate::cli::output::exit::{put, tell};

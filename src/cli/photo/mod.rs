@@ -3,6 +3,7 @@
 mod args;
 mod capture;
 mod output;
+mod stretching;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
@@ -11,12 +12,13 @@ use svbrdf_files::export::{Destination, PictureFormat};
 use svbrdf_files::photograph::{PhotoReport, PhotoSetting};
 use svbrdf_files::read::read_photograph;
 
-use super::args::Given;
+use super::args::{Given, modes};
 use super::job::{ComparisonJob, check_heights};
 use super::output::exit::{put, tell};
 use super::output::stop::stoppable;
 use super::output::{CommandError, watched};
 pub use args::PhotoArgs;
+use stretching::stretched;
 
 /// Compares, prints the differences to stdout and writes the file.
 ///
@@ -25,7 +27,10 @@ pub use args::PhotoArgs;
 pub fn run(mut args: PhotoArgs, given: &Given) -> Result<(), CommandError> {
     match args.capture.capture.take() {
         Some(capture) => capture::run(args, &capture, given),
-        None => of_photograph(&args, given),
+        None => {
+            given.check(&modes::PHOTO_ALONE)?;
+            of_photograph(&args, given)
+        }
     }
 }
 
@@ -74,24 +79,6 @@ fn note_stretching(args: &PhotoArgs, size: [usize; 2], materials: &[Material<f32
         let remedy = "--corners gives the corners of the material in it";
         stretched(size, materials.iter().map(Material::size), remedy).iter().for_each(|note| tell(note));
     }
-}
-
-/// A note about each of `sizes` of materials where a photograph of the size (`w`, `h`) has another shape.
-fn stretched([w, h]: [usize; 2], sizes: impl Iterator<Item = [usize; 2]>, remedy: &str) -> Vec<String> {
-    let mut noted: Vec<[usize; 2]> = Vec::new();
-    for [width, height] in sizes {
-        let ratio = (w * height) as f64 / (h * width) as f64;
-        if !(0.99..=1.01).contains(&ratio) && !noted.contains(&[width, height]) {
-            noted.push([width, height]);
-        }
-    }
-    let note = |[width, height]: [usize; 2]| {
-        format!(
-            "note: all {w} x {h} pixels of the photograph are taken as the {width} x {height} texels of the material; \
-             {remedy}"
-        )
-    };
-    noted.into_iter().map(note).collect()
 }
 
 fn write_differences(

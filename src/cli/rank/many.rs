@@ -62,8 +62,7 @@ fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &st
 fn evaluated(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<MaterialResult>), CommandError> {
     given.check(&modes::RANK_DATA_SET)?;
     let cases = cases(args)?;
-    let ComparisonArgs { convention, materials } = &args.comparison;
-    let convention = convention.unwrap_or_default();
+    let convention = args.comparison.convention.unwrap_or_default();
     let settings = DatasetSettings::new(convention.name, args.target_error, args.seed.seed, &cases)
         .with_metrics(args.metrics)
         .with_diagnoses(args.diagnose);

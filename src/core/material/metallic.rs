@@ -1,7 +1,7 @@
 //! Base colour and metallic from diffuse and specular, as far as these can express them.
 
 /// Reflectance of dielectrics at normal incidence.
-pub(super) const DIELECTRIC: f64 = 0.04;
+pub const DIELECTRIC: f64 = 0.04;
 
 /// Base colour b and metallic m for diffuse d and specular s, linear and in [0, 1]: the inverse of d = b (1 - m) and
 /// s = 0.04 (1 - m) + b m (glTF 2.0, appendix B.2).

@@ -23,7 +23,7 @@ pub mod resize;
 
 pub use depth::{Depth, half_normal};
 pub use grid::Grid;
-pub use metallic::base_and_metallic;
+pub use metallic::{DIELECTRIC, base_and_metallic};
 pub use mix::Map;
 
 use glam::DVec3;

@@ -8,6 +8,7 @@ mod ssim;
 
 pub use maps::of_maps;
 pub use matfusion::{matfusion_renderings, of_matfusion};
+pub use pictures::{PictureMetrics, of_pictures};
 pub use renderings::{RenderedScenes, of_renderings};
 
 /// A number and what it is.

@@ -19,13 +19,28 @@ struct Window {
 /// lie inside, and over the planes: `skimage.metrics.structural_similarity` with `gaussian_weights=True, sigma=1.5,
 /// use_sample_covariance=False, data_range=1`.
 pub(super) fn ssim11(pairs: &[[f64; 2]], size: [usize; 2]) -> Option<f64> {
+    ssim(&gaussian(), pairs, size)
+}
+
+/// [`ssim11`] over the windows without NaN; `None` where there is none.
+pub(super) fn ssim11_without_nan(pairs: &[[f64; 2]], [width, height]: [usize; 2]) -> Option<f64> {
+    let window = gaussian();
+    if width.min(height) < window.weights.len() {
+        return None;
+    }
+    let planes = pairs.chunks_exact(width * height);
+    let known = planes.flat_map(|plane| window.similarities(plane, width)).filter(|value| !value.is_nan());
+    let (sum, count) = known.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / count as f64)
+}
+
+fn gaussian() -> Window {
     const RADIUS: f64 = 5.0;
     const SIGMA: f64 = 1.5;
     let weights: Vec<f64> =
         (0..11).map(|k| (-0.5 * ((f64::from(k) - RADIUS) / SIGMA).powi(2)).exp()).collect();
     let sum: f64 = weights.iter().sum();
-    let weights = weights.into_iter().map(|weight| weight / sum).collect();
-    ssim(&Window { weights, correction: 1.0 }, pairs, size)
+    Window { weights: weights.into_iter().map(|weight| weight / sum).collect(), correction: 1.0 }
 }
 
 /// As [`ssim11`] in a flat window of 7 x 7 texels with the variances of a sample: `structural_similarity` with its defaults and
@@ -42,12 +57,13 @@ fn ssim(window: &Window, pairs: &[[f64; 2]], [width, height]: [usize; 2]) -> Opt
     }
     let planes = pairs.chunks_exact(width * height);
     let count = planes.len() * (width - side + 1) * (height - side + 1);
-    Some(planes.map(|plane| window.sum_of_plane(plane, width)).sum::<f64>() / count as f64)
+    let sum = |plane| window.similarities(plane, width).iter().sum::<f64>();
+    Some(planes.map(sum).sum::<f64>() / count as f64)
 }
 
 impl Window {
-    /// The sum of the similarities of the windows that lie inside a plane.
-    fn sum_of_plane(&self, pairs: &[[f64; 2]], width: usize) -> f64 {
+    /// The similarity of each window that lies inside a plane.
+    fn similarities(&self, pairs: &[[f64; 2]], width: usize) -> Vec<f64> {
         let weighted =
             |value: fn(&[f64; 2]) -> f64| self.averaged(&pairs.iter().map(value).collect::<Vec<_>>(), width);
         let (a, b) = (weighted(|[a, _]| *a), weighted(|[_, b]| *b));
@@ -60,7 +76,7 @@ impl Window {
             (2.0 * mean_a * mean_b + C1) * (2.0 * of_both + C2)
                 / ((mean_a * mean_a + mean_b * mean_b + C1) * (of_a + of_b + C2))
         };
-        (0..a.len()).map(similarity).sum()
+        (0..a.len()).map(similarity).collect()
     }
 
     /// The weighted means of the windows that lie inside a plane.

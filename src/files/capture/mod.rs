@@ -4,11 +4,11 @@
 //! with all of its photographs, at one exposure.
 
 mod comparison;
-mod find;
 mod listed;
 mod materialgan;
 mod measured;
 mod outliers;
+mod read;
 mod report;
 mod report_json;
 
@@ -20,19 +20,13 @@ pub use materialgan::LightPower;
 pub use measured::{CaptureGroup, CapturedResult, MaterialResult};
 pub use outliers::Outlier;
 
-use serde_json::Value;
-
 use svbrdf_core::error::Error;
-use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::model::scene::Scene;
 
 use crate::open::NamedFile;
 use crate::photograph::Corners;
 use crate::read::{Photograph, PhotographOptions, Transfer, read_named_photograph};
 use crate::session::SessionPhotograph;
-use listed::Listed;
-
-/// Most photographs of a capture.
-const MOST: usize = 10_000;
 
 /// The photographs of a material, with their lights and views.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,22 +71,6 @@ impl CapturedPhotograph {
 }
 
 impl Capture {
-    /// Reads the description of the capture in the folder `path`, or that file itself. The photographs are not read yet.
-    ///
-    /// In a folder, it is `capture.json`, or else the only one of the JSON files of MaterialGAN: several may list the same photographs.
-    ///
-    /// # Errors
-    /// [`Error::BadCapture`], [`Error::Unreadable`]; [`Error::Outside`] for a photograph that is named by an absolute path.
-    pub fn read(path: &Path) -> Result<Self, Error> {
-        let capture = if path.is_dir() {
-            find::in_folder(path)?
-        } else {
-            Self::parse(path, &NamedFile::by_user(path).text()?)?
-        };
-        capture.photographs.iter().try_for_each(|photograph| photograph.file.check())?;
-        Ok(capture)
-    }
-
     /// The files of photographs outside of the folder of the capture.
     pub fn outside(&self) -> impl Iterator<Item = &Path> {
         let outside = self.photographs.iter().filter(|one| one.file.outside().is_some());
@@ -144,64 +122,5 @@ impl Capture {
     pub fn names(&self, wanted: impl Fn(usize) -> bool) -> String {
         let of = self.photographs.iter().enumerate().filter(|(index, _)| wanted(*index));
         of.map(|(_, one)| one.name.as_str()).collect::<Vec<_>>().join(", ")
-    }
-
-    /// The capture that the text of the file at `path` describes.
-    fn parse(path: &Path, text: &str) -> Result<Self, Error> {
-        let bad = |problem| Error::BadCapture { path: path.to_owned(), problem };
-        let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
-        let capture = match value.get("camera_pos").is_some() {
-            true => serde_json::from_str(text)
-                .map_err(|e| e.to_string())
-                .and_then(|calibration| Self::of_materialgan(path, &calibration)),
-            false => serde_json::from_str(text)
-                .map_err(|e| e.to_string())
-                .and_then(|listed| Self::of_list(path, &listed)),
-        };
-        let capture = capture.map_err(bad)?;
-        capture.check().map_err(bad)?;
-        Ok(capture)
-    }
-
-    fn of_list(path: &Path, listed: &Listed) -> Result<Self, String> {
-        let photographs = listed.photographs(path)?;
-        let file = path.to_owned();
-        Ok(Self { file, is_materialgan: false, photographs, falloff: listed.falloff, power: None })
-    }
-
-    /// Its renderer stores the power 1 / 2.2 of radiance, which falls off with the distance of the light.
-    fn of_materialgan(path: &Path, calibration: &Calibration) -> Result<Self, String> {
-        let folder = calibration
-            .target_dir
-            .as_ref()
-            .ok_or("its target_dir, the folder of the photographs, is missing")?;
-        let options = PhotographOptions { transfer: Some(Transfer::Gamma22), clip: None };
-        let photograph = |(number, scene): (usize, Scene)| {
-            let name = format!("{number:02}.png");
-            let file = NamedFile::within(folder.join(&name), path);
-            CapturedPhotograph { name, file, scene, corners: None, options }
-        };
-        let scenes = calibration.scenes()?;
-        let photographs = calibration.numbers().into_iter().zip(scenes).map(photograph).collect();
-        let (file, power) = (path.to_owned(), calibration.power()?);
-        Ok(Self { file, is_materialgan: true, photographs, falloff: true, power })
-    }
-
-    fn check(&self) -> Result<(), String> {
-        let count = self.photographs.len();
-        if !(1..=MOST).contains(&count) {
-            return Err(format!("expected 1 to {MOST} photographs, found {count}"));
-        }
-        let mut names = std::collections::HashSet::new();
-        for (i, one) in self.photographs.iter().enumerate() {
-            one.scene.check().map_err(|problem| format!("scene {i}: {problem}"))?;
-            if self.falloff && one.scene.kind == Kind::Distant {
-                return Err(format!("scene {i}: expected a near one, since a distant light has no falloff"));
-            }
-            if !names.insert(&one.name) {
-                return Err(format!("it lists {} twice", one.name));
-            }
-        }
-        Ok(())
     }
 }

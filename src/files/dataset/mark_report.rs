@@ -19,13 +19,19 @@ pub(super) fn summary(
     summarize_marks(method, best, results, pick)
 }
 
-/// A table of the numbers of materials, a column for each method; empty without diagnoses.
+/// The table of [`rows`] as text; empty without diagnoses.
 pub(super) fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
+    let rows = rows(methods, results, pick);
+    if rows.is_empty() { String::new() } else { format!("\n{}", aligned(&rows)) }
+}
+
+/// The numbers of materials, a column for each method, below a row of headings; no rows without diagnoses.
+pub(crate) fn rows(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> Vec<Vec<String>> {
     let columns: Vec<Option<MarkSummary>> =
         methods.iter().map(|summary| self::summary(&summary.method, methods, results, pick)).collect();
     let known: Vec<&MarkSummary> = columns.iter().flatten().collect();
     if known.is_empty() {
-        return String::new();
+        return Vec::new();
     }
     let row = |name: &str, number: &dyn Fn(&MarkSummary) -> Option<usize>| {
         let cell = |column: &Option<MarkSummary>| {
@@ -46,5 +52,5 @@ pub(super) fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: 
     );
     rows.push(row("loss not resolvable", &|marks| Some(marks.not_resolvable)));
     rows.push(row("- best not resolvable", &|marks| marks.to_best_not_resolvable));
-    format!("\n{}", aligned(&rows))
+    rows
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::metric_summary::counted;
 use super::record::{MaterialResult, PredictionResult};
-use super::summary::{Pick, picked};
+use super::summary::{Pick, counted_loss};
 
 /// The marks of a method over the materials that were diagnosed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -49,7 +49,7 @@ pub fn summarize_marks(
         let names: BTreeSet<&str> = marks.map(|mark| mark.hypothesis.as_str()).collect();
         summary.marked += usize::from(!names.is_empty());
         names.into_iter().for_each(|name| *summary.by.entry(name.to_owned()).or_default() += 1);
-        let loss = |method: &str| picked(result, method, pick).map(|known| known.loss);
+        let loss = |method: &str| counted_loss(result, method, pick).map(|known| known.loss);
         summary.not_resolvable += usize::from(result.is_below_floor(loss(method)));
         if let (Some(best), Some(count)) = (best, &mut summary.to_best_not_resolvable) {
             let difference = loss(method).zip(loss(best)).map(|(a, b)| (a - b).abs());

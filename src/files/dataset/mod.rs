@@ -10,7 +10,7 @@ mod fingerprint;
 mod journal;
 mod list;
 mod lock;
-mod mark_report;
+pub(crate) mod mark_report;
 mod mark_summary;
 mod metric_report;
 mod metric_summary;

@@ -131,8 +131,8 @@ fn difference(values: &[Option<KnownLoss>], best: &[Option<KnownLoss>]) -> Metho
     MethodDifference { mean, interval95_materials: interval_of_mean(&differences) }
 }
 
-/// The loss of a method for a material.
-pub(super) fn picked(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss> {
+/// The loss of a method for a material: of several predictions, `pick` says which counts.
+pub fn counted_loss(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss> {
     let of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
     let mut known: Vec<KnownLoss> = Vec::new();
     for prediction in of_method {

@@ -7,7 +7,9 @@ use svbrdf_core::loss::Estimate;
 use super::markup::{escaped, filled, number, policy_source};
 use super::plots;
 use crate::atomic::SOFTWARE;
-use crate::dataset::{DatasetReport, MaterialResult, MethodSummary, counted_loss, summarize_metrics};
+use crate::dataset::{
+    DatasetReport, MaterialResult, MethodSummary, counted_loss, mark_report, summarize_metrics,
+};
 
 const PAGE: &str = include_str!("ranking.html");
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("ranking.css"));
@@ -27,7 +29,7 @@ pub fn ranking(report: &DatasetReport, views: &[MaterialView]) -> String {
     let settings = &report.settings;
     let title =
         format!("Rendering loss over {} of {} materials", report.results.len(), settings.materials.len());
-    let sections = methods(report) + &metrics(report) + &materials(report, views);
+    let sections = methods(report) + &metrics(report) + &marks(report) + &materials(report, views);
     filled(
         PAGE,
         &[
@@ -127,6 +129,23 @@ fn metrics(report: &DatasetReport) -> String {
     format!(
         r#"<section aria-labelledby="metrics"><h2 id="metrics">Metrics of the maps</h2><div class="wide"><table><thead><tr><th scope="col">Metric</th>{}</tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Means over materials, with their 95% intervals over materials.</p></section>"#,
         method_headings(report)
+    )
+}
+
+/// The marks of diagnoses, where there are any.
+fn marks(report: &DatasetReport) -> String {
+    let rows = mark_report::rows(&report.methods, &report.results, report.pick);
+    let Some((headings, rows)) = rows.split_first() else { return String::new() };
+    let headings: String =
+        headings.iter().map(|heading| format!(r#"<th scope="col">{}</th>"#, escaped(heading))).collect();
+    let row = |cells: &Vec<String>| {
+        let (name, numbers) = cells.split_first().map_or(("", &[][..]), |(name, rest)| (name.as_str(), rest));
+        let numbers: String = numbers.iter().map(|number| format!("<td>{}</td>", escaped(number))).collect();
+        format!(r#"<tr><th scope="row">{}</th>{numbers}</tr>"#, escaped(name))
+    };
+    let rows: String = rows.iter().map(row).collect();
+    format!(
+        r#"<section aria-labelledby="marks"><h2 id="marks">What would explain a loss</h2><div class="wide"><table><thead><tr>{headings}</tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Numbers of materials. A mark that most materials of a method share is a convention of its files.</p></section>"#
     )
 }
 

@@ -204,6 +204,7 @@ mod tests {
             material: "../wood/\"oak\" é<".to_owned(),
             seed: 0,
             scenes: 0,
+            floor: None,
             predictions: Vec::new(),
         };
         assert_eq!(file_name(&result), "0007-___wood__oak____.html");

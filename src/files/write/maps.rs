@@ -1,9 +1,8 @@
 //! Maps of a material as the values of pictures: normals, colours, roughness, metallic, and parts of specular.
 
-use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::material::{Material, Planes, base_and_metallic};
 
 use super::curve::Curve;
-use super::metallic::base_and_metallic;
 use crate::read::options::transfer::{encoded, encoded_roughness, linear, roughness};
 use crate::read::{Albedo, Energy, NormalY, Preset, ReadOptions, Roughness};
 

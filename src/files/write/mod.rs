@@ -4,7 +4,6 @@ mod curve;
 mod exr;
 mod glb;
 mod maps;
-mod metallic;
 mod mtlx;
 mod picture_exr;
 mod png;

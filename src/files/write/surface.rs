@@ -6,12 +6,11 @@ use exr::prelude::f16;
 use rayon::prelude::*;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::material::{Depth, Material, Planes};
+use svbrdf_core::material::{DIELECTRIC, Depth, Material, Planes, base_and_metallic};
 use svbrdf_core::progress::Progress;
 
 use super::curve::Curve;
 use super::maps::{SpecularScale, Weight};
-use super::metallic::{DIELECTRIC, base_and_metallic};
 use crate::read::Albedo;
 use crate::read::options::transfer::{encoded, linear};
 

@@ -2,7 +2,7 @@
 
 /// Over X, Y and Z of the white of D65.
 const WHITE: [f32; 3] = [0.950_428_54, 1.0, 1.088_900_4];
-const INVERSE_WHITE: [f32; 3] = [1.052_156_9, 1.0, 0.918_357_67];
+const INVERSE_WHITE: [f32; 3] = [1.052_156_9, 1.0, 0.918_357_7];
 /// The exponent of differences.
 const EXPONENT: f32 = 0.7;
 /// The share of the largest difference up to which a larger share of the scale is used, and that share.

@@ -55,7 +55,9 @@ impl Strip {
             text::draw(&mut picture, name, at, NAME, INK, Anchor::Left)?;
         }
         for (index, column) in self.columns.iter().enumerate() {
-            let pictures = column.content.pictures(materials, &column.scene, &self.convention, progress)?;
+            let Self { convention, exposure_ev, .. } = self;
+            let pictures =
+                column.content.pictures(materials, &column.scene, convention, *exposure_ev, progress)?;
             let content = pictures.content;
             let (left, width) = (sheet.lefts[index], sheet.widths[index]);
             let first = materials.len() - pictures.images.len();

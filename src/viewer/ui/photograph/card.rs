@@ -31,13 +31,13 @@ impl PhotographCard<'_> {
     pub fn ui(&self, ui: &mut egui::Ui, textures: &mut PanelTextures) -> Vec<Command> {
         let (id, top) = (egui::Id::unique("height of the photograph card"), ui.cursor().top());
         let commands = self.contents(ui, textures);
-        let height = ui.cursor().top() - top;
+        let height = ui.min_rect().bottom() - top;
         if self.photograph.photograph.is_some() && self.photograph.all.is_some() {
             ui.data_mut(|data| data.insert_temp(id, height));
         } else if self.photograph.source.capture.is_some()
             && let Some(before) = ui.data(|data| data.get_temp::<f32>(id))
         {
-            ui.add_space((before - height).max(0.0));
+            ui.expand_to_include_y(top + before);
         }
         commands
     }
