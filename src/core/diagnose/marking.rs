@@ -38,7 +38,7 @@ impl Marking<'_> {
         Ok(())
     }
 
-    /// The proposal that explains most beside the `marked` ones; those that explain too little are removed from `open`.
+    /// The proposal that explains most beside the `marked` ones; proposals that explain too little are removed from `open`.
     fn next(&self, marked: &[usize], open: &mut Vec<usize>) -> Result<Option<usize>, Error> {
         if open.is_empty() {
             return Ok(None);

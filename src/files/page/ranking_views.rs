@@ -1,4 +1,4 @@
-//! What a ranking shows of its materials: thumbnails of all, and figures of some, in files beside the page.
+//! Views of the materials of a ranking: thumbnails of all, and figures of some, in files beside the page.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -59,7 +59,7 @@ pub(super) fn material(
         found.add_file(file.path().to_owned());
     }
     found.add_file(path);
-    // Those that computed maps are made of, too: no output may replace them.
+    // The pictures of computed maps, too: no output may replace them.
     pictures.iter().for_each(|picture| found.add_file(picture.map.file.clone()));
     let roughness = match surface {
         GltfSurface::SpecularGlossiness { .. } => Roughness::Gloss,

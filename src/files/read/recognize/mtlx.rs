@@ -29,7 +29,7 @@ pub(super) fn material(
     let albedo = surface.add_to(&mut maps)?;
     let mut found = maps.material(&located.path, located.name.clone(), "", options)?;
     found.add_file(located.path.clone());
-    // Those that computed maps are made of, too: no output may replace them.
+    // The pictures of computed maps, too: no output may replace them.
     surface.inputs.pictures.iter().for_each(|picture| found.add_file(picture.map.file.clone()));
     found.is_mapped = true;
     found.inferred.specular = albedo.clone();
