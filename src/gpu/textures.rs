@@ -1,7 +1,12 @@
 //! A material on the device: the core's f32 numbers, exactly.
 
 use rayon::prelude::*;
-use wgpu::{Extent3d, Origin3d, Texture, TextureDescriptor, TextureFormat, TextureUsages, TextureView};
+use wgpu::util::StagingBelt;
+use wgpu::{
+    BufferSize, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, Origin3d, PollType, SubmissionIndex,
+    TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureDescriptor,
+    TextureFormat, TextureUsages, TextureView,
+};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
@@ -10,7 +15,7 @@ use super::Gpu;
 use super::fault::scoped;
 
 /// About how many bytes are sent at once: bounds the memory that an upload takes beside the textures.
-const BAND_BYTES: usize = 16 << 20;
+const BAND_BYTES: usize = 4 << 20;
 /// Bytes of a texel of one texture: four f32.
 const TEXEL_BYTES: usize = 16;
 
@@ -91,38 +96,61 @@ pub(super) fn descriptor(label: &'static str, size: Extent3d) -> TextureDescript
     }
 }
 
-/// Sends the texels band by band.
+/// Sends the texels band by band, through buffers that are used again: clearing fresh memory takes longer than the copy.
 pub(super) fn write(
     gpu: &Gpu,
     texture: &Texture,
     [width, height]: [usize; 2],
     texel: impl Fn(usize) -> [f32; 4] + Sync,
 ) {
-    let rows_per_band = (BAND_BYTES / (width * TEXEL_BYTES)).clamp(1, height);
-    let mut texels = vec![[0.0; 4]; rows_per_band * width];
+    let pitch = width.next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT as usize / TEXEL_BYTES);
+    let rows_per_band = (BAND_BYTES / (pitch * TEXEL_BYTES)).clamp(1, height);
+    let mut texels = vec![[0.0; 4]; rows_per_band * pitch];
+    let mut belt = StagingBelt::new(gpu.device.clone(), size_of_val(texels.as_slice()) as u64);
+    let mut last = None;
     for top in (0..height).step_by(rows_per_band) {
-        let rows = rows_per_band.min(height - top);
-        let band = &mut texels[..rows * width];
-        band.par_chunks_mut(width).enumerate().for_each(|(row, values)| {
+        let band = &mut texels[..rows_per_band.min(height - top) * pitch];
+        band.par_chunks_mut(pitch).enumerate().for_each(|(row, values)| {
             let first = (top + row) * width;
-            values.iter_mut().zip(first..).for_each(|(value, index)| *value = texel(index));
+            values[..width].iter_mut().zip(first..).for_each(|(value, index)| *value = texel(index));
         });
-        gpu.queue.write_texture(
-            wgpu::TexelCopyTextureInfo {
-                origin: Origin3d { x: 0, y: top as u32, z: 0 },
-                ..texture.as_image_copy()
-            },
-            bytemuck::cast_slice(band),
-            wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some((width * TEXEL_BYTES) as u32),
-                rows_per_image: None,
-            },
-            Extent3d { width: width as u32, height: rows as u32, depth_or_array_layers: 1 },
-        );
-        // Sends the band now: wgpu 30 stages what is written until the next submission, here every band of the material.
-        gpu.queue.submit([]);
+        // Where the adapter has no buffer for it, it has reported a fault.
+        let Some(submission) = send_band(gpu, &mut belt, texture, top, bytemuck::cast_slice(band)) else {
+            return;
+        };
+        // The buffer of the band before is free again when its copy has ended. A lost device is reported where it draws.
+        let copied = |submission_index| PollType::Wait { submission_index, timeout: None };
+        last.replace(submission).map(|last| gpu.device.poll(copied(Some(last))));
     }
+}
+
+/// Sends rows of texels, whose bytes are `rows`, from row `top` on.
+fn send_band(
+    gpu: &Gpu,
+    belt: &mut StagingBelt,
+    texture: &Texture,
+    top: usize,
+    rows: &[u8],
+) -> Option<SubmissionIndex> {
+    let width = texture.width();
+    let bytes_per_row = (width * TEXEL_BYTES as u32).next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT);
+    let slice = belt.allocate(BufferSize::new(rows.len() as u64)?, BufferSize::new(TEXEL_BYTES as u64)?);
+    slice.get_mapped_range_mut().ok()?.copy_from_slice(rows);
+    let layout = TexelCopyBufferLayout {
+        offset: slice.offset(),
+        bytes_per_row: Some(bytes_per_row),
+        rows_per_image: None,
+    };
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_texture(
+        TexelCopyBufferInfo { buffer: slice.buffer(), layout },
+        TexelCopyTextureInfo { origin: Origin3d { x: 0, y: top as u32, z: 0 }, ..texture.as_image_copy() },
+        Extent3d { width, height: rows.len() as u32 / bytes_per_row, depth_or_array_layers: 1 },
+    );
+    belt.finish();
+    let submission = gpu.queue.submit([encoder.finish()]);
+    belt.recall();
+    Some(submission)
 }
 
 fn normal_roughness(planes: &Planes<f32>, index: usize) -> [f32; 4] {

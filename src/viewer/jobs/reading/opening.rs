@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{self, Receiver, Sender};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
@@ -13,8 +14,9 @@ use svbrdf_gpu::Gpu;
 use super::read::{Reader, read_with_retries, runs_of};
 use super::upload::{Uploaded, Uploads};
 use crate::viewer::jobs::work::job::{Job, Worker};
+use crate::viewer::jobs::work::priority;
 use crate::viewer::jobs::work::waker::Waker;
-use crate::viewer::model::material::read::MaterialId;
+use crate::viewer::model::material::read::{MaterialId, ReadMaterial};
 use crate::viewer::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use crate::viewer::model::material::source::Source;
 
@@ -197,18 +199,44 @@ struct OpeningWork {
     current: Arc<AtomicUsize>,
 }
 
+/// Where the materials of an opening go.
+struct Output<'a> {
+    worker: &'a Worker<Uploading>,
+    /// Materials that are not sent whole yet.
+    rests: Sender<(Arc<ReadMaterial>, Arc<Uploaded>)>,
+}
+
 impl OpeningWork {
-    fn run(&self, items: Vec<Item>, mut reader: Reader, worker: &Worker<Uploading>) -> Result<(), Error> {
+    /// Reads the items one after the other. What is left to send of one is sent while the next is read.
+    fn run(&self, items: Vec<Item>, reader: Reader, worker: &Worker<Uploading>) -> Result<(), Error> {
+        let (rests, rest) = mpsc::channel();
+        std::thread::scope(|scope| {
+            scope.spawn(|| self.send_rests(rest, worker));
+            self.read_all(items, reader, &Output { worker, rests })
+        })
+    }
+
+    /// Sends what is left of each material.
+    fn send_rests(&self, rests: Receiver<(Arc<ReadMaterial>, Arc<Uploaded>)>, worker: &Worker<Uploading>) {
+        priority::lower_this_thread();
+        let Some(gpu) = &self.gpu else { return };
+        for (read, uploaded) in rests.iter().take_while(|_| !worker.progress.is_cancelled()) {
+            uploaded.complete(gpu, &read.material);
+            worker.wake();
+        }
+    }
+
+    fn read_all(&self, items: Vec<Item>, mut reader: Reader, output: &Output<'_>) -> Result<(), Error> {
         for (index, item) in items.into_iter().enumerate() {
             self.current.store(index, Ordering::Relaxed);
             match item {
-                Item::Loaded(loaded) => worker.report((Arrival::Loaded(loaded), None))?,
+                Item::Loaded(loaded) => output.worker.report((Arrival::Loaded(loaded), None))?,
                 Item::Read(source) if index >= self.alone => {
                     runs_of(source)
                         .into_iter()
-                        .try_for_each(|one| self.read(one, index, &mut reader, worker))?;
+                        .try_for_each(|one| self.read(one, index, &mut reader, output))?;
                 }
-                Item::Read(source) => self.read(source, index, &mut reader, worker)?,
+                Item::Read(source) => self.read(source, index, &mut reader, output)?,
             }
         }
         Ok(())
@@ -219,7 +247,7 @@ impl OpeningWork {
         source: Source,
         index: usize,
         reader: &mut Reader,
-        worker: &Worker<Uploading>,
+        Output { worker, rests }: &Output<'_>,
     ) -> Result<(), Error> {
         let read = match read_with_retries(&source, reader, &self.parts[index]) {
             Ok(read) => Arc::new(read),
@@ -228,8 +256,8 @@ impl OpeningWork {
         let Some(gpu) = &self.gpu else { return worker.report((Arrival::Read(read), None)) };
         let uploaded = Arc::new((self.upload)(gpu, &read.material));
         worker.report((Arrival::Read(read.clone()), Some((read.id, uploaded.clone()))))?;
-        uploaded.complete(gpu, &read.material);
-        worker.wake();
+        // Where that thread has panicked, this one does as well when it has read everything.
+        let _ = rests.send((read, uploaded));
         Ok(())
     }
 }

@@ -8,13 +8,12 @@ use svbrdf_core::picture::statistics::{Histogram, Statistics};
 
 use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
 use crate::viewer::ui::legend::strip::{BAR, HISTOGRAM, LegendStrip, STATISTICS};
-use crate::viewer::ui::widgets::names::shortened;
+use crate::viewer::ui::widgets::names::{FEWEST, Names, fitted};
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::theme;
 
-/// Width of a name, in points, and its characters.
+/// Width of a name, in points.
 const NAME: f32 = 146.0;
-const CHARACTERS: usize = 18;
 
 impl LegendStrip<'_> {
     /// A row of numbers for each prediction.
@@ -53,7 +52,7 @@ impl LegendStrip<'_> {
         };
         let heads =
             [("mean", mean), ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
-        let short = shortened(&self.names, CHARACTERS);
+        let short = Names::new(&self.names);
         egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {
             // Low rows: three of them are seen at once.
             let grid = egui::Grid::new("difference statistics").num_columns(5).min_row_height(0.0);
@@ -64,8 +63,7 @@ impl LegendStrip<'_> {
                 }
                 ui.end_row();
                 for (index, statistics) in distributions.statistics.iter().enumerate() {
-                    let name = short.get(index).map_or("", String::as_str);
-                    self.row(ui, (index, name), statistics.as_ref(), distributions.histograms.get(index));
+                    self.row(ui, index, &short, statistics.as_ref(), distributions.histograms.get(index));
                     ui.end_row();
                 }
             });
@@ -83,14 +81,18 @@ impl LegendStrip<'_> {
     fn row(
         &self,
         ui: &mut egui::Ui,
-        (index, short): (usize, &str),
+        index: usize,
+        names: &Names<'_>,
         statistics: Option<&Statistics>,
         histogram: Option<&Histogram>,
     ) {
         let colour = theme::series(self.series(index), ui.visuals().dark_mode);
         let name = self.names.get(index).copied().unwrap_or_default();
         let number = if index + self.first == 0 { "gt".to_owned() } else { (index + self.first).to_string() };
-        let text = RichText::new(format!("{number}  {short}")).color(colour);
+        let short = |most| format!("{number}  {}", names.shortened(index, most));
+        let font = egui::TextStyle::Body.resolve(ui.style());
+        let short = fitted(ui, &font, NAME, short).unwrap_or_else(|| short(FEWEST));
+        let text = RichText::new(short).color(colour);
         let text = if index == self.chosen { text.strong().underline() } else { text };
         let label = ui.scope(|ui| {
             ui.set_max_width(NAME);

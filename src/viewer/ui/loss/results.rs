@@ -8,14 +8,12 @@ use svbrdf_core::model::scene::Kind;
 
 use crate::viewer::jobs::loss::Losses;
 use crate::viewer::model::command::{Command, DisplayCommand, LossCommand};
-use crate::viewer::ui::widgets::names::shortened;
+use crate::viewer::ui::widgets::names::{FEWEST, Names, fitted};
 use crate::viewer::ui::widgets::numbers::{half_width, signed, significant};
 use crate::viewer::ui::widgets::theme;
 
 /// Number of predictions from which on there is a field that filters them.
 const MANY: usize = 12;
-/// Characters of a name in a row.
-const NAME: usize = 15;
 /// Heights of a line and of the bar below it, in points.
 const LINE: f32 = 17.0;
 const BAR: f32 = 3.0;
@@ -53,7 +51,7 @@ impl Results<'_> {
         let losses = &self.latest.report.outcome.losses;
         let filter = self.controls(ui, losses.len(), &mut commands);
         let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
-        let short = shortened(&names, NAME);
+        let short = Names::new(&names);
         // 15 predictions are seen at once in a window of 860 points.
         ui.spacing_mut().item_spacing.y = 2.0;
         ui.spacing_mut().button_padding.y = 1.0;
@@ -65,8 +63,8 @@ impl Results<'_> {
             }
             let is_stale = self.stale.get(index).is_some_and(|is_stale| *is_stale);
             let mark = if is_stale { STALE_MARK } else { "" };
-            let name = format!("{}{mark}  {}", index + 1, short[index]);
-            if self.row(ui, index, &losses[index], name).clicked() {
+            let name = |most| format!("{}{mark}  {}", index + 1, short.shortened(index, most));
+            if self.row(ui, index, &losses[index], &name).clicked() {
                 commands.push(DisplayCommand::ChoosePrediction(index).into());
             }
             if index == self.chosen {
@@ -119,13 +117,22 @@ impl Results<'_> {
     }
 
     /// One line: name, loss, half the width of its interval, and the difference from the chosen prediction; its bar below.
-    fn row(&self, ui: &mut egui::Ui, index: usize, loss: &Loss, name: String) -> egui::Response {
+    fn row(
+        &self,
+        ui: &mut egui::Ui,
+        index: usize,
+        loss: &Loss,
+        name: &dyn Fn(usize) -> String,
+    ) -> egui::Response {
         let [mean, _] = significant(&loss.estimate);
         let line = ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
             let size = vec2(name_width(ui), ui.spacing().interact_size.y);
             let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_justify(true);
             let chosen = index == self.chosen;
+            let font = egui::TextStyle::Button.resolve(ui.style());
+            let room = size.x - 2.0 * ui.spacing().button_padding.x;
+            let name = fitted(ui, &font, room, name).unwrap_or_else(|| name(FEWEST));
             let left = ui.allocate_ui_with_layout(size, layout.with_main_align(egui::Align::Min), |ui| {
                 ui.add(egui::Button::selectable(chosen, name).truncate())
             });

@@ -167,15 +167,6 @@ impl Scenery<'_> {
         }
     }
 
-    /// How many names of materials a title has, and their characters.
-    pub fn name_lengths(&self, content: Content) -> (usize, usize) {
-        let length = |index: usize| self.materials[index].label().chars().count();
-        match content.mode {
-            DisplayMode::Wipe(_) => (2, length(content.index) + length(content.reference)),
-            DisplayMode::Value => (1, length(content.index)),
-        }
-    }
-
     /// The name of material `index` in titles. Of names that are too long, what all have in common is left out.
     fn title(&self, index: usize, most: usize) -> String {
         let labels: Vec<String> = self.materials.iter().map(LoadedMaterial::label).collect();

@@ -7,16 +7,14 @@ use svbrdf_gpu::DisplayMode;
 use crate::viewer::model::command::{Command, DisplayCommand};
 use crate::viewer::model::view::state::Layout;
 use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::viewer::ui::widgets::names::{FEWEST, fitted};
 use crate::viewer::ui::widgets::numbers::significant;
 use crate::viewer::ui::widgets::theme;
 
 /// Width of the button that shows the prediction itself again, in points.
 const BACK: f32 = 96.0;
-/// Mean width of a character, in points.
-const CHARACTER: f32 = 7.0;
-/// Widths of the colour of a prediction and of its loss, in points.
+/// Width of the colour of a prediction, in points.
 const SWATCH: f32 = 14.0;
-const LOSS: f32 = 64.0;
 
 /// The title of a pane. A click on the title of a prediction chooses the prediction.
 pub fn title_bar(
@@ -29,7 +27,7 @@ pub fn title_bar(
     let is_material = content.photograph != PhotographUse::Displayed;
     let prediction = content.index.checked_sub(1).filter(|_| is_material);
     let chosen = is_material && content.index == scenery.chosen() && content.index != 0;
-    let text = text(scenery, content, usize::MAX);
+    let text = text(scenery, content, usize::MAX, true);
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let replaced = chosen && scenery.state.display.is_replaced();
@@ -42,24 +40,29 @@ pub fn title_bar(
     };
     let loss = prediction.and_then(|index| scenery.losses?.get(index)).filter(|_| !replaced);
     let loss = loss.map(|loss| significant(&loss.estimate)[0].clone());
-    let room = if replaced { BACK } else { loss.as_ref().map_or(0.0, |_| LOSS) };
     let swatch = prediction.map(|index| theme::series(index, ui.visuals().dark_mode));
     let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
     if let Some(colour) = swatch {
         let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
         painter.rect_filled(Rect::from_center_size(middle, vec2(8.0, 8.0)), 0.0, colour);
     }
-    if let Some(loss) = &loss {
-        let font = FontId::monospace(12.0);
-        let at = rect.right_center() - vec2(8.0, 0.0);
-        painter.text(at, Align2::RIGHT_CENTER, loss, font, ui.visuals().weak_text_color());
-    }
+    let loss = loss.map(|loss| {
+        let right = rect.right_center() - vec2(8.0, 0.0);
+        painter.text(
+            right,
+            Align2::RIGHT_CENTER,
+            loss,
+            FontId::monospace(12.0),
+            ui.visuals().weak_text_color(),
+        )
+    });
+    let room = if replaced { BACK } else { loss.map_or(0.0, |loss| loss.width() + 8.0) };
     let width = rect.width() - left - 8.0 - room;
     let font = FontId::proportional(13.5);
-    // The quantity stays; names lose what they have in common, and then their middles.
-    let (names, length) = scenery.name_lengths(content);
-    let room = ((width / CHARACTER) as usize + length).saturating_sub(text.chars().count());
-    let short = self::text(scenery, content, (room / names).max(8));
+    // Names lose what they have in common, and then their middles; where that is not enough, the quantity goes, which the legend has.
+    let short = fitted(ui, &font, width, |most| self::text(scenery, content, most, true))
+        .or_else(|| fitted(ui, &font, width, |most| self::text(scenery, content, most, false)))
+        .unwrap_or_else(|| self::text(scenery, content, FEWEST, false));
     let galley = egui::WidgetText::from(egui::RichText::new(&short).font(font.clone()).color(colour))
         .into_galley(ui, Some(egui::TextWrapMode::Truncate), width, font);
     let elided = galley.elided || short != text;
@@ -80,14 +83,16 @@ pub fn title_bar(
     prediction.filter(|_| response.clicked()).map(|index| DisplayCommand::ChoosePrediction(index).into())
 }
 
-/// The names, of at most `most` characters each, and the quantity.
-fn text(scenery: &Scenery<'_>, content: Content, most: usize) -> String {
-    let (name, reference) = (scenery.name_of(content, most), scenery.name_of_reference(content, most));
-    let difference = scenery.state.difference_name();
-    match content.mode {
-        DisplayMode::Value if content.difference => format!("{name}: {difference}"),
-        DisplayMode::Wipe(_) if content.difference => format!("{reference}   |   {name}: {difference}"),
+/// The names, of at most `most` characters each, and the quantity of differences where there is room for it.
+fn text(scenery: &Scenery<'_>, content: Content, most: usize, has_quantity: bool) -> String {
+    let name = scenery.name_of(content, most);
+    let names = match content.mode {
         DisplayMode::Value => name,
-        DisplayMode::Wipe(_) => format!("{reference}   |   {name}"),
+        DisplayMode::Wipe(_) => format!("{}   |   {name}", scenery.name_of_reference(content, most)),
+    };
+    if content.difference && has_quantity {
+        format!("{names}: {}", scenery.state.difference_name())
+    } else {
+        names
     }
 }

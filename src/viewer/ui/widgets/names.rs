@@ -1,19 +1,62 @@
 //! Names shortened to a width, and still distinct.
 
+use eframe::egui::{Color32, FontId, Ui};
+
 /// Characters after which a common beginning may end.
 const SEPARATORS: [char; 6] = ['/', '\\', '_', '-', ' ', '.'];
+/// The fewest and the most characters of a name in a text that is fitted.
+pub const FEWEST: usize = 6;
+const MOST: usize = 80;
 
-/// The names in at most `most` characters each. Where one is too long, the beginning that all have in common becomes an
-/// ellipsis; a name that is still too long loses its middle.
-pub fn shortened(names: &[&str], most: usize) -> Vec<String> {
-    let too_long = names.iter().any(|name| name.chars().count() > most);
-    let cut = if too_long && names.len() > 1 { common_beginning(names) } else { 0 };
-    let one = |name: &&str| {
-        let ending: String = name.chars().skip(cut).collect();
-        let text = if cut > 2 { format!("\u{2026}{ending}") } else { (*name).to_owned() };
-        without_middle(&text, most)
+/// The longest `text(most)`, whose names have at most `most` characters each, that fits into `width` points; `None` where even the
+/// shortest does not.
+pub fn fitted(ui: &Ui, font: &FontId, width: f32, text: impl Fn(usize) -> String) -> Option<String> {
+    let fits = |text: &str| {
+        let galley = ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER);
+        galley.size().x <= width
     };
-    names.iter().map(one).collect()
+    let whole = text(usize::MAX);
+    if fits(&whole) {
+        return Some(whole);
+    }
+    let lengths: Vec<usize> = (FEWEST..=MOST).collect();
+    let fitting = lengths.partition_point(|length| fits(&text(*length)));
+    fitting.checked_sub(1).map(|last| text(lengths[last]))
+}
+
+/// Names that are told apart.
+#[derive(Clone, Debug)]
+pub struct Names<'a> {
+    names: Vec<&'a str>,
+    /// Characters of the longest, and of the beginning that all have in common.
+    longest: usize,
+    common: usize,
+}
+
+impl<'a> Names<'a> {
+    pub fn new(names: &[&'a str]) -> Self {
+        let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+        let common = if names.len() > 1 { common_beginning(names) } else { 0 };
+        Self { names: names.to_vec(), longest, common }
+    }
+
+    /// The name in place `index` in at most `most` characters. Where one of the names is too long, the beginning that all have in
+    /// common becomes an ellipsis; a name that is still too long loses its middle.
+    pub fn shortened(&self, index: usize, most: usize) -> String {
+        let Some(name) = self.names.get(index) else { return String::new() };
+        if self.longest <= most {
+            return (*name).to_owned();
+        }
+        let ending: String = name.chars().skip(self.common).collect();
+        let text = if self.common > 2 { format!("\u{2026}{ending}") } else { (*name).to_owned() };
+        without_middle(&text, most)
+    }
+}
+
+/// The names in at most `most` characters each, as [`Names::shortened`].
+pub fn shortened(names: &[&str], most: usize) -> Vec<String> {
+    let all = Names::new(names);
+    (0..names.len()).map(|index| all.shortened(index, most)).collect()
 }
 
 /// The number of characters, up to and with a separator, that all names begin with.
@@ -41,6 +84,7 @@ fn without_middle(text: &str, most: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eframe::egui;
 
     #[test]
     fn names_that_fit_stay_as_they_are() {
@@ -65,5 +109,26 @@ mod tests {
         let distinct: std::collections::HashSet<_> = short.iter().collect();
         assert_eq!(distinct.len(), 40, "{short:?}");
         assert!(short.iter().all(|name| name.chars().count() <= 18), "{short:?}");
+    }
+
+    #[test]
+    fn a_fitted_name_uses_the_width_and_keeps_its_ending() {
+        let names: Vec<String> =
+            (1..16).map(|i| format!("method_{i:02}_with_a_long_name_epoch_{i}000")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let names = Names::new(&names);
+        egui::__run_test_ui(|ui| {
+            let font = FontId::proportional(13.5);
+            let width =
+                |text: String| ui.painter().layout_no_wrap(text, font.clone(), Color32::PLACEHOLDER).size().x;
+            for room in [85.0, 100.0, 120.0, 200.0, 1000.0] {
+                let text = |most| format!("{}  {}", 7, names.shortened(6, most));
+                let fitted = fitted(ui, &font, room, text).unwrap();
+                assert!(width(fitted.clone()) <= room && fitted.ends_with("000"), "{room}: {fitted}");
+                let longer = text(fitted.chars().count() - 3 + 1);
+                assert!(width(longer.clone()) > room || room == 1000.0, "{longer} would fit into {room}");
+            }
+            assert_eq!(fitted(ui, &font, 20.0, |most| names.shortened(0, most)), None);
+        });
     }
 }
