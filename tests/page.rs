@@ -2,6 +2,7 @@
 
 mod browser;
 mod controls;
+mod framing;
 mod hostile;
 mod language;
 mod numbers;
@@ -58,8 +59,17 @@ fn figure(materials: &[Material<f32>], convention: Convention) -> String {
 /// [`figure`] with these labels.
 fn labelled(materials: &[Material<f32>], convention: Convention, labels: Labels) -> String {
     let materials: Vec<&Material<f32>> = materials.iter().collect();
-    let report = Report {
-        materials: &materials,
+    html(&Report { labels, ..report(&materials, convention) })
+}
+
+fn html(report: &Report<'_>) -> String {
+    report.page(&Progress::default()).unwrap().html
+}
+
+/// The report of a figure alone.
+fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report<'a> {
+    Report {
+        materials,
         convention,
         view: View {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
@@ -69,8 +79,7 @@ fn labelled(materials: &[Material<f32>], convention: Convention, labels: Labels)
         findings: None,
         readings: Vec::new(),
         repetition: None,
-        labels,
+        labels: Labels::default(),
         max_bytes: 10_000_000,
-    };
-    report.page(&Progress::default()).unwrap().html
+    }
 }

@@ -62,7 +62,8 @@ fn a_report_of_a_session_begins_as_it_was_saved() {
     let session = json!({
         "svbrdf-session": 1, "convention": "multi-image-2019", "scene": scene, "exposure": 1.5,
         "materials": [{"path": "gt.png"}, {"path": "a.png"}],
-        "window": {"view": {"quantity": "Roughness", "difference": true, "layout": "Wipe", "prediction": 7, "wipe": 0.25}},
+        "window": {"view": {"quantity": "Roughness", "difference": true, "layout": "Wipe", "prediction": 7, "wipe": 0.25,
+            "framing": {"pixels_per_texel": 12.5, "centre": [3.0, 5.5]}}},
     });
     fs::write(folder.path().join("s.svbrdf-session.json"), session.to_string()).unwrap();
     succeed(folder.path(), "report s.svbrdf-session.json -o r.html --figure");
@@ -74,6 +75,7 @@ fn a_report_of_a_session_begins_as_it_was_saved() {
         [&start["layout"], &start["prediction"], &start["wipe"]],
         [&json!("wipe"), &json!(0), &json!(0.25)]
     );
+    assert_eq!(start["framing"], json!({"pixelsPerTexel": 12.5, "centre": [3.0, 5.5]}));
     assert_eq!(data["epsilon"], json!(0.1));
 }
 

@@ -35,6 +35,8 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     let path = folder.path().join("a report.html");
     apply(&mut window, DisplayCommand::SetLayout(Layout::Wipe));
     apply(&mut window, DisplayCommand::SetExposure(1.5));
+    apply(&mut window, DisplayCommand::Zoom { factor: 3.0, at: [0.2, -0.1] });
+    let framing = window.state().parts.model.view.display.framing.unwrap();
     let mut scene = window.state().parts.model.view.scene;
     scene.light = [0.1, -0.7, 1.3];
     apply(&mut window, SceneCommand::Set(scene));
@@ -51,6 +53,9 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     assert_eq!(start["scene"], serde_json::to_value(scene).unwrap());
     assert_eq!([&start["layout"], &start["difference"]], [&"wipe".into(), &serde_json::Value::from(true)]);
     assert_eq!([start["exposure"].as_f64(), start["ranges"]["log"].as_f64()], [Some(1.5), Some(0.75)]);
+    let begins = &start["framing"];
+    assert_eq!(begins["pixelsPerTexel"], serde_json::json!(framing.pixels_per_texel));
+    assert_eq!(begins["centre"], serde_json::json!(framing.centre));
     for loss in losses {
         assert!(html.contains(&format!("<td>{loss:.4}</td>")), "{loss}");
     }

@@ -6,6 +6,8 @@
  * @typedef {{width: number, height: number}} Grid
  * @typedef {{origin: Vector, originRight: Vector, originUp: Vector, direction: Vector, directionRight: Vector,
  *   directionUp: Vector}} Camera
+ * @typedef {{pixelsPerTexel: number, centre: [number, number]}} Framing  Physical pixels per texel, and the point in the middle of the
+ *   pane, in texels from the left and from the upper edge: src/viewer/model/view/framing.rs.
  */
 
 /** Room left around the material when it is fitted into a pane. */
@@ -14,6 +16,8 @@ const MARGIN = 1.03;
 const WIDEST = 4;
 /** Where an orthographic view starts, in units of half the width of the material. */
 const FAR_AWAY = 100;
+/** Least and greatest magnification of the fitted material. */
+const ZOOMS = [0.1, 1000];
 
 /** @param {Vector} a @param {number} s @returns {Vector} */
 const scaled = (a, s) => [a[0] * s, a[1] * s, a[2] * s];
@@ -76,6 +80,26 @@ function sceneCamera(scene, grid, aspect) {
       origin: scaled(forward, -FAR_AWAY), originRight: across, originUp: upwards,
       direction: forward, directionRight: none, directionUp: none,
     };
+}
+
+/** Of a camera that looks at the middle of the material: half the height of the pane there, in units of the plane. @param {Camera} c */
+function halfHeight(c) {
+  const distance = -dot(c.origin, c.direction) / dot(c.direction, c.direction);
+  return norm(sum(c.originUp, scaled(c.directionUp, distance)));
+}
+
+/**
+ * The zoom and pan of a framing, in a pane of `height` physical pixels.
+ * @param {Framing} framing @param {Camera} fitted @param {Grid} grid @param {number} height @returns {{zoom: number, pan: [number, number]}}
+ */
+function framed({ pixelsPerTexel, centre: [column, row] }, fitted, grid, height) {
+  const [x, y] = halfExtent(grid);
+  const texel = 2 * y / grid.height;
+  const zoom = clamp(pixelsPerTexel * 2 * halfHeight(fitted) / (texel * height), ZOOMS[0], ZOOMS[1]);
+  // Within the material, so that some of it is seen.
+  const [across, down] = [clamp(column / grid.width, 0, 1), clamp(row / grid.height, 0, 1)];
+  const at = ndcFromPoint(fitted, [(2 * across - 1) * x, (1 - 2 * down) * y, 0]) ?? [0, 0];
+  return { zoom, pan: [-at[0] * zoom, -at[1] * zoom] };
 }
 
 /** Magnified by `zoom` and moved by `pan`, in units of the pane. @param {Camera} c @param {number} zoom @param {[number, number]} pan @returns {Camera} */

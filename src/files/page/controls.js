@@ -76,7 +76,9 @@ function bindControls(figure, element, reset) {
 /** Says where light and view are, once they rest. @param {Figure} figure @param {HTMLElement} status */
 function announce(figure, status) {
   let timer = 0;
-  const place = (/** @type {Vector} */ p) => `(${p.map((c) => c.toFixed(2).replace("-", "\u2212")).join(", ")})`;
+  // On one line, without a negative zero.
+  const coordinate = (/** @type {number} */ c) => (Math.round(100 * c) / 100 + 0).toFixed(2).replace("-", "\u2212");
+  const place = (/** @type {Vector} */ p) => `(${p.map(coordinate).join(",\u00a0")})`;
   figure.watchers.push(() => {
     clearTimeout(timer);
     timer = setTimeout(() => {

@@ -15,6 +15,7 @@ use svbrdf_core::picture::quantity::Quantity;
 
 use super::content::{Report, View};
 use super::encode::EncodedMaterial;
+use crate::session_window::Framing;
 
 /// GLSL made from the WGSL of the window: tests/page/shaders.rs makes it anew.
 const SHADERS: &str = include_str!("shaders.json");
@@ -63,10 +64,19 @@ struct Start<'a> {
     layout: &'a str,
     prediction: usize,
     projection: String,
+    framing: Option<StartFraming>,
     wipe: f32,
     tiled: bool,
     false_colour: bool,
     clipping: bool,
+}
+
+/// [`Framing`] in texels of the maps of the page.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct StartFraming {
+    pixels_per_texel: f32,
+    centre: [f32; 2],
 }
 
 /// The JSON of the figure.
@@ -78,7 +88,7 @@ pub(super) fn json(
     report: &Report<'_>,
     scenes: &[LinkedScene],
 ) -> Result<String, Error> {
-    let Report { convention, view, labels, .. } = report;
+    let Report { convention, labels, .. } = report;
     let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
     let shaders: Value = serde_json::from_str(SHADERS).map_err(failed)?;
     let data = Data {
@@ -88,7 +98,7 @@ pub(super) fn json(
         epsilon: convention.epsilon,
         kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
-        start: start(view, materials.len()),
+        start: start(report, materials),
         scenes,
         labels: labels.table(),
         shaders,
@@ -132,8 +142,8 @@ fn colours(map: fn(f32) -> [f32; 3], low: f32) -> Vec<String> {
     (0..COLOURS).map(colour).collect()
 }
 
-fn start(view: &View, materials: usize) -> Start<'_> {
-    let display = &view.display;
+fn start<'a>(report: &'a Report<'_>, materials: &[EncodedMaterial]) -> Start<'a> {
+    let View { scene, exposure_ev, ref display } = report.view;
     let differences = &display.differences;
     let chosen = |quantity: Quantity| (quantity.name(), differences.pointwise(quantity).0.key());
     let range = |quantity: Quantity| {
@@ -142,18 +152,31 @@ fn start(view: &View, materials: usize) -> Start<'_> {
     };
     let ranges = Quantity::ALL.into_iter().filter_map(range);
     Start {
-        scene: view.scene,
-        exposure: view.exposure_ev,
+        scene,
+        exposure: exposure_ev,
         quantity: display.quantity.name(),
         difference: display.difference,
         kinds: Quantity::ALL.map(chosen).into(),
         ranges: ranges.collect(),
         layout: display.layout.key(),
-        prediction: display.prediction.min(materials.saturating_sub(2)),
+        prediction: display.prediction.min(materials.len().saturating_sub(2)),
         projection: format!("{:?}", display.projection).to_lowercase(),
+        framing: display.framing.and_then(|framing| in_stored_texels(framing, report, materials)),
         wipe: display.wipe,
         tiled: display.tiled,
         false_colour: display.false_colour,
         clipping: display.show_clipping,
     }
+}
+
+/// A framing of the materials, whose maps may be stored in fewer texels.
+fn in_stored_texels(
+    Framing { pixels_per_texel, centre: [x, y] }: Framing,
+    report: &Report<'_>,
+    stored: &[EncodedMaterial],
+) -> Option<StartFraming> {
+    let [width, height] = report.materials.first()?.size().map(|side| side as f32);
+    let [columns, rows] = stored.first()?.size().map(|side| side as f32);
+    let pixels_per_texel = pixels_per_texel * height / rows;
+    Some(StartFraming { pixels_per_texel, centre: [x * columns / width, y * rows / height] })
 }

@@ -77,6 +77,11 @@ impl EncodedMaterial {
         Ok(Self { name, width, height, planes, normal, diffuse, specular, roughness })
     }
 
+    /// Width and height in texels.
+    pub(super) fn size(&self) -> [usize; 2] {
+        [self.width, self.height]
+    }
+
     /// The number of bytes of its planes.
     pub(super) fn bytes(&self) -> usize {
         self.planes.iter().map(|plane| plane.data.len() + plane.palette.as_ref().map_or(0, String::len)).sum()

@@ -7,7 +7,7 @@
  * @typedef {{key: string, name: string, unit: string, signed: boolean, range: number}} Kind
  * @typedef {{scene: Scene, exposure: number, quantity: string, difference: boolean, kinds: Record<string, string>,
  *   ranges: Record<string, number>, layout: string, prediction: number, projection: string, zoom: number,
- *   pan: [number, number], wipe: number, drag: string, peek: boolean, tiled: boolean, falseColour: boolean, clipping: boolean}} State
+ *   pan: [number, number], framing: Framing | null, wipe: number, drag: string, peek: boolean, tiled: boolean, falseColour: boolean, clipping: boolean}} State
  * @typedef {{materials: StoredMaterial[], model: Record<string, number>, epsilon: number, convention: string,
  *   labels: Record<string, string>, kinds: Record<string, Kind[]>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
  *   start: Partial<State>, scenes: {scene: Scene, exposure: number}[]}} Data
@@ -15,7 +15,7 @@
 
 const LAYOUTS = ["side-by-side", "wipe", "single"];
 const START = {
-  exposure: 0, quantity: "rendering", difference: false, layout: "side-by-side", prediction: 0, projection: "flat", zoom: 1, wipe: 0.5,
+  exposure: 0, quantity: "rendering", difference: false, layout: "side-by-side", prediction: 0, projection: "flat", zoom: 1, framing: null, wipe: 0.5,
   drag: "light", peek: false, tiled: false, falseColour: false, clipping: false,
 };
 /** Least width of a pane, in CSS pixels, where others fit below it. */
@@ -112,11 +112,23 @@ class Figure {
     return { ...best, rows: Math.ceil(count / best.columns) };
   }
 
+  /** The camera that fits the material into a pane. @param {number} width @param {number} height */
+  fitted(width, height) {
+    const { scene, projection } = this.state;
+    return projection === "flat" ? flatCamera(this.grid, width / height) : sceneCamera(scene, this.grid, width / height);
+  }
+
   /** @param {number} width @param {number} height @returns {Camera} */
   camera(width, height) {
-    const { scene, projection, zoom, pan } = this.state;
-    const fitted = projection === "flat" ? flatCamera(this.grid, width / height) : sceneCamera(scene, this.grid, width / height);
-    return zoomed(fitted, zoom, pan);
+    return zoomed(this.fitted(width, height), this.state.zoom, this.state.pan);
+  }
+
+  /** Makes the framing of the state the zoom and pan of its panes. */
+  frame() {
+    const { framing } = this.state;
+    if (!framing) return;
+    const { width, height } = this.boxes()[0];
+    Object.assign(this.state, framed(framing, this.fitted(width, height), this.grid, height * devicePixelRatio), { framing: null });
   }
 
   /** The rectangle of each pane, in CSS pixels from the upper left corner. */
@@ -135,6 +147,7 @@ class Figure {
     const [w, h] = [Math.round(canvas.clientWidth * scale), Math.round(rows * height * scale)];
     if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
     this.shading.clear();
+    this.frame();
     const how = this.how();
     for (const { pane, ...box } of this.boxes()) {
       const gap = 1;

@@ -7,7 +7,6 @@ const SCALE_STEP = 1.1;
 const ZOOM_STEP = 1.15;
 /** How far from the line of the wipe it is grabbed, in CSS pixels: by a mouse, by a finger. */
 const REACH = { mouse: 8, touch: 22 };
-const ZOOMS = [0.1, 1000];
 
 /** @typedef {"light" | "view" | "orbit" | "pan" | "wipe"} Gesture */
 
@@ -25,7 +24,8 @@ class Gestures {
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
     for (const kind of /** @type {const} */ (["pointerup", "pointercancel"])) canvas.addEventListener(kind, (event) => this.up(event));
-    canvas.addEventListener("pointerleave", () => this.hovered(null));
+    // WebKit reports a leave where a press ends, too, and a finger has no place after it.
+    canvas.addEventListener("pointerleave", (event) => this.hover(this.place(event)));
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
   }

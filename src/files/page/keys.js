@@ -28,9 +28,7 @@ function listenToKeys(figure, section, gestures, reset) {
     g: () => { state.peek = true; },
     f: () => { Object.assign(state, { zoom: 1, pan: [0, 0] }); },
     0: () => {
-      const box = figure.boxes()[0];
-      const fitted = Math.min(box.width / figure.grid.width, box.height / figure.grid.height) / MARGIN;
-      Object.assign(state, { zoom: 1 / (fitted * devicePixelRatio), pan: [0, 0] });
+      state.framing = { pixelsPerTexel: 1, centre: [figure.grid.width / 2, figure.grid.height / 2] };
     },
     r: reset,
     t: () => { state.tiled = !state.tiled; },

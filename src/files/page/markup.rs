@@ -4,6 +4,47 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use sha2::{Digest as _, Sha256};
 
+use crate::atomic::SOFTWARE;
+
+/// The head of every page, with its content security policy.
+const FRAME: &str = include_str!("frame.html");
+
+/// A page that needs no other file.
+pub(super) struct Document<'a> {
+    /// Of its labels, BCP 47.
+    pub language: &'a str,
+    /// As HTML.
+    pub title: &'a str,
+    pub style: &'a str,
+    pub script: &'a str,
+    /// As HTML.
+    pub body: &'a str,
+}
+
+impl Document<'_> {
+    /// The document as HTML: its policy admits its own script and style, pictures inside the file, and nothing else.
+    pub(super) fn html(&self) -> String {
+        filled(
+            FRAME,
+            &[
+                ("language", self.language),
+                ("title", self.title),
+                ("software", SOFTWARE),
+                ("script-hash", &policy_source(self.script)),
+                ("style-hash", &policy_source(self.style)),
+                ("style", self.style),
+                ("script", self.script),
+                ("body", self.body),
+            ],
+        )
+    }
+
+    /// Bytes of the document around its body.
+    pub(super) fn bytes_without_body(style: &str, script: &str) -> usize {
+        FRAME.len() + style.len() + script.len()
+    }
+}
+
 /// The text with the characters that HTML reads as markup escaped: for elements and quoted attributes. What steers the direction of
 /// text is written as `\u{...}`.
 pub(super) fn escaped(text: &str) -> String {
@@ -27,7 +68,7 @@ pub(super) fn embedded(json: &str) -> String {
 }
 
 /// The source expression of a content security policy that admits an inline script or style of this text.
-pub(super) fn policy_source(text: &str) -> String {
+fn policy_source(text: &str) -> String {
     format!("sha256-{}", BASE64_STANDARD.encode(Sha256::digest(text)))
 }
 
@@ -59,9 +100,10 @@ pub(super) fn percent(share: f64) -> String {
     format!("{:.1}%", 100.0 * share).replace('-', "\u{2212}")
 }
 
-/// A position or direction.
+/// A position or direction, on one line, without a negative zero.
 pub(super) fn place(p: [f64; 3]) -> String {
-    format!("({:.2}, {:.2}, {:.2})", p[0], p[1], p[2]).replace('-', "\u{2212}")
+    let [x, y, z] = p.map(|c| format!("{:.2}", (100.0 * c).round() / 100.0 + 0.0));
+    format!("({x},\u{a0}{y},\u{a0}{z})").replace('-', "\u{2212}")
 }
 
 #[cfg(test)]
@@ -99,5 +141,6 @@ mod tests {
             ["0.000", "0.1235", "\u{2212}12.35", "1234"]
         );
         assert_eq!(percent(-0.0312), "\u{2212}3.1%");
+        assert_eq!(place([-0.004, 0.5, -1.25]), "(0.00,\u{a0}0.50,\u{a0}\u{2212}1.25)");
     }
 }

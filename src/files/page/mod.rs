@@ -23,12 +23,12 @@ use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::progress::Progress;
 
-use crate::atomic::{SOFTWARE, check_place};
+use crate::atomic::check_place;
 pub use content::{Findings, Repetition, Report, View};
 use encode::EncodedMaterial;
 pub use exposure::exposure;
 pub use labels::Labels;
-use markup::{escaped, filled};
+use markup::{Document, escaped, filled};
 pub use ranking::{MaterialView, ranking};
 pub use ranking_views::{Figures, material_views};
 
@@ -97,29 +97,23 @@ impl Report<'_> {
         let view = &self.view;
         let still = pictures::still(&small, content, &view.scene, &self.convention, view.exposure_ev, STILL)?;
         let (sections, scenes) = findings::sections(self, &small, progress)?;
-        let fixed = PAGE.len() + STYLE.len() + SCRIPT.len() + still.len() + sections.len() + 64 * 1024;
+        let frame = Document::bytes_without_body(STYLE, SCRIPT);
+        let fixed = frame + PAGE.len() + still.len() + sections.len() + 64 * 1024;
         let (materials, reduced_to) = self.encoded(self.max_bytes.saturating_sub(fixed), progress)?;
         let data = data::json(&materials, self, &scenes)?;
-        let header = self.header(reduced_to);
-        let title = self.title();
-        let html = filled(
+        let body = filled(
             PAGE,
             &[
-                ("language", self.labels.language()),
-                ("title", &title),
-                ("software", SOFTWARE),
-                ("script-hash", &markup::policy_source(SCRIPT)),
-                ("style-hash", &markup::policy_source(STYLE)),
-                ("style", STYLE),
-                ("script", SCRIPT),
-                ("header", &header),
+                ("header", &self.header(reduced_to)),
                 ("still", &still),
-                ("still-alt", &format!("Still picture: {title}")),
+                ("still-alt", &format!("Still picture: {}", self.title())),
                 ("caption", &self.caption()),
                 ("findings", &sections),
                 ("data", &markup::embedded(&data)),
             ],
         );
+        let (language, title) = (self.labels.language(), &self.title());
+        let html = Document { language, title, style: STYLE, script: SCRIPT, body: &body }.html();
         Ok(Page { html, reduced_to })
     }
 

@@ -25,7 +25,7 @@ pub(super) fn bar(value: &Estimate, [low, high]: [f64; 2]) -> String {
     let zero = x(0.0);
     let extent = to - from;
     format!(
-        r#"<svg width="{width}" height="{height}" viewBox="0 0 {width} {height}" aria-hidden="true"><rect class="bar{sign}" x="{from:.1}" y="3" width="{extent:.1}" height="10"/>{error}<line class="axis" x1="{zero:.1}" x2="{zero:.1}" y1="0" y2="{height}"/></svg>"#
+        r#"<svg class="row" viewBox="0 0 {width} {height}" preserveAspectRatio="none" aria-hidden="true"><rect class="bar{sign}" x="{from:.1}" y="3" width="{extent:.1}" height="10"/>{error}<line class="axis" x1="{zero:.1}" x2="{zero:.1}" y1="0" y2="{height}"/></svg>"#
     )
 }
 
@@ -49,7 +49,7 @@ pub(super) fn legend(most: f64) -> String {
     }
     let [middle, last] = [most / 2.0, most].map(number);
     format!(
-        r#"<svg width="256" height="28" viewBox="0 0 256 28" role="img" aria-label="Colours from 0 to {last}">{cells}<text x="0" y="25">0</text><text x="128" y="25" text-anchor="middle">{middle}</text><text x="256" y="25" text-anchor="end">{last}</text></svg>"#
+        r#"<svg class="scale" viewBox="0 0 256 28" role="img" aria-label="Colours from 0 to {last}">{cells}<text x="0" y="25">0</text><text x="128" y="25" text-anchor="middle">{middle}</text><text x="256" y="25" text-anchor="end">{last}</text></svg>"#
     )
 }
 
@@ -57,13 +57,15 @@ pub(super) fn legend(most: f64) -> String {
 pub(super) fn directions(map: &Hemisphere, prediction: usize, name: &str, most: f64) -> String {
     let side = map.side as f64;
     let size = 2.0 / side;
+    // Nothing of the background shines through between two cells.
+    let covered = 1.05 * size;
     let mut cells = String::new();
     for (index, loss) in map.losses[prediction].iter().enumerate().filter(|(_, loss)| !loss.is_nan()) {
         let [x, y] = [index % map.side, index / map.side].map(|i| i as f64 * size - 1.0);
         let [r, g, b] = difference_to_display(*loss as f32, most as f32, false);
         let _ = write!(
             cells,
-            r##"<rect x="{x:.3}" y="{y:.3}" width="{size:.3}" height="{size:.3}" fill="#{r:02x}{g:02x}{b:02x}"/>"##
+            r##"<rect x="{x:.3}" y="{y:.3}" width="{covered:.3}" height="{covered:.3}" fill="#{r:02x}{g:02x}{b:02x}"/>"##
         );
     }
     let worst = map.worst(prediction);

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use svbrdf_core::loss::Estimate;
 
-use super::markup::{escaped, filled, number, policy_source};
+use super::markup::{Document, escaped, filled, number};
 use super::plots;
 use crate::atomic::SOFTWARE;
 use crate::dataset::{
@@ -30,19 +30,8 @@ pub fn ranking(report: &DatasetReport, views: &[MaterialView]) -> String {
     let title =
         format!("Rendering loss over {} of {} materials", report.results.len(), settings.materials.len());
     let sections = methods(report) + &metrics(report) + &marks(report) + &materials(report, views);
-    filled(
-        PAGE,
-        &[
-            ("title", &title),
-            ("software", SOFTWARE),
-            ("script-hash", &policy_source(SCRIPT)),
-            ("style-hash", &policy_source(STYLE)),
-            ("style", STYLE),
-            ("script", SCRIPT),
-            ("settings", &heading(report)),
-            ("sections", &sections),
-        ],
-    )
+    let body = filled(PAGE, &[("title", &title), ("settings", &heading(report)), ("sections", &sections)]);
+    Document { language: "en", title: &title, style: STYLE, script: SCRIPT, body: &body }.html()
 }
 
 /// Everything that the numbers depend on.
