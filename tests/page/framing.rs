@@ -30,7 +30,8 @@ fn camera(page: &mut Page) -> (Camera, f32) {
         "(() => { const b = window.svbrdf.figure.boxes()[0], c = window.svbrdf.figure.camera(b.width, b.height); \
          return [[c.origin, c.originRight, c.originUp, c.direction, c.directionRight, c.directionUp], b.height]; })()",
     );
-    let vector = |i: usize| Vec3::from_array([0, 1, 2].map(|axis| found[0][i][axis].as_f64().unwrap() as f32));
+    let vector =
+        |i: usize| Vec3::from_array([0, 1, 2].map(|axis| found[0][i][axis].as_f64().unwrap() as f32));
     let [origin, origin_right, origin_up, direction, direction_right, direction_up] =
         [0, 1, 2, 3, 4, 5].map(vector);
     let camera = Camera { origin, origin_right, origin_up, direction, direction_right, direction_up };
@@ -78,7 +79,8 @@ fn the_figure_begins_with_the_texels_of_the_session_and_resets_to_them() {
 fn halved_maps_begin_with_the_same_part_of_the_material() {
     let mut page = open(FRAMING, Projection::Flat, 1);
     assert_eq!(page.evaluate("window.svbrdf.figure.grid.width"), json!(24));
-    let [x, y] = [0, 1].map(|i| page.evaluate(&format!("window.svbrdf.figure.data.start.framing.centre[{i}]")));
+    let [x, y] =
+        [0, 1].map(|i| page.evaluate(&format!("window.svbrdf.figure.data.start.framing.centre[{i}]")));
     assert_eq!([x, y], [json!(15.75), json!(6.125)]);
     let (begins, height) = camera(&mut page);
     let pixels = 0.5 * height / begins.half_height() * 2.0 / 23.0;
