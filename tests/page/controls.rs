@@ -213,3 +213,29 @@ fn the_page_requests_nothing_and_its_policy_admits_nothing() {
     assert_eq!(refused, json!(["connect-src", "script-src-elem"]));
     assert_eq!(page.evaluate("window.hit === undefined"), json!(true));
 }
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn a_window_without_room_for_all_predictions_has_the_chosen_one_beside_the_ground_truth() {
+    let materials: Vec<_> = (1..=16).map(noise).collect();
+    let mut page = Page::open(&figure(&materials, PRINTED), [360, 640]);
+    let panes = |page: &mut Page| page.after_frame("window.svbrdf.figure.panes().map(pane => pane.material)");
+    assert_eq!(panes(&mut page), json!([0, 1]));
+    page.evaluate("document.getElementById('canvas').focus()");
+    page.press("3", 0);
+    assert_eq!(panes(&mut page), json!([0, 3]));
+    page.evaluate(
+        "(() => { const e = document.getElementById('prediction'); e.value = '14'; e.dispatchEvent(new Event('input')); })()",
+    );
+    assert_eq!(panes(&mut page), json!([0, 15]));
+    let status = page.evaluate(
+        "new Promise(done => setTimeout(() => done(document.getElementById('status').textContent), 600))",
+    );
+    assert!(status.as_str().unwrap().ends_with("There is room for one prediction."), "{status}");
+    let widths = "[document.documentElement.scrollWidth, innerWidth]";
+    let widths = page.evaluate(widths);
+    assert_eq!(widths[0], widths[1], "nothing is wider than the window");
+    let size = json!({ "width": 1360, "height": 860, "deviceScaleFactor": 1, "mobile": false });
+    page.send("Emulation.setDeviceMetricsOverride", size);
+    assert_eq!(panes(&mut page).as_array().unwrap().len(), 16);
+}

@@ -25,7 +25,7 @@ function bindControls(figure, element, reset) {
   on("layout", (value) => { state.layout = value; });
   on("prediction", (value) => {
     state.prediction = Number(value);
-    if (state.layout === "side-by-side") state.layout = "single";
+    if (state.layout === "side-by-side" && figure.hasRoom()) state.layout = "single";
   });
   on("near", (value) => setKind(state.scene, /** @type {Scene["kind"]} */ (value)));
   on("projection", (value) => { state.projection = value; });
@@ -83,7 +83,8 @@ function announce(figure, status) {
     clearTimeout(timer);
     timer = setTimeout(() => {
       const { kind, light, view } = figure.state.scene;
-      const text = `${label(kind === "near" ? "Near-field light" : "Distant light")} ${place(light)}, ${label("view")} ${place(view)}`;
+      const few = figure.state.layout === "side-by-side" && !figure.hasRoom() ? ` ${label("There is room for one prediction.")}` : "";
+      const text = `${label(kind === "near" ? "Near-field light" : "Distant light")} ${place(light)}, ${label("view")} ${place(view)}.${few}`;
       if (status.textContent !== text) status.textContent = text;
     }, 250);
   });

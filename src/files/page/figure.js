@@ -20,6 +20,8 @@ const START = {
 };
 /** Least width of a pane, in CSS pixels, where others fit below it. */
 const NARROWEST = 150;
+/** Least side of a pane, in CSS pixels: where all are smaller, one prediction is beside the ground truth. */
+const SMALLEST = 100;
 /** Largest share of the height of the window that the figure takes: there is always room beside it to scroll the page. */
 const TALLEST = 0.68;
 
@@ -92,13 +94,19 @@ class Figure {
       difference: difference && material > 0 && !peek ? this.kind().key : null,
     });
     if (count === 1) return [pane(0)];
-    if (layout === "side-by-side") return this.materials.map((_, index) => pane(index));
+    if (layout === "side-by-side") return (this.hasRoom() ? this.materials.map((_, index) => index) : [0, prediction + 1]).map(pane);
     return [{ ...pane(prediction + 1), wipe: layout === "wipe" && !peek ? wipe : null }];
   }
 
-  /** Columns, and the size of a pane in CSS pixels, for a figure of this width. @param {number} width */
-  arrangement(width) {
-    const count = this.panes().length;
+  /** Whether all materials fit side by side. */
+  hasRoom() {
+    const { width, height } = this.arrangement(this.materials.length);
+    return Math.min(width, height) >= SMALLEST;
+  }
+
+  /** Columns and rows, and the size of a pane in CSS pixels. @param {number} count of panes */
+  arrangement(count) {
+    const width = this.canvas.clientWidth;
     const aspect = clamp(this.grid.width / this.grid.height, 0.4, 2.5);
     const highest = Math.max(innerHeight * TALLEST, 200);
     let best = { columns: 1, width: 0, height: 0 };
@@ -133,15 +141,16 @@ class Figure {
 
   /** The rectangle of each pane, in CSS pixels from the upper left corner. */
   boxes() {
-    const { columns, width, height } = this.arrangement(this.canvas.clientWidth);
-    return this.panes().map((pane, i) => ({
+    const panes = this.panes();
+    const { columns, width, height } = this.arrangement(panes.length);
+    return panes.map((pane, i) => ({
       pane, x: (i % columns) * width, y: Math.floor(i / columns) * height, width, height,
     }));
   }
 
   draw() {
     const { canvas } = this;
-    const { rows, height } = this.arrangement(canvas.clientWidth);
+    const { rows, height } = this.arrangement(this.panes().length);
     canvas.style.height = `${rows * height}px`;
     const scale = devicePixelRatio;
     const [w, h] = [Math.round(canvas.clientWidth * scale), Math.round(rows * height * scale)];

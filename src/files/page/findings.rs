@@ -14,13 +14,14 @@ use super::content::{Findings, Repetition, Report};
 use super::data::LinkedScene;
 use super::exposure::exposure;
 use super::markup::{escaped, number, percent, place};
-use super::{pictures, plots};
+use super::pictures::Rows;
+use super::{MOST_NAMES, pictures, plots};
 use crate::atomic::SOFTWARE;
 
 /// Worst scenes of the page.
 const SCENES: usize = 6;
-/// Width of a thumbnail of one material, in pixels.
-const THUMBNAIL: u32 = 128;
+/// Thumbnails of the materials in a scene.
+const THUMBNAILS: Rows = Rows { width: 128, columns: 5 };
 
 /// The sections below the figure, and the scenes that they link.
 ///
@@ -46,11 +47,20 @@ pub(super) fn sections(
     Ok((html, linked))
 }
 
-/// The losses in one line.
+/// The losses in one line, or the least of many.
 pub(super) fn summary(findings: &Findings) -> String {
     let one = |loss: &Loss| format!("{} {}", escaped(&loss.prediction), number(loss.estimate.mean));
-    let all: Vec<String> = findings.loss.outcome.losses.iter().map(one).collect();
-    format!("<p>Rendering loss, convention {}: {}.</p>", findings.loss.convention.name, all.join(", "))
+    let all = &findings.loss.outcome.losses;
+    let texts = match least(all).filter(|_| all.len() > MOST_NAMES) {
+        Some(best) => format!("{}, the least of {}", one(&all[best]), all.len()),
+        None => all.iter().map(one).collect::<Vec<_>>().join(", "),
+    };
+    format!("<p>Rendering loss, convention {}: {texts}.</p>", findings.loss.convention.name)
+}
+
+/// The prediction with the least loss.
+fn least(all: &[Loss]) -> Option<usize> {
+    (0..all.len()).min_by(|a, b| all[*a].estimate.mean.total_cmp(&all[*b].estimate.mean))
 }
 
 fn losses(findings: &Findings) -> String {
@@ -88,8 +98,7 @@ fn interval(interval: Option<[f64; 2]>) -> [String; 2] {
 /// The prediction with the least loss against every other one, on the same scenes.
 fn verdicts(outcome: &Outcome) -> String {
     let all = &outcome.losses;
-    let least = (0..all.len()).min_by(|a, b| all[*a].estimate.mean.total_cmp(&all[*b].estimate.mean));
-    let Some(best) = least.filter(|_| all.len() > 1) else { return String::new() };
+    let Some(best) = least(all).filter(|_| all.len() > 1) else { return String::new() };
     let mut items = String::new();
     for other in (0..all.len()).filter(|other| *other != best) {
         let difference = outcome.difference(other, best);
@@ -151,7 +160,7 @@ fn worst_scenes(
     for ranked in worst_first(outcome).into_iter().take(SCENES) {
         let scene = ranked.scene;
         let exposure = exposure(report.materials[0], &scene, &report.convention);
-        let picture = pictures::thumbnail(small, &scene, &report.convention, exposure, THUMBNAIL, progress)?;
+        let picture = pictures::thumbnail(small, &scene, &report.convention, exposure, THUMBNAILS, progress)?;
         let losses: Vec<String> = outcome
             .losses
             .iter()

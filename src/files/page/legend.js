@@ -4,6 +4,15 @@
 const PAUSE = 120;
 const BINS = 64;
 
+/** @param {string} heading @param {string[]} texts @param {string} element */
+function tableRow(heading, texts, element) {
+  const row = document.createElement("tr");
+  const cell = (/** @type {string} */ name, /** @type {string} */ text) => Object.assign(document.createElement(name), { textContent: text });
+  const first = Object.assign(cell("th", heading), { className: "name", scope: element === "td" ? "row" : "col" });
+  row.append(first, ...texts.map((text) => cell(element, text)));
+  return row;
+}
+
 class Legend {
   /** @param {Figure} figure @param {(id: string) => HTMLElement} element */
   constructor(figure, element) {
@@ -76,11 +85,12 @@ class Legend {
       for (const x of sorted) counts[clamp(Math.floor(BINS * (x - low) / (range - low)), 0, BINS - 1)]++;
     }
     this.paint(counts, figure.data.colours[signed ? "diverging" : "heat"]);
-    this.statistics.textContent = `${label(formula)}: ` + all.map(({ name, sorted }) => {
+    const rows = all.map(({ name, sorted }) => {
       const mean = sorted.reduce((sum, x) => sum + x, 0) / sorted.length;
       const at = (/** @type {number} */ share) => sorted[Math.floor(share * (sorted.length - 1))];
-      return `${name}: ${label("mean")} ${digits(mean)}, ${label("median")} ${digits(at(0.5))}, 95% ${digits(at(0.95))}, ${label("largest")} ${digits(at(1))}`;
-    }).join("; ");
+      return tableRow(name, [mean, at(0.5), at(0.95), at(1)].map(digits), "td");
+    });
+    this.statistics.replaceChildren(tableRow(label(formula), [label("mean"), label("median"), "95%", label("largest")], "th"), ...rows);
   }
 
   /** @param {number[]} counts @param {string[]} colours */

@@ -29,6 +29,7 @@ use encode::EncodedMaterial;
 pub use exposure::exposure;
 pub use labels::Labels;
 use markup::{Document, escaped, filled};
+use pictures::Rows;
 pub use ranking::{MaterialView, ranking};
 pub use ranking_views::{Figures, material_views};
 
@@ -52,10 +53,12 @@ const SCRIPT: &str = concat!(
 );
 /// Most bytes of the file of a report.
 pub const MOST_BYTES: usize = 10_000_000;
-/// Width of a material in the still picture, in pixels.
-const STILL: u32 = 384;
+/// Materials in the still picture.
+const STILL: Rows = Rows { width: 384, columns: 5 };
 /// Longest side of the maps that pictures of the page are rendered from.
 const RENDERED: usize = 512;
+/// Names of predictions in a line.
+const MOST_NAMES: usize = 4;
 /// Maps are not reduced below this side.
 const SMALLEST: usize = 16;
 /// Maps of 10 channels of 2 bytes that would have to deflate to less than one part in this are halved at once.
@@ -128,10 +131,13 @@ impl Report<'_> {
         PictureContent { quantity: display.quantity, difference: is_difference.then_some(difference) }
     }
 
-    /// The names of the materials.
+    /// The names of the materials, or the number of many.
     fn title(&self) -> String {
         let names: Vec<String> = self.materials.iter().map(|material| escaped(material.name())).collect();
         match names.as_slice() {
+            [ground_truth, predictions @ ..] if predictions.len() > MOST_NAMES => {
+                format!("{} predictions against {ground_truth}", predictions.len())
+            }
             [ground_truth, predictions @ ..] if !predictions.is_empty() => {
                 format!("{} against {ground_truth}", predictions.join(", "))
             }
@@ -139,15 +145,11 @@ impl Report<'_> {
         }
     }
 
-    /// What the still picture has, from left to right.
+    /// What the still picture has.
     fn caption(&self) -> String {
         let names: Vec<String> = self.materials.iter().map(|material| escaped(material.name())).collect();
         let epsilon = self.convention.epsilon;
-        format!(
-            "From left to right: {}. Shown: {}.",
-            names.join(", "),
-            escaped(&self.content().text(epsilon))
-        )
+        format!("In reading order: {}. Shown: {}.", names.join(", "), escaped(&self.content().text(epsilon)))
     }
 
     fn header(&self, reduced_to: Option<[usize; 2]>) -> String {

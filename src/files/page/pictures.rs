@@ -15,6 +15,15 @@ use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 
+/// Size of the pictures of materials that stand in rows.
+#[derive(Clone, Copy)]
+pub(super) struct Rows {
+    /// Largest width of one, in pixels.
+    pub width: u32,
+    /// Largest number in a row.
+    pub columns: usize,
+}
+
 /// Pixels between pictures that stand side by side.
 const GAP: u32 = 2;
 const QUALITY: u8 = 86;
@@ -34,30 +43,31 @@ pub(super) fn reduced(materials: &[&Material<f32>], most: usize) -> Result<Vec<M
     materials.iter().map(one).collect()
 }
 
-/// The renderings of the materials in a scene, side by side, each at most `width` pixels wide.
+/// The renderings of the materials in a scene, in rows.
 pub(super) fn thumbnail(
     materials: &[&Material<f32>],
     scene: &Scene,
     convention: &Convention,
     exposure_ev: f32,
-    width: u32,
+    rows: Rows,
     progress: &Progress,
 ) -> Result<String, Error> {
     let image = |material: &&Material<f32>| Quantity::Rendering.image(material, scene, convention, progress);
     let images = materials.iter().map(image).collect::<Result<Vec<_>, _>>()?;
     let content = PictureContent::default();
-    let pictures: Vec<_> = images.iter().map(|image| coloured(image, content, exposure_ev, width)).collect();
-    data_uri(&side_by_side(&pictures))
+    let pictures: Vec<_> =
+        images.iter().map(|image| coloured(image, content, exposure_ev, rows.width)).collect();
+    data_uri(&in_rows(&pictures, rows.columns))
 }
 
-/// The content of every material, side by side; of differences the value of the ground truth first.
+/// The content of every material, in rows; of differences the value of the ground truth first.
 pub(super) fn still(
     materials: &[&Material<f32>],
     content: PictureContent,
     scene: &Scene,
     convention: &Convention,
     exposure_ev: f32,
-    width: u32,
+    rows: Rows,
 ) -> Result<String, Error> {
     let progress = Progress::default();
     let value = PictureContent { difference: None, ..content };
@@ -65,11 +75,12 @@ pub(super) fn still(
     let mut pictures = Vec::new();
     if shown.images.len() < materials.len() {
         let ground_truth = value.pictures(&materials[..1], scene, convention, exposure_ev, &progress)?;
-        pictures.extend(ground_truth.images.iter().map(|image| coloured(image, value, exposure_ev, width)));
+        pictures
+            .extend(ground_truth.images.iter().map(|image| coloured(image, value, exposure_ev, rows.width)));
     }
     let content = shown.content;
-    pictures.extend(shown.images.iter().map(|image| coloured(image, content, exposure_ev, width)));
-    data_uri(&side_by_side(&pictures))
+    pictures.extend(shown.images.iter().map(|image| coloured(image, content, exposure_ev, rows.width)));
+    data_uri(&in_rows(&pictures, rows.columns))
 }
 
 /// The colours of a picture, at most `width` pixels wide.
@@ -84,14 +95,16 @@ fn coloured(image: &Image<f32>, content: PictureContent, exposure_ev: f32, width
     imageops::resize(&picture, width, height, FilterType::Triangle)
 }
 
-fn side_by_side(pictures: &[RgbImage]) -> RgbImage {
-    let height = pictures.iter().map(RgbImage::height).max().unwrap_or(1);
-    let width = pictures.iter().map(|picture| picture.width() + GAP).sum::<u32>().max(GAP + 1) - GAP;
-    let mut all = RgbImage::from_pixel(width, height, BACKGROUND);
-    let mut left = 0;
-    for picture in pictures {
-        imageops::replace(&mut all, picture, left, 0);
-        left += i64::from(picture.width() + GAP);
+/// The pictures, of one size, in rows of at most `columns`.
+fn in_rows(pictures: &[RgbImage], columns: usize) -> RgbImage {
+    let columns = pictures.len().clamp(1, columns) as u32;
+    let rows = (pictures.len() as u32).div_ceil(columns);
+    let [width, height] = pictures.first().map_or([1, 1], |first| [first.width(), first.height()]);
+    let side = |count: u32, side: u32| count * (side + GAP) - GAP;
+    let mut all = RgbImage::from_pixel(side(columns, width), side(rows.max(1), height), BACKGROUND);
+    for (place, picture) in (0..).zip(pictures) {
+        let [x, y] = [place % columns * (width + GAP), place / columns * (height + GAP)];
+        imageops::replace(&mut all, picture, x.into(), y.into());
     }
     all
 }

@@ -71,7 +71,7 @@ fn methods(report: &DatasetReport) -> String {
         );
     }
     format!(
-        r#"<section aria-labelledby="methods"><h2 id="methods">Methods</h2><div class="wide"><table><thead><tr><th scope="col">Method</th><th scope="col">Mean loss</th><th scope="col">95% over materials</th><td></td><th scope="col">Against the best</th><th scope="col">&minus; best</th><th scope="col">95% over materials</th><th scope="col">Median</th><th scope="col">95% over scenes</th><th scope="col">Materials</th><th scope="col">Failed</th></tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Differences are paired: over the materials of both, against {}. The interval over materials covers other materials of this kind, the interval over scenes these materials alone.</p></section>"#,
+        r#"<section aria-labelledby="methods"><h2 id="methods">Methods</h2><div class="wide"><table><thead><tr><th scope="col">Method</th><th scope="col">Mean loss</th><th scope="col">95% over materials</th><td></td><th scope="col">Against the best</th><th scope="col">&minus;&nbsp;best</th><th scope="col">95% over materials</th><th scope="col">Median</th><th scope="col">95% over scenes</th><th scope="col">Materials</th><th scope="col">Failed</th></tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Differences are paired: over the materials of both, against {}. The interval over materials covers other materials of this kind, the interval over scenes these materials alone.</p></section>"#,
         escaped(best)
     )
 }

@@ -25,8 +25,9 @@ use crate::session_window::Display;
 
 /// Light and view of thumbnails and figures.
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
-/// Width of a thumbnail of one material, and the longest side of the maps it is rendered from.
-const THUMBNAIL: u32 = 72;
+/// Thumbnails of the ground truth and of all methods.
+const THUMBNAILS: pictures::Rows = pictures::Rows { width: 72, columns: usize::MAX };
+/// Longest side of the maps that they are rendered from.
 const RENDERED: usize = 256;
 /// What is written as `%..` in an address.
 const ENCODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_').remove(b'.');
@@ -157,7 +158,7 @@ fn view(
     let small: Vec<&Material<f32>> = small.iter().collect();
     let exposure_ev = exposure(small[0], &SCENE, convention);
     let thumbnails =
-        pictures::thumbnail(&small, &SCENE, convention, exposure_ev, THUMBNAIL, &progress.part())?;
+        pictures::thumbnail(&small, &SCENE, convention, exposure_ev, THUMBNAILS, &progress.part())?;
     let figure = figure.map(|path| {
         let report = Report {
             materials: &materials,
