@@ -5,58 +5,16 @@ mod device_loss;
 mod dialogs;
 mod sessions;
 
-use std::io::{BufRead as _, BufReader};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use image::RgbImage;
 
+use crate::support::desktop::{Desktop, Running};
 use crate::support::gpu::STALE_BUILD;
 
-/// Stops the program when the test ends, however it ends.
-struct Running(Child);
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
-    }
-}
-
-/// A display, a home folder of its own, and the window in it.
-struct Desktop {
-    display: String,
-    folder: tempfile::TempDir,
-    _server: Running,
-}
-
 impl Desktop {
-    fn start() -> Self {
-        let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-screen", "0", "1280x800x24", "-nolisten", "tcp"])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let mut number = String::new();
-        BufReader::new(server.stdout.take().unwrap()).read_line(&mut number).unwrap();
-        let display = format!(":{}", number.trim());
-        Self { display, folder: tempfile::tempdir().unwrap(), _server: Running(server) }
-    }
-
-    fn command(&self, program: impl AsRef<std::ffi::OsStr>) -> Command {
-        let mut command = Command::new(program);
-        command
-            .env("DISPLAY", &self.display)
-            .env_remove("WAYLAND_DISPLAY")
-            .env("HOME", self.folder.path())
-            .env("XDG_RUNTIME_DIR", self.folder.path())
-            .env_remove("XDG_DATA_HOME")
-            .stdin(Stdio::null());
-        command
-    }
-
     /// Starts `svbrdf` on these arguments in the folder, and waits for the materials to be drawn.
     fn open(&self, arguments: &[&str]) -> Running {
         // Signals that the tests' own parent ignores are not ignored.

@@ -10,6 +10,7 @@ mod ranking;
 mod readable;
 #[cfg(feature = "gpu")]
 mod shaders;
+mod webkit;
 
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::Convention;

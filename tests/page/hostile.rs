@@ -20,7 +20,12 @@ const NAMES: [&str; 2] = [
 
 /// A whole report of materials with hostile names.
 pub fn report() -> String {
-    let [truth, prediction] = [0, 1].map(|i| noise(i as u32).renamed(NAMES[i]));
+    report_of(NAMES)
+}
+
+/// A whole report of materials with these names.
+pub fn report_of(names: [&str; 2]) -> String {
+    let [truth, prediction] = [0, 1].map(|i| noise(i as u32).renamed(names[i]));
     let progress = Progress::default();
     let request = Request::Accuracy { target: 0.05, seed: 0 };
     let findings = Findings::new(&truth, &[&prediction], PRINTED, &request, &progress).unwrap();
@@ -34,8 +39,8 @@ pub fn report() -> String {
             display: Display::default(),
         },
         findings: Some(findings),
-        readings: NAMES.map(|name| vec![name.to_owned()]).to_vec(),
-        repetition: Some(Repetition { command: NAMES.concat(), session: Some(NAMES.map(str::to_owned)) }),
+        readings: names.map(|name| vec![name.to_owned()]).to_vec(),
+        repetition: Some(Repetition { command: names.concat(), session: Some(names.map(str::to_owned)) }),
         labels: Labels::default(),
         max_bytes: 10_000_000,
     };

@@ -1,7 +1,7 @@
 //! Pixels, differences and cameras of the page against those of the core.
 
 use base64::Engine as _;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::{ALL, Convention, PRINTED};
@@ -19,30 +19,44 @@ use crate::support::tolerance::{PAGE_CAMERA, PAGE_NUMBERS, PAGE_PIXELS};
 /// Scenes of each convention.
 const SCENES: [usize; 2] = [10, 10];
 
-/// Light and view of a scene in the page, at an exposure, in the flat view.
+/// Shows a scene in the flat view of the page, at an exposure.
 fn show(page: &mut Page, scene: &Scene, quantity: Quantity, exposure: f32) {
+    page.evaluate(&showing(scene, quantity, exposure));
+}
+
+/// The expression for [`show`].
+pub fn showing(scene: &Scene, quantity: Quantity, exposure: f32) -> String {
     let state = json!({ "scene": scene, "quantity": quantity.name(), "exposure": exposure });
-    page.evaluate(&format!("window.svbrdf.figure.set({state})"));
+    format!("window.svbrdf.figure.set({state})")
 }
 
 /// The 8-bit picture of a material in the page.
 fn picture(page: &mut Page, material: usize, difference: Option<Difference>) -> Vec<u8> {
+    decoded(&page.evaluate(&pictured(material, difference)))
+}
+
+/// The expression for [`picture`], whose value [`decoded`] reads.
+pub fn pictured(material: usize, difference: Option<Difference>) -> String {
     let difference = json!(difference.map(Difference::key));
-    let text = page.evaluate(&format!(
+    format!(
         "(() => {{ let text = ''; for (const byte of window.svbrdf.figure.picture({material}, {difference})) \
          text += String.fromCharCode(byte); return btoa(text); }})()"
-    ));
+    )
+}
+
+/// The bytes of a text in base64.
+pub fn decoded(text: &Value) -> Vec<u8> {
     base64::prelude::BASE64_STANDARD.decode(text.as_str().unwrap()).unwrap()
 }
 
 /// The largest difference of two pictures, in steps of 8 bits.
-fn largest(page: &[u8], core: &[[u8; 3]]) -> u8 {
+pub fn largest(page: &[u8], core: &[[u8; 3]]) -> u8 {
     assert_eq!(page.len(), 3 * core.len());
     page.iter().zip(core.as_flattened()).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
 }
 
 /// What `svbrdf render` writes.
-fn rendered(
+pub fn rendered(
     materials: &[&Material<f32>],
     content: PictureContent,
     scene: &Scene,
@@ -71,14 +85,13 @@ fn in_perspective(
     core: &[[u8; 3]],
 ) -> (u8, usize) {
     let zoom = material.grid().width as f32 / ACROSS;
-    let text = page.evaluate(&format!(
+    let pixels = decoded(&page.evaluate(&format!(
         "(() => {{ const f = window.svbrdf.figure, box = {{ x: 0, y: 0, width: {PANE}, height: {PANE} }}; \
          f.canvas.width = f.canvas.height = {PANE}; Object.assign(f.state, {{ projection: 'perspective', zoom: {zoom} }}); \
          f.shading.pane({{ material: {index}, difference: null, wipe: null }}, f.how(), f.camera(1, 1), box, f.shown()); \
          let text = ''; for (const byte of f.shading.pixels(box)) text += String.fromCharCode(byte); \
          Object.assign(f.state, {{ projection: 'flat', zoom: 1 }}); return btoa(text); }})()"
-    ));
-    let pixels = base64::prelude::BASE64_STANDARD.decode(text.as_str().unwrap()).unwrap();
+    )));
     let grid = material.grid();
     let camera = Camera::of_scene(scene, grid, 1.0).zoomed(zoom, [0.0; 2]);
     let texel = |column: f32, row: f32| {

@@ -101,3 +101,34 @@ fn everything_that_is_used_has_a_name() {
         assert_eq!(self::unnamed(&mut page).0.len(), 1);
     }
 }
+
+/// What is wider than the window or smaller than a fingertip; links within a text may be.
+const MISPLACED: &str = "(() => { const found = []; const width = document.documentElement.clientWidth; \
+    if (document.documentElement.scrollWidth > width) found.push(`the page has ${document.documentElement.scrollWidth} pixels`); \
+    for (const e of document.querySelectorAll('button, select, input, summary')) { \
+      if (!e.checkVisibility()) continue; \
+      const { width, height } = (e.closest('label') ?? e).getBoundingClientRect(); \
+      if (Math.min(width, height) < 24) found.push(`${e.id || e.textContent}: ${width} x ${height}`); } \
+    return found; })()";
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn long_names_fit_a_phone_and_every_target_a_fingertip() {
+    let long = "a_long_name".repeat(11);
+    let report = hostile::report_of([&long, &long]);
+    let mut pages =
+        [Page::open(&report, [360, 640]), Page::open_until(&ranking::page(), [360, 640], ranking::READY)];
+    for page in &mut pages {
+        page.evaluate("document.querySelectorAll('details').forEach(e => { e.open = true; })");
+        if page.evaluate("!!window.svbrdf") == json!(true) {
+            page.evaluate("window.svbrdf.figure.set({ difference: true })");
+        }
+        let found = page.evaluate(&format!("new Promise(done => setTimeout(() => done({MISPLACED}), 400))"));
+        assert_eq!(found, json!([]));
+        // A button that is too small and a text that is too wide are found.
+        page.evaluate("document.body.insertAdjacentHTML('beforeend', '<button>x</button><pre></pre>')");
+        page.evaluate("Object.assign(document.querySelector('body > button').style, { minHeight: '10px', height: '10px' })");
+        page.evaluate("document.querySelector('body > pre').style.width = '500px'");
+        assert_eq!(page.evaluate(MISPLACED).as_array().unwrap().len(), 2);
+    }
+}

@@ -1,6 +1,7 @@
 //! Support shared by the tests.
 
 pub mod compare;
+pub mod desktop;
 pub mod exr;
 pub mod fixtures;
 #[cfg(feature = "gpu")]
