@@ -6,6 +6,7 @@ mod framing;
 mod hostile;
 mod language;
 mod numbers;
+mod pixels;
 mod ranking;
 mod readable;
 #[cfg(feature = "gpu")]

@@ -4,7 +4,7 @@ use base64::Engine as _;
 use serde_json::{Value, json};
 
 use svbrdf_core::material::Material;
-use svbrdf_core::model::convention::{ALL, Convention, PRINTED};
+use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::scene::{Scene, sample};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
@@ -16,11 +16,8 @@ use super::browser::Page;
 use super::{built_in, figure, noise};
 use crate::support::tolerance::{PAGE_CAMERA, PAGE_NUMBERS, PAGE_PIXELS};
 
-/// Scenes of each convention.
-const SCENES: [usize; 2] = [10, 10];
-
 /// Shows a scene in the flat view of the page, at an exposure.
-fn show(page: &mut Page, scene: &Scene, quantity: Quantity, exposure: f32) {
+pub fn show(page: &mut Page, scene: &Scene, quantity: Quantity, exposure: f32) {
     page.evaluate(&showing(scene, quantity, exposure));
 }
 
@@ -68,88 +65,6 @@ pub fn rendered(
         image.pixels.iter().map(|rgb| pictures.content.colour(*rgb, exposure)).collect()
     };
     pictures.images.iter().map(colours).collect()
-}
-
-/// Width and height of the pane in perspective, in pixels.
-const PANE: usize = 160;
-/// Texels across it, where they face the view.
-const ACROSS: f32 = 8.0;
-
-/// Compares the pane of a material in perspective with `core`, its rendering, wherever a pixel lies within a texel: the largest
-/// difference and the number of pixels.
-fn in_perspective(
-    page: &mut Page,
-    index: usize,
-    material: &Material<f32>,
-    scene: &Scene,
-    core: &[[u8; 3]],
-) -> (u8, usize) {
-    let zoom = material.grid().width as f32 / ACROSS;
-    let pixels = decoded(&page.evaluate(&format!(
-        "(() => {{ const f = window.svbrdf.figure, box = {{ x: 0, y: 0, width: {PANE}, height: {PANE} }}; \
-         f.canvas.width = f.canvas.height = {PANE}; Object.assign(f.state, {{ projection: 'perspective', zoom: {zoom} }}); \
-         f.shading.pane({{ material: {index}, difference: null, wipe: null }}, f.how(), f.camera(1, 1), box, f.shown()); \
-         let text = ''; for (const byte of f.shading.pixels(box)) text += String.fromCharCode(byte); \
-         Object.assign(f.state, {{ projection: 'flat', zoom: 1 }}); return btoa(text); }})()"
-    )));
-    let grid = material.grid();
-    let camera = Camera::of_scene(scene, grid, 1.0).zoomed(zoom, [0.0; 2]);
-    let texel = |column: f32, row: f32| {
-        let [x, y] = [column, row].map(|pixel| 2.0 * (pixel + 0.5) / PANE as f32 - 1.0);
-        let [x, y] = camera.plane_from_ndc(x, y)?;
-        let spacings = (grid.width - 1) as f32;
-        Some([0.5 * (x * spacings + grid.width as f32), 0.5 * (grid.height as f32 - y * spacings)])
-    };
-    let (mut off, mut compared) = (0, 0);
-    for (i, pixel) in pixels.chunks_exact(4).enumerate() {
-        let (column, row) = ((i % PANE) as f32, (i / PANE) as f32);
-        let [Some(here), Some(right), Some(above)] =
-            [texel(column, row), texel(column + 1.0, row), texel(column, row + 1.0)]
-        else {
-            continue;
-        };
-        let covered = |axis: usize| (right[axis] - here[axis]).abs() + (above[axis] - here[axis]).abs();
-        let is_within =
-            |axis: usize| (0.02..0.98).contains(&here[axis].rem_euclid(1.0)) && covered(axis) < 0.8;
-        let inside =
-            (0.0..grid.width as f32).contains(&here[0]) && (0.0..grid.height as f32).contains(&here[1]);
-        if inside && is_within(0) && is_within(1) {
-            let expected = core[here[1] as usize * grid.width + here[0] as usize];
-            off = off.max((0..3).map(|c| pixel[c].abs_diff(expected[c])).max().unwrap());
-            compared += 1;
-        }
-    }
-    (off, compared)
-}
-
-#[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
-fn pixels_are_those_of_render_in_every_convention() {
-    let (built_in, noises) = (built_in(), [noise(1), noise(2)]);
-    let (mut other, mut all, mut perspective) = (0, 0, 0);
-    for materials in [built_in.as_slice(), &noises] {
-        let refs: Vec<&Material<f32>> = materials.iter().collect();
-        for convention in ALL {
-            let mut page = Page::open(&figure(materials, convention), [800, 600]);
-            for (i, scene) in sample(7, SCENES[0], SCENES[1], &convention).iter().enumerate() {
-                let exposure = [0.0, 2.0, -1.5][i % 3];
-                show(&mut page, scene, Quantity::Rendering, exposure);
-                let index = i % materials.len();
-                let core =
-                    rendered(&refs[index..=index], PictureContent::default(), scene, &convention, exposure);
-                let pixels = picture(&mut page, index, None);
-                let off = largest(&pixels, &core[0]);
-                other += pixels.iter().zip(core[0].as_flattened()).filter(|(a, b)| a != b).count();
-                all += pixels.len();
-                assert!(off <= PAGE_PIXELS, "{}: {scene:?}: off by {off}", convention.name);
-                let (off, compared) = in_perspective(&mut page, index, &materials[index], scene, &core[0]);
-                assert!(off <= PAGE_PIXELS, "{}: {scene:?} in perspective: off by {off}", convention.name);
-                assert!(compared > 500, "{scene:?}: {compared} pixels in perspective lie within a texel");
-                perspective += compared;
-            }
-        }
-    }
-    println!("{other} of {all} values differ by a step; {perspective} pixels in perspective");
 }
 
 #[test]
