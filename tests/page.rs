@@ -2,6 +2,7 @@
 
 mod browser;
 mod controls;
+mod example;
 mod framing;
 mod hostile;
 mod language;
