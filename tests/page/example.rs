@@ -48,7 +48,7 @@ fn the_example_is_what_its_command_writes() {
     assert!(data(&kept) == data(&made), "the figure has changed: run svbrdf {COMMAND}");
     let ((kept, kept_numbers), (made, made_numbers)) = (text(&kept), text(&made));
     assert_eq!(kept, made, "run svbrdf {COMMAND}");
-    assert!(kept_numbers.len() > 200 && kept_numbers.len() == made_numbers.len());
+    assert!(kept_numbers.len() > 150 && kept_numbers.len() == made_numbers.len());
     for (kept, made) in kept_numbers.iter().zip(made_numbers) {
         assert!((kept - made).abs() <= 2e-3 * made.max(0.1), "{kept} is {made} now: run svbrdf {COMMAND}");
     }
