@@ -80,6 +80,36 @@ fn fingers_move_light_and_view_and_zoom() {
     page.touch(&[[[x - 40.0, y], [x - 40.0, y - 60.0]], [[x + 40.0, y], [x + 40.0, y - 60.0]]]);
     assert!(state(&mut page, "scene.view[1]").as_f64().unwrap() > before + 0.05);
     assert_eq!(state(&mut page, "scene.light[2]"), json!(1.2));
+    // The numbers of the last texel stay after the finger.
+    let readouts = page.after_frame("[...document.querySelectorAll('.readout')].map(e => e.textContent)");
+    assert!(
+        readouts.as_array().unwrap().iter().all(|text| text.as_str().unwrap().starts_with('(')),
+        "{readouts}"
+    );
+}
+
+#[test]
+#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
+fn a_pen_moves_the_light_and_a_finger_holds_the_ground_truth() {
+    let mut page = open();
+    let ([x, y], unit) = pane(&mut page);
+    for (kind, share, buttons) in
+        [("mousePressed", 0.0, 1), ("mouseMoved", 0.5, 1), ("mouseReleased", 0.5, 0)]
+    {
+        let params = json!({ "type": kind, "x": x + share * unit, "y": y, "button": "left", "buttons": buttons, "clickCount": 1,
+            "pointerType": "pen" });
+        page.send("Input.dispatchMouseEvent", params);
+    }
+    assert!(near(&state(&mut page, "scene.light"), [0.5, 0.0]));
+    let shown = "window.svbrdf.figure.panes().map(pane => pane.material)";
+    let [x, y] = page.place("#peek");
+    page.send(
+        "Input.dispatchTouchEvent",
+        json!({ "type": "touchStart", "touchPoints": [{ "x": x, "y": y }] }),
+    );
+    assert_eq!(page.after_frame(shown), json!([0, 0, 0]));
+    page.send("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
+    assert_eq!(page.after_frame(shown), json!([0, 1, 2]));
 }
 
 #[test]
