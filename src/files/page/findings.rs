@@ -13,9 +13,9 @@ use svbrdf_core::why::{Attribution, Hemisphere, worst_first};
 use super::content::{Findings, Repetition, Report};
 use super::data::LinkedScene;
 use super::exposure::exposure;
-use super::markup::{escaped, number, percent, place};
+use super::markup::{MOST_NAMES, escaped, number, percent, place};
 use super::pictures::Rows;
-use super::{MOST_NAMES, pictures, plots};
+use super::{pictures, plots};
 use crate::atomic::SOFTWARE;
 
 /// Worst scenes of the page.

@@ -9,6 +9,9 @@ use crate::atomic::SOFTWARE;
 /// The head of every page, with its content security policy.
 const FRAME: &str = include_str!("frame.html");
 
+/// Most names of predictions in a line.
+pub(super) const MOST_NAMES: usize = 4;
+
 /// A page that needs no other file.
 pub(super) struct Document<'a> {
     /// Of its labels, BCP 47.

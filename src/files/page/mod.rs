@@ -28,7 +28,7 @@ pub use content::{Findings, Repetition, Report, View};
 use encode::EncodedMaterial;
 pub use exposure::exposure;
 pub use labels::Labels;
-use markup::{Document, escaped, filled};
+use markup::{Document, MOST_NAMES, escaped, filled};
 use pictures::Rows;
 pub use ranking::{MaterialView, ranking};
 pub use ranking_views::{Figures, material_views};
@@ -57,8 +57,6 @@ pub const MOST_BYTES: usize = 10_000_000;
 const STILL: Rows = Rows { width: 384, columns: 5 };
 /// Longest side of the maps that pictures of the page are rendered from.
 const RENDERED: usize = 512;
-/// Names of predictions in a line.
-const MOST_NAMES: usize = 4;
 /// Maps are not reduced below this side.
 const SMALLEST: usize = 16;
 /// Maps of 10 channels of 2 bytes that would have to deflate to less than one part in this are halved at once.
