@@ -1,5 +1,6 @@
 //! Photographs that our own renderer makes: what is known of them has to come out.
 
+mod capture_statistics;
 mod captures;
 mod comparing;
 mod reading;

@@ -37,7 +37,7 @@ impl CaptureAsked {
     fn setting(&self) -> PyResult<CaptureSetting> {
         let transfer = self.transfer.as_deref().map(str::parse).transpose().map_err(exception)?;
         let mut capture = Capture::read(&self.capture).map_err(exception)?;
-        capture.set_options(&PhotographOptions { transfer, clip: self.clip });
+        capture.set_options(&PhotographOptions { transfer, clip: self.clip, light_colour: None });
         let name = self.capture.display().to_string();
         let exposure = self.exposure.parse().map_err(exception)?;
         let convention = self.convention.parse().map_err(exception)?;

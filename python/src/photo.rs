@@ -76,7 +76,7 @@ pub fn photo<'py>(
     let (scene, kind) = (asked.scene()?, asked.difference()?);
     let convention = asked.convention.parse().map_err(exception)?;
     let transfer = asked.transfer.as_deref().map(str::parse).transpose().map_err(exception)?;
-    let options = PhotographOptions { transfer, clip: asked.clip };
+    let options = PhotographOptions { transfer, clip: asked.clip, light_colour: None };
     let photograph = work::run(py, None, |_| read_photograph(&asked.photo, &options))?;
     let notes = photograph.notes.iter().map(ToString::to_string).collect();
     let setting = PhotoSetting {

@@ -10,6 +10,7 @@ use svbrdf_files::export::PngDestination;
 use svbrdf_files::export::strip::{Column, Crop, Strip};
 use svbrdf_files::scene_file;
 
+use super::args::lights::LightsArgs;
 use super::args::scenes::OneSceneArgs;
 use super::args::values::{Range, stops};
 use super::args::{ComparisonArgs, Given, modes};
@@ -23,6 +24,8 @@ use super::render::difference_of;
 /// Every cell has the pixels that `svbrdf render` writes, one per texel, but for the frames of crops. The row of GT has the
 /// scale bars of differences.
 #[derive(Debug, clap::Args)]
+#[command(mut_arg("lights", |arg| arg.conflicts_with_all(["scenes", "view", "light", "distant"]).help(
+    "Lights and views of a publication: flash, flash-9 or hemisphere; renderings and their differences have a column for each")))]
 #[command(
     after_help = "Example:\n  svbrdf strip gt.png a.png --columns normal,roughness:,rendering -o figure.png"
 )]
@@ -44,6 +47,9 @@ pub struct StripArgs {
     /// Scene file; renderings and their differences have a column for each of its scenes
     #[arg(long, value_name = "FILE", conflicts_with_all = ["view", "light", "distant"])]
     scenes: Option<PathBuf>,
+
+    #[command(flatten)]
+    lights: LightsArgs,
 
     #[command(flatten)]
     scene: OneSceneArgs,
@@ -74,7 +80,7 @@ pub fn run(args: &StripArgs, given: &Given) -> Result<(), CommandError> {
     let destination = PngDestination::new(&args.output)?;
     let job = ComparisonJob::new(&args.comparison, given)?;
     let session = job.session.as_ref();
-    let columns = columns(args, session)?;
+    let columns = columns(args, session, given)?;
     check_options(&columns, given)?;
     let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
     let strip = Strip { columns, convention: job.convention, exposure_ev, crops: args.crops.clone() };
@@ -101,10 +107,18 @@ fn check_options(columns: &[Column], given: &Given) -> Result<(), CommandError> 
     Ok(())
 }
 
-fn columns(args: &StripArgs, session: Option<&SessionSettings>) -> Result<Vec<Column>, CommandError> {
-    let scenes = match &args.scenes {
-        Some(path) => scene_file::read(path)?,
-        None => vec![args.scene.scene(session.map(|session| session.scene))?],
+fn columns(
+    args: &StripArgs,
+    session: Option<&SessionSettings>,
+    given: &Given,
+) -> Result<Vec<Column>, CommandError> {
+    if !args.lights.is_named() {
+        given.check(&modes::STRIP_SAMPLED)?;
+    }
+    let scenes = match (args.lights.scenes(given)?, &args.scenes) {
+        (Some(scenes), _) => scenes,
+        (None, Some(path)) => scene_file::read(path)?,
+        (None, None) => vec![args.scene.scene(session.map(|session| session.scene))?],
     };
     let mut columns = Vec::new();
     for text in &args.columns {

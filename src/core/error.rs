@@ -112,8 +112,8 @@ pub enum Error {
     BadScene { path: PathBuf, problem: String },
 
     /// A capture cannot be used: a folder of photographs with their lights and views.
-    #[error("{} is not a usable capture: {problem}; expected a folder with capture.json, or with the JSON file of a MaterialGAN \
-        capture", path.display())]
+    #[error("{} is not a usable capture: {problem}; expected a folder with capture.json, or with the JSON or \
+        text files of a MaterialGAN capture", path.display())]
     BadCapture { path: PathBuf, problem: String },
 
     /// A loss is above the limit that was given for it.

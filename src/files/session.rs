@@ -115,6 +115,10 @@ impl Session {
             return Err(bad("expected at least one material, found none".to_owned()));
         }
         if let Some(photograph) = &mut session.photograph {
+            photograph
+                .read
+                .check()
+                .map_err(|problem| bad(format!("the photograph cannot be read: {problem}")))?;
             photograph.path = named(&photograph.path, path)?;
             photograph.capture =
                 photograph.capture.as_ref().map(|capture| named(capture, path)).transpose()?;
@@ -204,7 +208,7 @@ mod tests {
     }
 
     fn photograph(path: PathBuf) -> SessionPhotograph {
-        let read = PhotographOptions { transfer: Some(Transfer::Srgb), clip: None };
+        let read = PhotographOptions { transfer: Some(Transfer::Srgb), ..PhotographOptions::default() };
         let corners = Some([[1.0, 2.0], [90.5, 1.0], [88.0, 70.0], [3.0, 69.0]]);
         SessionPhotograph { path, read, corners, falloff: true, capture: None }
     }

@@ -36,7 +36,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 48] = [
+const MODES: [(&str, Shows); 49] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -51,6 +51,7 @@ const MODES: [(&str, Shows); 48] = [
     ("strip gt.png a.png -o x.png", Shows::Everything),
     ("strip gt.png a.png -o x.png --columns normal,diffuse,roughness,specular,diffuse:", Shows::Everything),
     ("strip gt.png a.png -o x.png --columns rendering", Shows::Everything),
+    ("strip gt.png a.png -o x.png --lights flash", Shows::Everything),
     ("report gt.png a.png -o x.html --target-error 30%", Shows::Everything),
     ("report gt.png a.png -o x.html --figure", Shows::Everything),
     ("report gt.png -o x.html", Shows::Everything),

@@ -174,7 +174,7 @@ fn a_capture_has_one_exposure_and_names_the_photograph_that_is_off() {
     let text = succeed(at, "photo --capture cap/capture.json gt.png a.png --hold-out 4,5.png");
     for words in [
         "differences from the 6 photographs of cap/capture.json, sRGB since it stores integers",
-        "one exposure for all photographs, not fitted to those that are held out: 4.png, 5.png",
+        "one exposure for all photographs, not fitted to the held-out photographs: 4.png, 5.png",
         "4.png is an outlier for 2 of 2 materials (numbers of gt): the exposure that fits it alone is +1.0",
         "2 held out",
         "outlier, held out",
@@ -211,7 +211,7 @@ fn a_capture_that_cannot_be_used_is_refused_with_what_to_do() {
     std::fs::create_dir(at.join("empty")).unwrap();
     for (args, code, words) in [
         ("--capture cap", 64, "required"),
-        ("--capture empty gt.png", 1, "empty is not a usable capture: found neither of them"),
+        ("--capture empty gt.png", 1, "empty is not a usable capture: found none of them"),
         ("--capture nowhere gt.png", 1, "cannot read nowhere"),
         ("--capture absent gt.png", 1, "0.png"),
         ("--capture absolute gt.png", 1, "--allow-outside"),

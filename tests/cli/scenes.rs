@@ -59,6 +59,18 @@ fn scenes_have_names_in_every_command_that_takes_scenes() {
         losses_as_json(at, &format!("gt.png a.png {scenes}"))["results"][0]["loss"].as_f64().unwrap()
     });
     assert!((of_file / named - 1.0).abs() < 1e-12);
+    // A strip has a column for each of them.
+    let [of_file, named, one] = ["--scenes nine.json", "--lights flash-9", ""].map(|scenes| {
+        succeed(at, &format!("strip gt.png a.png -o strip.png --columns rendering {scenes}"));
+        image::open(at.join("strip.png")).unwrap().to_rgb8()
+    });
+    let unequal = of_file.iter().zip(named.iter()).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+    assert_eq!((of_file.dimensions(), unequal), (named.dimensions(), 0));
+    assert!(named.width() > one.width(), "{} and {}", named.width(), one.width());
+    let problem = fail(at, "strip gt.png a.png -o strip.png --lights papers", 64);
+    assert!(problem.contains("use flash, flash-9 or hemisphere"), "{problem}");
+    fail(at, "strip gt.png a.png -o strip.png --lights flash --view 0,0,2", 64);
+    fail(at, "strip gt.png a.png -o strip.png --lights flash-9 --fov 30", 64);
     // Those of the papers are the default.
     let loss = |lights: &str| succeed(at, &format!("loss gt.png a.png{lights}"));
     assert_eq!(loss(" --lights papers"), loss(""));

@@ -120,3 +120,92 @@ fn a_session_keeps_the_capture_and_a_broken_one_is_refused() {
     let messages = window.state().messages();
     assert!(messages.iter().any(|message| message.contains("unknown field `sene`")), "{messages:?}");
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_photograph_that_cannot_be_read_leaves_the_capture_open_and_its_reason_on_the_card() {
+    let folder = capture();
+    let broken = folder.path().join("2.npy");
+    let good = std::fs::read(&broken).unwrap();
+    std::fs::write(&broken, "not an array").unwrap();
+    let mut window = opened(&folder);
+    window.get_by_label("Photograph 3: 2.npy").click();
+    let card = |window: &Window<'_>| window.query_by_label_contains("2.npy: ").is_some();
+    for _ in 0..2000 {
+        window.step();
+        if card(&window) {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(card(&window), "the reason");
+    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+    window.get_by_label("Photograph 3 of 5 of the capture");
+    // The others are there, and this one once its file is mended.
+    window.get_by_label("Photograph 2: 1.npy").click();
+    wait_for_it(&mut window);
+    assert!((factor(&window) - 0.5).abs() < 1e-6 && !card(&window));
+    std::fs::write(&broken, good).unwrap();
+    window.get_by_label("Photograph 3: 2.npy").click();
+    window.run_steps(3);
+    wait_for_it(&mut window);
+    assert!((factor(&window) - 1.0 / 3.0).abs() < 1e-6, "{}", factor(&window));
+    apply(&mut window, PhotographCommand::Close);
+    // A photograph of no capture is closed.
+    std::fs::write(&broken, "not an array").unwrap();
+    let photograph = SessionPhotograph {
+        path: broken,
+        read: Default::default(),
+        corners: None,
+        falloff: false,
+        capture: None,
+    };
+    apply(&mut window, PhotographCommand::Open { photograph, light: PhotographLight::AsNow });
+    for _ in 0..2000 {
+        window.step();
+        if !window.state().messages().is_empty() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    assert!(window.state().messages().iter().any(|message| message.contains("2.npy")));
+    assert!(window.query_by_label("Close photograph").is_none());
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_colour_of_the_light_is_divided_out_as_by_the_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = &materials()[0];
+    let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.0, 0.2, 2.5] };
+    let rendering = render_f32(truth, &scene, &PRINTED, &Progress::default()).unwrap();
+    let colour = [1.0, 0.8, 1.2];
+    let code = |(c, value): (usize, f32)| (255.0 * (0.5 * colour[c] * value).powf(1.0 / 2.2)).round() as u8;
+    let pixels: Vec<u8> =
+        rendering.pixels.iter().flat_map(|rgb| [0, 1, 2].map(|c| code((c, rgb[c])))).collect();
+    let picture = image::RgbImage::from_raw(256, 256, pixels).unwrap();
+    picture.save(folder.path().join("00.png")).unwrap();
+    let text = json!({
+        "target_dir": ".", "im_size": 2.0, "light_pow": colour.map(|channel| 10.0 * channel),
+        "camera_pos": [scene.view], "light_pos": [scene.light],
+    });
+    std::fs::write(folder.path().join("render.json"), text.to_string()).unwrap();
+    let mut window = opened(&folder);
+    apply(&mut window, PhotographCommand::SetFalloff(false));
+    wait_for_it(&mut window);
+    window.get_by_label("Colour of the light divided out: 1.000 0.800 1.200");
+    let compared = &window.state().against_photograph().unwrap()[0];
+    let pairs = compared.photograph.pixels.iter().zip(&compared.rendering.pixels);
+    let lit: Vec<_> =
+        pairs.filter(|(photograph, _)| photograph.iter().all(|value| value.is_finite())).collect();
+    for c in 0..3 {
+        let [of_photograph, of_rendering] = lit.iter().fold([0.0; 2], |sum, (photograph, rendering)| {
+            [sum[0] + f64::from(photograph[c]), sum[1] + f64::from(rendering[c])]
+        });
+        let ratio = of_photograph / of_rendering;
+        assert!((ratio - 1.0).abs() < 0.01, "channel {c}: {ratio}");
+    }
+    // A session keeps it.
+    let session = window.state().parts.model.session();
+    assert_eq!(session.photograph.as_ref().unwrap().read.light_colour, Some([1.0, 0.8, 1.2]));
+}

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from . import _core
-from ._asked import Predictions, distinct, listed
-from ._material import Source, opened
+from ._asked import Predictions, photographed
+from ._material import Source
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import Estimate, Report, estimate, views
@@ -131,8 +131,8 @@ def capture(
     Each material is rendered under the light and the view of each photograph (Algorithm 3).
 
     Args:
-        capture: The folder of a capture, or the file that lists its photographs: capture.json, or the JSON file of
-            MaterialGAN (render.json). docs/photographs.md describes both.
+        capture: The folder of a capture, or the file that lists its photographs: capture.json, or the JSON file
+            (render.json) or camera_pos.txt of MaterialGAN. docs/photographs.md describes them.
         materials: One or several materials or paths.
         exposure: Whether one factor brings all photographs to the exposure of the renderings, or one each of them.
         hold_out: Names of photographs to which the exposure is not fitted.
@@ -147,22 +147,17 @@ def capture(
         svbrdf.Error: The capture, a photograph or a material cannot be used.
         ValueError: There is no material, or `clip` is not above 0.
     """
-    if clip is not None and not 0 < clip < float("inf"):
-        raise ValueError(f"clip: expected a number above 0, found {clip}")
-    found_materials = [opened(material) for material in listed(materials, "materials")]
-    several = len(found_materials) > 1
-    words = [f"material {i}" if several else "material" for i in range(1, len(found_materials) + 1)]
-    asked = {
-        "capture": capture,
-        "names": distinct(found_materials, words),
-        "exposure": exposure,
-        "hold_out": list(hold_out),
-        "transfer": transfer,
-        "clip": clip,
-        "convention": convention,
-    }
+    asked = photographed(
+        materials,
+        transfer=transfer,
+        clip=clip,
+        capture=capture,
+        exposure=exposure,
+        hold_out=list(hold_out),
+        convention=convention,
+    )
     with reported("comparing", progress) as report:
-        found = _core.capture([material._core for material in found_materials], asked, report)
+        found = _core.capture(*asked, report)
     arguments = views(found["views"])
     values = arguments["_values"]
     fields = {

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._arrays import from_bytes
-from ._asked import Predictions, distinct, listed
-from ._material import Source, opened
+from ._asked import Predictions, photographed
+from ._material import Source
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import Report, views
@@ -116,26 +116,21 @@ def photo(
     """
     if corners is not None and len(corners) != 4:
         raise ValueError(f"corners: expected 4, found {len(corners)}")
-    if clip is not None and not 0 < clip < float("inf"):
-        raise ValueError(f"clip: expected a number above 0, found {clip}")
     chosen = _scene(scene, scene_number, flash, fov)
-    found_materials = [opened(material) for material in listed(materials, "materials")]
-    several = len(found_materials) > 1
-    words = [f"material {i}" if several else "material" for i in range(1, len(found_materials) + 1)]
-    asked = {
-        "photo": photo,
-        "names": distinct(found_materials, words),
-        "scene": None if chosen is None else tuple(chosen),
-        "fov": fov,
-        "corners": None if corners is None else [[float(x), float(y)] for x, y in corners],
-        "transfer": transfer,
-        "clip": clip,
-        "falloff": falloff,
-        "difference": difference,
-        "convention": convention,
-    }
+    asked = photographed(
+        materials,
+        transfer=transfer,
+        clip=clip,
+        photo=photo,
+        scene=None if chosen is None else tuple(chosen),
+        fov=fov,
+        corners=None if corners is None else [[float(x), float(y)] for x, y in corners],
+        falloff=falloff,
+        difference=difference,
+        convention=convention,
+    )
     with reported("rendering", progress) as report:
-        found = _core.photo([material._core for material in found_materials], asked, report)
+        found = _core.photo(*asked, report)
     arguments = views(found["views"])
     values = arguments["_values"]
     results = tuple(_result(entry) for entry in values["results"])

@@ -10,9 +10,9 @@ use crate::cli::output::CommandError;
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Scenes")]
 pub struct LightsArgs {
-    /// Lights and views: sampled, or the fixed set of a publication
-    #[arg(long, value_name = "NAME", value_enum, default_value_t)]
-    lights: Lights,
+    /// Lights and views: sampled, or the fixed set of a publication [default: papers]
+    #[arg(long, value_name = "NAME", value_enum)]
+    lights: Option<Lights>,
 
     /// Angle that the width of the material spans at the camera of --lights flash [default: 45]
     #[arg(long, value_name = "DEGREES", value_parser = degrees, allow_negative_numbers = true)]
@@ -37,7 +37,7 @@ enum Lights {
 impl LightsArgs {
     /// Whether the scenes are a fixed set.
     pub fn is_named(&self) -> bool {
-        self.lights != Lights::Papers
+        self.lights.is_some_and(|lights| lights != Lights::Papers)
     }
 
     /// The scenes of a fixed set; `None` where scenes are sampled or of a file.
@@ -45,10 +45,10 @@ impl LightsArgs {
     /// # Errors
     /// [`CommandError::Usage`] for options that the set does not use.
     pub fn scenes(&self, given: &Given) -> Result<Option<Vec<Scene>>, CommandError> {
-        if self.lights != Lights::Flash {
+        if self.lights != Some(Lights::Flash) {
             given.check(&modes::NO_FLASH)?;
         }
-        let named = match self.lights {
+        let named = match self.lights.unwrap_or_default() {
             Lights::Papers => return Ok(None),
             Lights::Flash => NamedScenes::Flash { fov_degrees: self.fov.unwrap_or(NamedScenes::FOV_DEGREES) },
             Lights::Flash9 => NamedScenes::Flash9,

@@ -142,7 +142,12 @@ pub const RENDER_MAPS: Mode = Mode {
 /// `strip` without a rendering among its columns.
 pub const STRIP_MAPS: Mode = Mode {
     reason: "maps have no light, no view, no exposure and no convention, and no column is a rendering",
-    unused: &[ONE_SCENE, &["scenes", "exposure", "convention"]],
+    unused: &[ONE_SCENE, &["scenes", "lights", "fov", "exposure", "convention"]],
+};
+/// `strip` without scenes by name.
+pub const STRIP_SAMPLED: Mode = Mode {
+    reason: "a strip has no sampled scenes: use flash, flash-9 or hemisphere, or a file of `svbrdf scenes`",
+    unused: &[&["lights"]],
 };
 /// `strip` without a difference among its columns.
 pub const STRIP_VALUES: Mode = Mode { reason: "no column is a difference", unused: &[&["range"]] };
@@ -155,7 +160,7 @@ pub const VIEW: Mode =
     Mode { reason: "the window lists what is noticed and assumed", unused: &[&["verbose"]] };
 /// `photo` with one photograph.
 pub const PHOTO_ALONE: Mode = Mode {
-    reason: "exposures of a capture and photographs that are held out are those of --capture",
+    reason: "the exposure of a capture and held-out photographs belong to --capture",
     unused: &[&["exposure", "hold-out"]],
 };
 /// `view --photo` with a capture.

@@ -106,7 +106,7 @@ impl PhotoSceneArgs {
 
 impl PhotoReadingArgs {
     pub fn options(&self) -> PhotographOptions {
-        PhotographOptions { transfer: self.transfer, clip: self.clip }
+        PhotographOptions { transfer: self.transfer, clip: self.clip, light_colour: None }
     }
 
     /// The photograph at `path`, as the window opens it.

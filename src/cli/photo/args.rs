@@ -61,7 +61,8 @@ pub struct PhotoArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Photograph")]
 pub struct PhotoCaptureArgs {
-    /// Folder of a capture, or the file that lists its photographs: capture.json, or the JSON file of MaterialGAN (render.json)
+    /// Folder of a capture, or the file that lists its photographs: capture.json, or the JSON file (render.json) or
+    /// camera_pos.txt of MaterialGAN
     #[arg(long, value_name = "FOLDER")]
     #[arg(conflicts_with_all = ["scene", "scene_number", "flash", "fov", "corners", "falloff"])]
     pub capture: Option<PathBuf>,

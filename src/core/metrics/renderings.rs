@@ -40,7 +40,7 @@ struct Means {
 
 /// The metrics of the renderings of `prediction` and `ground_truth` in `rendered`, over all texels and RGB.
 ///
-/// Radiance, with the convention's factor and the exposure, is clipped to [0, 1] first. Intervals are those of
+/// Radiance, with the convention's factor and the exposure, is clipped to [0, 1] first. Intervals are by
 /// [`Estimate::of_sampled`], unknown for a single scene of a kind. A scene is one step of `progress`.
 ///
 /// # Errors

@@ -61,7 +61,7 @@ pub struct CaptureReport {
     pub setting: CaptureSetting,
     /// In the order of the capture.
     pub photographs: Vec<ReadCaptured>,
-    /// The smallest mean log difference first: of the photographs that are held out, or of all.
+    /// The smallest mean log difference first: over the held-out photographs, or over all.
     pub results: Vec<MaterialResult>,
 }
 
@@ -120,7 +120,7 @@ impl CaptureSetting {
         Ok(Self { name, capture, exposure, convention, held_out })
     }
 
-    /// The names of the photographs that are held out.
+    /// The names of the held-out photographs.
     pub fn held_out(&self) -> String {
         self.capture.names(|index| self.held_out[index])
     }
@@ -160,7 +160,7 @@ impl CaptureSetting {
     ) -> Result<(Vec<ReadCaptured>, Vec<Vec<Rectified>>), Error> {
         let (mut photographs, mut rectified) = (Vec::new(), vec![Vec::new(); sizes.len()]);
         for one in &self.capture.photographs {
-            let (photograph, corners) = self.capture.photograph(one)?;
+            let (photograph, corners) = one.read()?;
             for (size, rectified) in sizes.iter().zip(&mut rectified) {
                 let found = Rectified::new(&photograph, &corners, *size, &progress.part())?;
                 rectified.push(self.without_falloff(found, one));
@@ -179,7 +179,7 @@ impl CaptureSetting {
         Ok((photographs, rectified))
     }
 
-    /// The factors that fit `material` to all photographs that are not held out, and to each photograph.
+    /// The factors that fit `material` to all photographs but the held-out ones, and to each photograph.
     fn factors(
         &self,
         material: &Material<f32>,
@@ -264,7 +264,7 @@ impl CaptureReport {
     /// A photograph that is read, and a material on a photograph, are a step of `progress`.
     ///
     /// # Errors
-    /// As [`Capture::photograph`], and [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Memory`], [`Error::Cancelled`].
+    /// As [`CapturedPhotograph::read`], and [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Memory`], [`Error::Cancelled`].
     pub fn new<'a>(
         setting: CaptureSetting,
         materials: impl IntoIterator<Item = (&'a str, &'a Material<f32>)>,

@@ -46,16 +46,15 @@ impl Listed {
     }
 
     fn photograph(&self, index: usize, entry: &Entry, by: &Path) -> Result<CapturedPhotograph, String> {
-        let clip = entry.clip.or(self.clip);
-        if let Some(clip) = clip.filter(|clip| !(clip.is_finite() && *clip > 0.0)) {
-            return Err(format!("photograph {index}: expected a clip above 0, found {clip}"));
-        }
+        let (transfer, clip) = (entry.transfer.or(self.transfer), entry.clip.or(self.clip));
+        let options = PhotographOptions { transfer, clip, light_colour: None };
+        options.check().map_err(|problem| format!("photograph {index}: {problem}"))?;
         Ok(CapturedPhotograph {
             name: entry.file.display().to_string(),
             file: NamedFile::within(&entry.file, by),
             scene: entry.scene,
             corners: entry.corners.or(self.corners).map(Corners),
-            options: PhotographOptions { transfer: entry.transfer.or(self.transfer), clip },
+            options,
         })
     }
 }

@@ -6,7 +6,10 @@ use serde::Deserialize;
 
 use svbrdf_core::model::scene::{Kind, Scene};
 
-/// A JSON file of MaterialGAN, such as `render.json` or `optim_latent_256.json`.
+/// The text files of the first release of MaterialGAN, one number or three in a line. The first also stands for all of them.
+pub const TEXTS: [&str; 4] = ["camera_pos.txt", "light_pos.txt", "image_size.txt", "light_power.txt"];
+
+/// A JSON file of MaterialGAN, such as `render.json` or `optim_latent_256.json`, or the text files of its first release.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Calibration {
     /// The width of the material in centimetres.
@@ -65,6 +68,30 @@ impl Calibration {
         self.idx.clone().unwrap_or_else(|| (0..self.camera_pos.len()).collect())
     }
 
+    /// What the four files of [`TEXTS`] hold, in their order: the photographs are beside them.
+    ///
+    /// # Errors
+    /// The problem, with the name of the file.
+    pub fn of_texts([cameras, lights, size, power]: [&str; 4]) -> Result<Self, String> {
+        let [cameras_name, lights_name, size_name, power_name] = TEXTS;
+        let im_size = match numbers::<1>(size_name, size)?.as_slice() {
+            [[size]] => *size,
+            lines => return Err(format!("{size_name}: expected one line, found {}", lines.len())),
+        };
+        let light_pow = match numbers::<3>(power_name, power)?.as_slice() {
+            [power] => *power,
+            lines => return Err(format!("{power_name}: expected one line, found {}", lines.len())),
+        };
+        Ok(Self {
+            im_size,
+            camera_pos: numbers(cameras_name, cameras)?,
+            light_pos: numbers(lights_name, lights)?,
+            idx: None,
+            light_pow: Some(light_pow),
+            target_dir: Some(PathBuf::new()),
+        })
+    }
+
     /// The power of the light, where there is one.
     ///
     /// # Errors
@@ -81,9 +108,43 @@ impl Calibration {
     }
 }
 
+/// The lines of the file `name`: `N` numbers each, separated by commas.
+fn numbers<const N: usize>(name: &str, text: &str) -> Result<Vec<[f64; N]>, String> {
+    let line = |(index, line): (usize, &str)| {
+        let numbers: Option<Vec<f64>> = line.split(',').map(|number| number.trim().parse().ok()).collect();
+        numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| {
+            format!("{name}, line {}: expected {N} numbers separated by commas, found {line:?}", index + 1)
+        })
+    };
+    text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).map(line).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn text_files_have_a_line_per_photograph() {
+        let cameras = "1.0125,0.2928,16.7058\n 2.9924, 3.4483, 16.3559\n\n";
+        let lights = "1,0,16\r\n2,3,1.6e1\r\n";
+        let of = |size, power| Calibration::of_texts([cameras, lights, size, power]);
+        let found = of("6.8480\n", "1500.0000,1500.0000,1500.0000\n").unwrap();
+        assert_eq!((found.camera_pos.len(), found.numbers()), (2, vec![0, 1]));
+        assert_eq!(found.scenes().unwrap()[1].light, [2.0, 3.0, 16.0].map(|x| x * 2.0 / 6.848));
+        for (size, power, problem) in [
+            ("", "1,1,1", "image_size.txt: expected one line, found 0"),
+            ("6\n7", "1,1,1", "image_size.txt: expected one line, found 2"),
+            (
+                "6 cm",
+                "1,1,1",
+                "image_size.txt, line 1: expected 1 numbers separated by commas, found \"6 cm\"",
+            ),
+            ("6", "1,1", "light_power.txt, line 1: expected 3 numbers"),
+        ] {
+            let error = of(size, power).unwrap_err();
+            assert!(error.contains(problem), "{error}");
+        }
+    }
 
     #[test]
     fn the_power_of_a_light_is_in_half_widths() {

@@ -79,7 +79,7 @@ impl MaterialResult {
         }
     }
 
-    /// What results are ordered by: the mean log difference of the photographs that are held out, or of all.
+    /// What results are ordered by: the mean log difference over the held-out photographs, or over all.
     pub fn log(&self) -> f64 {
         let log = self.groups().pop().and_then(|group| group.log);
         log.map_or(f64::INFINITY, |log| log.mean)

@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 pub use comparison::{CaptureExposure, CaptureReport, CaptureSetting, ReadCaptured};
 pub(crate) use materialgan::Calibration;
 pub use materialgan::LightPower;
+use materialgan::TEXTS;
 pub use measured::{CaptureGroup, CapturedResult, MaterialResult};
 pub use outliers::Outlier;
 
@@ -55,7 +56,22 @@ pub struct CapturedPhotograph {
     pub options: PhotographOptions,
 }
 
+fn is_json(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
+}
+
 impl CapturedPhotograph {
+    /// Reads it, with the corners of the material in it.
+    ///
+    /// # Errors
+    /// As [`crate::read::read_photograph`], and [`Error::UnusableCorners`].
+    pub fn read(&self) -> Result<(Photograph, Corners), Error> {
+        let photograph = read_named_photograph(&self.file, &self.options)?;
+        let corners = self.corners.unwrap_or_else(|| Corners::whole(photograph.size()));
+        corners.check(photograph.size())?;
+        Ok((photograph, corners))
+    }
+
     /// Whether `name` is its name, with or without extension.
     fn is_called(&self, name: &str) -> bool {
         self.name == name || Path::new(&self.name).with_extension("") == Path::new(name)
@@ -77,9 +93,9 @@ impl Capture {
         outside.map(|one| one.file.path())
     }
 
-    /// Whether a path may be that of a capture: a folder, or JSON.
+    /// Whether a path may be that of a capture: a folder, JSON, or the first of the text files of MaterialGAN.
     pub fn is_named(path: &Path) -> bool {
-        path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json")) || path.is_dir()
+        is_json(path) || path.file_name().is_some_and(|name| name == TEXTS[0]) || path.is_dir()
     }
 
     /// The photograph at this index, as a session keeps it; `None` beyond the last.
@@ -100,22 +116,6 @@ impl Capture {
             one.options.transfer = options.transfer.or(one.options.transfer);
             one.options.clip = options.clip.or(one.options.clip);
         }
-    }
-
-    /// Reads a photograph, without the colour of the light.
-    ///
-    /// # Errors
-    /// As [`crate::read::read_photograph`], and [`Error::UnusableCorners`].
-    pub fn photograph(&self, one: &CapturedPhotograph) -> Result<(Photograph, Corners), Error> {
-        let mut photograph = read_named_photograph(&one.file, &one.options)?;
-        let corners = one.corners.unwrap_or_else(|| Corners::whole(photograph.size()));
-        corners.check(photograph.size())?;
-        if let Some(LightPower { colour, .. }) = self.power.filter(|power| !power.is_white()) {
-            let gain = colour.map(|channel| channel.recip() as f32);
-            let pixels = photograph.image.pixels.iter_mut();
-            pixels.for_each(|rgb| (0..3).for_each(|c| rgb[c] *= gain[c]));
-        }
-        Ok((photograph, corners))
     }
 
     /// The names of the photographs at the indices that are `wanted`.

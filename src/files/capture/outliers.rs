@@ -21,7 +21,7 @@ const LEAST_SHARE: f64 = 0.5;
 pub struct Outlier {
     /// The exposure that fits it alone: brighter or darker than the others.
     pub exposure: bool,
-    /// Its log difference: larger than that of the others.
+    /// Its log difference: larger than of the others.
     pub difference: bool,
 }
 

@@ -10,7 +10,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::{Kind, Scene};
 
 use super::listed::Listed;
-use super::{Calibration, Capture, CapturedPhotograph};
+use super::materialgan::TEXTS;
+use super::{Calibration, Capture, CapturedPhotograph, is_json};
 use crate::open::NamedFile;
 use crate::read::{PhotographOptions, Transfer};
 
@@ -23,16 +24,13 @@ const MOST: usize = 10_000;
 impl Capture {
     /// Reads the description of the capture in the folder `path`, or that file itself. The photographs are not read yet.
     ///
-    /// In a folder, it is `capture.json`, or else the only one of the JSON files of MaterialGAN: several may list the same photographs.
+    /// In a folder, it is `capture.json`, or else the only one of the JSON files of MaterialGAN, of which several may list the same
+    /// photographs, or else its text files.
     ///
     /// # Errors
     /// [`Error::BadCapture`], [`Error::Unreadable`]; [`Error::Outside`] for a photograph that is named by an absolute path.
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let capture = if path.is_dir() {
-            in_folder(path)?
-        } else {
-            Self::parse(path, &NamedFile::by_user(path).text()?)?
-        };
+        let capture = if path.is_dir() { in_folder(path)? } else { in_file(path)? };
         capture.photographs.iter().try_for_each(|photograph| photograph.file.check())?;
         Ok(capture)
     }
@@ -66,7 +64,9 @@ impl Capture {
             .target_dir
             .as_ref()
             .ok_or("its target_dir, the folder of the photographs, is missing")?;
-        let options = PhotographOptions { transfer: Some(Transfer::Gamma22), clip: None };
+        let power = calibration.power()?;
+        let light_colour = power.filter(|power| !power.is_white()).map(|power| power.colour);
+        let options = PhotographOptions { transfer: Some(Transfer::Gamma22), clip: None, light_colour };
         let photograph = |(number, scene): (usize, Scene)| {
             let name = format!("{number:02}.png");
             let file = NamedFile::within(folder.join(&name), path);
@@ -74,8 +74,7 @@ impl Capture {
         };
         let scenes = calibration.scenes()?;
         let photographs = calibration.numbers().into_iter().zip(scenes).map(photograph).collect();
-        let (file, power) = (path.to_owned(), calibration.power()?);
-        Ok(Self { file, is_materialgan: true, photographs, falloff: true, power })
+        Ok(Self { file: path.to_owned(), is_materialgan: true, photographs, falloff: true, power })
     }
 
     fn check(&self) -> Result<(), String> {
@@ -97,6 +96,27 @@ impl Capture {
     }
 }
 
+/// The capture that the file at `path` describes: JSON, or one of the text files.
+fn in_file(path: &Path) -> Result<Capture, Error> {
+    match path.parent() {
+        Some(folder) if path.ends_with(TEXTS[0]) => of_texts(folder),
+        _ => Capture::parse(path, &NamedFile::by_user(path).text()?),
+    }
+}
+
+/// The capture of the text files in `folder`.
+fn of_texts(folder: &Path) -> Result<Capture, Error> {
+    let path = folder.join(TEXTS[0]);
+    let bad = |problem| Error::BadCapture { path: path.clone(), problem };
+    let [cameras, lights, size, power] =
+        TEXTS.map(|name| NamedFile::by_file(folder.join(name), folder).text());
+    let (cameras, lights, size, power) = (cameras?, lights?, size?, power?);
+    let calibration = Calibration::of_texts([&cameras, &lights, &size, &power]).map_err(bad)?;
+    let capture = Capture::of_materialgan(&path, &calibration).map_err(bad)?;
+    capture.check().map_err(bad)?;
+    Ok(capture)
+}
+
 /// The capture in `folder`.
 fn in_folder(folder: &Path) -> Result<Capture, Error> {
     let own = folder.join(OWN);
@@ -113,7 +133,8 @@ fn in_folder(folder: &Path) -> Result<Capture, Error> {
     }
     let problem = match found.as_slice() {
         [(path, _, text)] => return Capture::parse(path, text),
-        [] => "found neither of them".to_owned(),
+        [] if folder.join(TEXTS[0]).is_file() => return of_texts(folder),
+        [] => "found none of them".to_owned(),
         several => {
             let name = |(path, ..): &(PathBuf, Calibration, String)| {
                 path.file_name().unwrap_or_default().to_string_lossy().into_owned()
@@ -131,7 +152,7 @@ fn json_files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let entries = fs::read_dir(folder).map_err(unreadable)?;
     let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>();
     let mut paths = paths.map_err(unreadable)?;
-    paths.retain(|path| Capture::is_named(path) && path.is_file());
+    paths.retain(|path| is_json(path) && path.is_file());
     paths.sort();
     Ok(paths)
 }

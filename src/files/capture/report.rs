@@ -76,7 +76,7 @@ impl CaptureSetting {
         let held_out = match (held_out.is_empty(), self.exposure) {
             (true, _) => String::new(),
             (false, CaptureExposure::Capture) => {
-                format!(", not fitted to those that are held out: {held_out}")
+                format!(", not fitted to the held-out photographs: {held_out}")
             }
             (false, CaptureExposure::Photograph) => format!("; held out: {held_out}"),
         };

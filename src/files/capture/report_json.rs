@@ -43,7 +43,7 @@ struct ResultJson<'a> {
     size: [usize; 2],
     factor: Option<f64>,
     exposure_ev: Option<f64>,
-    /// `exposure_ev` less that of `declared_factor`.
+    /// The stops by which `factor` exceeds `declared_factor`.
     declared_ev: Option<f64>,
     means: Vec<GroupJson>,
     photographs: Vec<EntryJson<'a>>,

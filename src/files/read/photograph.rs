@@ -38,6 +38,8 @@ pub struct PhotographOptions {
     /// The stored value from which on a pixel is clipped, where 1 is the largest integer. `None`: 1 for integers; floats
     /// are never clipped.
     pub clip: Option<f64>,
+    /// Red, green and blue of the light, each above 0, which are divided out. `None`: the light is white.
+    pub light_colour: Option<[f64; 3]>,
 }
 
 /// A photograph, turned upright by its EXIF orientation.
@@ -134,8 +136,29 @@ pub(crate) fn read_named_photograph(
     let channels = [0, 1, 2].map(|c| &raster.channels[c.min(raster.channels.len() - 1)]);
     let clipped: Vec<bool> =
         (0..raster.width * raster.height).into_par_iter().map(|i| is_clipped(channels, i, clip)).collect();
-    let image = linear(&raster, channels, &clipped, transfer);
+    let mut image = linear(&raster, channels, &clipped, transfer);
+    if let Some(colour) = options.light_colour {
+        let gain = colour.map(|channel| channel.recip() as f32);
+        image.pixels.iter_mut().for_each(|rgb| (0..3).for_each(|c| rgb[c] *= gain[c]));
+    }
     Ok(Photograph { image, clipped, transfer, transfer_from, notes })
+}
+
+impl PhotographOptions {
+    /// Whether a file specifies them so that a photograph can be read.
+    ///
+    /// # Errors
+    /// The problem: numbers that are not above 0.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let is_usable = |number: &f64| number.is_finite() && *number > 0.0;
+        if let Some(clip) = self.clip.filter(|clip| !is_usable(clip)) {
+            return Err(format!("expected a clip above 0, found {clip}"));
+        }
+        match self.light_colour.filter(|colour| !colour.iter().all(is_usable)) {
+            Some([r, g, b]) => Err(format!("expected a light of three numbers above 0, found {r}, {g}, {b}")),
+            None => Ok(()),
+        }
+    }
 }
 
 fn is_clipped(channels: [&Samples; 3], index: usize, clip: f64) -> bool {

@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf::viewer::model::command::WhyCommand;
+use svbrdf::viewer::model::settings::why::WhySection;
 use svbrdf_core::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose};
 use svbrdf_files::read::{NormalY, Order, ReadOptions};
 use svbrdf_files::samples::generate;
@@ -23,7 +25,7 @@ fn write(path: &Path, change: impl Fn(u32, u32, [u8; 3]) -> [u8; 3]) -> PathBuf 
     path.to_owned()
 }
 
-/// A window on a ground truth, a prediction with Y of normals in the other direction, and one whose left half is darker.
+/// A window on a ground truth, a prediction with Y of normals in the other direction, and one whose left half is darker, with all lines.
 fn on_files<'a>() -> (tempfile::TempDir, Window<'a>) {
     let folder = tempfile::tempdir().unwrap();
     let of = |name: &str| folder.path().join(name);
@@ -54,7 +56,15 @@ fn on_files<'a>() -> (tempfile::TempDir, Window<'a>) {
         window.get_by_label(section).click();
         window.run_steps(4);
     }
+    unfold(&mut window, true);
     (folder, window)
+}
+
+/// Unfolds the lines without a mark, or folds them.
+fn unfold(window: &mut Window<'_>, on: bool) {
+    let ctx = window.ctx.clone();
+    window.state_mut().apply(&ctx, WhyCommand::ShowSection(WhySection::Hypotheses, on).into());
+    window.run_steps(3);
 }
 
 fn wait_for_diagnosis(window: &mut Window<'_>) -> Diagnosis {
@@ -70,6 +80,8 @@ fn lines(window: &Window<'_>) -> Vec<String> {
             let of = egui_kittest::kittest::NodeT::accesskit_node(&node);
             Some((node.rect().top(), of.label().or_else(|| of.value())?))
         })
+        // The sentence above them has no colon.
+        .filter(|(_, label)| label.contains(": "))
         .collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().map(|(_, label)| label).collect()
@@ -95,13 +107,7 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_predictio
     window.get_by_label_contains("Reading the normals with Y down would lower the loss by");
     // The other prediction, whose error is none of these.
     let other = "Diagnosis of darker: no mark";
-    for _ in 0..2000 {
-        window.step();
-        if window.query_by_label(other).is_some() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
+    wait_for_label(&mut window, other);
     window.get_by_label_contains("Diagnosis of flipped: Normal Y ");
     window.get_by_label(other).click();
     window.run_steps(3);
@@ -191,8 +197,62 @@ fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
 
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
-fn nothing_moves_while_it_is_diagnosed_and_a_folded_section_diagnoses_nothing() {
+fn the_lines_without_a_mark_are_behind_one_line() {
     let (_folder, mut window) = on_files();
+    unfold(&mut window, false);
+    let found = wait_for_diagnosis(&mut window);
+    window.run_steps(3);
+    let marked = lines(&window);
+    assert_eq!(marked.len(), 1, "{marked:?}");
+    assert!(marked[0].starts_with("Normal Y flipped: ") && marked[0].ends_with("marked"), "{marked:?}");
+    let others = found.findings.len() - 1;
+    let header = format!("{others} other explanations: none marked");
+    let below = window.get_by_label("Which map").rect().top();
+    window.get_by_label(&header).click();
+    window.run_steps(3);
+    assert_eq!(lines(&window).len(), 1 + others);
+    assert!(window.get_by_label("Which map").rect().top() > below + 17.0 * others as f32);
+    window.get_by_label(&header).click();
+    window.run_steps(3);
+    assert_eq!(lines(&window), marked);
+    // Without a mark: the one that explains most.
+    wait_for_label(&mut window, "Diagnosis of darker: no mark");
+    window.get_by_label("Diagnosis of darker: no mark").click();
+    window.run_steps(3);
+    let found = window.state().diagnosis().unwrap();
+    let shares =
+        found.findings.iter().filter(|finding| finding.p.is_some()).filter_map(|finding| finding.share);
+    let most = 100.0 * shares.fold(f64::NEG_INFINITY, f64::max);
+    let first = lines(&window);
+    assert!(
+        first.len() == 1 && first[0].ends_with(&format!(": {most:.1}% of the loss")),
+        "{first:?}, {most}"
+    );
+}
+
+fn wait_for_label(window: &mut Window<'_>, label: &str) {
+    for _ in 0..6000 {
+        window.step();
+        if window.query_by_label(label).is_some() {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    panic!("{label}");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn nothing_moves_while_it_is_diagnosed_and_a_folded_section_diagnoses_nothing() {
+    for all in [true, false] {
+        nothing_moves(all);
+    }
+}
+
+/// With the lines that have no mark, or without.
+fn nothing_moves(all: bool) {
+    let (_folder, mut window) = on_files();
+    unfold(&mut window, all);
     window.get_by_label(SECTION).click();
     window.run_steps(12);
     let convention = |window: &mut Window<'_>, name: &str| {
@@ -220,7 +280,7 @@ fn nothing_moves_while_it_is_diagnosed_and_a_folded_section_diagnoses_nothing() 
         (sections.map(|name| window.get_by_label(name).rect()), rows)
     };
     let before = tops(&window);
-    assert!(before.1.len() > 10, "{before:?}");
+    assert_eq!(before.1.len() > 10, all, "{before:?}");
     for _ in 0..6000 {
         window.step();
         assert_eq!(tops(&window), before);

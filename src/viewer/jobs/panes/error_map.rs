@@ -49,9 +49,8 @@ impl ErrorMapJob {
             return None;
         }
         let wanted = key(work.materials, work.view, scenes);
-        self.0.drop_other(&wanted);
         let convention = work.view.convention();
-        self.0.follow(Some(wanted), |key| {
+        self.0.follow_only(wanted, |key| {
             let (scenes, materials, gpu) = (key.scenes.clone(), work.materials(), work.gpu.cloned());
             Job::start(work.waker, move |progress| {
                 maps(&materials, &scenes, &convention, gpu.as_ref(), progress).map(Arc::new)

@@ -25,8 +25,8 @@ const MOST: usize = 128;
 pub struct Filmstrip {
     pub capture: Capture,
     pub picture: Arc<Picture>,
-    /// Of each photograph, whether it has a thumbnail: it could be read, and is among the first.
-    drawn: Vec<bool>,
+    /// Why one of the first photographs, which have thumbnails, cannot be read.
+    problems: Vec<Option<String>>,
     /// The absolute paths of the photographs.
     paths: Vec<PathBuf>,
     /// The number of photographs outside of the folder of the capture.
@@ -45,12 +45,17 @@ impl Filmstrip {
         self.paths.iter().position(|one| *one == path)
     }
 
+    /// Why the photograph at this index has no thumbnail, where it cannot be read.
+    pub fn problem(&self, index: usize) -> Option<&str> {
+        self.problems.get(index)?.as_deref()
+    }
+
     /// The part of the picture that is the thumbnail at this index: least and greatest x and y, as shares of its sides.
     pub fn part(&self, index: usize) -> Option<[[f32; 2]; 2]> {
-        let rows = self.drawn.len().div_ceil(COLUMNS).max(1);
+        let rows = self.problems.len().div_ceil(COLUMNS).max(1);
         let size = [1.0 / COLUMNS as f32, 1.0 / rows as f32];
         let least = [(index % COLUMNS) as f32 * size[0], (index / COLUMNS) as f32 * size[1]];
-        let is_drawn = self.drawn.get(index).copied().unwrap_or_default();
+        let is_drawn = self.problems.get(index).is_some_and(Option::is_none);
         is_drawn.then_some([least, [least[0] + size[0], least[1] + size[1]]])
     }
 }
@@ -66,14 +71,18 @@ pub fn read(path: &Path, progress: &Progress) -> Result<Filmstrip, Error> {
     progress.begin(count as u64);
     let mut images = Vec::new();
     for one in &capture.photographs[..count] {
-        images.push(thumbnail(&capture, one, progress).ok());
+        images.push(thumbnail(one, progress).map_err(|error| error.to_string()));
         progress.step()?;
     }
-    let pixels = images.iter().flatten().flat_map(|image| image.pixels.iter().copied()).collect::<Vec<_>>();
+    let pixels = images
+        .iter()
+        .flatten()
+        .flat_map(|image: &Image<f32>| image.pixels.iter().copied())
+        .collect::<Vec<_>>();
     let ev = exposure(&Image { width: pixels.len(), height: 1, pixels });
     Ok(Filmstrip {
         picture: Arc::new(atlas(&images, ev)),
-        drawn: images.iter().map(Option::is_some).collect(),
+        problems: images.into_iter().map(Result::err).collect(),
         paths: capture.photographs.iter().map(|one| absolute(one.file.path())).collect(),
         outside: capture.outside().count(),
         capture,
@@ -85,13 +94,13 @@ fn absolute(path: &Path) -> PathBuf {
 }
 
 /// The material in a photograph; clipped pixels are white.
-fn thumbnail(capture: &Capture, one: &CapturedPhotograph, progress: &Progress) -> Result<Image<f32>, Error> {
-    let (mut photograph, corners) = capture.photograph(one)?;
+fn thumbnail(one: &CapturedPhotograph, progress: &Progress) -> Result<Image<f32>, Error> {
+    let (mut photograph, corners) = one.read()?;
     photograph.clipped.fill(false);
     Ok(Rectified::new(&photograph, &corners, [SIDE; 2], &progress.part())?.image)
 }
 
-fn atlas(images: &[Option<Image<f32>>], ev: f32) -> Picture {
+fn atlas(images: &[Result<Image<f32>, String>], ev: f32) -> Picture {
     let rows = images.len().div_ceil(COLUMNS).max(1);
     let size = [COLUMNS * SIDE, rows * SIDE];
     let mut picture = Picture { size, pixels: vec![Picture::TRANSPARENT; size[0] * size[1]] };

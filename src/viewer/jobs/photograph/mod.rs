@@ -32,6 +32,8 @@ use keys::{ReadKey, RectifiedKey};
 #[derive(Debug, Default)]
 pub struct PhotographJobs {
     read: Latest<ReadKey, Arc<Photograph>>,
+    /// Why a photograph of a capture cannot be read.
+    problem: Option<(ReadKey, String)>,
     rectified: Latest<RectifiedKey, Arc<Rectified>>,
     compared: Latest<ComparedKey, Arc<Photographs>>,
     picture: Latest<ReadKey, Arc<Picture>>,
@@ -45,6 +47,8 @@ pub struct DisplayedPhotograph<'a> {
     pub source: &'a SessionPhotograph,
     /// Once it has been read.
     pub photograph: Option<&'a Photograph>,
+    /// Why it cannot be read, where it is one of a capture.
+    pub problem: Option<&'a str>,
     /// The share of the texels that is left out, once it is on the texels.
     pub clipped: Option<f64>,
     /// Beside every material, once they are there.
@@ -92,13 +96,19 @@ impl PhotographJobs {
         (Some(of) == read_key(state).as_ref()).then_some(photograph)
     }
 
-    /// Whether what is open has been read.
-    pub fn is_settled(&self, state: &PhotographState) -> bool {
-        state.source().is_none() || self.photograph(state).is_some()
+    /// Why the photograph of a capture cannot be read.
+    fn problem(&self, state: &PhotographState) -> Option<&str> {
+        let (of, problem) = self.problem.as_ref()?;
+        (Some(of) == read_key(state).as_ref()).then_some(problem)
     }
 
-    /// Takes over results, and computes what is wanted now. Where the photograph cannot be read, the error is the first of the
-    /// pair; `longest` is the longest side of a picture for a texture.
+    /// Whether what is open has been read, as far as it can be.
+    pub fn is_settled(&self, state: &PhotographState) -> bool {
+        state.source().is_none() || self.photograph(state).is_some() || self.problem(state).is_some()
+    }
+
+    /// Takes over results, and computes what is wanted now. Where the photograph cannot be read and is none of a capture, the error
+    /// is the first of the pair; `longest` is the longest side of a picture for a texture.
     pub fn follow(
         &mut self,
         work: &JobContext<'_>,
@@ -109,9 +119,14 @@ impl PhotographJobs {
             let (path, options) = (path.clone(), *options);
             Job::start(work.waker, move |_| read_photograph(&path, &options).map(Arc::new))
         });
-        if error.is_some() {
-            *self = Self::default();
-            return [error, None];
+        if let Some(error) = error {
+            let of_capture =
+                read_key(state).filter(|_| state.source().is_some_and(|one| one.capture.is_some()));
+            let Some(of_capture) = of_capture else {
+                *self = Self::default();
+                return [Some(error), None];
+            };
+            self.problem = Some((of_capture, error.to_string()));
         }
         let error = self.rectify(work, state);
         let error = error.or_else(|| self.compare(work, state));
@@ -139,7 +154,7 @@ impl PhotographJobs {
     /// The photographs of the capture to which the photograph belongs, once it is there.
     fn list(&mut self, work: &JobContext<'_>, state: &PhotographState) -> Option<Error> {
         let wanted = state.source().and_then(|source| source.capture.clone());
-        if wanted.is_some() && self.photograph(state).is_none() {
+        if wanted.is_some() && !self.is_settled(state) {
             return None;
         }
         self.filmstrip.follow(wanted, |path| {
@@ -208,6 +223,7 @@ impl PhotographJobs {
         Some(DisplayedPhotograph {
             source,
             photograph,
+            problem: self.problem(state),
             clipped: rectified.map(|(_, rectified)| rectified.clipped_share()),
             all: all.map(|(_, all)| all),
             corners,

@@ -40,9 +40,7 @@ impl DiagnosisJob {
             self.floor.pause();
             return self.diagnoses.follow(waker, false, (pairs, chosen), seed, diagnosed);
         };
-        let wanted = (first.ground_truth_key(), seed);
-        self.floor.drop_other(&wanted);
-        let error = self.floor.follow(Some(wanted), |_| {
+        let error = self.floor.follow_only((first.ground_truth_key(), seed), |_| {
             let pair = first.clone();
             Job::start(waker, move |progress| {
                 floor(pair.ground_truth(), pair.ground_truth_storage(), &pair.convention, seed, progress)

@@ -21,7 +21,7 @@ struct ResultKey {
 #[derive(Debug)]
 pub struct OneByOne<R> {
     latest: Latest<ResultKey, R>,
-    /// Those of present predictions that are there.
+    /// The results of open predictions.
     done: Vec<(ResultKey, R)>,
 }
 
@@ -33,7 +33,7 @@ impl<R> Default for OneByOne<R> {
 
 impl<R: Clone + Send + 'static> OneByOne<R> {
     /// Takes over a result, and computes the next one that is missing: of the `chosen` pair first. Where they are not
-    /// `displayed`, those that are there stay.
+    /// `displayed`, the results stay.
     pub fn follow(
         &mut self,
         waker: &Waker,
@@ -50,8 +50,7 @@ impl<R: Clone + Send + 'static> OneByOne<R> {
         let missing = |pair: &&ComparedPair| self.get(pair, seed).is_none();
         let pair = pairs.get(chosen).into_iter().chain(pairs).find(missing)?;
         let wanted = ResultKey { pair: pair.key, seed };
-        self.latest.drop_other(&wanted);
-        let error = self.latest.follow(Some(wanted), |_| {
+        let error = self.latest.follow_only(wanted, |_| {
             let pair = pair.clone();
             Job::start(waker, move |progress| compute(&pair, seed, progress))
         });

@@ -60,8 +60,7 @@ impl ScenesJob {
             return None;
         };
         let wanted = ScenesKey { pair: pair.key, scenes };
-        self.list.drop_other(&wanted);
-        let mut error = self.list.follow(Some(wanted.clone()), |key| {
+        let mut error = self.list.follow_only(wanted.clone(), |key| {
             let (pair, scenes) = (pair.clone(), key.scenes.clone());
             Job::start(waker, move |progress| {
                 let outcome = pair.comparison()?.run(&scenes, progress)?;

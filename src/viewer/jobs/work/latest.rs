@@ -41,7 +41,13 @@ impl<K: Clone + PartialEq, R: Send + 'static, U: Send + 'static> Latest<K, R, U>
         self.running = None;
     }
 
-    /// Cancels the job of another key than `wanted`: slow work for what has changed is not worth its end.
+    /// As [`Self::follow`], but cancels the job of an earlier key: slow work for what has changed is not worth its end.
+    pub fn follow_only(&mut self, wanted: K, start: impl FnOnce(&K) -> Job<R, U>) -> Option<Error> {
+        self.drop_other(&wanted);
+        self.follow(Some(wanted), start)
+    }
+
+    /// Cancels the job of another key than `wanted`.
     pub fn drop_other(&mut self, wanted: &K) {
         if self.running.as_ref().is_some_and(|(key, _)| key != wanted) {
             self.running = None;

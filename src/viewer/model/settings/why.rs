@@ -27,6 +27,8 @@ impl Default for WhyState {
 pub enum WhySection {
     /// Whether an error of exposure, alignment or reading explains the loss.
     Diagnosis,
+    /// Those of its hypotheses that have no mark.
+    Hypotheses,
     /// How much of the loss comes from each map.
     Maps,
     /// Which scenes the loss comes from.
@@ -40,6 +42,7 @@ pub enum WhySection {
 #[serde(default)]
 pub struct WhySections {
     diagnosis: bool,
+    hypotheses: bool,
     maps: bool,
     scenes: bool,
     directions: bool,
@@ -47,7 +50,7 @@ pub struct WhySections {
 
 impl Default for WhySections {
     fn default() -> Self {
-        Self { diagnosis: true, maps: true, scenes: true, directions: true }
+        Self { diagnosis: true, hypotheses: false, maps: true, scenes: true, directions: true }
     }
 }
 
@@ -55,6 +58,7 @@ impl WhySections {
     pub fn is_open(self, section: WhySection) -> bool {
         match section {
             WhySection::Diagnosis => self.diagnosis,
+            WhySection::Hypotheses => self.hypotheses,
             WhySection::Maps => self.maps,
             WhySection::Scenes => self.scenes,
             WhySection::Directions => self.directions,
@@ -64,6 +68,7 @@ impl WhySections {
     pub fn open(&mut self, section: WhySection, on: bool) {
         match section {
             WhySection::Diagnosis => self.diagnosis = on,
+            WhySection::Hypotheses => self.hypotheses = on,
             WhySection::Maps => self.maps = on,
             WhySection::Scenes => self.scenes = on,
             WhySection::Directions => self.directions = on,

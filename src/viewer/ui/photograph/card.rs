@@ -62,6 +62,10 @@ impl PhotographCard<'_> {
             let strip = self.photograph.filmstrip.map(AsRef::as_ref);
             commands.extend(filmstrip::ui(ui, source, strip, textures));
         }
+        if let Some(problem) = self.photograph.problem {
+            ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
+            return commands;
+        }
         let Some(photograph) = self.photograph.photograph else {
             ui.add(egui::Spinner::new());
             return commands;
@@ -71,6 +75,11 @@ impl PhotographCard<'_> {
             ui.label(RichText::new(format!("{width} x {height} pixels,")).small());
             self.transfer(ui, &mut commands);
         });
+        if let Some(colour) = source.read.light_colour {
+            let [r, g, b] = colour.map(|channel| format!("{channel:.3}"));
+            ui.label(RichText::new(format!("Colour of the light divided out: {r} {g} {b}")).small())
+                .on_hover_text("light_pow of the capture over the mean of its channels");
+        }
         for note in &photograph.notes {
             ui.label(RichText::new(note.to_string()).small().color(ui.visuals().warn_fg_color));
         }

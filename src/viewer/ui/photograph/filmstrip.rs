@@ -66,9 +66,6 @@ fn about(ui: &mut egui::Ui, strip: Option<&Filmstrip>, current: Option<usize>) {
         1 => warn(ui, "A photograph lies outside of the folder of the capture".to_owned()),
         count => warn(ui, format!("{count} photographs lie outside of the folder of the capture")),
     }
-    if strip.capture.power.is_some_and(|power| !power.is_white()) {
-        warn(ui, "The colour of light_pow is not divided out in the window".to_owned());
-    }
 }
 
 /// The command that compares with another photograph, in its light and view.
@@ -94,6 +91,9 @@ fn thumbnail(
     painter.rect_filled(square, 0.0, visuals.widgets.inactive.weak_bg_fill);
     if let Some([least, greatest]) = strip.part(index) {
         painter.image(texture, square, Rect::from_min_max(least.into(), greatest.into()), Color32::WHITE);
+    } else if strip.problem(index).is_some() {
+        let (font, colour) = (egui::FontId::proportional(20.0), theme::problem(visuals));
+        painter.text(square.center(), egui::Align2::CENTER_CENTER, "\u{d7}", font, colour);
     }
     if is_current {
         let stroke = Stroke::new(2.0, theme::accent(visuals));
@@ -103,8 +103,7 @@ fn thumbnail(
         painter.rect_stroke(square, 1.0, stroke, egui::StrokeKind::Outside);
     }
     let [light, view] = [one.scene.light, one.scene.view].map(position);
-    response.on_hover_text(format!(
-        "{}\nlight {light}\nview {view}\nClick to compare with this photograph, in its light and view",
-        one.name
-    ))
+    let action =
+        strip.problem(index).unwrap_or("Click to compare with this photograph, in its light and view");
+    response.on_hover_text(format!("{}\nlight {light}\nview {view}\n{action}", one.name))
 }

@@ -2,7 +2,9 @@
 
 pub mod diagnosis;
 pub mod directions;
+pub mod hypotheses;
 pub mod maps;
+pub mod row;
 pub mod scenes;
 
 use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
@@ -80,9 +82,11 @@ impl WhyPanel<'_> {
             let open = self.sections.is_open(section);
             let header = egui::CollapsingHeader::new(RichText::new(title).strong()).open(Some(open));
             let header = header.show_unindented(ui, |ui| match section {
-                WhySection::Diagnosis => {
+                WhySection::Diagnosis | WhySection::Hypotheses => {
                     let Self { state, jobs, settings, pairs, predictions, .. } = self;
-                    DiagnosisSection { state, jobs, settings, pairs, predictions }.ui(ui, &mut commands);
+                    let shows_all = self.sections.is_open(WhySection::Hypotheses);
+                    DiagnosisSection { state, jobs, settings, pairs, predictions, shows_all }
+                        .ui(ui, &mut commands);
                 }
                 WhySection::Maps => {
                     let Self { state, jobs, settings, pairs, names, .. } = self;
