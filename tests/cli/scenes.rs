@@ -53,7 +53,7 @@ fn scenes_have_names_in_every_command_that_takes_scenes() {
         succeed(at, &format!("map gt.png a.png -o map.csv --lights {lights}"));
     }
     // The same scenes as of a file.
-    let nine = succeed(at, "scenes gt.png a.png --lights flash-9 --format json");
+    let nine = succeed(at, "loss gt.png a.png --lights flash-9 --format json");
     std::fs::write(at.join("nine.json"), nine).unwrap();
     let [of_file, named] = ["--scenes nine.json", "--lights flash-9"].map(|scenes| {
         losses_as_json(at, &format!("gt.png a.png {scenes}"))["results"][0]["loss"].as_f64().unwrap()
