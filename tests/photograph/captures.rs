@@ -84,18 +84,22 @@ pub(super) fn write(folder: &Path, capture: &Value) {
     fs::write(folder.join("capture.json"), capture.to_string()).unwrap();
 }
 
-fn setting(folder: &Path, exposure: CaptureExposure, hold_out: &[&str]) -> Result<CaptureSetting, Error> {
+pub(super) fn setting(
+    folder: &Path,
+    exposure: CaptureExposure,
+    hold_out: &[&str],
+) -> Result<CaptureSetting, Error> {
     let hold_out: Vec<String> = hold_out.iter().map(|name| (*name).to_owned()).collect();
     let capture = Capture::read(folder)?;
     CaptureSetting::new("cap".to_owned(), capture, exposure, &hold_out, Convention::default())
 }
 
-fn compared(setting: CaptureSetting, materials: &[&Material<f32>]) -> CaptureReport {
+pub(super) fn compared(setting: CaptureSetting, materials: &[&Material<f32>]) -> CaptureReport {
     let named = materials.iter().map(|material| (material.name(), *material));
     CaptureReport::new(setting, named, &Progress::default()).unwrap()
 }
 
-pub(super) fn of_folder(folder: &Path, materials: &[&Material<f32>]) -> CaptureReport {
+fn of_folder(folder: &Path, materials: &[&Material<f32>]) -> CaptureReport {
     compared(setting(folder, CaptureExposure::Capture, &[]).unwrap(), materials)
 }
 

@@ -2,14 +2,10 @@
 
 use serde::Serialize;
 
-use svbrdf_core::statistics::median;
+use svbrdf_core::statistics::{median, outlier_limit};
 
 /// With fewer photographs, none of them is an outlier.
 const FEWEST: usize = 5;
-/// Largest modified z-score of a photograph that is none (Iglewicz and Hoaglin 1993, "How to detect and handle outliers").
-const LARGEST: f64 = 3.5;
-/// The standard deviation of a normal distribution over its median absolute deviation.
-const DEVIATION: f64 = 1.4826;
 /// Least distance of an exposure from the median, in stops.
 const LEAST_EV: f64 = 0.1;
 /// Least distance of a log difference from the median, and the least as a share of the median.
@@ -52,7 +48,7 @@ fn far(values: &[Option<f64>], matter: impl Fn(f64, f64) -> bool) -> Vec<bool> {
     }
     let middle = median(&mut known).unwrap_or(f64::NAN);
     let mut distances: Vec<f64> = known.iter().map(|value| (value - middle).abs()).collect();
-    let limit = LARGEST * DEVIATION * median(&mut distances).unwrap_or(f64::NAN);
+    let limit = outlier_limit(known.len()) * median(&mut distances).unwrap_or(f64::NAN);
     let is_far = |value: f64| (value - middle).abs() > limit && matter(value - middle, middle);
     values.iter().map(|value| value.is_some_and(is_far)).collect()
 }
