@@ -10,6 +10,7 @@ use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 use svbrdf_files::photograph::flash;
+use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::{self, generate};
 use svbrdf_files::session::SessionPhotograph;
 
@@ -89,6 +90,35 @@ fn the_pictures_of_the_readme() {
     write(&mut window, "where.jpg");
     training();
     photographed();
+}
+
+/// The built-in ground truth with Y of its normals in the other direction, diagnosed.
+#[test]
+#[ignore = "writes a picture in assets"]
+fn the_picture_of_a_diagnosis() {
+    let folder = tempfile::tempdir().unwrap();
+    let [truth, flipped] = ["worn tiles.png", "Y down.png"].map(|name| folder.path().join(name));
+    let side = generate::SIDE as u32;
+    let mut strip =
+        image::RgbImage::from_raw(4 * side, side, generate::pack(&generate::ground_truth())).unwrap();
+    strip.save(&truth).unwrap();
+    for (x, _, pixel) in strip.enumerate_pixels_mut() {
+        pixel.0[1] = if x < side { 255 - pixel.0[1] } else { pixel.0[1] };
+    }
+    strip.save(&flipped).unwrap();
+    let mut window = built_in();
+    window.set_size(SIZE);
+    let read = ReadOptions { order: Some("ndrs".parse().unwrap()), ..ReadOptions::AUTO };
+    let read = ReadOptions { preset: Some("deschaintre".parse().unwrap()), ..read };
+    let ctx = window.ctx.clone();
+    let open = MaterialsCommand::Open { paths: vec![truth, flipped], replace: true, read };
+    window.state_mut().apply(&ctx, open.into());
+    wait(&mut window, "the materials", |app| app.names() == ["worn tiles", "Y down"]);
+    tab(&mut window, "Why");
+    wait(&mut window, "the diagnosis", |app| app.diagnosis().is_some());
+    wait(&mut window, "the attribution", |app| app.attribution().is_some());
+    wait(&mut window, "the thumbnails", |app| app.listed_scenes().is_some());
+    write(&mut window, "diagnosis.jpg");
 }
 
 /// Writes the steps of a training: strips of the ground truth whose normals and roughness are off by less and less.

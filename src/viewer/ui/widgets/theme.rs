@@ -240,6 +240,10 @@ mod tests {
             }
             let button = contrast(visuals.text_color(), visuals.widgets.inactive.weak_bg_fill);
             assert!(button >= 4.5, "text of buttons in the {} theme: {button:.2}", theme(&visuals));
+            let selected = contrast(visuals.text_color(), visuals.selection.bg_fill);
+            assert!(selected >= 4.5, "selected text in the {} theme: {selected:.2}", theme(&visuals));
+            let weak = contrast(visuals.weak_text_color(), visuals.selection.bg_fill);
+            assert!(weak < 4.5, "a planted fault in the {} theme: {weak:.2}", theme(&visuals));
             let outline = contrast(visuals.widgets.inactive.bg_stroke.color, visuals.panel_fill);
             assert!(outline >= 3.0, "outlines in the {} theme: {outline:.2}", theme(&visuals));
         }
