@@ -14,8 +14,8 @@ use crate::viewer::ui::widgets::theme;
 /// Where the value and the share of a line end, in points from the right.
 const VALUE: f32 = 62.0;
 pub const SHARE: f32 = 4.0;
-/// Where the name of a hypothesis begins and ends, in points from the left.
-const NAME: [f32; 2] = [14.0, 128.0];
+/// Where the name of a hypothesis begins, in points from the left, and the space after it.
+const NAME: [f32; 2] = [14.0, 6.0];
 
 /// The lines of one prediction.
 #[derive(Debug)]
@@ -117,8 +117,8 @@ fn line(
     if is_marked {
         painter.circle_filled(pos2(area.left() + 7.0, middle), 3.5, theme::accent(ui.visuals()));
     }
-    let [left, end] = NAME.map(|x| area.left() + x);
-    painter.text(pos2(left, middle), Align2::LEFT_CENTER, name, FontId::proportional(12.5), ink);
+    let at = pos2(area.left() + NAME[0], middle);
+    let end = NAME[1] + painter.text(at, Align2::LEFT_CENTER, name, FontId::proportional(12.5), ink).right();
     let font = FontId::monospace(11.5);
     let at = pos2(area.right() - SHARE, middle);
     painter.text(at, Align2::RIGHT_CENTER, share, font.clone(), ink);
