@@ -77,6 +77,7 @@ fn the_pictures_of_the_readme() {
     let mut window = opened();
     window.get_by_label("normal: 81.0% of the loss").click();
     wait(&mut window, "the mixture", |app| app.displayed_materials()[1].0.contains("only its normal"));
+    wait(&mut window, "its statistics", |app| app.difference_statistics().is_some());
     write(&mut window, "why.jpg");
 
     let mut window = opened();
