@@ -113,7 +113,8 @@ fn numbers<const N: usize>(name: &str, text: &str) -> Result<Vec<[f64; N]>, Stri
     let line = |(index, line): (usize, &str)| {
         let numbers: Option<Vec<f64>> = line.split(',').map(|number| number.trim().parse().ok()).collect();
         numbers.and_then(|numbers| numbers.try_into().ok()).ok_or_else(|| {
-            format!("{name}, line {}: expected {N} numbers separated by commas, found {line:?}", index + 1)
+            let expected = if N == 1 { "a number".to_owned() } else { format!("{N} numbers, with commas") };
+            format!("{name}, line {}: expected {expected}, found {line:?}", index + 1)
         })
     };
     text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()).map(line).collect()
@@ -134,11 +135,7 @@ mod tests {
         for (size, power, problem) in [
             ("", "1,1,1", "image_size.txt: expected one line, found 0"),
             ("6\n7", "1,1,1", "image_size.txt: expected one line, found 2"),
-            (
-                "6 cm",
-                "1,1,1",
-                "image_size.txt, line 1: expected 1 numbers separated by commas, found \"6 cm\"",
-            ),
+            ("6 cm", "1,1,1", "image_size.txt, line 1: expected a number, found \"6 cm\""),
             ("6", "1,1", "light_power.txt, line 1: expected 3 numbers"),
         ] {
             let error = of(size, power).unwrap_err();
