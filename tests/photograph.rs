@@ -3,6 +3,7 @@
 mod capture_statistics;
 mod captures;
 mod comparing;
+mod materialgan;
 mod reading;
 
 use svbrdf_core::image::Image;

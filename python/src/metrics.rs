@@ -16,7 +16,7 @@ use crate::material::{CoreMaterial, read_options};
 use crate::report::Views;
 use crate::work;
 
-/// The metrics of the maps and renderings of `predictions`. `exposure` is that of the renderings in stops.
+/// The metrics of the maps and renderings of `predictions`. `exposure`: of the renderings, in stops.
 #[pyfunction]
 pub fn metrics(
     py: Python<'_>,

@@ -13,7 +13,7 @@ impl Drop for Running {
     }
 }
 
-/// A display and a home folder of its own.
+/// A display and a home folder for one test.
 pub struct Desktop {
     display: String,
     pub folder: tempfile::TempDir,

@@ -62,7 +62,7 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     }
     let command = "svbrdf report &#39;a report.svbrdf-session.json&#39; -o &#39;a report.html&#39;";
     assert!(html.contains(command));
-    // The session within it is that of the window.
+    // The session within it is the session of the window.
     let text = between(&html, "<summary>a report.svbrdf-session.json</summary><pre><code>", "</code>");
     let session = folder.path().join("a report.svbrdf-session.json");
     std::fs::write(&session, text.replace("&quot;", "\"")).unwrap();

@@ -15,7 +15,7 @@ use super::summary::Pick;
 pub struct MetricSummary {
     pub mean: f64,
     pub median: f64,
-    /// The 95% interval of the mean over all materials like these; `None` for fewer than 3, and where the mean is infinite: that of the
+    /// The 95% interval of the mean over all materials like these; `None` for fewer than 3, and where the mean is infinite: of the
     /// PSNR, where maps of a material are equal.
     pub interval95_materials: Option<[f64; 2]>,
 }

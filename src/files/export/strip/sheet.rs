@@ -39,7 +39,7 @@ pub(super) struct Inset {
     pub crop: Crop,
     pub colour: [u8; 3],
     pub magnification: usize,
-    /// Of its upper left corner, frame included, from that of the cell.
+    /// From the upper left corner of the cell to its own, frame included.
     pub offset: [usize; 2],
 }
 

@@ -24,7 +24,7 @@ pub fn fitted(ui: &Ui, font: &FontId, width: f32, text: impl Fn(usize) -> String
     fitting.checked_sub(1).map(|last| text(lengths[last]))
 }
 
-/// Names that are told apart.
+/// Names of materials, shortened so that they stay distinct.
 #[derive(Clone, Debug)]
 pub struct Names<'a> {
     names: Vec<&'a str>,
