@@ -220,7 +220,8 @@ impl OpeningWork {
     fn send_rests(&self, rests: Receiver<(Arc<ReadMaterial>, Arc<Uploaded>)>, worker: &Worker<Uploading>) {
         priority::lower_this_thread();
         let Some(gpu) = &self.gpu else { return };
-        for (read, uploaded) in rests.iter().take_while(|_| !worker.progress.is_cancelled()) {
+        // What is displayed stays when the rest is cancelled, and becomes whole.
+        for (read, uploaded) in rests {
             uploaded.complete(gpu, &read.material);
             worker.wake();
         }
@@ -259,5 +260,33 @@ impl OpeningWork {
         // Where that thread has panicked, this one does as well when it has read everything.
         let _ = rests.send((read, uploaded));
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use svbrdf_files::samples;
+
+    #[test]
+    #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+    fn a_material_that_is_displayed_becomes_whole_though_the_rest_of_its_opening_is_cancelled() {
+        let gpu = Gpu::headless().unwrap();
+        let mut read = samples::load::<f32>().unwrap().ground_truth;
+        read.material = read.material.resized([1024, 515]).unwrap();
+        let read = Arc::new(ReadMaterial::new(Source::built_in(0), read));
+        let uploaded = Arc::new(Uploaded::start(&gpu, &read.material));
+        let (rests, rest) = mpsc::channel();
+        rests.send((read, uploaded.clone())).unwrap();
+        drop(rests);
+        let (parts, current) = (Arc::default(), Arc::default());
+        let work = OpeningWork { alone: 1, upload: Uploaded::start, gpu: Some(gpu), parts, current };
+        let job: Job<(), Uploading> = Job::stream(&Waker::default(), Progress::default(), move |worker| {
+            worker.progress.cancel();
+            work.send_rests(rest, worker);
+            Ok(())
+        });
+        job.wait().unwrap();
+        assert!(uploaded.whole().is_some_and(|whole| whole.is_ok()));
     }
 }
