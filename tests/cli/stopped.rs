@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use super::{files, folder, succeed, write_material};
 
 /// Width and height of the material: writing it takes a while.
-const LARGE: u32 = 1024;
+const LARGE: u32 = 640;
 
 /// Starts a conversion in `folder`. Signals that the tests' own parent ignores are not ignored.
 fn convert(folder: &Path, out: &str) -> Child {
