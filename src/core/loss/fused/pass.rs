@@ -2,7 +2,7 @@
 
 use super::compare::LogDifferences;
 use super::inputs::LossInputs;
-use crate::render::simd::geometry::{Geometry, KernelScene, TileGeometry};
+use crate::render::simd::geometry::{Geometry, KernelScene, TileGeometry, is_short};
 use crate::render::simd::lanes::{Lanes, V};
 use crate::render::simd::shade::{ShadingParams, TileRadiance};
 use crate::render::simd::tile::{MaterialTerms, Positions, TexelSpan};
@@ -54,16 +54,18 @@ impl LossTile {
                 simd,
                 params,
                 scene,
+                is_short(simd, geometry.square),
                 sums,
                 #[inline(always)]
                 |_, _| geometry,
             ),
             None => {
-                self.geometry.fill(simd, scene, &self.positions);
+                let is_short = self.geometry.fill(simd, scene, &self.positions);
                 self.add_with(
                     simd,
                     params,
                     scene,
+                    is_short,
                     sums,
                     #[inline(always)]
                     |geometry, i| geometry.load(simd, i),
@@ -78,6 +80,7 @@ impl LossTile {
         simd: S,
         params: &ShadingParams,
         scene: &KernelScene,
+        is_short: bool,
         sums: &mut [D],
         geometry: impl Fn(&TileGeometry, usize) -> Geometry<V<S>>,
     ) {
@@ -88,6 +91,7 @@ impl LossTile {
             params,
             scene,
             &self.ground_truth,
+            is_short,
             #[inline(always)]
             |i| geometry(tile, i),
         );
@@ -97,6 +101,7 @@ impl LossTile {
                 params,
                 scene,
                 terms,
+                is_short,
                 #[inline(always)]
                 |i| geometry(tile, i),
             );

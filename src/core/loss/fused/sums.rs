@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::simd::geometry::KernelScene;
-use crate::render::simd::lanes::{Lanes, Level, dispatch};
+use crate::render::simd::lanes::{FLOATS_PER_LINE, Lanes, Level, dispatch};
 use crate::render::simd::size::{AHEAD, TEXELS, TEXELS_PER_BLOCK};
 use crate::render::simd::tile::prefetch;
 
@@ -71,6 +71,7 @@ impl LossInputs<'_> {
         let mut sums = vec![LogProducts::<S>::new(simd); scenes.len() * self.predictions.len()];
         let distant: Vec<_> = scenes.iter().map(|scene| scene.distant(simd)).collect();
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
+        self.look_up_pages(simd, end);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
             tile.fill(simd, self, &self.span(start..end.min(start + TEXELS)));
             for (i, sums) in sums.chunks_mut(self.predictions.len()).enumerate() {
@@ -85,6 +86,16 @@ impl LossInputs<'_> {
     #[inline(always)]
     fn prefetch_part<S: Lanes>(&self, simd: S, start: usize, part: usize, parts: usize) {
         let first = |part| part * self.planes.len() / parts;
-        prefetch(simd, &self.planes[first(part)..first(part + 1)], start);
+        prefetch::<S, TEXELS>(simd, &self.planes[first(part)..first(part + 1)], start);
+    }
+
+    /// Prefetches a line of each page of the block at `start`. A processor looks up several addresses of pages at a time;
+    /// left to the tiles, it would wait for one after the other.
+    #[inline(always)]
+    fn look_up_pages<S: Lanes>(&self, simd: S, start: usize) {
+        // Two pages of 4 KiB per plane, or parts of three.
+        for texel in [0, TEXELS_PER_BLOCK / 2, TEXELS_PER_BLOCK - FLOATS_PER_LINE] {
+            prefetch::<S, FLOATS_PER_LINE>(simd, &self.planes, start + texel);
+        }
     }
 }

@@ -10,6 +10,8 @@ use crate::model::scene::{Kind, Scene};
 
 /// Least height of a light or view above the plane, so that f32 can square and invert it. Lower ones are moved to it.
 const LEAST_HEIGHT: f64 = 1e-18;
+/// Below this |q|^2, q is short: VoH < 1/2, an angle of over 120 degrees between light and view.
+const SHORT_SQUARE: f32 = 4.0;
 /// Added to |q|^2, so that it is positive where light and view are opposite. Far below the rounding of q there.
 const LEAST_SQUARE: f32 = 1e-18;
 
@@ -141,6 +143,12 @@ fn half_way<S: Lanes>(simd: S, q: [V<S>; 3]) -> (V<S>, V<S>) {
     (square, exp2(simd, fresnel_power(simd, square)))
 }
 
+/// Whether a lane holds the |q|^2 of a short q.
+#[inline(always)]
+pub(crate) fn is_short<S: Simd>(simd: S, square: V<S>) -> bool {
+    square.simd_lt(V::<S>::splat(simd, SHORT_SQUARE)).any_true()
+}
+
 /// 2 / sqrt(x). The Newton step leaves 1.5 times the square of the relative error of the estimate.
 #[inline(always)]
 fn twice_rsqrt<S: Lanes>(simd: S, x: V<S>) -> V<S> {
@@ -200,8 +208,10 @@ impl TileGeometry {
 
     /// Two loops, because the reorder buffer of a processor does not hold enough vectors of a single one, whose chain of
     /// dependent operations reaches from the position to the Fresnel weight.
+    ///
+    /// Returns whether a q of the tile is short.
     #[inline(always)]
-    pub(crate) fn fill<S: Lanes>(&mut self, simd: S, scene: &KernelScene, positions: &Positions) {
+    pub(crate) fn fill<S: Lanes>(&mut self, simd: S, scene: &KernelScene, positions: &Positions) -> bool {
         let scene = scene.splat(simd);
         for i in 0..vectors::<S>() {
             let (light, view, light_scale) =
@@ -212,13 +222,16 @@ impl TileGeometry {
             }
             self.light_scale.store::<S>(i, light_scale);
         }
+        let mut shortest = V::<S>::splat(simd, SHORT_SQUARE);
         for i in 0..vectors::<S>() {
             let light = TilePlane::load_three(&self.light, simd, i);
             let view = TilePlane::load_three(&self.view, simd, i);
             let (square, fresnel_weight) = half_way(simd, sum(light, view));
+            shortest = shortest.min(square);
             self.square.store::<S>(i, square);
             self.fresnel_weight.store::<S>(i, fresnel_weight);
         }
+        is_short(simd, shortest)
     }
 
     #[inline(always)]

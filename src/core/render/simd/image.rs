@@ -4,7 +4,7 @@ use fearless_simd::{Fallback, Simd};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::geometry::{KernelScene, TileGeometry};
+use super::geometry::{KernelScene, TileGeometry, is_short};
 use super::lanes::{Lanes, Level, dispatch};
 use super::shade::{ShadingParams, TileRadiance};
 use super::size::{AHEAD, TEXELS, TEXELS_PER_BLOCK};
@@ -69,7 +69,7 @@ impl<'a> ImageInputs<'a> {
     fn block<S: Lanes>(&self, simd: S, tile: &mut ImageTile, start: usize, pixels: &mut [[f32; 3]]) {
         for (i, pixels) in pixels.chunks_mut(TEXELS).enumerate() {
             let at = start + i * TEXELS;
-            prefetch(simd, &self.planes, at + AHEAD);
+            prefetch::<S, TEXELS>(simd, &self.planes, at + AHEAD);
             tile.render(simd, self, &TexelSpan::Range(at..at + pixels.len()));
             tile.copy_to(pixels);
         }
@@ -102,19 +102,21 @@ impl ImageTile {
                 params,
                 scene,
                 &self.terms,
+                is_short(simd, geometry.square),
                 #[inline(always)]
                 |_| geometry,
             );
             return;
         }
         self.positions.fill(&inputs.axes, span);
-        self.geometry.fill(simd, scene, &self.positions);
+        let is_short = self.geometry.fill(simd, scene, &self.positions);
         let geometry = &self.geometry;
         self.radiance.render(
             simd,
             params,
             scene,
             &self.terms,
+            is_short,
             #[inline(always)]
             |i| geometry.load(simd, i),
         );

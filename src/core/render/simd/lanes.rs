@@ -1,38 +1,30 @@
-//! Operations of the kernel beyond portable SIMD: reciprocal estimates, prefetching, and the choice of an instruction set.
+//! Operations of the kernel beyond portable SIMD: estimates of reciprocal roots, prefetching, and the choice of an
+//! instruction set.
 
 use fearless_simd::{Fallback, Simd, prelude::*};
-
-use super::size::TEXELS;
 
 #[cfg(target_arch = "x86_64")]
 use fearless_simd::x86::{Avx2, Avx512, Sse2, Sse4_2};
 
 /// Floats in a cache line.
-#[cfg(target_arch = "x86_64")]
-const FLOATS_PER_LINE: usize = 16;
+pub(crate) const FLOATS_PER_LINE: usize = 16;
 
 /// A vector of the native width of the instruction set `S`.
 pub(crate) type V<S> = <S as Simd>::f32s;
 
-/// Reciprocals and prefetching per instruction set. The kernel refines each estimate with a Newton step.
+/// Reciprocal roots and prefetching per instruction set. The kernel refines each estimate with a Newton step.
 ///
-/// The default reciprocals are exact. Estimates differ between processor vendors, and so may the last bits of a loss.
+/// The default reciprocal root is exact. Estimates differ between processor vendors, and so may the last bits of a loss.
 pub(crate) trait Lanes: Simd {
-    /// 1 / x, within a relative 1.5 x 2^-12.
-    #[inline(always)]
-    fn recip_estimate(self, x: V<Self>) -> V<Self> {
-        V::<Self>::splat(self, 1.0) / x
-    }
-
     /// 1 / sqrt(x) for normal x > 0, within a relative 1.5 x 2^-12.
     #[inline(always)]
     fn rsqrt_estimate(self, x: V<Self>) -> V<Self> {
         V::<Self>::splat(self, 1.0) / x.sqrt()
     }
 
-    /// Prefetches `values` into the L2 cache. In L1, planes at equal offsets within their pages would evict each other.
+    /// Prefetches a line into the L2 cache. In L1, planes at equal offsets within their pages would evict each other.
     #[inline(always)]
-    fn prefetch(self, _values: &[f32; TEXELS]) {}
+    fn prefetch(self, _line: &[f32; FLOATS_PER_LINE]) {}
 }
 
 /// An array of `$value` for each channel or component `$c` in 0..3.
@@ -74,16 +66,11 @@ impl Lanes for fearless_simd::wasm32::WasmSimd128 {}
 
 impl Lanes for Fallback {}
 
-/// Implements [`Lanes`] with the estimates of an x86 instruction set.
+/// Implements [`Lanes`] with the estimate of an x86 instruction set.
 #[cfg(target_arch = "x86_64")]
 macro_rules! estimate {
     ($token:ident, $register:ident, $rsqrt:ident) => {
         impl Lanes for $token {
-            #[inline(always)]
-            fn recip_estimate(self, x: V<Self>) -> V<Self> {
-                x.approximate_recip()
-            }
-
             #[inline(always)]
             fn rsqrt_estimate(self, x: V<Self>) -> V<Self> {
                 fearless_simd::kernel!(
@@ -96,17 +83,15 @@ macro_rules! estimate {
             }
 
             #[inline(always)]
-            fn prefetch(self, values: &[f32; TEXELS]) {
+            fn prefetch(self, line: &[f32; FLOATS_PER_LINE]) {
                 fearless_simd::kernel!(
                     #[inline(always)]
-                    fn prefetch(_token: $token, values: &[f32; TEXELS]) {
+                    fn prefetch(_token: $token, line: &[f32; FLOATS_PER_LINE]) {
                         use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
-                        for line in values.as_chunks::<FLOATS_PER_LINE>().0 {
-                            _mm_prefetch::<_MM_HINT_T1>(line.as_ptr().cast());
-                        }
+                        _mm_prefetch::<_MM_HINT_T1>(line.as_ptr().cast());
                     }
                 );
-                prefetch(self, values);
+                prefetch(self, line);
             }
         }
     };

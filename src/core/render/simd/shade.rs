@@ -1,8 +1,9 @@
 //! Algorithm 3 over a tile: the radiance plus epsilon, from the terms of a material and the geometry of a scene.
 //!
-//! There are three ways to compute it. The fast path is right where no width a = rough^2 is below [`NARROW`] and no
-//! highlight overflows. The narrow path takes a cross product for the denominator of D, and is right for any width. The
-//! overflow-safe path takes the cross product too, and divides before it multiplies.
+//! There are three ways to compute it. The fast path is right where no width a = rough^2 is below [`NARROW`], no q is
+//! short, and no highlight overflows. The careful path takes a cross product for the denominator of D and a dot product of
+//! its own for n . q, and is right for any width and any q. The overflow-safe path does so too, and divides before it
+//! multiplies.
 
 use fearless_simd::prelude::*;
 
@@ -11,17 +12,17 @@ use super::lanes::{Lanes, V, neg_mul_add, vec3};
 use super::tile::{MaterialTerms, TilePlane, vectors};
 use crate::model::convention::Convention;
 
-/// Largest highlight and light scale of the fast and the narrow path. Above, a tile takes the overflow-safe path.
+/// Largest highlight and light scale of the fast and the careful path. Above, a tile takes the overflow-safe path.
 const FAST_LIMIT: f32 = 1_048_576.0;
 
 /// Largest radiance and largest factor of one, 2^126. The product of two mantissas of such numbers fits a float.
 const LARGEST: f32 = 8.507_059e37;
 
-/// A tile with a GGX width below 1e-4 (r = 0.01) takes the narrow path.
+/// A tile with a GGX width below 1e-4 (r = 0.01) takes the careful path.
 ///
-/// The fast path takes what is left of q without its part along n. A normal that is off unit length by 2 u, and 3 u of
-/// rounding in n . q, leave up to 7 u |q| along n, with u = 2^-24. It adds as a square to |n x q|^2 + (a n . q)^2, so D
-/// is off by a relative 2 (7 u / a)^2 at most: 3.5e-5 at a = 1e-4, but 1 at a = 6e-7.
+/// The fast path takes what is left of q without its part along n. A normal that is off unit length by 2 u, and 7 u |q| of
+/// rounding in n . q where q is not short, leave up to 11 u |q| along n, with u = 2^-24. It adds as a square to
+/// |n x q|^2 + (a n . q)^2, so D is off by a relative 2 (11 u / a)^2 at most: 8.6e-5 at a = 1e-4, but 1 at a = 9e-7.
 const NARROW: f32 = 0.01 * 0.01;
 
 /// The clamps of a convention, in the units of the kernel.
@@ -41,7 +42,7 @@ pub(crate) struct ShadingParams {
     clamps: Clamps,
     epsilon: f32,
     pub(crate) roughness_floor: f32,
-    /// A tile with a smaller GGX width takes the narrow path.
+    /// A tile with a smaller GGX width takes the careful path.
     pub(crate) narrow: f32,
 }
 
@@ -74,7 +75,8 @@ impl TileRadiance {
     pub(crate) const ZERO: Self = Self([TilePlane::ZERO; 3]);
 
     /// Renders a tile. Returns whether all radiances are below 2 [`FAST_LIMIT`]; where one is not, the tile was rendered
-    /// a second time on the overflow-safe path. `geometry(i)` is the geometry of vector i.
+    /// a second time on the overflow-safe path. `geometry(i)` is the geometry of vector i, `is_short` whether a q of the
+    /// tile is short.
     #[inline(always)]
     pub(crate) fn render<S: Lanes>(
         &mut self,
@@ -82,9 +84,10 @@ impl TileRadiance {
         params: &ShadingParams,
         scene: &KernelScene,
         terms: &MaterialTerms,
+        is_short: bool,
         geometry: impl Fn(usize) -> Geometry<V<S>>,
     ) -> bool {
-        let below_limit = match (params.clamps.any, terms.is_narrow) {
+        let below_limit = match (params.clamps.any, terms.is_narrow || is_short) {
             (false, false) => self.fill::<S, false, false, false>(simd, params, terms, &geometry),
             (false, true) => self.fill::<S, false, true, false>(simd, params, terms, &geometry),
             (true, false) => self.fill::<S, true, false, false>(simd, params, terms, &geometry),
@@ -101,11 +104,11 @@ impl TileRadiance {
         false
     }
 
-    /// Renders a tile on one of the three paths: fast, `NARROW`, or `NARROW` and overflow-safe (`SAFE`).
+    /// Renders a tile on one of the three paths: fast, `CAREFUL`, or `CAREFUL` and overflow-safe (`SAFE`).
     ///
     /// Returns whether every highlight is a number and at most [`FAST_LIMIT`].
     #[inline(always)]
-    fn fill<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
+    fn fill<S: Lanes, const CLAMPED: bool, const CAREFUL: bool, const SAFE: bool>(
         &mut self,
         simd: S,
         params: &ShadingParams,
@@ -115,7 +118,7 @@ impl TileRadiance {
         let mut highlights = V::<S>::splat(simd, 0.0);
         for i in 0..vectors::<S>() {
             let geometry = geometry(i);
-            let (lobe, e) = lobe::<S, CLAMPED, NARROW, SAFE>(simd, &params.clamps, terms, &geometry, i);
+            let (lobe, e) = lobe::<S, CLAMPED, CAREFUL, SAFE>(simd, &params.clamps, terms, &geometry, i);
             // The sum of positive numbers is at least the largest, and NaN or infinite if any one is.
             highlights += lobe;
             // (s (1 - w) + w) lobe + (lambert E + epsilon): only one operation waits for the lobe, which comes last.
@@ -136,9 +139,9 @@ impl TileRadiance {
 /// (pi G D / 4 E, E) with the irradiance E = NoL / (pi l.z) times the convention's intensity.
 ///
 /// pi D = (a |q|^2 / (|n x q|^2 + a^2 (n . q)^2))^2. |n x q| is the length of what is left of q without its part along
-/// n, where a is not `NARROW`.
+/// n, where the path is not `CAREFUL`.
 #[inline(always)]
-fn lobe<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
+fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool, const SAFE: bool>(
     simd: S,
     clamps: &Clamps,
     terms: &MaterialTerms,
@@ -149,14 +152,14 @@ fn lobe<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
     let n = TilePlane::load_three(&terms.normal, simd, i);
     let a = terms.a.load(simd, i);
     let q = sum(geometry.light, geometry.view);
-    let n_dot_l = dot(n, geometry.light).max(splat(0.0));
-    let n_dot_v = dot(n, geometry.view).max(splat(0.0));
-    // Not the sum of the two: where light and view are nearly opposite, that rounds far above the short q.
-    let n_dot_q = dot(n, q);
+    let (along_l, along_v) = (dot(n, geometry.light), dot(n, geometry.view));
+    // Where light and view are nearly opposite, the sum rounds far above the short q.
+    let n_dot_q = if CAREFUL { dot(n, q) } else { along_l + along_v };
+    let (n_dot_l, n_dot_v) = (along_l.max(splat(0.0)), along_v.max(splat(0.0)));
     let e = n_dot_l * geometry.light_scale;
 
     let across: [V<S>; 3] =
-        if NARROW { cross::<S>(n, q) } else { vec3!(C => neg_mul_add::<S>(n_dot_q, n[C], q[C])) };
+        if CAREFUL { cross::<S>(n, q) } else { vec3!(C => neg_mul_add::<S>(n_dot_q, n[C], q[C])) };
     let along = a * n_dot_q;
     // In this order only three additions wait for `across`.
     let [x, y, z] = across;
@@ -177,10 +180,8 @@ fn lobe<S: Lanes, const CLAMPED: bool, const NARROW: bool, const SAFE: bool>(
         // Infinity times an irradiance of 0 is not a number.
         return (e.simd_gt(splat(0.0)).select(lobe, splat(0.0)), e);
     }
-    // One reciprocal and its Newton step: (peak / d)^2 / g = (peak / (d g))^2 g.
+    // One division: (peak / d)^2 / g = (peak / (d g))^2 g.
     let g = factor_l * factor_v;
-    let both = d * g;
-    let estimate = simd.recip_estimate(both);
-    let ratio = peak * estimate * neg_mul_add::<S>(both, estimate, splat(2.0));
+    let ratio = peak / (d * g);
     (ratio * ratio * (g * e), e)
 }

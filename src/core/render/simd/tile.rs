@@ -40,16 +40,29 @@ impl TilePlane {
 
     /// Copies the texels `span` of a plane, and pads the rest of the tile with `pad`.
     #[inline(always)]
-    fn fill(&mut self, plane: &[f32], span: &TexelSpan<'_>, pad: f32) {
+    fn fill<S: Simd>(&mut self, simd: S, plane: &[f32], span: &TexelSpan<'_>, pad: f32) {
+        if let Some(values) = self.source(plane, span, pad) {
+            for i in 0..vectors::<S>() {
+                let value = self.load_from(simd, Some(values), i);
+                self.store::<S>(i, value);
+            }
+        }
+    }
+
+    /// The texels `span` of a plane where they fill a tile and follow each other. Else `None`, and they are in the tile,
+    /// whose rest is `pad`.
+    #[inline(always)]
+    fn source<'a>(&mut self, plane: &'a [f32], span: &TexelSpan<'_>, pad: f32) -> Option<&'a [f32; TEXELS]> {
         match span {
-            TexelSpan::Range(range) => match plane[range.clone()].try_into() {
-                Ok(values) => self.0 = values,
-                Err(_) => {
-                    let (used, unused) = self.0.split_at_mut(range.len());
-                    used.copy_from_slice(&plane[range.clone()]);
-                    unused.fill(pad);
+            TexelSpan::Range(range) => {
+                let values = &plane[range.clone()];
+                if let Ok(values) = values.try_into() {
+                    return Some(values);
                 }
-            },
+                let (used, unused) = self.0.split_at_mut(values.len());
+                used.copy_from_slice(values);
+                unused.fill(pad);
+            }
             TexelSpan::Listed(texels) => {
                 let (used, unused) = self.0.split_at_mut(texels.len());
                 for (value, &texel) in used.iter_mut().zip(*texels) {
@@ -58,6 +71,14 @@ impl TilePlane {
                 unused.fill(pad);
             }
         }
+        None
+    }
+
+    /// Vector number `index` of what [`Self::source`] returned.
+    #[inline(always)]
+    fn load_from<S: Simd>(&self, simd: S, source: Option<&[f32; TEXELS]>, index: usize) -> V<S> {
+        let at = index * V::<S>::LEN;
+        V::<S>::from_slice(simd, &source.unwrap_or(&self.0)[at..at + V::<S>::LEN])
     }
 }
 
@@ -113,27 +134,37 @@ impl MaterialTerms {
         narrow: f32,
     ) {
         for (tile, plane) in self.normal.iter_mut().zip(&planes.normal) {
-            tile.fill(plane, span, 0.0);
+            tile.fill(simd, plane, span, 0.0);
         }
-        self.a.fill(&planes.roughness, span, 1.0);
+        self.is_narrow = self
+            .fill_widths(simd, &planes.roughness, span, roughness_floor)
+            .simd_lt(V::<S>::splat(simd, narrow))
+            .any_true();
+        for channel in 0..3 {
+            let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
+            specular.fill(simd, &planes.specular[channel], span, 0.0);
+            let diffuse = lambert.source(&planes.diffuse[channel], span, 0.0);
+            for i in 0..vectors::<S>() {
+                let diffuse = lambert.load_from(simd, diffuse, i);
+                lambert.store::<S>(i, diffuse * (V::<S>::splat(simd, 1.0) - specular.load(simd, i)));
+            }
+        }
+    }
+
+    /// Computes the terms of the roughness. Returns the least width of each lane.
+    #[inline(always)]
+    fn fill_widths<S: Simd>(&mut self, simd: S, plane: &[f32], span: &TexelSpan<'_>, floor: f32) -> V<S> {
         let splat = |c| V::<S>::splat(simd, c);
+        let roughness = self.a.source(plane, span, 1.0);
         let mut least = splat(1.0);
         for i in 0..vectors::<S>() {
-            let rough = self.a.load(simd, i).max(splat(roughness_floor));
+            let rough = self.a.load_from(simd, roughness, i).max(splat(floor));
             let a = rough * rough;
             least = least.min(a);
             self.a.store::<S>(i, a);
             self.one_minus_k.store::<S>(i, splat(1.0) - a * 0.5);
         }
-        self.is_narrow = least.simd_lt(splat(narrow)).any_true();
-        for channel in 0..3 {
-            let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
-            specular.fill(&planes.specular[channel], span, 0.0);
-            lambert.fill(&planes.diffuse[channel], span, 0.0);
-            for (l, s) in lambert.0.iter_mut().zip(&specular.0) {
-                *l *= 1.0 - s;
-            }
-        }
+        least
     }
 }
 
@@ -143,12 +174,12 @@ pub(crate) fn planes(planes: &Planes<f32>) -> impl Iterator<Item = &[f32]> {
     vectors.chain([&planes.roughness]).map(Vec::as_slice)
 }
 
-/// Prefetches the tile at `start` of some planes.
+/// Prefetches `N` texels of some planes from `start` on, where there are as many. `N` is a multiple of a cache line's.
 #[inline(always)]
-pub(crate) fn prefetch<S: Lanes>(simd: S, planes: &[&[f32]], start: usize) {
+pub(crate) fn prefetch<S: Lanes, const N: usize>(simd: S, planes: &[&[f32]], start: usize) {
     for plane in planes {
-        if let Some(tile) = plane.get(start..).and_then(|rest| rest.first_chunk()) {
-            simd.prefetch(tile);
+        if let Some(texels) = plane.get(start..).and_then(|rest| rest.first_chunk::<N>()) {
+            texels.as_chunks().0.iter().for_each(|line| simd.prefetch(line));
         }
     }
 }
