@@ -33,13 +33,19 @@ pub(crate) fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<Strin
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let name = entry.file_name().to_string_lossy().into_owned();
-        let begins = name.starts_with(prefix) && words(&name).starts_with(&prefix_words);
-        if begins && !name.starts_with('.') && !entry.path().is_dir() {
+        let begins =
+            name.starts_with(prefix) && (prefix_words.is_empty() || words(&name).starts_with(&prefix_words));
+        if begins && !name.starts_with('.') && !is_folder(&entry) {
             names.push(name);
         }
     }
     names.sort();
     Ok(names)
+}
+
+/// Whether it is a folder or a link to one. Of the files of a large folder only links are asked for.
+fn is_folder(entry: &fs::DirEntry) -> bool {
+    entry.file_type().is_ok_and(|kind| kind.is_dir() || (kind.is_symlink() && entry.path().is_dir()))
 }
 
 /// The prefix without separators at its end, or else the name of the folder.
@@ -56,4 +62,28 @@ pub(crate) fn material_name(path: &Path, prefix: &str) -> String {
 /// The folder of a file that may be named without one.
 pub(super) fn folder_of(path: &Path) -> PathBuf {
     path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_and_links_to_files_are_listed_and_folders_and_links_to_folders_are_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("brick_folder")).unwrap();
+        fs::write(at("brick_file.png"), "").unwrap();
+        fs::write(at("bricks.png"), "").unwrap();
+        let mut expected = vec!["brick_file.png"];
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(at("brick_folder"), at("brick_link")).unwrap();
+            std::os::unix::fs::symlink(at("brick_file.png"), at("brick_link.png")).unwrap();
+            expected.push("brick_link.png");
+        }
+        assert_eq!(list(folder.path(), folder.path(), "brick").unwrap(), expected);
+        expected.push("bricks.png");
+        assert_eq!(list(folder.path(), folder.path(), "").unwrap(), expected);
+    }
 }
