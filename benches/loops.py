@@ -17,7 +17,8 @@ import subprocess
 import sys
 import tempfile
 
-# Instructions of 512 bits in a cycle. From AMD's optimization guides for the families 19h and 1Ah (57647, 58455). Zen 4 splits them in two.
+# A model: instructions of 512 bits that start in a cycle. Zen 4 splits them in two, as the tables of llvm-mca have it; Zen 5 of full width
+# does not.
 PORTS = {
     "znver4": {"multiply": 1, "add": 1, "load": 1, "store": 0.5, "all": 6},
     "znver5": {"multiply": 2, "add": 2, "load": 2, "store": 1, "all": 8},
