@@ -46,7 +46,9 @@ class Screen:
     def __init__(self, folder):
         read, write = os.pipe()
         size = ["-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-fbdir", folder, "-nolisten", "tcp"]
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), *size], pass_fds=[write], stderr=subprocess.DEVNULL)
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), *size], pass_fds=[write], stderr=subprocess.DEVNULL
+        )
         os.close(write)
         self.display = ":" + os.fdopen(read).readline().strip()
         file = open(pathlib.Path(folder) / "Xvfb_screen0", "rb")
@@ -102,12 +104,16 @@ def measure(screen, process, environment, name, button, centre, radius):
         return
     at = lambda share: times[min(int(share * len(times)), len(times) - 1)]
     cost = 1e3 * used / len(times)
-    print(f"{name:<28} {len(times):4} frames, p50 {at(0.5):6.1f} ms, p95 {at(0.95):6.1f} ms, {cost:6.1f} ms of processor a frame")
+    print(
+        f"{name:<28} {len(times):4} frames, p50 {at(0.5):6.1f} ms, p95 {at(0.95):6.1f} ms, {cost:6.1f} ms of processor a frame"
+    )
 
 
 def latency(screen, environment, name, centre, radius):
     """Times from the event of a motion to the first changed pixel of another pane, while the light is held."""
-    subprocess.run(["xdotool", "mousemove", str(centre[0]), str(centre[1]), "mousedown", "1"], env=environment, check=True)
+    subprocess.run(
+        ["xdotool", "mousemove", str(centre[0]), str(centre[1]), "mousedown", "1"], env=environment, check=True
+    )
     time.sleep(1.0)
     times = []
     for i in range(MOTIONS):
@@ -123,7 +129,9 @@ def latency(screen, environment, name, centre, radius):
         time.sleep(BETWEEN_MOTIONS)
     subprocess.run(["xdotool", "mouseup", "1"], env=environment, check=True)
     times.sort()
-    print(f"{name:<28} {len(times):4} motions, p50 {times[len(times) // 2]:6.1f} ms, p95 {times[int(0.95 * len(times))]:6.1f} ms to the changed pixel")
+    print(
+        f"{name:<28} {len(times):4} motions, p50 {times[len(times) // 2]:6.1f} ms, p95 {times[int(0.95 * len(times))]:6.1f} ms to the changed pixel"
+    )
 
 
 def until_still(screen, start):
@@ -151,7 +159,13 @@ def main():
     program, materials = pathlib.Path(arguments[0]).resolve(), [str(pathlib.Path(p).resolve()) for p in arguments[1:]]
     with tempfile.TemporaryDirectory() as folder:
         screen = Screen(folder)
-        environment = {**os.environ, "DISPLAY": screen.display, "HOME": folder, "XDG_RUNTIME_DIR": folder, "WGPU_BACKEND": "vulkan"}
+        environment = {
+            **os.environ,
+            "DISPLAY": screen.display,
+            "HOME": folder,
+            "XDG_RUNTIME_DIR": folder,
+            "WGPU_BACKEND": "vulkan",
+        }
         environment.pop("WAYLAND_DISPLAY", None)
         # Twice: the first time the files come from the disk.
         alone = [[reading(program, material) for material in materials] for _ in range(2)][1]
@@ -160,8 +174,29 @@ def main():
         try:
             first, last = until_still(screen, start)
             if materials:
-                print(f"first picture {first:.2f} s (reading it alone {alone[0]:.2f} s), all {last:.2f} s ({sum(alone):.2f} s)")
-            subprocess.run(["xdotool", "search", "--sync", "--onlyvisible", "--name", "svbrdf", "windowsize", str(WIDTH), str(HEIGHT), "windowmove", "0", "0", "windowfocus"], env=environment, check=True, stdout=subprocess.DEVNULL)
+                print(
+                    f"first picture {first:.2f} s (reading it alone {alone[0]:.2f} s), all {last:.2f} s ({sum(alone):.2f} s)"
+                )
+            subprocess.run(
+                [
+                    "xdotool",
+                    "search",
+                    "--sync",
+                    "--onlyvisible",
+                    "--name",
+                    "svbrdf",
+                    "windowsize",
+                    str(WIDTH),
+                    str(HEIGHT),
+                    "windowmove",
+                    "0",
+                    "0",
+                    "windowfocus",
+                ],
+                env=environment,
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
             print(f"load {os.getloadavg()[0]:.1f} before the measurement")
             pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
             latency(screen, environment, "motions of the light", pane, 90)

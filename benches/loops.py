@@ -40,7 +40,9 @@ PLAIN_BOUND = 78
 
 def functions(program):
     """Yields lists of (address, instruction)."""
-    text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", program], capture_output=True, text=True, check=True).stdout
+    text = subprocess.run(
+        ["objdump", "-d", "--no-show-raw-insn", program], capture_output=True, text=True, check=True
+    ).stdout
     for function in re.split(r"\n\n", text):
         lines = re.findall(r"^ *([0-9a-f]+):\s+(\S.*?)\s*(?:#.*|<.*)?$", function, re.MULTILINE)
         yield [(int(address, 16), instruction) for address, instruction in lines]
@@ -86,11 +88,19 @@ def loops(program):
     """Finds the loops of a default loss. Yields (name, instructions, vectors of texels)."""
     wide = [list(blocks(function)) for function in functions(program) if is_wide([text for _, text in function])]
     loss = max(wide, key=lambda found: sum(count(block)["root"] for block, _ in found), default=[])
-    shading = sorted((block for block, loop in loss if loop and count(block)["divide"] == 1 and count(block)["store"] == 3), key=len)
-    comparing = [block for block, _ in loss if count(block)["min, max"] >= 12 and count(block)["integer"] and not count(block)["root"]]
+    shading = sorted(
+        (block for block, loop in loss if loop and count(block)["divide"] == 1 and count(block)["store"] == 3), key=len
+    )
+    comparing = [
+        block
+        for block, _ in loss
+        if count(block)["min, max"] >= 12 and count(block)["integer"] and not count(block)["root"]
+    ]
     geometry = [instruction for block, _ in loss if count(block)["root"] for instruction in block]
     if not shading or not comparing or not geometry:
-        sys.exit(f"{program}: expected the AVX-512 loops of the loss, found {len(shading)} that shade and {len(comparing)} that compare")
+        sys.exit(
+            f"{program}: expected the AVX-512 loops of the loss, found {len(shading)} that shade and {len(comparing)} that compare"
+        )
     # Of the paths of the kernel, the fast one is the shortest, and compares with the fewest operations on exponents; near-field scenes load their geometry, distant ones keep it.
     distant = shading[0]
     near = next(block for block in shading if count(block)["load"] > count(distant)["load"] + 5)
@@ -105,7 +115,12 @@ def port_cycles(counts, processor):
     """The cycles of the busiest port, and its name."""
     ports = PORTS[processor]
     everything = sum(number for name, number in counts.items() if name not in ("load", "store"))
-    used = {"multiply": sum(counts[name] for name in MULTIPLY), "add": counts["add"], "load": counts["load"], "store": counts["store"]}
+    used = {
+        "multiply": sum(counts[name] for name in MULTIPLY),
+        "add": counts["add"],
+        "load": counts["load"],
+        "store": counts["store"],
+    }
     used["all"] = everything
     return max((number / ports[port], port) for port, number in used.items())
 
@@ -133,9 +148,13 @@ def main():
     for name, block, vectors in loops(program):
         counts = collections.Counter({key: number / vectors for key, number in count(block).items()})
         ports = [port_cycles(counts, processor) for processor in PORTS]
-        cycles[name] = [least for least, _ in ports] + [simulated(block, processor, analyzer) / vectors for processor in PORTS]
+        cycles[name] = [least for least, _ in ports] + [
+            simulated(block, processor, analyzer) / vectors for processor in PORTS
+        ]
         row = [f"{counts[key]:.3g}" for key in names] + [f"{least:.3g} ({port})" for least, port in ports]
-        print(f"| {name} | " + " | ".join(row) + " | " + " | ".join(f"{number:.3g}" for number in cycles[name][2:]) + " |")
+        print(
+            f"| {name} | " + " | ".join(row) + " | " + " | ".join(f"{number:.3g}" for number in cycles[name][2:]) + " |"
+        )
     print()
     print("| cycles per 16 texels and scene | plain bound, Zen 4 | Zen 5 | ports, Zen 4 | Zen 5 | llvm-mca, Zen 4 |")
     print("|---|---|---|---|---|---|")
@@ -143,7 +162,9 @@ def main():
     for predictions in (1, 8):
         parts = zip(geometry, near, distant, comparing, strict=True)
         # Two of three scenes are near-field ones.
-        cost = [2 / 3 * (g + (1 + predictions) * n) + (1 + predictions) / 3 * d + predictions * c for g, n, d, c in parts]
+        cost = [
+            2 / 3 * (g + (1 + predictions) * n) + (1 + predictions) / 3 * d + predictions * c for g, n, d, c in parts
+        ]
         plain = (98 + 58 * predictions) / 2
         assert predictions != 1 or plain == PLAIN_BOUND
         shares = [100 * plain / cost[0], 100 * plain / 2 / cost[1], 100 * plain / cost[2]]
