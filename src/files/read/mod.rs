@@ -27,7 +27,6 @@ mod recognize;
 mod record;
 mod stored;
 
-use std::io::Cursor;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -58,6 +57,7 @@ use crate::memory;
 use crate::open::NamedFile;
 
 use decode::pictures;
+use decode::reader::Reader;
 use gather::map_report;
 use located::{Located, WholePicture};
 use stored::StoredMaterial;
@@ -146,7 +146,7 @@ fn read_with<T: Real>(
 pub fn read_bytes<T: Real>(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Read<T>, Error> {
     let options = &options.with_preset();
     let picture = WholePicture { file: NamedFile::by_user(name), refusal: None };
-    let decoded = decode::from_reader(Cursor::new(bytes), Path::new(name), Subject::Material)?;
+    let decoded = decode::from_reader(Reader::of_bytes(bytes), Path::new(name), Subject::Material)?;
     let stored = recognize::picture(picture, decoded, options)?;
     let read = finish(StoredMaterial { name: name.to_owned(), ..stored }, options)?;
     Ok(Read { files: Vec::new(), ..read })

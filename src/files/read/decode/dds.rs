@@ -1,16 +1,17 @@
 //! DDS through the `dds` library: blocks (BC1 to BC7) and plain pixels; the first surface, the largest level.
 
-use std::io::{BufRead, ErrorKind, Seek};
+use std::io::ErrorKind;
 
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
 use svbrdf_core::error::Error;
 
 use super::place::Place;
+use super::reader::Reader;
 use crate::panics::caught;
 use crate::read::raster::{Buffer, Raster, Samples};
 
-pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(reader: Reader<'_>, place: Place<'_>) -> Result<Raster, Error> {
     let contradiction = |_| place.invalid("DDS", "a contradiction in it");
     let mut decoder =
         caught(|| dds::Decoder::new(reader)).map_err(contradiction)?.map_err(|e| explain(&e, place))?;
@@ -80,7 +81,7 @@ impl Sample for f32 {
 
 /// The pixels of the first surface.
 fn pixels<S: Sample>(
-    decoder: &mut dds::Decoder<impl BufRead + Seek>,
+    decoder: &mut dds::Decoder<Reader<'_>>,
     mut samples: Vec<S>,
     channels: Channels,
     place: Place<'_>,

@@ -1,12 +1,14 @@
 //! The claims of DWA blocks in an EXR, which exr 1.74.2 allocates unchecked: a damaged one would end the
 //! program.
 
-use std::io::{Read, Seek, SeekFrom};
+use std::io::Seek as _;
 
 use exr::block::chunk::CompressedBlock;
 use exr::compression::Compression;
 use exr::error::{Error, Result};
 use exr::meta::MetaData;
+
+use super::reader::Reader;
 
 /// How many 8-byte numbers a block begins with.
 const NUMBERS: usize = 11;
@@ -15,7 +17,7 @@ const NUMBERS: usize = 11;
 ///
 /// # Errors
 /// Those of the library, and where a block claims more.
-pub(crate) fn check(reader: &mut (impl Read + Seek), meta: &MetaData, most: u64) -> Result<()> {
+pub(crate) fn check(reader: &mut Reader<'_>, meta: &MetaData, most: u64) -> Result<()> {
     let is_dwa = |compression| matches!(compression, Compression::DWAA(_) | Compression::DWAB(_));
     if meta.headers.iter().any(|header| is_dwa(header.compression)) {
         for chunk in exr::block::read(&mut *reader, false)?.filter_chunks(false, |_, _, _| true)? {
@@ -25,7 +27,7 @@ pub(crate) fn check(reader: &mut (impl Read + Seek), meta: &MetaData, most: u64)
                 check_block(&chunk.compressed_block, most)?;
             }
         }
-        reader.seek(SeekFrom::Start(0))?;
+        reader.rewind()?;
     }
     Ok(())
 }

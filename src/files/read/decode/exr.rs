@@ -1,7 +1,7 @@
 //! EXR through the `exr` library: half, float and uint; any channels, layers and parts; the largest level.
 
 use std::collections::BTreeMap;
-use std::io::{BufRead, Seek, SeekFrom};
+use std::io::Seek as _;
 
 use exr::image::FlatSamples;
 use exr::meta::MetaData;
@@ -12,6 +12,7 @@ use svbrdf_core::error::Error;
 
 use super::dwa;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
+use super::reader::Reader;
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
@@ -24,7 +25,7 @@ const SMALL: u64 = 1 << 20;
 /// The channels of one layer: name in capitals, samples.
 type NamedSamples = Vec<(String, Samples)>;
 
-pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded, Error> {
     let invalid = |e: exr::error::Error| match e {
         exr::error::Error::Io(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
         other => place.invalid("EXR", other),
@@ -32,13 +33,13 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
     let meta = MetaData::read_from_buffered(&mut reader, false).map_err(invalid)?;
     let bytes = check(&meta, place)?;
     let _reserved = place.reserve(bytes)?;
-    reader.seek(SeekFrom::Start(0)).map_err(|e| Error::unreadable(place.path, e))?;
+    reader.rewind().map_err(|e| Error::unreadable(place.path, e))?;
     caught(|| dwa::check(&mut reader, &meta, bytes + SMALL))
         .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?
         .map_err(invalid)?;
     let reading = || {
         let reading = read().no_deep_data().largest_resolution_level().all_channels().all_layers();
-        reading.all_attributes().non_parallel().from_buffered(reader)
+        reading.all_attributes().non_parallel().from_buffered(&mut reader)
     };
     // exr 1.74.2 panics at some damaged files, found by damaging many. On threads of its own that would end the
     // program: so it gets none.

@@ -1,9 +1,11 @@
 //! Headers of JPEG and PNG: fields before the pixels that the decoding libraries do not return.
 
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io::{self, Read as _, Seek as _};
+
+use super::reader::Reader;
 
 /// How many components the pixels of a JPEG have, 4 for CMYK; `None` where no frame begins as it should.
-pub(crate) fn jpeg_components(mut reader: impl Read + Seek) -> io::Result<Option<u8>> {
+pub(crate) fn jpeg_components(reader: &mut Reader<'_>) -> io::Result<Option<u8>> {
     let mut two = [0; 2];
     reader.read_exact(&mut two)?;
     loop {
@@ -17,7 +19,7 @@ pub(crate) fn jpeg_components(mut reader: impl Read + Seek) -> io::Result<Option
             reader.read_exact(&mut frame)?;
             return Ok(Some(frame[5]));
         }
-        reader.seek(SeekFrom::Current(i64::from(length) - 2))?;
+        reader.seek_relative(i64::from(length) - 2)?;
     }
 }
 
@@ -33,10 +35,10 @@ pub(crate) struct PngHead {
 /// Longest text that is looked at.
 const LONGEST: u32 = 1 << 10;
 
-pub(crate) fn png(mut reader: impl Read + Seek) -> io::Result<PngHead> {
+pub(crate) fn png(reader: &mut Reader<'_>) -> io::Result<PngHead> {
     const KEYWORD: &[u8] = b"svbrdf\0packed ";
     let (mut gamma_is_one, mut srgb, mut meaning) = (false, false, None);
-    reader.seek(SeekFrom::Current(8))?;
+    reader.seek_relative(8)?;
     loop {
         let (mut length, mut name) = ([0; 4], [0; 4]);
         reader.read_exact(&mut length)?;
@@ -62,6 +64,6 @@ pub(crate) fn png(mut reader: impl Read + Seek) -> io::Result<PngHead> {
             }
             _ => (),
         }
-        reader.seek(SeekFrom::Current(left))?;
+        reader.seek_relative(left)?;
     }
 }

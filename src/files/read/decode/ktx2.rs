@@ -1,12 +1,13 @@
 //! KTX2 of Basis Universal (ETC1S and UASTC, also in Zstandard) through the `basisu` library; the largest level.
 
-use std::io::{BufRead, Read};
+use std::io::Read as _;
 
 use basisu::{DecodeFlags, TargetFormat, Transcoder};
 
 use svbrdf_core::error::Error;
 
 use super::place::{MAX_BYTES, Place};
+use super::reader::Reader;
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 
@@ -15,7 +16,7 @@ pub(crate) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 /// Bytes of the header up to the index of its levels.
 const HEADER: usize = 80;
 
-pub(crate) fn decode(reader: impl BufRead, place: Place<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(reader: Reader<'_>, place: Place<'_>) -> Result<Raster, Error> {
     let mut bytes = Vec::new();
     let unreadable = |source| Error::unreadable(place.path, source);
     reader.take(MAX_BYTES).read_to_end(&mut bytes).map_err(unreadable)?;

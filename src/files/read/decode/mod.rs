@@ -14,9 +14,10 @@ mod numpy;
 mod picture;
 pub(super) mod pictures;
 mod place;
+pub(super) mod reader;
 mod tiff;
 
-use std::io::{BufRead, Seek};
+use std::io::BufRead as _;
 use std::path::Path;
 
 use crate::lfs;
@@ -27,24 +28,21 @@ pub(super) use place::{Decoded, Layer};
 use svbrdf_core::error::Error;
 
 use place::{Place, alone};
+use reader::Reader;
 
 /// Decodes `file`, which is expected to be `what`.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
 pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
-    let mut decoded = from_reader(file.reader()?, file.path(), what)?;
+    let mut decoded = from_reader(Reader::File(file.reader()?), file.path(), what)?;
     let by = file.outside().map(Path::to_owned);
     decoded.notes.extend(by.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
     Ok(decoded)
 }
 
 /// As [`whole`], from what `reader` gives; `path` is the name for messages.
-pub(super) fn from_reader(
-    mut reader: impl BufRead + Seek,
-    path: &Path,
-    what: Subject,
-) -> Result<Decoded, Error> {
+pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) -> Result<Decoded, Error> {
     let place = Place { path, what };
     let head = reader.fill_buf().map_err(|source| Error::unreadable(path, source))?;
     lfs::refuse_pointer(path, head)?;

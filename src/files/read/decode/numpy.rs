@@ -1,6 +1,6 @@
 //! npy arrays and npz archives of them.
 
-use std::io::{self, BufRead, ErrorKind, Read, Seek};
+use std::io::{self, ErrorKind, Read, Seek as _};
 
 use exr::prelude::f16;
 
@@ -8,6 +8,7 @@ use svbrdf_core::error::Error;
 
 use super::layout::{self, Axes};
 use super::place::{Decoded, Layer, MAX_BYTES, Place, alone};
+use super::reader::Reader;
 use crate::npy::Header;
 use crate::read::raster::{Buffer, Raster, Samples};
 
@@ -18,7 +19,7 @@ const MOST_ARRAYS: usize = 64;
 const VALUES_AT_A_TIME: usize = 1 << 13;
 
 /// Every array of an archive, by its name.
-pub(crate) fn decode_archive(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode_archive(reader: Reader<'_>, place: Place<'_>) -> Result<Decoded, Error> {
     let invalid = |e: zip::result::ZipError| place.invalid("npz", e);
     let mut archive = zip::ZipArchive::new(reader).map_err(invalid)?;
     let names: Vec<String> = {
@@ -73,7 +74,7 @@ fn stem(file: &str) -> &str {
 }
 
 /// A file of one array.
-pub(crate) fn decode_array(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode_array(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded, Error> {
     let shape = Header::read(&mut reader).map_err(|e| broken(&e, "", place))?.shape;
     reader.rewind().map_err(|source| Error::unreadable(place.path, source))?;
     let axes = layout::chosen(std::slice::from_ref(&shape)).next().flatten();

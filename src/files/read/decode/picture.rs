@@ -1,6 +1,6 @@
 //! PNG, JPEG, BMP, TGA, WebP and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
 
-use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
+use std::io::{BufRead as _, ErrorKind, Seek as _};
 
 use image::codecs::bmp::BmpDecoder;
 use image::codecs::hdr::HdrDecoder;
@@ -17,6 +17,7 @@ use svbrdf_core::error::Error;
 use super::head::{self, PngHead};
 use super::known;
 use super::place::{Decoded, FORMATS, MAX_BYTES, MAX_WIDTH, Place, alone};
+use super::reader::Reader;
 use crate::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
@@ -24,7 +25,7 @@ use crate::read::record::Note;
 /// Most bytes of the metadata of a PNG: an ICC profile of a printer has some megabytes.
 const MAX_METADATA: u64 = 64 << 20;
 
-pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
     let head = reader.fill_buf().map_err(unreadable)?;
     match image::guess_format(head) {
@@ -34,10 +35,10 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
                 head.get(16..20).and_then(|bytes| bytes.try_into().ok()).map_or(0, u32::from_be_bytes);
             let is_too_wide = width as usize > MAX_WIDTH;
             let PngHead { linear, meaning } = head::png(&mut reader).unwrap_or_default();
-            reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+            reader.rewind().map_err(unreadable)?;
             let decoder = PngDecoder::with_limits(reader, metadata_limits())
                 .map_err(|e| of_metadata(&e, is_too_wide, place))?;
-            let mut decoded = decode_with(decoder, "PNG", place)?;
+            let mut decoded = decode_with(Box::new(decoder), "PNG", place)?;
             if linear && !place.is_data() {
                 decoded.notes.push(Note::LinearGamma(place.what));
             }
@@ -48,25 +49,25 @@ pub(crate) fn decode(mut reader: impl BufRead + Seek, place: Place<'_>) -> Resul
             if components == Some(4) {
                 return Err(place.bad("expected gray or RGB, found a JPEG in CMYK", "convert it to RGB"));
             }
-            reader.seek(SeekFrom::Start(0)).map_err(unreadable)?;
+            reader.rewind().map_err(unreadable)?;
             let decoder = JpegDecoder::new(reader).map_err(|error| explain(&error, "JPEG", place))?;
-            decode_with(decoder, "JPEG", place)
+            decode_with(Box::new(decoder), "JPEG", place)
         }
         Ok(ImageFormat::Hdr) => {
             let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
-            decode_with(decoder, "HDR", place)
+            decode_with(Box::new(decoder), "HDR", place)
         }
         Ok(ImageFormat::Bmp) => {
             let decoder = BmpDecoder::new(reader).map_err(|error| explain(&error, "BMP", place))?;
-            decode_with(decoder, "BMP", place)
+            decode_with(Box::new(decoder), "BMP", place)
         }
         Ok(ImageFormat::WebP) => {
             let decoder = WebPDecoder::new(reader).map_err(|error| explain(&error, "WebP", place))?;
-            decode_with(decoder, "WebP", place)
+            decode_with(Box::new(decoder), "WebP", place)
         }
         _ if known::name(head).is_none() && is_tga(place) => {
             let decoder = TgaDecoder::new(reader).map_err(|error| explain(&error, "TGA", place))?;
-            decode_with(decoder, "TGA", place)
+            decode_with(Box::new(decoder), "TGA", place)
         }
         other => {
             let other = other.ok().map(|format| format!("{format:?}"));
@@ -85,13 +86,17 @@ fn is_tga(place: Place<'_>) -> bool {
     place.path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"))
 }
 
-fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -> Result<Decoded, Error> {
+fn decode_with(
+    mut decoder: Box<dyn ImageDecoder + '_>,
+    format: &str,
+    place: Place<'_>,
+) -> Result<Decoded, Error> {
     let broken = |error: ImageError| explain(&error, format, place);
     decoder.set_limits(limits()).map_err(broken)?;
     let (width, height) = decoder.dimensions();
     let _reserved = place.check_size(width.into(), height.into(), decoder.total_bytes())?;
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
-    let notes = ignored(&mut decoder, orientation, place);
+    let notes = ignored(&mut *decoder, orientation, place);
     let image = caught(|| DynamicImage::from_decoder(decoder))
         .map_err(|_| place.invalid(format, "a contradiction in it"))?
         .map_err(broken)?;
@@ -103,7 +108,7 @@ fn decode_with(mut decoder: impl ImageDecoder, format: &str, place: Place<'_>) -
 }
 
 /// Metadata of the file that is ignored.
-fn ignored(decoder: &mut impl ImageDecoder, orientation: Orientation, place: Place<'_>) -> Vec<Note> {
+fn ignored(decoder: &mut dyn ImageDecoder, orientation: Orientation, place: Place<'_>) -> Vec<Note> {
     let mut notes = Vec::new();
     let what = place.what;
     if orientation != Orientation::NoTransforms && !place.is_photograph() {

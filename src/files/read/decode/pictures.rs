@@ -1,12 +1,11 @@
 //! The pictures of a located material, decoded at once.
 
-use std::io::Cursor;
-
 use rayon::prelude::*;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 
+use super::reader::Reader;
 use super::{Decoded, Layer, from_reader, one, whole};
 use crate::read::located::binding::{BoundSource, LocatedBinding};
 use crate::read::located::gltf::LocatedGltf;
@@ -94,7 +93,7 @@ fn decoded(LocatedPicture { source, subject }: &LocatedPicture) -> Result<Decode
             Ok(DecodedPicture { map, notes })
         }
         PictureSource::Embedded { within, bytes } => {
-            let Decoded { layers, notes, .. } = from_reader(Cursor::new(bytes), within, *subject)?;
+            let Decoded { layers, notes, .. } = from_reader(Reader::of_bytes(bytes), within, *subject)?;
             let raster = layers.into_iter().next().map(|layer| layer.raster);
             let raster = raster.ok_or_else(|| Error::BadImage {
                 path: within.clone(),

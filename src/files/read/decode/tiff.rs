@@ -1,7 +1,5 @@
 //! TIFF through the `tiff` library: integers of 8, 16 and 32 bits, half, float and double, in pixels or planes.
 
-use std::io::{BufRead, Seek};
-
 use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
@@ -9,9 +7,10 @@ use tiff::tags::Tag;
 use svbrdf_core::error::Error;
 
 use super::place::{MAX_BYTES, Place};
+use super::reader::Reader;
 use crate::read::raster::{Buffer, Raster, Samples};
 
-pub(crate) fn decode(reader: impl BufRead + Seek, place: Place<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(reader: Reader<'_>, place: Place<'_>) -> Result<Raster, Error> {
     let invalid = |error: tiff::TiffError| match error {
         tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
         other => place.invalid("TIFF", other),
