@@ -18,6 +18,8 @@ use crate::support::tolerance::PAGE_PIXELS;
 
 /// Near-field and distant scenes of each convention.
 const SCENES: [usize; 2] = [10, 10];
+/// Of the window, in pixels: after each scene the page draws its panes, which are not looked at.
+const SMALL: [u32; 2] = [360, 300];
 /// Width and height of the pane in perspective, in pixels.
 const PANE: usize = 160;
 /// Texels across it, where they face the view.
@@ -109,7 +111,7 @@ fn pixels_are_those_of_render_in_every_convention() {
     for materials in [built_in.as_slice(), &noises] {
         let refs: Vec<&Material<f32>> = materials.iter().collect();
         for convention in ALL {
-            let mut page = Page::open(&figure(materials, convention), [800, 600]);
+            let mut page = Page::open(&figure(materials, convention), SMALL);
             for (i, scene) in sample(7, SCENES[0], SCENES[1], &convention).iter().enumerate() {
                 let exposure = [0.0, 2.0, -1.5][i % 3];
                 show(&mut page, scene, Quantity::Rendering, exposure);
