@@ -1,4 +1,4 @@
-//! What the decoders read from.
+//! The source of every decoder: a file or memory.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
