@@ -115,3 +115,45 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
     window.run_steps(4);
     wait(&mut window, "the attribution", |app| app.attribution().is_some());
 }
+
+/// Results come while a hand is on its way to a control. The diagnosis is folded: how many lines it marks is known afterwards only.
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_controls_of_why_stay_where_they_are_while_results_come() {
+    let mut window = opened();
+    let controls = |window: &Window<'_>| {
+        ["Which map", "Which scenes", "Save scenes...", "Which light or view", "Over views"]
+            .map(|name| window.get_by_label(name).rect())
+            .to_vec()
+    };
+    let search = |window: &Window<'_>| window.get_by_label("Find worst scene").rect();
+    // What is below the maps over directions and their legends.
+    let below = |window: &Window<'_>| window.get_by_label_contains("distant scenes, view fixed at").rect();
+    let before = (controls(&window), search(&window), below(&window));
+    for prediction in [egui::Key::Num1, egui::Key::Num2] {
+        window.key_press(prediction);
+        window.step();
+        for frame in 0..6000 {
+            let now = (controls(&window), search(&window), below(&window));
+            assert_eq!(now, before, "{prediction:?}, frame {frame}");
+            let state = window.state();
+            let listed = state.listed_scenes().is_some_and(|(_, thumbnails)| !thumbnails.is_empty());
+            let finest = state.direction_map().is_some_and(|map| map.side == 64);
+            if listed && finest && state.attribution().is_some() {
+                break;
+            }
+            assert!(frame < 5999, "waited in vain for the results");
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            window.step();
+        }
+    }
+    window.get_by_label("Find worst scene").click();
+    window.run_steps(2);
+    while window.state().worst().is_none() {
+        assert_eq!(controls(&window), before.0, "while it searches");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        window.step();
+    }
+    window.run_steps(2);
+    assert_eq!((controls(&window), search(&window)), (before.0, before.1), "with the worst scene");
+}

@@ -1,6 +1,6 @@
 //! Whether an error of exposure, alignment or reading explains the loss of each prediction.
 
-use eframe::egui::text::{LayoutJob, TextFormat};
+use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, FontId, RichText, pos2, vec2};
 
 use svbrdf_core::diagnose::{Diagnosis, sentence};
@@ -15,6 +15,7 @@ use crate::viewer::ui::why::row::Row;
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::numbers::{digits, seconds};
 use crate::viewer::ui::widgets::remedy::{is_offered, remedy_button};
+use crate::viewer::ui::widgets::rows;
 use crate::viewer::ui::widgets::theme;
 
 /// Rows of the sentence.
@@ -108,18 +109,10 @@ impl DiagnosisSection<'_> {
 
     /// The finding in words, in rows of constant height.
     fn sentence(&self, ui: &mut egui::Ui, pair: &ComparedPair, diagnosed: Option<&Diagnosed>) {
-        let text = diagnosed.map(|diagnosed| self.words(pair, &diagnosed.diagnosis)).unwrap_or_default();
-        let font = FontId::proportional(13.0);
-        let height = SENTENCE as f32 * ui.fonts_mut(|fonts| fonts.row_height(&font));
-        let mut job =
-            LayoutJob::single_section(text.clone(), TextFormat::simple(font, ui.visuals().text_color()));
-        job.wrap.max_rows = SENTENCE;
-        ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
-            ui.set_min_height(height);
-            if !text.is_empty() {
-                ui.label(job).on_hover_text(text);
-            }
-        });
+        let text = diagnosed.map(|diagnosed| self.words(pair, &diagnosed.diagnosis));
+        let format = TextFormat::simple(FontId::proportional(13.0), ui.visuals().text_color());
+        let hover = text.clone().unwrap_or_default();
+        rows(ui, text, format, SENTENCE, &hover);
     }
 
     /// The button that corrects the reading, in a row of constant height.

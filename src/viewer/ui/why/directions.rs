@@ -8,11 +8,10 @@ use glam::DVec3;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
 
-use crate::viewer::jobs::why::{DirectionMaps, ScaledPicture};
+use crate::viewer::jobs::why::DirectionMaps;
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand};
 use crate::viewer::ui::pane::handles;
 use crate::viewer::ui::why::WhyPanel;
-use crate::viewer::ui::widgets::colour_bar::colour_bar;
 use crate::viewer::ui::widgets::hemisphere::{direction_at, pos_of, unit};
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::numbers::{digits, signed};
@@ -22,9 +21,8 @@ use crate::viewer::ui::widgets::theme;
 /// Largest side of a map, and gap between maps, in points.
 const MOST: f32 = 230.0;
 const GAP: f32 = 8.0;
-/// Height of the line above a map, and of a colour bar with its numbers, in points.
+/// Height of the line above a map, in points.
 const CAPTION: f32 = 16.0;
-const BAR: f32 = 10.0;
 /// Characters of a name above a map.
 const NAME: usize = 12;
 
@@ -60,8 +58,10 @@ impl WhyPanel<'_> {
         let found = self.jobs.directions.get(&self.pairs, moved, &self.state.scene);
         let chosen = self.state.display.prediction;
         let other = found.and_then(|(maps, _)| Some(maps.differences.get(chosen)?.0));
-        let losses = (0..self.pairs.len()).map(DirectionMap::Loss);
-        let all: Vec<DirectionMap> = losses.chain(other.map(DirectionMap::Difference)).collect();
+        let losses = (0..self.pairs.len()).map(|index| Some(DirectionMap::Loss(index)));
+        // The difference has its place before it is known which other prediction is the best.
+        let difference = self.has_difference().then_some(other.map(DirectionMap::Difference));
+        let all: Vec<Option<DirectionMap>> = losses.chain(difference).collect();
         let columns = all.len().min(2) as f32;
         let side = ((ui.available_width() - GAP * (columns - 1.0)) / columns).clamp(80.0, MOST);
         let mut read = None;
@@ -70,8 +70,12 @@ impl WhyPanel<'_> {
             for row in all.chunks(2) {
                 ui.horizontal_top(|ui| {
                     for kind in row {
-                        let hovered = self.map(ui, side, rim, *kind, found, textures, commands);
-                        read = hovered.map(|direction| (*kind, direction)).or(read);
+                        let Some(kind) = *kind else {
+                            ui.allocate_exact_size(vec2(side, side + CAPTION), Sense::hover());
+                            continue;
+                        };
+                        let hovered = self.map(ui, side, rim, kind, found, textures, commands);
+                        read = hovered.map(|direction| (kind, direction)).or(read);
                     }
                 });
             }
@@ -79,9 +83,7 @@ impl WhyPanel<'_> {
         let (kind, direction) = read.unwrap_or((DirectionMap::Loss(chosen), unit(&self.state.scene, moved)));
         let text = self.reading(kind, direction, found.map(|(maps, _)| maps));
         ui.add(egui::Label::new(RichText::new(text).monospace().size(11.5)).truncate());
-        if let Some((maps, _)) = found {
-            self.legends(ui, maps);
-        }
+        self.legends(ui, found.map(|(maps, _)| maps));
         let [x, y, z] = unit(&self.state.scene, other_endpoint(moved));
         let fixed = if moved == Endpoint::Light { "view" } else { "light" };
         let text = format!("distant scenes, {fixed} fixed at ({x:.2}, {y:.2}, {z:.2})");
@@ -171,19 +173,9 @@ impl WhyPanel<'_> {
             .on_hover_text(format!("{hover}\nThe number is the mean over all directions of the map"));
     }
 
-    /// The colours of the losses, and those of their difference.
-    fn legends(&self, ui: &mut egui::Ui, maps: &DirectionMaps) {
-        let chosen = self.state.display.prediction;
-        if let Some(losses) = maps.losses.first() {
-            bar(ui, "loss", ["0".to_owned(), digits(losses.range)], false);
-        }
-        if let Some((other, ScaledPicture { range, .. })) = maps.differences.get(chosen) {
-            let ends = [signed(&digits(-range)), signed(&digits(*range))];
-            bar(ui, &format!("{} \u{2212} {}", chosen + 1, other + 1), ends, true);
-        }
-        let text = format!("standard error {}", digits(maps.map.standard_error(chosen)));
-        ui.label(RichText::new(text).small().weak())
-            .on_hover_text("Of a direction, from the choice of the compared texels; neighbours share it");
+    /// Whether there is another prediction, from whose loss that of the chosen one differs.
+    pub fn has_difference(&self) -> bool {
+        self.pairs.len() > 1
     }
 
     /// The loss in a direction, with its standard error; or the difference of two losses.
@@ -263,20 +255,6 @@ fn label(kind: DirectionMap) -> String {
         DirectionMap::Loss(index) => (index + 1).to_string(),
         DirectionMap::Difference(other) => format!("the difference to {}", other + 1),
     }
-}
-
-/// A name, and a colour bar between the numbers of its ends.
-fn bar(ui: &mut egui::Ui, name: &str, [low, high]: [String; 2], is_signed: bool) {
-    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), BAR + 4.0), Sense::hover());
-    let painter = ui.painter_at(area);
-    let (ink, font) = (ui.visuals().text_color(), FontId::monospace(11.0));
-    let middle = area.center().y;
-    painter.text(pos2(area.left(), middle), Align2::LEFT_CENTER, name, font.clone(), ink);
-    let colours = Rect::from_x_y_ranges(area.left() + 100.0..=area.right() - 56.0, area.y_range())
-        .shrink2(vec2(0.0, 2.0));
-    painter.text(pos2(colours.left() - 4.0, middle), Align2::RIGHT_CENTER, low, font.clone(), ink);
-    painter.text(pos2(colours.right() + 4.0, middle), Align2::LEFT_CENTER, high, font, ink);
-    painter.add(colour_bar(colours, [if is_signed { -1.0 } else { 0.0 }, 1.0], is_signed));
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 pub mod diagnosis;
 pub mod directions;
 pub mod hypotheses;
+pub mod legends;
 pub mod maps;
 pub mod row;
 pub mod scenes;

@@ -1,5 +1,6 @@
 //! The scenes of the loss of the chosen prediction, worst first, and the search for the worst of all.
 
+use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
 use svbrdf_core::loss::LossSettings;
@@ -11,6 +12,7 @@ use crate::viewer::jobs::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbna
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};
 use crate::viewer::ui::why::WhyPanel;
 use crate::viewer::ui::widgets::numbers::digits;
+use crate::viewer::ui::widgets::rows;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
 
@@ -23,6 +25,7 @@ const HISTOGRAM: f32 = 40.0;
 const MORE: usize = 20;
 
 impl WhyPanel<'_> {
+    /// The section, as high while it is computed as afterwards: what is below does not move by itself.
     pub fn scenes(
         &self,
         ui: &mut egui::Ui,
@@ -31,28 +34,28 @@ impl WhyPanel<'_> {
         commands: &mut Vec<Command>,
     ) {
         let scenes = self.settings.listed_scenes();
-        match self.jobs.scenes.get(pair, &scenes) {
-            Some((list, thumbnails)) => {
-                self.histogram(ui, list);
-                distribution(ui, list, self.settings);
-                let texture = thumbnails.map(|thumbnails| {
-                    textures.id(ui.ctx(), &thumbnails.picture, egui::TextureOptions::LINEAR)
-                });
-                self.thumbnails(ui, list, thumbnails.zip(texture), commands);
-            }
-            None => {
-                let fraction = self.jobs.scenes.busy().unwrap_or_default();
-                let count = scenes.count().unwrap_or(0);
-                ui.add(egui::ProgressBar::new(fraction).text(format!("{count} scenes")).corner_radius(3.0));
-            }
-        }
+        let (list, thumbnails) = self.jobs.scenes.get(pair, &scenes).unzip();
+        let count = scenes.count().unwrap_or(0);
+        self.histogram(ui, list, count);
+        distribution(ui, list, self.settings);
+        let thumbnails = thumbnails.flatten();
+        let texture = thumbnails
+            .map(|thumbnails| textures.id(ui.ctx(), &thumbnails.picture, egui::TextureOptions::LINEAR));
+        self.thumbnails(ui, list, count, thumbnails.zip(texture), commands);
         self.search(ui, pair, commands);
     }
 
-    /// How many scenes have which loss, with the mean and the loss of the current scene.
-    fn histogram(&self, ui: &mut egui::Ui, list: &SceneList) {
+    /// How many scenes have which loss, with the mean and the loss of the current scene; the progress until the list is there.
+    fn histogram(&self, ui: &mut egui::Ui, list: Option<&SceneList>, count: usize) {
         let size = vec2(ui.available_width(), HISTOGRAM + 14.0);
         let (response, painter) = ui.allocate_painter(size, Sense::hover());
+        let Some(list) = list else {
+            let fraction = self.jobs.scenes.busy().unwrap_or_default();
+            let bar = egui::ProgressBar::new(fraction).text(format!("{count} scenes")).corner_radius(3.0);
+            // A widget in `ui` would end the room of the histogram.
+            ui.new_child(egui::UiBuilder::new().max_rect(response.rect)).add(bar);
+            return;
+        };
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Image, true, "Histogram of the losses of the scenes")
         });
@@ -98,14 +101,21 @@ impl WhyPanel<'_> {
     fn thumbnails(
         &self,
         ui: &mut egui::Ui,
-        list: &SceneList,
+        list: Option<&SceneList>,
+        count: usize,
         thumbnails: Option<(&Thumbnails, egui::TextureId)>,
         commands: &mut Vec<Command>,
     ) {
-        let listed = self.why.listed.min(list.ranked.len());
+        let listed = self.why.listed.min(count);
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
-            for (rank, ranked) in list.ranked[..listed].iter().enumerate() {
+            for rank in 0..listed {
+                let Some(ranked) = list.and_then(|list| list.ranked.get(rank)) else {
+                    let (area, _) = ui.allocate_exact_size(vec2(SIDE, SIDE + NUMBER), Sense::hover());
+                    let fill = ui.visuals().widgets.inactive.weak_bg_fill;
+                    ui.painter().rect_filled(area.with_max_y(area.top() + SIDE), 0.0, fill);
+                    continue;
+                };
                 let part = thumbnails.and_then(|(thumbnails, texture)| {
                     let [least, greatest] = thumbnails.part(rank)?;
                     Some((texture, Rect::from_min_max(least.into(), greatest.into())))
@@ -116,10 +126,10 @@ impl WhyPanel<'_> {
             }
         });
         ui.horizontal_wrapped(|ui| {
-            let most = list.ranked.len().min(MOST_THUMBNAILS);
+            let most = count.min(MOST_THUMBNAILS);
             if listed < most {
                 let more = ui.small_button("More scenes");
-                if more.on_hover_text(format!("{listed} of {} are listed", list.ranked.len())).clicked() {
+                if more.on_hover_text(format!("{listed} of {count} are listed")).clicked() {
                     commands.push(WhyCommand::ListScenes(listed + MORE).into());
                 }
             }
@@ -134,34 +144,31 @@ impl WhyPanel<'_> {
             if save.on_hover_text(hover).clicked() {
                 commands.push(WindowCommand::SaveScenes.into());
             }
-            if let Some((thumbnails, _)) = thumbnails {
-                let text = format!("log difference, 0 to {}", digits(thumbnails.range));
-                ui.label(RichText::new(text).small().weak())
-                    .on_hover_text("From black to light yellow, the same in all thumbnails");
-            }
         });
+        let range = thumbnails.map_or_else(|| "...".to_owned(), |(thumbnails, _)| digits(thumbnails.range));
+        ui.label(RichText::new(format!("log difference, 0 to {range}")).small().weak())
+            .on_hover_text("From black to light yellow, the same in all thumbnails");
     }
 
-    /// The button that searches, its progress, and what was found.
+    /// The button that searches, its progress, and what was found, in two rows.
     fn search(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
         let search = &self.jobs.search;
-        if let Some((fraction, elapsed)) = search.busy() {
-            ui.horizontal(|ui| {
+        let worst = search.found(pair).filter(|_| search.busy().is_none());
+        ui.horizontal(|ui| {
+            if let Some((fraction, elapsed)) = search.busy() {
                 if ui.button("Cancel search").on_hover_text("Esc").clicked() {
                     commands.push(WhyCommand::CancelSearch.into());
                 }
                 let text = format!("{:.0}%, {} s", 100.0 * fraction, elapsed.as_secs());
                 ui.add(egui::ProgressBar::new(fraction).text(text).corner_radius(3.0));
-            });
-            return;
-        }
-        ui.horizontal_wrapped(|ui| {
+                return;
+            }
             let hover =
                 "Searches all scenes that the loss samples from for the largest loss, and shows the scene";
             if ui.button("Find worst scene").on_hover_text(hover).clicked() {
                 commands.push(WhyCommand::FindWorst.into());
             }
-            if let Some(worst) = search.found(pair) {
+            if let Some(worst) = worst {
                 let chosen = worst.scene == self.state.scene;
                 let label = ui.selectable_label(chosen, times(worst));
                 if label.on_hover_text(found(worst)).clicked() {
@@ -169,10 +176,11 @@ impl WhyPanel<'_> {
                 }
             }
         });
-        if let Some(worst) = search.found(pair) {
-            let text = format!("{} scenes tried; mean {:.4}", worst.evaluations, worst.mean.mean);
-            ui.label(RichText::new(text).small().weak());
-        }
+        let text = match worst {
+            Some(worst) => format!("{} scenes tried; mean {:.4}", worst.evaluations, worst.mean.mean),
+            None => "Of all scenes that the loss samples from".to_owned(),
+        };
+        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate());
     }
 }
 
@@ -204,21 +212,26 @@ fn place(scene: &Scene) -> String {
     format!("{kind}, light {}, view {}", triple(scene.light), triple(scene.view))
 }
 
-fn distribution(ui: &mut egui::Ui, list: &SceneList, settings: &LossSettings) {
-    let Some(distribution) = list.distribution else { return };
-    let text = format!(
-        "{} + {} scenes: median {}, 95% below {}, the worst tenth adds {:.0}% of the loss",
-        list.counts[0],
-        list.counts[1],
-        digits(distribution.median),
-        digits(distribution.percentile95),
-        100.0 * distribution.worst_tenth
-    );
+/// The distribution of the losses in words.
+fn distribution(ui: &mut egui::Ui, list: Option<&SceneList>, settings: &LossSettings) {
+    const ROWS: usize = 2;
+    let in_words = |list: &SceneList| {
+        let distribution = list.distribution?;
+        Some(format!(
+            "{} + {} scenes: median {}, 95% below {}, the worst tenth adds {:.0}% of the loss",
+            list.counts[0],
+            list.counts[1],
+            digits(distribution.median),
+            digits(distribution.percentile95),
+            100.0 * distribution.worst_tenth
+        ))
+    };
     let of = match settings.file_scenes() {
         Some(file) => format!("Near-field and distant scenes of {}, each on all texels", file.name),
         None => "Near-field and distant scenes of the seed of the loss, each on all texels".to_owned(),
     };
-    ui.label(RichText::new(text).small().weak()).on_hover_text(of);
+    let format = TextFormat::simple(FontId::proportional(11.0), ui.visuals().weak_text_color());
+    rows(ui, list.and_then(in_words), format, ROWS, &of);
 }
 
 fn thumbnail(

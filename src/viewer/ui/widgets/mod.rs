@@ -12,6 +12,7 @@ pub mod remedy;
 pub mod texture;
 pub mod theme;
 
+use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, DragValue, Response};
 
 /// A number to drag or type; a double-click resets it to `default`.
@@ -41,6 +42,21 @@ pub fn number<T: egui::emath::Numeric>(
 /// A panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.
 pub fn bare(panel: egui::Panel, ui: &egui::Ui) -> egui::Panel {
     panel.frame(egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT))
+}
+
+/// A text in this number of rows, which it does not exceed and which are kept without it; `hover` is shown on it.
+pub fn rows(ui: &mut egui::Ui, text: Option<String>, format: TextFormat, rows: usize, hover: &str) {
+    // Rows are rounded to pixels.
+    let empty = LayoutJob::single_section("\n".repeat(rows - 1), format.clone());
+    let height = ui.painter().layout_job(empty).size().y;
+    ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
+        ui.set_min_height(height);
+        if let Some(text) = text {
+            let mut job = LayoutJob::single_section(text, format);
+            job.wrap.max_rows = rows;
+            ui.label(job).on_hover_text(hover);
+        }
+    });
 }
 
 /// Draws contents into the room that `ui` has; they do not widen it, whatever they need.
