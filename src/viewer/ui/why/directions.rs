@@ -12,6 +12,7 @@ use crate::viewer::jobs::why::DirectionMaps;
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand};
 use crate::viewer::ui::pane::handles;
 use crate::viewer::ui::why::WhyPanel;
+use crate::viewer::ui::why::legends::legends;
 use crate::viewer::ui::widgets::hemisphere::{direction_at, pos_of, unit};
 use crate::viewer::ui::widgets::names::shortened;
 use crate::viewer::ui::widgets::numbers::{digits, signed};
@@ -60,7 +61,8 @@ impl WhyPanel<'_> {
         let other = found.and_then(|(maps, _)| Some(maps.differences.get(chosen)?.0));
         let losses = (0..self.pairs.len()).map(|index| Some(DirectionMap::Loss(index)));
         // The difference has its place before it is known which other prediction is the best.
-        let difference = self.has_difference().then_some(other.map(DirectionMap::Difference));
+        let has_difference = self.pairs.len() > 1;
+        let difference = has_difference.then_some(other.map(DirectionMap::Difference));
         let all: Vec<Option<DirectionMap>> = losses.chain(difference).collect();
         let columns = all.len().min(2) as f32;
         let side = ((ui.available_width() - GAP * (columns - 1.0)) / columns).clamp(80.0, MOST);
@@ -83,7 +85,7 @@ impl WhyPanel<'_> {
         let (kind, direction) = read.unwrap_or((DirectionMap::Loss(chosen), unit(&self.state.scene, moved)));
         let text = self.reading(kind, direction, found.map(|(maps, _)| maps));
         ui.add(egui::Label::new(RichText::new(text).monospace().size(11.5)).truncate());
-        self.legends(ui, found.map(|(maps, _)| maps));
+        legends(ui, chosen, has_difference, found.map(|(maps, _)| maps));
         let [x, y, z] = unit(&self.state.scene, other_endpoint(moved));
         let fixed = if moved == Endpoint::Light { "view" } else { "light" };
         let text = format!("distant scenes, {fixed} fixed at ({x:.2}, {y:.2}, {z:.2})");
@@ -171,11 +173,6 @@ impl WhyPanel<'_> {
         let id = ui.scope_id().with(("caption", label(kind)));
         ui.interact(area, id, Sense::hover())
             .on_hover_text(format!("{hover}\nThe number is the mean over all directions of the map"));
-    }
-
-    /// Whether there is another prediction, from whose loss that of the chosen one differs.
-    pub fn has_difference(&self) -> bool {
-        self.pairs.len() > 1
     }
 
     /// The loss in a direction, with its standard error; or the difference of two losses.

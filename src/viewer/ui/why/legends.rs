@@ -3,32 +3,30 @@
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, pos2, vec2};
 
 use crate::viewer::jobs::why::{DirectionMaps, ScaledPicture};
-use crate::viewer::ui::why::WhyPanel;
 use crate::viewer::ui::widgets::colour_bar::colour_bar;
 use crate::viewer::ui::widgets::numbers::{digits, signed};
 
 /// Height of a colour bar with its numbers, in points.
 const BAR: f32 = 10.0;
 
-impl WhyPanel<'_> {
-    /// The colours of the losses, and those of their difference, in rows that are there before the maps.
-    pub fn legends(&self, ui: &mut egui::Ui, maps: Option<&DirectionMaps>) {
-        let chosen = self.state.display.prediction;
-        let losses = maps.and_then(|maps| maps.losses.first());
-        let ends = losses.map(|losses| ["0".to_owned(), digits(losses.range)]);
-        bar(ui, ends.map(|ends| ("loss".to_owned(), ends)), false);
-        if self.has_difference() {
-            let difference = maps.and_then(|maps| maps.differences.get(chosen));
-            let legend = difference.map(|(other, ScaledPicture { range, .. })| {
-                let ends = [signed(&digits(-range)), signed(&digits(*range))];
-                (format!("{} \u{2212} {}", chosen + 1, other + 1), ends)
-            });
-            bar(ui, legend, true);
-        }
-        let error = maps.map_or_else(|| "...".to_owned(), |maps| digits(maps.map.standard_error(chosen)));
-        ui.label(RichText::new(format!("standard error {error}")).small().weak())
-            .on_hover_text("Of a direction, from the choice of the compared texels; neighbours share it");
+/// The colours of the losses, and those of their difference, in rows that are there before the maps.
+///
+/// `chosen` is the prediction from which another one differs, where it `has_difference`.
+pub fn legends(ui: &mut egui::Ui, chosen: usize, has_difference: bool, maps: Option<&DirectionMaps>) {
+    let losses = maps.and_then(|maps| maps.losses.first());
+    let ends = losses.map(|losses| ["0".to_owned(), digits(losses.range)]);
+    bar(ui, ends.map(|ends| ("loss".to_owned(), ends)), false);
+    if has_difference {
+        let difference = maps.and_then(|maps| maps.differences.get(chosen));
+        let legend = difference.map(|(other, ScaledPicture { range, .. })| {
+            let ends = [signed(&digits(-range)), signed(&digits(*range))];
+            (format!("{} \u{2212} {}", chosen + 1, other + 1), ends)
+        });
+        bar(ui, legend, true);
     }
+    let error = maps.map_or_else(|| "...".to_owned(), |maps| digits(maps.map.standard_error(chosen)));
+    ui.label(RichText::new(format!("standard error {error}")).small().weak())
+        .on_hover_text("Of a direction, from the choice of the compared texels; neighbours share it");
 }
 
 /// A name, and a colour bar between the numbers of its ends; an empty row without them.
