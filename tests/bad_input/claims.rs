@@ -2,11 +2,12 @@
 
 use std::io::{Cursor, Write};
 
+use ::exr::prelude::Compression;
 use zip::write::SimpleFileOptions;
 
 use super::*;
 use crate::support::exr;
-use crate::support::pictures::npy;
+use crate::support::pictures::{compressed, npy};
 
 #[test]
 fn absurd_sizes_are_refused_at_once() {
@@ -178,5 +179,41 @@ fn archives_and_arrays_that_claim_too_much_are_refused_at_once() {
         let message = read_bytes::<f32>("claims", &bytes, &ReadOptions::default()).unwrap_err().to_string();
         assert!(message.contains("claims"), "{message}");
         assert!(started.elapsed().as_secs() < 2, "{claim} took {:?}", started.elapsed());
+    }
+}
+
+/// The library allocates what a block of DWA claims, and ends the program where it cannot; fuzzing found a block of a version
+/// that no writer has.
+#[test]
+fn blocks_of_dwa_that_claim_too_much_are_refused_whatever_version_they_have() {
+    const CLAIM: u64 = 1 << 61;
+    let folder = tempdir().unwrap();
+    for compression in [Compression::DWAA(None), Compression::DWAB(None)] {
+        let path = folder.path().join("whole.exr");
+        compressed(&path, compression);
+        let whole = fs::read(path).unwrap();
+        // A block is the row where it begins, its size, the version 2, sizes and counts.
+        let number = |at: usize| u64::from_le_bytes(whole[at..at + 8].try_into().unwrap());
+        let size = |at: usize| u32::from_le_bytes(whole[at + 4..at + 8].try_into().unwrap()) as usize;
+        let is_block = |at: &usize| {
+            number(*at) as u32 == 0
+                && size(*at) > 88
+                && size(*at) <= whole.len() - at - 8
+                && number(at + 8) == 2
+        };
+        let block = (0..whole.len() - 16).find(is_block).unwrap() + 8;
+        for version in [0, 1, 2, 3, 720_898, u64::MAX] {
+            for field in 1..=9 {
+                let mut bytes = whole.clone();
+                bytes[block..block + 8].copy_from_slice(&version.to_le_bytes());
+                bytes[block + 8 * field..][..8].copy_from_slice(&CLAIM.to_le_bytes());
+                let error = read_bytes::<f32>("claims", &bytes, &ReadOptions::default()).unwrap_err();
+                let claim = format!(
+                    "claims: expected a valid EXR, found: invalid: a DWA block that claims {CLAIM} bytes"
+                );
+                assert!(error.to_string().contains(&claim), "version {version}, {field}: {error}");
+            }
+        }
+        read_bytes::<f32>("whole", &whole, &ReadOptions::default()).unwrap();
     }
 }
