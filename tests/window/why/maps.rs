@@ -65,10 +65,14 @@ fn a_share_below_0_is_explained_below_the_bars() {
     let mut window = super::super::window(options);
     wait(&mut window, "the materials", |app| app.names().len() == 2);
     tab(&mut window, "Why");
+    let below = |window: &Window<'_>| window.get_by_label("A click shows").rect();
+    let before = below(&window);
     let attribution = wait_for_attribution(&mut window);
     assert!(attribution.of(Map::Specular).shapley.mean < 0.0);
-    window.get_by_label(&attribution.note().unwrap());
+    let note = window.get_by_label(&attribution.note().unwrap()).rect();
     window.get_by_label_contains("the wrong specular hides errors of other maps");
+    assert_eq!(below(&window), before, "moved by the note");
+    assert!(note.bottom() < before.top() && note.height() > 8.0, "{note:?} above {before:?}");
 }
 
 /// Clicks on a map once its share is known.

@@ -110,6 +110,13 @@ impl fmt::Display for Message {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Saved(path) => write!(f, "Saved {}", path.display()),
+            Self::Failed(error) | Self::Material(MaterialProblem::NotRead { error, .. }) => {
+                error.fmt(f)?;
+                match error {
+                    Error::Memory { .. } => f.write_str(" (start svbrdf with --max-memory)"),
+                    _ => Ok(()),
+                }
+            }
             Self::Material(problem) => problem.fmt(f),
             Self::NotPasted(PasteProblem::NoScene) => f.write_str(
                 "Not pasted: the clipboard holds neither a scene nor paths of files. Copy a scene from this window or \
@@ -123,7 +130,6 @@ impl fmt::Display for Message {
             ),
             Self::Copied(what) => write!(f, "Copied {what}"),
             Self::ScenesOpened(name, count) => write!(f, "The loss is over the {count} scenes of {name}"),
-            Self::Failed(error) => error.fmt(f),
             Self::OutOfRange(numbers) => write!(f, "Settings out of range: {numbers}."),
             Self::DeviceReplaced { reason, adapter } => {
                 write!(f, "The graphics device was lost ({reason}). The window continues on {adapter}.")
@@ -168,6 +174,17 @@ mod tests {
         ] {
             assert_eq!(message.severity(), severity, "{message}");
             assert!(message.to_string().starts_with(&start), "{message}");
+        }
+    }
+
+    #[test]
+    fn the_limit_of_memory_comes_with_its_option() {
+        let error = || Error::Memory { what: "a.png".to_owned(), bytes: 4 << 30, limit: 1 << 30 };
+        let source = Box::new(Source::file("a.png".into(), ReadOptions::AUTO));
+        let not_read = MaterialProblem::NotRead { source, error: error(), opening: 1 };
+        for message in [Message::Failed(error()), not_read.into()] {
+            let text = message.to_string();
+            assert!(text.ends_with("or raise the limit (start svbrdf with --max-memory)"), "{text}");
         }
     }
 }

@@ -63,9 +63,9 @@ impl MapsSection<'_> {
         }
         let attributed = all.get(chosen).copied().flatten();
         self.state_line(ui, attributed);
-        if let Some(note) = attributed.and_then(|attributed| attributed.attribution.note()) {
-            ui.label(RichText::new(note).small());
-        }
+        // Its row is kept where there is no note: what is below does not move when one comes.
+        let note = attributed.and_then(|attributed| attributed.attribution.note()).unwrap_or_default();
+        ui.add(egui::Label::new(RichText::new(note).small()).truncate());
         self.pane_choice(ui, commands);
     }
 
