@@ -37,7 +37,8 @@ fn a_share_below_0_is_explained() {
         write_tiles(&folder.path().join(format!("{name}.png")), 4, |x, _| tiles[x as usize / 4]);
     }
     let table = succeed(folder.path(), "blame metal.png dull.png --preset deschaintre --order ndrs");
-    let note = "A share below 0%: the wrong specular hides errors of other maps, whose shares add up to more than 100%.";
+    let note =
+        "Below 0%, the wrong specular hides errors of other maps, whose shares add up to more than 100%.";
     assert!(table.contains("specular   -90.1%") && table.ends_with(&format!("\n\n{note}\n")), "{table}");
     assert!(!succeed(folder.path(), "blame gt.png b.png").contains("below"));
 }

@@ -67,7 +67,7 @@ impl Attribution {
         let verb = if names.len() == 1 { "hides" } else { "hide" };
         let names = (!names.is_empty()).then(|| names.join(" and "))?;
         Some(format!(
-            "A share below 0%: the wrong {names} {verb} errors of other maps, whose shares add up to more than 100%."
+            "Below 0%, the wrong {names} {verb} errors of other maps, whose shares add up to more than 100%."
         ))
     }
 }
