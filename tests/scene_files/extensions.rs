@@ -174,6 +174,21 @@ fn of_many_materials_the_first_with_textures_opens_and_all_are_named() {
 }
 
 #[test]
+fn a_material_without_a_name_has_that_of_its_file() {
+    let folder = textures();
+    for nameless in [PLAIN.replacen(r#""name": "wall", "#, "", 1), PLAIN.replacen("wall", " ", 1)] {
+        let text = document(&["base%20colour.png", "n.png", "orm.png"], THREE, &nameless, "");
+        let read = open(&put(&folder, &text));
+        assert_eq!(read.material.name(), "a");
+        let several =
+            document(&["base%20colour.png", "n.png", "orm.png"], THREE, &format!("{nameless}, {PLAIN}"), "");
+        let read = open(&put(&folder, &several));
+        assert_eq!(read.material.name(), "a");
+        assert!(read.messages().any(|line| line.contains("0 unnamed, 1 wall")), "{:?}", read.notes);
+    }
+}
+
+#[test]
 fn extensions_that_are_not_modelled_are_named_unless_they_are_off() {
     let folder = textures();
     let said = |factor: f64| {

@@ -61,7 +61,7 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
             path: path.to_owned(),
             problem: format!(
                 "{}: expected extensions that are read, found {extension}, which the file requires",
-                name(material, index)
+                name(path, material)
             ),
             remedy: "export the material as metallic and roughness".to_owned(),
         });
@@ -71,10 +71,11 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
         not_modelled.push("vertex colours (COLOR_0), which multiply the base colour".to_owned());
     }
     let (pictures, textures) = pictures(&file, material)?;
-    let names = materials.iter().enumerate().map(|(i, material)| name(material, i)).collect();
+    let names =
+        materials.iter().map(|material| specified_name(material).unwrap_or("unnamed").to_owned()).collect();
     Ok(LocatedGltf {
         path: path.to_owned(),
-        name: name(material, index),
+        name: name(path, material),
         surface: surface(material),
         pictures,
         textures,
@@ -94,8 +95,14 @@ fn normal_y(document: &Value) -> NormalY {
     if is_down { NormalY::Down } else { NormalY::Up }
 }
 
-fn name(material: &Material<'_>, index: usize) -> String {
-    material.name().map_or_else(|| format!("material {index}"), str::to_owned)
+/// The name of a material, or else that of its file: materials of several files are compared.
+fn name(path: &Path, material: &Material<'_>) -> String {
+    let stem = || path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    specified_name(material).map_or_else(stem, str::to_owned)
+}
+
+fn specified_name<'a>(material: &Material<'a>) -> Option<&'a str> {
+    material.name().filter(|name| !name.trim().is_empty())
 }
 
 /// The pictures of a material, and which input each is for.
