@@ -11,7 +11,7 @@ use svbrdf_core::report::{LossReport, Report as _};
 use svbrdf_files::scene_file;
 
 use super::args::lights::LightsArgs;
-use super::args::values::{duration, percent};
+use super::args::values::{duration, percent, whole};
 use super::args::{ComparisonArgs, Given, modes};
 use super::job::ComparisonJob;
 use super::output::report::ReportFormat;
@@ -28,15 +28,15 @@ use super::output::{CommandError, exit, target, watched};
 #[command(after_help = "Example:\n  svbrdf loss gt.png a.png b.png --target-error 0.5%")]
 pub struct LossArgs {
     /// Number of near-field scenes [default: 6]
-    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     near: Option<usize>,
 
     /// Number of distant scenes [default: 3]
-    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     distant: Option<usize>,
 
     /// Seed of the sampled scenes [default: 0, or as in the session]
-    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
 
     /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: random]

@@ -36,7 +36,7 @@ pub struct MapArgs {
     fixed: [f64; 3],
 
     /// Columns and rows of a map over lights or views
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), default_value = "64")]
+    #[arg(long, value_name = "N", value_parser = values::side, default_value = "64")]
     side: u16,
 
     #[command(flatten)]

@@ -51,7 +51,7 @@ pub struct ReportArgs {
     target_error: Option<f64>,
 
     /// Seed of the sampled scenes [default: 0, or as in the session]
-    #[arg(help_heading = "Scenes", long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = values::whole::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
 
     #[command(flatten)]

@@ -4,6 +4,7 @@ use svbrdf_core::loss::Comparison;
 use svbrdf_core::report::{Compared, ScenesReport};
 
 use super::args::scenes::SceneArgs;
+use super::args::values::whole;
 use super::args::{ComparisonArgs, Given};
 use super::job::ComparisonJob;
 use super::output::report::ReportFormat;
@@ -17,7 +18,7 @@ use super::output::{CommandError, exit, watched};
 #[command(after_help = "Example:\n  svbrdf scenes gt.png a.png --top 5 --format json > worst.json")]
 pub struct ScenesArgs {
     /// Number of scenes that are printed
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true, default_value_t = 10)]
     top: usize,
 
     #[command(flatten)]

@@ -99,3 +99,27 @@ fn the_example_of_every_subcommand_is_a_command_line_of_it() {
         assert!(output.status.code().is_some_and(|code| code != USAGE), "{line}: {output:?}");
     }
 }
+
+/// Once for each option, in the first subcommand that has it.
+#[test]
+fn an_unusable_value_of_an_option_is_refused_with_what_is_expected() {
+    let mut seen = BTreeSet::new();
+    let mut refused = 0;
+    for (path, page) in pages() {
+        let with_value = page.lines().filter_map(|line| line.split_once("--")?.1.split_once(" <"));
+        for (name, _) in with_value.filter(|(name, _)| seen.insert((*name).to_owned())) {
+            for value in ["?", "nan", "-1", "1.5", "99999999999999999999"] {
+                let output = svbrdf().args(&path).arg(format!("--{name}={value}")).output().unwrap();
+                let stderr = text(&output.stderr);
+                if !stderr.contains("error: invalid value") {
+                    continue;
+                }
+                refused += 1;
+                let says =
+                    ["expected", "use one of", "possible values"].iter().any(|part| stderr.contains(part));
+                assert!(says, "{path:?} --{name} {value}: {stderr}");
+            }
+        }
+    }
+    assert!(refused > 100, "{refused}");
+}

@@ -9,7 +9,7 @@ use svbrdf_files::scene_file;
 #[cfg(feature = "viewer")]
 use svbrdf_files::session::SessionPhotograph;
 
-use super::values::{degrees, pair, positive};
+use super::values::{degrees, pair, positive, whole};
 use crate::cli::output::CommandError;
 
 /// Light and view of a photograph.
@@ -24,6 +24,7 @@ pub struct PhotoSceneArgs {
     #[arg(
         long,
         value_name = "K",
+        value_parser = whole::<usize>,
         requires = "scene",
         conflicts_with = "flash",
         allow_negative_numbers = true

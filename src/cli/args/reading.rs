@@ -7,6 +7,8 @@ use svbrdf_files::read::{
     TileGrid, Workflow,
 };
 
+use super::values::whole;
+
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Reading materials")]
 pub struct PairReadingArgs {
@@ -96,7 +98,7 @@ pub struct ReadingArgs {
     flip_v: Option<bool>,
 
     /// Which row of a packed image, or which material of a file of several, from 0 [default: 0]
-    #[arg(long, value_name = "K", allow_negative_numbers = true, requires = "ground_truth")]
+    #[arg(long, value_name = "K", value_parser = whole::<usize>, allow_negative_numbers = true, requires = "ground_truth")]
     exemplar: Option<usize>,
 
     /// NaN and infinity: refuse the material, or replace them [default: refuse]

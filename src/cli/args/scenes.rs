@@ -11,22 +11,22 @@ use svbrdf_files::scene_file;
 
 use super::Given;
 use super::lights::LightsArgs;
-use super::values::triple;
+use super::values::{triple, whole};
 use crate::cli::output::CommandError;
 
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Scenes")]
 pub struct SceneArgs {
     /// Number of near-field scenes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 128)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true, default_value_t = 128)]
     near: usize,
 
     /// Number of distant scenes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 64)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true, default_value_t = 64)]
     distant: usize,
 
     /// Seed of the sampled scenes
-    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 0)]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true, default_value_t = 0)]
     seed: u64,
 
     /// Sampler of scenes: random, or sobol, which gives less error with as many scenes
@@ -89,6 +89,7 @@ pub struct SeedArgs {
         help_heading = "Scenes",
         long,
         value_name = "N",
+        value_parser = whole::<u64>,
         allow_negative_numbers = true,
         default_value_t = 0
     )]

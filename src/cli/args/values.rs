@@ -25,6 +25,23 @@ pub fn duration(text: &str) -> Result<Duration, String> {
     )
 }
 
+/// A number of things, or a seed.
+pub fn whole<T: FromStr>(text: &str) -> Result<T, &'static str> {
+    text.parse().map_err(|_| "expected a whole number, 0 or more and below 2^64")
+}
+
+/// The texels along a side of a map over directions.
+pub fn side(text: &str) -> Result<u16, &'static str> {
+    let side = text.parse().ok().filter(|side| (1..=1024).contains(side));
+    side.ok_or("expected a whole number of 1 to 1024")
+}
+
+/// A loss that others are compared with. None is above NaN or infinity.
+pub fn loss(text: &str) -> Result<f64, &'static str> {
+    let loss = text.parse().ok().filter(|loss: &f64| loss.is_finite() && *loss >= 0.0);
+    loss.ok_or("expected a loss, a number of 0 or more, as in 0.25")
+}
+
 /// A number of stops.
 pub fn stops(text: &str) -> Result<f32, String> {
     let finite = text.parse().ok().filter(|stops: &f32| stops.is_finite());
@@ -101,6 +118,12 @@ mod tests {
         for wrong in ["0", "-1s", "2m", "1e9s", "nan", "s", ""] {
             assert!(duration(wrong).is_err_and(|message| message.contains("above 0")), "{wrong}");
         }
+    }
+
+    #[test]
+    fn a_limit_is_a_loss_that_others_can_be_above() {
+        assert_eq!([loss("0"), loss("2.5e-1")], [Ok(0.0), Ok(0.25)]);
+        assert!(["nan", "inf", "-1", "-inf", "", "x"].iter().all(|wrong| loss(wrong).is_err()));
     }
 
     #[test]

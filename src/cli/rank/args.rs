@@ -55,7 +55,7 @@ pub struct RankArgs {
     pub diagnose: bool,
 
     /// Fails with exit code 1, after the result is printed, if a mean loss is larger than this
-    #[arg(long, value_name = "LOSS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "LOSS", value_parser = values::loss, allow_hyphen_values = true)]
     pub fail_above: Option<f64>,
 
     /// Samples as many scenes as this relative error of every loss needs at 95% confidence
