@@ -185,6 +185,17 @@ def test_arguments_are_checked_by_name() -> None:
         svbrdf.loss(material, [])
     with pytest.raises(ValueError, match="target_error: expected a number above 0 and below 1"):
         svbrdf.loss(material, material, target_error=1.5)
+    for whole in ("near", "distant", "seed"):
+        for wrong, error in ((-1, ValueError), (1 << 64, ValueError), (1.5, TypeError), ("6", TypeError)):
+            given: dict[str, Any] = {whole: wrong}
+            with pytest.raises(error, match=f"{whole}: expected a whole number, 0 or more and below 2.64, found"):
+                svbrdf.loss(material, material, **given)
+            with pytest.raises(error, match=f"{whole}: expected a whole number"):
+                svbrdf.sample_scenes(**given)
+    with pytest.raises(ValueError, match="top: expected a whole number"):
+        svbrdf.scenes(material, material, top=-1)
+    with pytest.raises(ValueError, match="seed: expected a whole number"):
+        svbrdf.rank_dataset("gt", "ours", seed=-1)
     with pytest.raises(ValueError, match="time_budget: expected seconds above 0"):
         svbrdf.loss(material, material, time_budget=0)
     with pytest.raises(ValueError, match="target_error and scenes: expected one of them"):

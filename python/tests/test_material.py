@@ -112,6 +112,11 @@ def test_shapes_types_and_values_are_checked_by_the_name_of_the_map() -> None:
     refused(TypeError, "diffuse: expected floating-point numbers, found uint8", diffuse=np.zeros((4, 5, 3), np.uint8))
     refused(TypeError, "normal: expected floating-point numbers, found", normal="gt.png")
     refused(ValueError, "roughness: expected height x width, found a number", roughness=0.5)
+    # Some versions of numpy have no types for it.
+    ma: Any = np.ma
+    masked = ma.MaskedArray(maps(4, 5)["diffuse"], mask=maps(4, 5)["diffuse"] > 0.5)
+    refused(ValueError, "diffuse: expected a value in every texel, found masked ones", diffuse=masked)
+    assert svbrdf.Material(**{**maps(4, 5), "diffuse": ma.MaskedArray(maps(4, 5)["diffuse"])}).size == (5, 4)
     nan, high, dark = maps(4, 5)["roughness"], maps(4, 5)["specular"], maps(4, 5)["normal"]
     nan[2, 3], high[1, 0, 2], dark[3, 4] = np.nan, 1.5, 0
     refused(

@@ -24,8 +24,10 @@ def as_array(name: str, given: object, channels: int, precision: str) -> tuple[N
 
     Raises:
         TypeError: The numbers are not floating-point ones.
-        ValueError: The shape is another one.
+        ValueError: The shape is another one, or texels are masked.
     """
+    if isinstance(given, np.ma.MaskedArray) and np.any(given.mask):
+        raise ValueError(f"{name}: expected a value in every texel, found masked ones; fill or crop them")
     array = _numpy(name, given)
     if array.dtype.kind != "f":
         raise TypeError(

@@ -10,7 +10,7 @@ from ._material import Material, Source, opened
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import views
-from ._scenes import Scene, read_scenes
+from ._scenes import Scene, check_whole, read_scenes
 
 Scenes = Sequence[Scene] | Source
 Predictions = Material | Source | Sequence[Material | Source]
@@ -51,6 +51,8 @@ class Asked:
         }
         for name in ("near", "distant", "sampler", "texels", "target_error", "time_budget"):
             self._options[name] = choice.pop(name, None)
+        for name in ("near", "distant", "seed"):
+            check_whole(name, self._options[name])
         if choice:
             raise TypeError(f"unexpected arguments: {', '.join(choice)}")
 

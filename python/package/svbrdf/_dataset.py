@@ -13,6 +13,7 @@ from ._material import Source
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import Report, pair, views
+from ._scenes import check_whole
 
 
 @dataclass(frozen=True)
@@ -164,6 +165,7 @@ def rank_dataset(
         svbrdf.Error: A folder has no materials, an option has no such value, or the journal is of other settings.
     """
     check_goals(target_error=target_error)
+    check_whole("seed", seed)
     asked = {
         "ground_truths": ground_truths,
         "methods": _named(methods),

@@ -53,7 +53,7 @@ class Material:
 
     Raises:
         TypeError: A map is not an array of floating-point numbers.
-        ValueError: A map has another shape.
+        ValueError: A map has another shape, or masked texels.
         svbrdf.Error: A value is NaN, infinite or out of its range, or a normal has no length.
     """
 

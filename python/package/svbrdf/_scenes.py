@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple, SupportsIndex
 
 from numpy.typing import NDArray
 
@@ -69,6 +69,22 @@ def scenes_from(listed: Sequence[dict[str, Any]]) -> tuple[Scene, ...]:
     return tuple(_scene(scene["kind"], scene["view"], scene["light"]) for scene in listed)
 
 
+def check_whole(name: str, value: object) -> None:
+    """Whether a number of things, or a seed, is one.
+
+    Raises:
+        TypeError: It is no whole number.
+        ValueError: It is negative or too large.
+    """
+    if value is None:
+        return
+    problem = f"{name}: expected a whole number, 0 or more and below 2^64, found {value!r}"
+    if not isinstance(value, SupportsIndex):
+        raise TypeError(problem)
+    if not 0 <= value.__index__() < 1 << 64:
+        raise ValueError(problem)
+
+
 def sample_scenes(
     near: int = 6,
     distant: int = 3,
@@ -85,8 +101,11 @@ def sample_scenes(
     ['near', 'near', 'distant']
 
     Raises:
+        ValueError: A number or the seed is negative.
         svbrdf.Error: There is no such sampler or convention, no scene, or more than 10,000,000.
     """
+    for name, value in (("near", near), ("distant", distant), ("seed", seed)):
+        check_whole(name, value)
     return scenes_of(_core.sample_scenes(near, distant, seed, sampler, convention))
 
 

@@ -13,7 +13,7 @@ from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import Report, data_frame, pair, views
-from ._scenes import Scene, scenes_from
+from ._scenes import Scene, check_whole, scenes_from
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -216,6 +216,7 @@ def scenes(
     """
     choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
     asked = Asked(ground_truth, predictions, convention=convention, **choice)
+    check_whole("top", top)
     arguments, values = answered(_core.scenes, asked, "rendering", progress, top)
     results = tuple(ScenesLoss(**{**entry, "losses": tuple(entry["losses"])}) for entry in values["results"])
     return ScenesReport(**arguments, **{**values, "results": results, "scenes": scenes_from(values["scenes"])})
