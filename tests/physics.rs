@@ -99,6 +99,26 @@ fn swapping_light_and_view_changes_the_rendering() {
     assert!(asymmetry(|texel, l, v| brdf::render(&model, texel, l, v)) > RECIPROCITY);
 }
 
+#[test]
+fn the_length_of_a_direction_does_not_matter_or_is_refused() {
+    let mut random = Random::of_seed(3);
+    let (material, prediction) = (random.material::<f64>(3, 3), random.material::<f64>(3, 3));
+    let (view, light) = (DVec3::new(0.6, 0.0, 0.8), DVec3::new(-0.36, 0.48, 0.8));
+    let loss = |length: f64| {
+        let scaled = |direction: DVec3| (length * direction).to_array();
+        let scene = Scene { kind: Kind::Distant, view: scaled(view), light: scaled(light) };
+        let losses = losses(&Plain, &material, &[&prediction], &[scene], &PRINTED);
+        losses.map(|losses| losses[0].estimate.mean).map_err(|error| error.to_string())
+    };
+    let unit = loss(1.0).unwrap();
+    for length in [1e9, 1e3, 1e-18, 1e-100, 1e-150, 1e-153] {
+        assert!((loss(length).unwrap() / unit - 1.0).abs() < 1e-12, "{length:e}");
+    }
+    for length in [1e-154, 1e-162, 1e-200, 1e-320] {
+        assert!(loss(length).is_err_and(|error| error.contains("too short for a direction")), "{length:e}");
+    }
+}
+
 /// Every combination of smooth, rough, black, white, grazing, near and far.
 fn extremes() -> impl Iterator<Item = (Texel<f32>, glam::Vec3, glam::Vec3)> {
     const ROUGHNESS: [f32; 6] = [0.0, 1e-6, 1e-4, 1.0 / 255.0, 0.5, 1.0];

@@ -48,6 +48,7 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
         ("render gt.png -o x.png --view a,b,c", 64, "three numbers"),
         ("render gt.png -o x.png --light 0,0,-1", 1, "above the plane"),
         ("render gt.png -o x.png --light 0,nan,1", 1, "not finite"),
+        ("render gt.png -o x.png --distant --light 1e-200,0,1e-200", 1, "too short for a direction"),
         ("render gt.png -o x.png --exposure nan", 64, "number of stops"),
         ("render gt.png big.png -o x.png", 1, "one by one"),
         ("render missing.png -o x.exr", 1, "missing.png"),

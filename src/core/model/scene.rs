@@ -55,10 +55,10 @@ pub enum Endpoint {
 
 /// One view and one light.
 ///
-/// Positions for [`Kind::Near`], directions of any length for [`Kind::Distant`], in units of half the width of the
-/// material, which lies in the plane z = 0.
+/// Positions for [`Kind::Near`], directions of any length that [`Scene::check`] accepts for [`Kind::Distant`], in units of
+/// half the width of the material, which lies in the plane z = 0.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a scene")]
 pub struct Scene {
     pub kind: Kind,
     pub view: [f64; 3],
@@ -119,8 +119,8 @@ impl Scene {
         }
     }
 
-    /// Whether the scene can be rendered: finite, positions within 1e9 of the origin, light and view at least 1e-18 above
-    /// the plane (directions: once they have length 1).
+    /// Whether the scene can be rendered: finite, coordinates within 1e9 of the origin, light and view at least 1e-18 above
+    /// the plane (directions: once they have length 1, of at least 1.5e-154 before).
     ///
     /// # Errors
     /// What is wrong, without saying which scene it is.
@@ -132,9 +132,13 @@ impl Scene {
             if p.iter().any(|c| c.abs() > FARTHEST) {
                 return Err(format!("its {what} {p:?} is farther away than {FARTHEST:e}"));
             }
+            let direction = DVec3::from(p);
+            if self.kind == Kind::Distant && p[2] > 0.0 && !direction.is_direction() {
+                return Err(format!("its {what} {p:?} is too short for a direction: its square vanishes"));
+            }
             let unit = match self.kind {
                 Kind::Near => 1.0,
-                Kind::Distant => DVec3::from(p).length(),
+                Kind::Distant => direction.length(),
             };
             // NaN where a direction has no length.
             let height = p[2] / unit;
@@ -184,6 +188,7 @@ pub fn sample(seed: u64, near: usize, distant: usize, convention: &Convention) -
 
 /// The form of a scene file.
 #[derive(Debug, Serialize, Deserialize)]
+#[serde(expecting = "scenes")]
 pub struct SceneFile {
     pub scenes: Vec<Scene>,
 }
