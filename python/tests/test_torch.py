@@ -186,7 +186,8 @@ def test_no_gradient_is_nan(precision: Any, convention: str) -> None:
     for name, leaf in zip(sv.Maps._fields, given, strict=True):
         assert torch.isfinite(leaf.grad).all(), name
     assert all(leaf.grad.abs().sum() > 0 for leaf in given)
-    loss, added_up = gradients(sv.RenderingLoss(convention=convention, scenes=scenes), given, target)
+    above = [scene for scene in scenes if min(scene.view[2], scene.light[2]) > 0]
+    loss, added_up = gradients(sv.RenderingLoss(convention=convention, scenes=above), given, target)
     assert torch.isfinite(loss)
     assert all(torch.isfinite(gradient).all() for gradient in added_up)
 
@@ -213,6 +214,40 @@ def test_the_gradient_of_the_loss_is_that_of_the_losses_of_the_scenes(convention
         torch.testing.assert_close(found, other, rtol=1e-12, atol=1e-14)
     with torch.no_grad():
         torch.testing.assert_close(3 * loss(batch, ground_truth), got[0], rtol=1e-12, atol=0)
+
+
+def test_shapes_that_would_broadcast_to_a_wrong_loss_are_refused() -> None:
+    batch = sv.Maps(*(torch.stack(several) for several in zip(*(random_maps(seed) for seed in (1, 2, 3)), strict=True)))
+    loss = sv.RenderingLoss()
+
+    def refused(match: str, **changed: Any) -> None:
+        for pair in ((batch._replace(**changed), batch), (batch, batch._replace(**changed))):
+            with pytest.raises(ValueError, match=match):
+                loss(*pair)
+            with pytest.raises(ValueError, match=match):
+                sv.scene_losses(*pair, svbrdf.sample_scenes(1, 1), svbrdf.CONVENTIONS["printed"])
+
+    # Of three materials: three channels by chance.
+    refused("roughness: expected ... x 1 x 6 x 8, found 3 x 6 x 8", roughness=batch.roughness[:, 0])
+    refused("roughness: expected ... x 1 x 6 x 8, found 3 x 3 x 6 x 8", roughness=batch.roughness.expand(-1, 3, -1, -1))
+    refused("specular: expected ... x 3 x 6 x 8, found 3 x 1 x 6 x 8", specular=batch.specular[:, :1])
+    # Near-field scenes would see one texel.
+    refused(": expected ... x 3 x [61] x [81], found", normal=batch.normal[..., :1, :1])
+    with pytest.raises(ValueError, match="diffuse: expected"):
+        sv.render(batch._replace(diffuse=batch.diffuse[..., :4]), svbrdf.sample_scenes()[0], loss.convention)
+    # One ground truth for a batch is no mistake.
+    one = sv.Maps(*(map[0] for map in batch))
+    assert loss(batch, one).item() > 0
+
+
+def test_scenes_that_a_loss_has_no_use_for_are_refused() -> None:
+    below = svbrdf.Scene("distant", (0, 0, 1), (0, 0, -1))
+    with pytest.raises(ValueError, match=r"scene 1: its light \(0, 0, -1\) is not above the plane"):
+        sv.RenderingLoss(scenes=[*svbrdf.sample_scenes(1, 0), below])
+    with pytest.raises(ValueError, match="scenes: expected at least one"):
+        sv.RenderingLoss(scenes=[])
+    with pytest.raises(ValueError, match="unknown convention `none`; use one of: printed, single-image-2018"):
+        sv.RenderingLoss(convention="none")
 
 
 def test_half_precision_is_computed_in_float32() -> None:

@@ -13,7 +13,8 @@ not on black texels.
 seed compiles anything anew.
 
 Maps have channels first and any number of batch dimensions before them: normal, diffuse and specular ... x 3 x H x W,
-roughness ... x 1 x H x W. Values are linear; colours and roughness lie in [0, 1]. Values are not checked.
+roughness ... x 1 x H x W. Values are linear; colours and roughness lie in [0, 1]. Shapes are checked, since some wrong
+ones would broadcast to a wrong loss; values are not.
 
 A vector is three planes here, its components: ... x 1 x H x W each. Everything that depends on the scene alone is
 `Geometry`, computed once per scene for all materials; everything that depends on the material alone is `Terms`,
@@ -63,6 +64,9 @@ class RenderingLoss(torch.nn.Module):
         distant: The number of sampled distant scenes.
         sampler: "random" or "sobol".
         scenes: These scenes, in place of sampled ones.
+
+    Raises:
+        ValueError: There is no such convention, or no scene, or a light or view is not above the plane.
     """
 
     def __init__(
@@ -75,13 +79,22 @@ class RenderingLoss(torch.nn.Module):
         scenes: Sequence[Scene] | None = None,
     ) -> None:
         super().__init__()
+        if convention not in CONVENTIONS:
+            raise ValueError(f"unknown convention `{convention}`; use one of: {', '.join(CONVENTIONS)}")
+        if scenes is not None:
+            check_scenes(scenes)
         self.convention = CONVENTIONS[convention]
         self.near, self.distant = near, distant
         self.sampler: Literal["random", "sobol"] = sampler
         self.scenes = scenes
 
     def forward(self, prediction: Maps, ground_truth: Maps, *, seed: int = 0) -> Tensor:
-        """The mean loss of a batch, over the scenes that `seed` names. A training run passes its step as the seed."""
+        """The mean loss of a batch, over the scenes that `seed` names. A training run passes its step as the seed.
+
+        Raises:
+            ValueError: A map has another shape.
+        """
+        check_shapes(prediction, ground_truth)
         points = self._endpoints(seed)
         if torch.is_grad_enabled() and not _is_compiling():
             return _MeanLoss.apply(points, self.convention, *prediction, *ground_truth)
@@ -98,15 +111,46 @@ class RenderingLoss(torch.nn.Module):
 
 
 def scene_losses(prediction: Maps, ground_truth: Maps, scenes: Sequence[Scene], convention: Convention) -> Tensor:
-    """The loss of each scene and material: the number of scenes x the batch dimensions."""
+    """The loss of each scene and material: the number of scenes x the batch dimensions.
+
+    Raises:
+        ValueError: A map has another shape.
+    """
+    check_shapes(prediction, ground_truth)
     return _losses(prediction, ground_truth, endpoints(scenes), convention)
 
 
 def render(maps: Maps, scene: Scene, convention: Convention) -> Tensor:
-    """Algorithm 3: the radiance R, ... x 3 x H x W. Where the light is in or below the plane or the texel, R is 0."""
+    """Algorithm 3: the radiance R, ... x 3 x H x W. Where the light is in or below the plane or the texel, R is 0.
+
+    Raises:
+        ValueError: A map has another shape.
+    """
+    check_shapes(maps)
     of_material = terms(maps, working_type(maps), convention)
     of_scene = geometry(endpoints([scene])[0], of_material, convention)
     return torch.cat(radiance(of_material, of_scene, convention), dim=-3)
+
+
+@_outside_of_graph
+def check_shapes(*materials: Maps) -> None:
+    """Whether all maps have their channels, and the height and width of the first one."""
+    height, width = materials[0][0].shape[-2:]
+    for maps in materials:
+        for name, channels, map in zip(Maps._fields, (3, 3, 3, 1), maps, strict=True):
+            if tuple(map.shape[-3:]) != (channels, height, width):
+                found = " x ".join(str(length) for length in map.shape)
+                raise ValueError(f"{name}: expected ... x {channels} x {height} x {width}, found {found}; reshape it")
+
+
+def check_scenes(scenes: Sequence[Scene]) -> None:
+    """Whether a loss over the scenes means anything: there is one, and no light or view in or below the plane."""
+    if not scenes:
+        raise ValueError("scenes: expected at least one, found none")
+    for index, (_, view, light) in enumerate(scenes):
+        for what, point in (("view", view), ("light", light)):
+            if not point[2] > 0:
+                raise ValueError(f"scenes: scene {index}: its {what} {point} is not above the plane of the material")
 
 
 class _MeanLoss(torch.autograd.Function):
