@@ -16,6 +16,7 @@ mod packages;
 mod photo;
 mod pictures;
 mod rank;
+mod rank_conditions;
 mod rank_html;
 mod report;
 mod scenes;

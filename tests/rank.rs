@@ -12,8 +12,8 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::rank;
 use svbrdf_files::dataset::{
-    KnownLoss, Mark, MaterialResult, Pick, PredictionResult, best_by_metric, interval_of_mean, summarize,
-    summarize_marks, summarize_metrics,
+    KnownLoss, Mark, MaterialResult, Pick, PredictionResult, Ranking, best_by_metric, interval_of_mean,
+    interval_of_positive_mean, summarize_marks, summarize_metrics,
 };
 use svbrdf_files::samples;
 
@@ -59,7 +59,12 @@ const POPULATIONS: [Population; 4] = [
 ];
 
 /// In how many of `repeats` samples of `size` values the interval holds the mean, in percent.
-fn coverage((_, mean, draw): Population, size: usize, repeats: u64, interval: fn(&[f64]) -> [f64; 2]) -> f64 {
+fn coverage(
+    (_, mean, draw): Population,
+    size: usize,
+    repeats: u64,
+    interval: impl Fn(&[f64]) -> [f64; 2] + Sync,
+) -> f64 {
     let held = |seed| {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         let values: Vec<f64> = (0..size).map(|_| draw(&mut generator)).collect();
@@ -73,9 +78,14 @@ fn coverage((_, mean, draw): Population, size: usize, repeats: u64, interval: fn
 fn intervals_over_materials_hold_the_mean_of_made_populations() {
     let allowed = 93.5..=96.5;
     for population in POPULATIONS {
-        let covered = coverage(population, 40, 2000, |values| interval_of_mean(values).unwrap());
-        println!("{}: {covered}%", population.0);
-        assert!(allowed.contains(&covered), "{}: {covered}%", population.0);
+        for interval in [interval_of_mean, interval_of_positive_mean] {
+            // One of the normal values in 740 is below 0.
+            let covered = coverage(population, 40, 2000, |values| {
+                interval(&values.iter().map(|value| value.abs()).collect::<Vec<_>>()).unwrap()
+            });
+            println!("{}: {covered}%", population.0);
+            assert!(allowed.contains(&covered), "{}: {covered}%", population.0);
+        }
     }
     let narrow = |values: &[f64]| {
         let [low, high] = interval_of_mean(values).unwrap();
@@ -87,17 +97,41 @@ fn intervals_over_materials_hold_the_mean_of_made_populations() {
 
 #[test]
 fn few_or_equal_values_have_no_interval_or_no_width() {
-    assert_eq!(interval_of_mean(&[1.0, 2.0]), None);
-    assert_eq!(interval_of_mean(&[0.5; 5]), Some([0.5; 2]));
-    let [low, high] = interval_of_mean(&[1.0, 1.0, 2.0]).unwrap();
-    assert!(low < 4.0 / 3.0 && 4.0 / 3.0 < high, "{low}, {high}");
+    for interval in [interval_of_mean, interval_of_positive_mean] {
+        assert_eq!(interval(&[1.0, 1.5, 1.9, 2.0]), None);
+        assert_eq!(interval(&[0.5; 5]), Some([0.5; 2]));
+        let [low, high] = interval(&[1.0, 1.1, 1.3, 1.7, 2.0]).unwrap();
+        assert!(low < 1.42 && 1.42 < high, "{low}, {high}");
+        // One value among equal ones: the ends may be unbounded, and are then not printed.
+        assert!(
+            interval(&[1.0, 1.0, 1.0, 1.0, 9.0]).is_none_or(|ends| ends.iter().all(|end| end.is_finite()))
+        );
+    }
+}
+
+#[test]
+fn an_interval_of_losses_has_no_negative_end() {
+    let skewed = [0.001, 0.002, 0.001, 0.003, 0.9];
+    let [low, _] = interval_of_mean(&skewed).unwrap_or([f64::NEG_INFINITY; 2]);
+    assert!(low < 0.0, "the values show nothing: {low}");
+    assert!(interval_of_positive_mean(&skewed).is_none_or(|[low, _]| low > 0.0));
+    let results: Vec<MaterialResult> =
+        skewed.iter().enumerate().map(|(i, loss)| result(i, &[("a", Some(*loss))])).collect();
+    let ranking = ranked(&["a"], &results, Pick::Fixed);
+    let [low, high] = ranking.methods[0].interval95_scenes;
+    assert!(0.0 < low && low < high, "{low}, {high}");
 }
 
 fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
     let mut predictions: Vec<PredictionResult> = Vec::new();
     for (method, loss) in losses {
         let sample = predictions.iter().filter(|p| p.method == *method).count();
-        let known = |loss| KnownLoss { loss, standard_error: 0.01, interval95: [loss - 0.02, loss + 0.02] };
+        let known = |loss| KnownLoss {
+            loss,
+            standard_error: 0.01,
+            interval95: [loss - 0.02, loss + 0.02],
+            scenes: 9,
+        };
         let metrics: BTreeMap<String, f64> =
             loss.map(|loss| ("rmse_roughness".to_owned(), 10.0 * loss)).into_iter().collect();
         let result = loss.map(known).ok_or_else(|| "broken".to_owned());
@@ -106,11 +140,23 @@ fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
             sample,
             path: String::new(),
             result,
+            reading: Vec::new(),
             metrics: metrics.clone(),
             marks: None,
         });
     }
-    MaterialResult { index, material: format!("m{index}"), seed: 0, scenes: 9, floor: None, predictions }
+    MaterialResult {
+        index,
+        material: format!("m{index}"),
+        seed: 0,
+        reading: Vec::new(),
+        floor: None,
+        predictions,
+    }
+}
+
+fn ranked(methods: &[&str], results: &[MaterialResult], pick: Pick) -> Ranking {
+    Ranking::new(&methods.iter().map(|method| (*method).to_owned()).collect::<Vec<_>>(), results, pick)
 }
 
 #[test]
@@ -118,16 +164,14 @@ fn methods_are_compared_over_the_materials_of_both() {
     let results: Vec<MaterialResult> = (0..9)
         .map(|i| {
             let base = 0.1 + 0.1 * i as f64;
-            let b = (i != 4).then_some(base + 0.05 + 0.001 * (i % 3) as f64);
-            result(i, &[("a", Some(base)), ("b", b)])
+            result(i, &[("a", Some(base)), ("b", Some(base + 0.05 + 0.001 * (i % 3) as f64))])
         })
         .collect();
-    let methods = ["b", "a"].map(str::to_owned);
-    let [a, b] = summarize(&methods, &results, Pick::Fixed).try_into().unwrap();
+    let [a, b] = ranked(&["b", "a"], &results, Pick::Fixed).methods.try_into().unwrap();
     assert_eq!((a.method.as_str(), a.materials, a.failures), ("a", 9, 0));
-    assert_eq!((b.materials, b.failures), (8, 1));
+    assert_eq!((b.materials, b.failures), (9, 0));
     assert!((a.mean - 0.5).abs() < 1e-12 && (a.median - 0.5).abs() < 1e-12, "{a:?}");
-    assert!((a.interval95_scenes[1] - a.mean - 1.96 * 0.01 / 3.0).abs() < 1e-6);
+    assert!((a.interval95_scenes[1] - a.mean * (1.959_964 * 0.01 / 3.0 / a.mean).exp()).abs() < 1e-6);
     // Materials differ far more than methods: only paired, the difference is known.
     let [low, high] = a.interval95_materials.unwrap();
     assert!(low < b.mean && b.mean < high, "{a:?}");
@@ -135,6 +179,90 @@ fn methods_are_compared_over_the_materials_of_both() {
     let [low, high] = difference.interval95_materials.unwrap();
     assert!(0.05 < low && low < difference.mean && difference.mean < high && high < 0.052, "{difference:?}");
     assert!(a.ties_with_best() && !b.ties_with_best());
+}
+
+#[test]
+fn a_method_that_lacks_materials_is_never_the_best() {
+    // The easy one of four alone, where it is worse: its mean over that one is the smallest of all.
+    let results: Vec<MaterialResult> = (0..4)
+        .map(|i| {
+            let [a, b] = [0.05 + 0.1 * i as f64, 0.06 + 0.1 * i as f64];
+            result(
+                i,
+                &[("a", Some(a)), ("b", Some(b)), ("few", (i == 0).then_some(a + 0.01)), ("none", None)],
+            )
+        })
+        .collect();
+    let ranking = ranked(&["none", "few", "b", "a"], &results, Pick::Fixed);
+    let names: Vec<&str> = ranking.methods.iter().map(|summary| summary.method.as_str()).collect();
+    assert_eq!(names, ["a", "b", "few", "none"]);
+    let [a, b, few, none] = ranking.methods.clone().try_into().unwrap();
+    assert!(few.mean < a.mean && !few.ties_with_best() && !none.ties_with_best(), "{few:?}");
+    assert!((few.to_best.unwrap().mean - 0.01).abs() < 1e-12, "paired, it is worse");
+    assert_eq!([a.count(), few.count(), none.count()], ["4", "1 of 4", "0 of 4"]);
+    assert!(a.is_compared && b.is_compared && !few.is_compared && !none.is_compared);
+    assert_eq!(ranking.common.len(), 4);
+    let over = ranking.over(4).join("\n");
+    assert!(over.contains("the 4 materials that all 2 compared methods have"), "{over}");
+    assert!(over.contains("few has 1 of 4 materials: not compared"), "{over}");
+    let best = best_by_metric(&ranking, &results, Pick::Fixed);
+    assert_eq!(best["rmse_roughness"], [true, true, false, false]);
+}
+
+#[test]
+fn methods_that_lack_one_material_each_are_compared_over_the_others() {
+    let results: Vec<MaterialResult> = (0..6)
+        .map(|i| {
+            let base = 0.1 * (1 + i) as f64;
+            // No method has the last one: its ground truth is broken.
+            let known = |lacks: usize| (i != lacks && i != 5).then_some(base);
+            result(
+                i,
+                &[
+                    ("a", known(0)),
+                    ("b", known(4).map(|loss| 1.1 * loss)),
+                    ("c", known(0).filter(|_| i == 1)),
+                ],
+            )
+        })
+        .collect();
+    let ranking = ranked(&["a", "b", "c"], &results, Pick::Fixed);
+    assert_eq!(ranking.common, [1, 2, 3].into());
+    let [a, b, c] = ranking.methods.clone().try_into().unwrap();
+    assert!((a.mean - 0.3).abs() < 1e-12 && (b.mean - 0.33).abs() < 1e-12, "{a:?} {b:?}");
+    assert!(a.is_compared && b.is_compared && !c.is_compared);
+    assert!(ranking.over(6)[0].contains("the 3 of 6 materials"), "{:?}", ranking.over(6));
+    // Methods without a material in common have no place.
+    let apart = [result(0, &[("a", Some(0.1)), ("b", None)]), result(1, &[("a", None), ("b", Some(0.2))])];
+    let ranking = ranked(&["a", "b"], &apart, Pick::Fixed);
+    assert!(ranking.methods.iter().all(|one| !one.is_compared && !one.ties_with_best()));
+    assert!(ranking.best().is_none() && ranking.over(2)[0].contains("nothing is compared"));
+}
+
+#[test]
+fn equal_maps_leave_the_mean_psnr_finite() {
+    let results: Vec<MaterialResult> = (0..5)
+        .map(|i| {
+            let mut result = result(i, &[("a", Some(0.2)), ("b", Some(0.3)), ("same", Some(0.4))]);
+            for (prediction, psnr) in result.predictions.iter_mut().zip([
+                if i == 0 { f64::INFINITY } else { 20.0 + 0.5 * i as f64 },
+                30.0 + i as f64,
+                f64::INFINITY,
+            ]) {
+                prediction.metrics.insert("psnr_diffuse".to_owned(), psnr);
+            }
+            result
+        })
+        .collect();
+    let ranking = ranked(&["a", "b", "same"], &results, Pick::Fixed);
+    let of = |place: usize| summarize_metrics(&ranking, &ranking.methods[place], &results, Pick::Fixed)["psnr_diffuse"];
+    let square_errors = (1..5).map(|i| 10_f64.powf(-(20.0 + 0.5 * f64::from(i)) / 10.0)).sum::<f64>();
+    assert!((of(0).mean - (-10.0 * (square_errors / 5.0).log10())).abs() < 1e-12, "{:?}", of(0));
+    let [low, high] = of(1).interval95_materials.unwrap();
+    assert!(28.0 < low && low < of(1).mean && of(1).mean < high && high < 34.0, "{:?}", of(1));
+    assert_eq!(of(2).mean, f64::INFINITY);
+    let best = best_by_metric(&ranking, &results, Pick::Fixed);
+    assert_eq!(best["psnr_diffuse"], [false, false, true], "equal maps are the best");
 }
 
 #[test]
@@ -160,18 +288,23 @@ fn marks_are_counted_by_material_and_method_and_follow_the_pick() {
         // Not diagnosed.
         result(2, &[("a", Some(0.3)), ("b", None)]),
     ];
-    let of = |method, pick| summarize_marks(method, Some("b").filter(|best| *best != method), &results, pick);
+    let of = |method: &str, pick| {
+        let ranking = ranked(&["a", "b"], &results, pick);
+        let place = ranking.methods.iter().position(|summary| summary.method == method).unwrap();
+        summarize_marks(&ranking, &ranking.methods[place], &results, pick)
+    };
     let fixed = of("a", Pick::Fixed).unwrap();
     assert_eq!((fixed.materials, fixed.marked, fixed.not_resolvable), (2, 2, 1));
     assert_eq!(fixed.by, [("normal_y".to_owned(), 2), ("shift".to_owned(), 1)].into());
-    // 0.3 and 0.35 are nearer than the floor, 0.05 and 0.4 are not.
-    assert_eq!(fixed.to_best_not_resolvable, Some(1));
+    // b lacks a material: a is the best. 0.3 and 0.35 are nearer than the floor, 0.05 and 0.4 are not.
+    assert_eq!(fixed.to_best_not_resolvable, None);
+    assert_eq!(of("b", Pick::Fixed).unwrap().to_best_not_resolvable, Some(1));
     let best = of("a", Pick::Best).unwrap();
     assert_eq!((best.marked, best.by.get("shift")), (1, None));
     let mean = of("a", Pick::Mean).unwrap();
     assert_eq!((mean.marked, mean.by["exposure"], mean.not_resolvable), (2, 1, 0));
-    assert_eq!(of("b", Pick::Fixed).unwrap().to_best_not_resolvable, None);
-    assert_eq!(summarize_marks("a", None, &results[2..], Pick::Fixed), None);
+    let none = ranked(&["a"], &results[2..], Pick::Fixed);
+    assert_eq!(summarize_marks(&none, &none.methods[0], &results[2..], Pick::Fixed), None);
 }
 
 #[test]
@@ -180,8 +313,7 @@ fn of_several_samples_the_pick_counts() {
         [("a", Some(0.3)), ("a", Some(0.1)), ("a", None), ("a", Some(0.2)), ("b", None), ("b", Some(0.4))];
     let results = [result(0, &losses)];
     let of = |pick| {
-        let methods = ["a", "b"].map(str::to_owned);
-        let summaries = summarize(&methods, &results, pick);
+        let summaries = ranked(&["a", "b"], &results, pick).methods;
         ["a", "b"].map(|name| summaries.iter().find(|summary| summary.method == name).unwrap().mean)
     };
     assert_eq!(of(Pick::Fixed)[0], 0.3);
@@ -200,7 +332,12 @@ fn metrics_over_materials_follow_the_pick_of_the_losses() {
         )
     };
     let results: Vec<MaterialResult> = (0..5).map(methods).collect();
-    let mean = |method: &str, pick| summarize_metrics(method, &results, pick)["rmse_roughness"];
+    let metrics = |method: &str, pick| {
+        let ranking = ranked(&["a", "b", "c"], &results, pick);
+        let place = ranking.methods.iter().position(|summary| summary.method == method).unwrap();
+        summarize_metrics(&ranking, &ranking.methods[place], &results, pick)
+    };
+    let mean = |method: &str, pick| metrics(method, pick)["rmse_roughness"];
     for (pick, expected) in [(Pick::Fixed, 3.2), (Pick::Best, 3.0), (Pick::Mean, 3.1)] {
         let got = mean("a", pick);
         assert!(
@@ -212,7 +349,7 @@ fn metrics_over_materials_follow_the_pick_of_the_losses() {
     }
     // Two materials without a first prediction do not count.
     assert!((mean("b", Pick::Fixed).mean - 4.0).abs() < 1e-12);
-    assert!(summarize_metrics("c", &results, Pick::Mean).is_empty());
+    assert!(metrics("c", Pick::Mean).is_empty());
 }
 
 #[test]
@@ -231,12 +368,13 @@ fn the_best_of_a_metric_ties_with_what_the_materials_cannot_separate() {
         result
     };
     let results: Vec<MaterialResult> = (0..8).map(of).collect();
-    let best = best_by_metric(&["a", "b", "c", "d"], &results, Pick::Fixed);
-    assert_eq!(best["rmse_roughness"], [true, false, true, false]);
+    // In the order of their losses: a, c, b, and d, which has none.
+    let best = best_by_metric(&ranked(&["a", "b", "c", "d"], &results, Pick::Fixed), &results, Pick::Fixed);
+    assert_eq!(best["rmse_roughness"], [true, true, false, false]);
     // Of similarities the largest is the best.
-    assert_eq!(best["ssim11_roughness"], [false, true, false, false]);
+    assert_eq!(best["ssim11_roughness"], [false, false, true, false]);
     assert_eq!(best.len(), 2);
     // Two materials separate nothing.
-    let best = best_by_metric(&["a", "b"], &results[..2], Pick::Fixed);
+    let best = best_by_metric(&ranked(&["a", "b"], &results[..2], Pick::Fixed), &results[..2], Pick::Fixed);
     assert_eq!(best["rmse_roughness"], [true, true]);
 }

@@ -1,10 +1,13 @@
 //! Many materials: the losses of methods over a data set.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_files::dataset::{self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Pick};
+use svbrdf_files::dataset::{
+    self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Method, Pick, Source,
+};
 
 use crate::errors::exception;
 use crate::material::read_options;
@@ -29,6 +32,8 @@ pub struct DatasetAsked {
     journal: Option<PathBuf>,
     /// Read options of the ground truths, then of the predictions, as JSON.
     read: [String; 2],
+    /// Read options of methods by name, as JSON.
+    read_methods: BTreeMap<String, String>,
 }
 
 /// The losses of all methods over a data set.
@@ -43,17 +48,26 @@ pub fn rank_dataset(
     let reading = DatasetReading {
         ground_truths: read_options(&asked.read[0])?,
         predictions: read_options(&asked.read[1])?,
+        methods: asked
+            .read_methods
+            .iter()
+            .map(|(name, options)| Ok((name.clone(), read_options(options)?)))
+            .collect::<PyResult<_>>()?,
         strict: asked.strict,
     };
-    let cases = dataset::cases_of_folders(&asked.ground_truths, &asked.methods).map_err(exception)?;
-    let settings = DatasetSettings::new(convention.name, asked.target_error, asked.seed, &cases)
+    let methods = asked.methods.into_iter().map(|(name, path)| Method { name, path }).collect();
+    let source = Source::Folders { ground_truths: asked.ground_truths, methods };
+    let cases = source.cases().map_err(exception)?;
+    let settings = DatasetSettings::new(source, convention.name, asked.target_error, asked.seed, &cases)
         .with_metrics(asked.metrics)
         .with_diagnoses(asked.diagnose);
     let journal = asked.journal.as_deref();
     let DatasetResults { results, recomputed } =
         work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, journal, progress))?;
-    for recomputed in recomputed {
-        py.import("warnings")?.call_method1("warn", (recomputed.to_string(),))?;
+    let report = DatasetReport::new(settings, reading, results, pick);
+    let recomputed = recomputed.iter().map(ToString::to_string);
+    for warning in recomputed.chain(report.doubts()) {
+        py.import("warnings")?.call_method1("warn", (warning,))?;
     }
-    Views::new(&DatasetReport::new(settings, results, pick))
+    Views::new(&report)
 }

@@ -6,7 +6,6 @@ use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::Report as _;
-use svbrdf_core::text::quoted;
 use svbrdf_files::atomic::write_text;
 use svbrdf_files::page::{Findings, Labels, Page, Repetition, Report, View, check_destination, exposure};
 use svbrdf_files::session_window::Layout;
@@ -15,7 +14,7 @@ use super::args::scenes::OneSceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};
 use super::job::{ComparisonJob, SessionSettings};
 use super::output::stop::stoppable;
-use super::output::{CommandError, exit, target, watched};
+use super::output::{CommandError, command_line, exit, target, watched};
 
 /// Writes a page with an interactive figure and the findings, which opens in any browser
 ///
@@ -93,7 +92,7 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
         view,
         findings,
         readings: if whole { opened.readings.clone() } else { Vec::new() },
-        repetition: whole.then(|| Repetition { command: command(), session: None }),
+        repetition: whole.then(|| Repetition { command: command_line(), session: None }),
         labels: args.language.clone(),
         max_bytes: args.max_size,
     };
@@ -153,10 +152,4 @@ fn tell_size(page: &Page, most: usize) {
             "warning: the file has {bytes} bytes, more than --max-size {most}; smaller maps do not help"
         ));
     }
-}
-
-/// The command line of this process, quoted for a shell.
-fn command() -> String {
-    let arguments = std::env::args_os().skip(1).map(|argument| quoted(&argument.to_string_lossy()));
-    std::iter::once("svbrdf".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }

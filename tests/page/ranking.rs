@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use svbrdf_files::dataset::{
-    DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Pick, PredictionResult,
+    DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, Pick,
+    PredictionResult, Remark, Source,
 };
 use svbrdf_files::page::ranking;
 
@@ -16,7 +17,12 @@ const HOSTILE: &str = "</td></script><img src=x onerror=window.hit=1><!--\"'>{{s
 pub const READY: &str = "document.querySelectorAll('[aria-sort]').length > 0";
 
 fn prediction(method: &str, loss: Result<f64, &str>) -> PredictionResult {
-    let known = |loss: f64| KnownLoss { loss, standard_error: 0.01, interval95: [loss - 0.02, loss + 0.02] };
+    let known = |loss: f64| KnownLoss {
+        loss,
+        standard_error: 0.01,
+        interval95: [loss - 0.02, loss + 0.02],
+        scenes: 500,
+    };
     let result = loss.map(known).map_err(str::to_owned);
     let mark = Mark { hypothesis: HOSTILE.to_owned(), value: json!(1), share: 0.5, remedy: None };
     let marks = Some(if method == "ours" { vec![mark] } else { Vec::new() });
@@ -26,6 +32,7 @@ fn prediction(method: &str, loss: Result<f64, &str>) -> PredictionResult {
         sample: 0,
         path: HOSTILE.to_owned(),
         result,
+        reading: vec![Remark { doubt: Some(HOSTILE.to_owned()), text: HOSTILE.to_owned() }],
         metrics,
         marks,
     }
@@ -40,11 +47,16 @@ pub fn page() -> String {
         index,
         material: names[index].to_owned(),
         seed: 0,
-        scenes: 500 + index,
+        reading: Vec::new(),
         floor: None,
         predictions: vec![prediction("ours", Ok(ours[index])), prediction(HOSTILE, theirs[index])],
     });
+    let method = |name: &str| Method { name: name.to_owned(), path: HOSTILE.into() };
     let settings = DatasetSettings {
+        source: Source::Folders {
+            ground_truths: HOSTILE.into(),
+            methods: vec![method("ours"), method(HOSTILE)],
+        },
         convention: "printed".to_owned(),
         target_error: 0.01,
         seed: 0,
@@ -53,7 +65,8 @@ pub fn page() -> String {
         metrics: true,
         diagnose: true,
     };
-    ranking(&DatasetReport::new(settings, results.collect(), Pick::Fixed), &[])
+    let reading = DatasetReading::default();
+    ranking(&DatasetReport::new(settings, reading, results.collect(), Pick::Fixed), &[])
 }
 
 #[test]
@@ -63,7 +76,8 @@ fn names_add_no_elements_to_a_ranking() {
     assert_eq!([count("<script"), count("</script"), count("<img"), count("<tbody")], [1, 1, 0, 4]);
     assert!(count("&lt;/td&gt;&lt;/script&gt;") >= 5, "{html}");
     assert!(html.contains("<td>5</td><td>0</td></tr>"), "the marks of ours, and none of the other method");
-    assert!(html.contains("<td>worse</td>") && html.contains("<td>best</td>"));
+    assert!(html.contains("<td>lacks materials</td>") && html.contains("<td>best</td>"));
+    assert!(html.contains("not compared") && !html.contains("<td>worse</td>"));
 }
 
 #[test]
@@ -96,7 +110,7 @@ fn a_click_on_a_heading_sorts_and_the_next_one_turns_it_around() {
         assert_eq!(names(&mut page), sorted, "what failed comes last");
     }
     let state = page.evaluate("[...document.querySelectorAll('section[aria-labelledby=materials] th[aria-sort]')].map(e => e.ariaSort)");
-    assert_eq!(state, json!(["none", "none", "descending", "none"]));
+    assert_eq!(state, json!(["none", "none", "descending"]));
     let (requests, complaints) = page.traffic();
     assert!(
         requests.iter().all(|address| address.starts_with("file://")) && complaints.is_empty(),

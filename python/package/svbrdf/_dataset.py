@@ -21,10 +21,10 @@ class MetricSummary:
     """A metric of the maps of a method over the materials."""
 
     mean: float | None
-    """None where it is infinite: that of the PSNR, where maps of a material are equal."""
+    """Of a PSNR, that of the mean square error; None where it is infinite: the maps of all materials are equal."""
     median: float | None
     interval95_materials: tuple[float, float] | None
-    """The 95% interval of the mean over all materials like these; None for fewer than 3, and for an infinite mean."""
+    """The 95% interval of the mean over all materials like these; None for fewer than 5, and for an infinite mean."""
 
 
 @dataclass(frozen=True)
@@ -44,25 +44,49 @@ class MarkSummary:
 
 
 @dataclass(frozen=True)
+class DoubtCount:
+    """The number of materials whose reading is in doubt, by what."""
+
+    doubt: str
+    """Such as "without normal map" or "with unsure specular"."""
+    materials: int
+
+
+@dataclass(frozen=True)
+class ReadingSummary:
+    """How the materials of a method, or the ground truths, were read."""
+
+    materials: int
+    """The number of materials that were read."""
+    doubts: tuple[DoubtCount, ...]
+    """The most frequent first."""
+
+
+@dataclass(frozen=True)
 class MethodSummary:
-    """A method over the materials that it has a loss of."""
+    """The losses of a method."""
 
     method: str
+    compared: bool
+    """Whether it has a loss of as many materials as any other; if not, its mean is over other materials."""
     materials: int
     """The number of materials with a loss."""
     failures: int
     """The number of materials without one."""
-    mean: float
-    median: float
+    mean: float | None
+    """Over the materials that all compared methods have, `compared_materials`; None without a loss."""
+    median: float | None
     interval95_materials: tuple[float, float] | None
-    """The 95% interval of the mean over all materials like these; None for fewer than 3."""
+    """The 95% interval of the mean over all materials like these; None for fewer than 5."""
     interval95_scenes: tuple[float, float]
     """The 95% interval of the mean over these materials, due to the sampling of scenes alone."""
     to_best: float | None
     """The mean difference to the best method over the materials of both; None for the best."""
     to_best_interval95_materials: tuple[float, float] | None
     ties_with_best: bool
-    """Whether the materials cannot separate it from the best."""
+    """Whether it is compared, and the materials cannot separate it from the best."""
+    reading: ReadingSummary | None
+    """How its predictions were read; None where there are none."""
     metrics: Mapping[str, MetricSummary]
     """Of the maps by name; empty where they were not asked for."""
     marks: MarkSummary | None
@@ -80,8 +104,8 @@ class DatasetLoss:
     path: str
     seed: int
     """Names the scenes of this material."""
-    scenes: int
-    """Their number."""
+    scenes: int | None
+    """Their number, as many as the accuracy of this loss took; None without a loss."""
     loss: float | None
     """None where `error` says why."""
     standard_error: float | None
@@ -90,6 +114,10 @@ class DatasetLoss:
     metrics: Mapping[str, float | None]
     """Of the maps by name, None for the infinite PSNR of equal maps; empty where they were not asked for or the maps
     cannot be compared."""
+    reading: tuple[str, ...]
+    """What was noticed and assumed in reading the prediction."""
+    ground_truth_reading: tuple[str, ...]
+    """The same for the ground truth."""
     floor: float | None
     """The loss that the ground truth cannot resolve; None where no diagnosis was asked for."""
     marks: tuple[Mapping[str, Any], ...] | None
@@ -105,14 +133,20 @@ class DatasetReport(Report):
     target_error: float
     seed: int
     pick: str
+    command: str
+    """The command that makes the results again."""
+    compared_materials: tuple[str, ...]
+    """The materials that the means of compared methods are over."""
+    ground_truths: ReadingSummary
+    """How the ground truths were read."""
     methods: tuple[MethodSummary, ...]
-    """Smallest mean loss first."""
+    """Those that are compared, smallest mean loss first; then those that lack materials."""
     results: tuple[DatasetLoss, ...]
     """Every prediction, in the order of the materials."""
 
     def _shown(self) -> tuple[Sequence[str], Sequence[Sequence[Any]]]:
         """A row for each method: there may be thousands of predictions."""
-        columns = ["method", "materials", "failures", "mean", "median", "to_best", "ties_with_best"]
+        columns = ["method", "compared", "materials", "failures", "mean", "median", "to_best", "ties_with_best"]
         low, high = "95% over materials, low", "95% over materials, high"
         rows = [
             [*(getattr(method, column) for column in columns), *(method.interval95_materials or (None, None))]
@@ -135,6 +169,7 @@ def rank_dataset(
     journal: Source | None = None,
     read_ground_truth: Mapping[str, Any] | None = None,
     read_predictions: Mapping[str, Any] | None = None,
+    read_methods: Mapping[str, Mapping[str, Any]] | None = None,
     progress: bool | Progress = False,
 ) -> DatasetReport:
     """Compares methods over a data set: `svbrdf rank --dataset`, with the same numbers.
@@ -145,9 +180,10 @@ def rank_dataset(
 
     Args:
         ground_truths: The folder of the ground truths.
-        methods: The folder of each method, or folders by the name of the method.
+        methods: The folder of each method, or folders by the name of the method. A path with `{}` is a pattern, in which
+            `{}` stands for the name of a material: "out/{}_pred.png".
         target_error: As many scenes for each material as this relative error of every loss needs at 95% confidence.
-        seed: Names the sampled scenes, together with the place of the material.
+        seed: Names the sampled scenes, together with the name of the material.
         convention: A name of `svbrdf.CONVENTIONS`.
         pick: Which of several predictions counts: the first, the mean of their losses, or the best.
         strict: Whether guesses in reading are errors.
@@ -158,7 +194,13 @@ def rank_dataset(
             `svbrdf rank --dataset --journal`, which can continue it, too.
         read_ground_truth: Options of `svbrdf.read` for the ground truths, such as `{"albedo": "srgb"}`.
         read_predictions: The same for the predictions.
+        read_methods: The same for the predictions of some methods, by name: `{"ours": {"normal_y": "down"}}`. They replace
+            those of `read_predictions`.
         progress: True for a bar of tqdm, or a function of (materials done, materials in all).
+
+    Warns:
+        UserWarning: Files were read on an assumption that is in doubt: one warning for each method, and one for the ground
+            truths. `results` has every assumption.
 
     Raises:
         OSError: A folder cannot be read, or the journal cannot be written.
@@ -178,6 +220,7 @@ def rank_dataset(
         "diagnose": diagnose,
         "journal": journal,
         "read": [_options(given) for given in (read_ground_truth, read_predictions)],
+        "read_methods": {name: _options(given) for name, given in (read_methods or {}).items()},
     }
     with reported("comparing materials", progress) as report:
         found = _core.rank_dataset(asked, report)
@@ -190,9 +233,16 @@ def rank_dataset(
         target_error=settings["target_error"],
         seed=settings["seed"],
         pick=values["pick"],
+        command=values["command"],
+        compared_materials=tuple(values["compared_materials"]),
+        ground_truths=_reading(values["ground_truths"]),
         methods=tuple(_summary(entry) for entry in values["methods"]),
         results=tuple(_result(result, entry) for result in values["results"] for entry in result["predictions"]),
     )
+
+
+def _reading(entry: dict[str, Any]) -> ReadingSummary:
+    return ReadingSummary(entry["materials"], tuple(DoubtCount(**doubt) for doubt in entry["doubts"]))
 
 
 def _summary(entry: dict[str, Any]) -> MethodSummary:
@@ -202,24 +252,27 @@ def _summary(entry: dict[str, Any]) -> MethodSummary:
         for name, metric in entry.get("metrics", {}).items()
     }
     marks = None if entry.get("marks") is None else MarkSummary(**entry["marks"])
-    summary = {**entry, **{name: pair(entry[name]) for name in intervals}, "metrics": metrics, "marks": marks}
-    return MethodSummary(**summary)
+    reading = None if entry["reading"] is None else _reading(entry["reading"])
+    pairs = {name: pair(entry[name]) for name in intervals}
+    return MethodSummary(**{**entry, **pairs, "metrics": metrics, "marks": marks, "reading": reading})
 
 
 def _result(result: dict[str, Any], entry: dict[str, Any]) -> DatasetLoss:
-    known = entry["result"].get("Ok", {"loss": None, "standard_error": None, "interval95": None})
+    known = entry["result"].get("Ok", {"loss": None, "standard_error": None, "interval95": None, "scenes": None})
     return DatasetLoss(
         material=result["material"],
         method=entry["method"],
         sample=entry["sample"],
         path=entry["path"],
         seed=result["seed"],
-        scenes=result["scenes"],
+        scenes=known["scenes"],
         loss=known["loss"],
         standard_error=known["standard_error"],
         interval95=pair(known["interval95"]),
         error=entry["result"].get("Err"),
         metrics=entry.get("metrics", {}),
+        reading=tuple(remark["text"] for remark in entry["reading"]),
+        ground_truth_reading=tuple(remark["text"] for remark in result["reading"]),
         floor=result.get("floor"),
         marks=None if entry.get("marks") is None else tuple(entry["marks"]),
     )

@@ -109,8 +109,8 @@ pub const RANK_PRINTED: Mode = Mode {
 };
 /// `rank --dataset` and `rank --pairs`.
 pub const RANK_DATA_SET: Mode = Mode {
-    reason: "materials of a data set are not resized and have one capture each, and remarks on their reading are not printed",
-    unused: &[&["resize-to", "verbose", "repeat"]],
+    reason: "materials of a data set are not resized and have one capture each",
+    unused: &[&["resize-to", "repeat"]],
 };
 /// `rank --merge`.
 pub const RANK_MERGE: Mode = Mode {

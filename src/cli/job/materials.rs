@@ -8,10 +8,12 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::report::distinct_names;
+use svbrdf_core::text::quoted;
+use svbrdf_files::dataset::{self, Case, Method};
 use svbrdf_files::inputs::check_output;
 use svbrdf_files::memory::Reserved;
 use svbrdf_files::open::is_pipe_at;
-use svbrdf_files::read::{self, Assumption, Binding, Certainty, Read, What};
+use svbrdf_files::read::{self, Assumption, Binding, Read};
 use svbrdf_files::samples;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::{MaterialSource, Place};
@@ -96,8 +98,8 @@ impl MaterialJob {
     /// # Errors
     /// Those of the reader; [`Error::TooLarge`].
     pub fn open<T: Real>(&self) -> Result<Opened<T>, CommandError> {
-        let read =
-            self.sources.iter().map(|source| self.read(source)).collect::<Result<Vec<Read<T>>, _>>()?;
+        let read = self.sources.iter().map(|source| self.read(source)).collect::<Result<Vec<Read<T>>, _>>();
+        let read = read.inspect_err(|_| note_data_set(&self.paths))?;
         let named: Vec<_> = read
             .iter()
             .zip(&self.sources)
@@ -207,6 +209,25 @@ pub fn note_pipe(path: &Path) {
     }
 }
 
+/// Names the command for folders of materials, where `paths` are such folders.
+fn note_data_set(paths: &[PathBuf]) {
+    let [ground_truths, others @ ..] = paths else { return };
+    if others.is_empty() || !paths.iter().all(|path| path.is_dir()) {
+        return;
+    }
+    let method = |path: &PathBuf| Method { name: path.display().to_string(), path: path.clone() };
+    let cases = dataset::cases_of_folders(ground_truths, &others.iter().map(method).collect::<Vec<_>>());
+    let is_matched = |case: &Case| case.candidates.iter().any(|candidate| candidate.missing.is_none());
+    let count = cases.map_or(0, |cases| cases.iter().filter(|case| is_matched(case)).count());
+    if count > 0 {
+        let paths: Vec<String> = paths.iter().map(|path| quoted(&path.display().to_string())).collect();
+        let (names, paths) = (paths.join(" and "), paths.join(" "));
+        exit::tell(&format!(
+            "note: {names} have {count} materials of the same names: svbrdf rank --dataset {paths} compares them"
+        ));
+    }
+}
+
 /// Reads one material with the maps of `bindings` in place of its own.
 ///
 /// # Errors
@@ -231,12 +252,7 @@ fn reading<T: Real>(read: &Read<T>) -> Vec<String> {
 /// The material of what was read, after a note for everything unsure, changed or left out in its files; with `verbose` for
 /// everything noticed and assumed.
 pub fn noted<T: Real>(read: Read<T>, verbose: bool) -> Material<T> {
-    let is_doubtful = |a: &&Assumption| match a.certainty {
-        _ if verbose => true,
-        Certainty::Given => false,
-        Certainty::Unsure => true,
-        _ => matches!(a.what, What::Missing | What::Size | What::Values),
-    };
+    let is_doubtful = |a: &&Assumption| verbose || a.is_doubtful();
     let notes = read.notes.iter().filter(|note| verbose || !note.is_routine()).map(advice::with_option);
     let doubtful = read.assumptions.iter().filter(is_doubtful).map(advice::assumption_with_option);
     for note in notes.chain(doubtful) {

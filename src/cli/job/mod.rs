@@ -8,7 +8,7 @@ use svbrdf_core::model::convention::Convention;
 
 use super::args::{ComparisonArgs, Given};
 use super::output::CommandError;
-pub use materials::{MaterialJob, check_heights};
+pub use materials::{MaterialJob, Opened, check_heights};
 pub use session::SessionSettings;
 
 /// The materials and the convention of a comparison. A session file is read once, here.

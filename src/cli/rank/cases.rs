@@ -1,9 +1,10 @@
 //! The materials of a data set, and how they are read.
 
-use std::path::{Path, PathBuf};
+use std::collections::BTreeMap;
+use std::path::Path;
 
 use svbrdf_core::report::distinct_names;
-use svbrdf_files::dataset::{Case, DatasetReading, cases_of_folders, cases_of_table};
+use svbrdf_files::dataset::{DatasetReading, Method, Source};
 
 use super::args::RankArgs;
 use crate::cli::args::wildcards;
@@ -15,40 +16,50 @@ pub fn reading(args: &RankArgs) -> DatasetReading {
     DatasetReading {
         ground_truths: reading.of_ground_truth(),
         predictions: reading.of_predictions(),
+        methods: BTreeMap::new(),
         strict: reading.both.strict,
     }
 }
 
-/// The materials of the folders or of the table.
+/// The folders or the table of the materials.
 ///
 /// # Errors
-/// [`CommandError::Usage`]; those of [`cases_of_folders`] and [`cases_of_table`].
-pub fn cases(args: &RankArgs) -> Result<Vec<Case>, CommandError> {
+/// [`CommandError::Usage`].
+pub fn source(args: &RankArgs) -> Result<Source, CommandError> {
     let Some(ground_truth) = &args.comparison.materials.ground_truth else {
         return Err(CommandError::usage("give a folder of ground truths, or a table of pairs"));
     };
     if args.pairs {
         return match args.comparison.materials.predictions.as_slice() {
-            [] => Ok(cases_of_table(ground_truth)?),
+            [] => Ok(Source::Table(ground_truth.clone())),
             _ => Err(CommandError::usage("--pairs takes one CSV table, which names the predictions")),
         };
     }
-    let folders = wildcards::expanded(&args.comparison.materials.predictions)?;
-    if folders.is_empty() {
+    let paths = wildcards::expanded(&args.comparison.materials.predictions)?;
+    if paths.is_empty() {
         return Err(CommandError::Usage(format!(
             "there is no method to compare with {}; give one or more folders",
             ground_truth.display()
         )));
     }
-    let named: Vec<(String, &Path)> = folders.iter().map(|path| (name(path), path.as_path())).collect();
+    let named: Vec<(String, &Path)> = paths.iter().map(|path| (name(path), path.as_path())).collect();
     let named: Vec<(&str, &Path)> = named.iter().map(|(name, path)| (name.as_str(), *path)).collect();
     let names = distinct_names(&named);
-    let methods: Vec<(String, PathBuf)> = names.into_iter().zip(folders.iter().cloned()).collect();
-    Ok(cases_of_folders(ground_truth, &methods)?)
+    let methods = names.into_iter().zip(paths.iter().cloned()).map(|(name, path)| Method { name, path });
+    Ok(Source::Folders { ground_truths: ground_truth.clone(), methods: methods.collect() })
 }
 
-fn name(folder: &Path) -> String {
-    folder
-        .file_name()
-        .map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned())
+/// The name of a method: that of its folder, or what its pattern adds to the name of a material.
+fn name(path: &Path) -> String {
+    let last = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let added = stem
+        .filter(|stem| stem.contains("{}"))
+        .map(|stem| stem.replace("{}", "").trim_matches(|c: char| !c.is_alphanumeric()).to_owned());
+    match added {
+        Some(added) if !added.is_empty() => Some(added),
+        Some(_) => path.parent().and_then(last),
+        None => last(path),
+    }
+    .unwrap_or_else(|| path.display().to_string())
 }

@@ -4,32 +4,44 @@ use std::path::PathBuf;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::report::Report as _;
-use svbrdf_files::dataset::{self, DatasetReport, DatasetResults, DatasetSettings, MaterialResult};
+use svbrdf_files::dataset::{self, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Merged};
 
 use super::args::{RankArgs, RankFormat, check_limit};
-use super::cases::{cases, reading};
+use super::cases::{reading, source};
 use super::html;
 use crate::cli::args::{Given, modes, wildcards};
 use crate::cli::output::{CommandError, exit, target, watched};
 
 pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
     html::check(args, given)?;
-    let (settings, results) = if args.merge { merged(args, given)? } else { evaluated(args, given)? };
+    let Merged { settings, reading, results } =
+        if args.merge { merged(args, given)? } else { evaluated(args, given)? };
     for (material, prediction, problem) in failures(&results) {
         exit::tell(&format!("note: {material}, {prediction}: {problem}"));
     }
-    let report = DatasetReport::new(settings, results, args.pick);
+    let report = DatasetReport::new(settings, reading, results, args.pick);
+    tell_reading(args, &report);
     match args.format {
         RankFormat::Html => html::write(args, &report)?,
         format => exit::put(&format.write(&report, DatasetReport::latex)?)?,
     }
     check_any(&report)?;
     target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)?;
-    check_limit(args.fail_above, report.methods.into_iter().map(|summary| (summary.method, summary.mean)))
+    let means = report.ranking.methods.into_iter().filter(|summary| summary.materials > 0);
+    check_limit(args.fail_above, means.map(|summary| (summary.method, summary.mean)))
+}
+
+/// Reports how the files were read: with `--verbose` every remark; otherwise the doubts, where the format does not print them.
+fn tell_reading(args: &RankArgs, report: &DatasetReport) {
+    if args.comparison.materials.reading.both.verbose {
+        report.remarks().for_each(|(name, remark)| exit::tell(&format!("note: {name}: {}", remark.text)));
+    } else if args.format != RankFormat::Text {
+        report.conditions().iter().for_each(|condition| exit::tell(&format!("note: {condition}")));
+    }
 }
 
 /// The results of the journals that stand for GT and PRED.
-fn merged(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<MaterialResult>), CommandError> {
+fn merged(args: &RankArgs, given: &Given) -> Result<Merged, CommandError> {
     given.check(&modes::RANK_MERGE)?;
     let paths: Vec<PathBuf> = args.comparison.materials.paths().cloned().collect();
     Ok(dataset::merged(&wildcards::expanded(&paths)?)?)
@@ -37,7 +49,7 @@ fn merged(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<Materi
 
 /// The error of a data set without any loss.
 fn check_any(report: &DatasetReport) -> Result<(), Error> {
-    if report.methods.iter().any(|summary| summary.materials > 0) {
+    if report.ranking.methods.iter().any(|summary| summary.materials > 0) {
         return Ok(());
     }
     let failed = failures(&report.results).count();
@@ -59,11 +71,12 @@ fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &st
     })
 }
 
-fn evaluated(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<MaterialResult>), CommandError> {
+fn evaluated(args: &RankArgs, given: &Given) -> Result<Merged, CommandError> {
     given.check(&modes::RANK_DATA_SET)?;
-    let cases = cases(args)?;
+    let source = source(args)?;
+    let cases = source.cases()?;
     let convention = args.comparison.convention.unwrap_or_default();
-    let settings = DatasetSettings::new(convention.name, args.target_error, args.seed.seed, &cases)
+    let settings = DatasetSettings::new(source, convention.name, args.target_error, args.seed.seed, &cases)
         .with_metrics(args.metrics)
         .with_diagnoses(args.diagnose);
     let cases = args.shard.map_or(cases.clone(), |shard| shard.part(cases));
@@ -72,5 +85,5 @@ fn evaluated(args: &RankArgs, given: &Given) -> Result<(DatasetSettings, Vec<Mat
         dataset::run(&cases, &settings, &reading, args.journal.as_deref(), progress)
     })?;
     recomputed.iter().for_each(|recomputed| exit::tell(&format!("note: {recomputed}")));
-    Ok((settings, results))
+    Ok(Merged { settings, reading, results })
 }

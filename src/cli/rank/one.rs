@@ -1,14 +1,16 @@
 //! Many predictions of one ground truth.
 
 use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::material::Material;
 use svbrdf_core::rank::most_scenes;
-use svbrdf_core::report::{Compared, RankReport, Report as _};
+use svbrdf_core::report::{Compared, MaterialReading, RankReport, Repetition, Report as _};
+use svbrdf_files::atomic::SOFTWARE;
 
 use super::args::{RankArgs, RankFormat, check_limit};
 use crate::cli::args::{Given, modes, wildcards};
-use crate::cli::job::ComparisonJob;
 use crate::cli::job::floor::floor_of;
-use crate::cli::output::{CommandError, exit, target, watched};
+use crate::cli::job::{ComparisonJob, Opened};
+use crate::cli::output::{CommandError, command_line, exit, target, watched};
 
 pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
     given.check(&modes::RANK_PREDICTIONS)?;
@@ -32,10 +34,22 @@ pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
         let (floor, captures) = floor_of(&args.floor, &job, &opened, args.seed.seed)?;
         report = report.with_floor(floor, captures);
     }
+    report.repetition = Some(repetition(&opened));
     exit::put(&args.format.write(&report, RankReport::latex)?)?;
     target::warn_of(report.missed(), job.materials.strict)?;
     check_limit(
         args.fail_above,
         report.outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)),
     )
+}
+
+/// How to repeat the ranking of materials that were opened.
+fn repetition(opened: &Opened<f32>) -> Repetition {
+    let materials = std::iter::once(&opened.ground_truth).chain(&opened.predictions);
+    let reading = |(material, remarks): (&Material<f32>, &Vec<String>)| MaterialReading {
+        material: material.name().to_owned(),
+        remarks: remarks.clone(),
+    };
+    let readings = materials.zip(&opened.readings).map(reading).collect();
+    Repetition { software: SOFTWARE, command: command_line(), readings }
 }

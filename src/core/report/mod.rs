@@ -46,7 +46,7 @@ pub use map::MapReport;
 pub use metrics::MetricsReport;
 pub use missed::missed;
 pub use names::distinct_names;
-pub use rank::RankReport;
+pub use rank::{MaterialReading, RankReport, Repetition};
 pub use scenes::ScenesReport;
 pub use table::{Cell, Table, aligned};
 pub use worst::WorstReport;

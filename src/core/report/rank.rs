@@ -43,13 +43,33 @@ pub struct RankReport {
     pub floor: Option<Estimate>,
     /// The number of captures that the floor is the mean loss between.
     pub captures: Option<usize>,
+    /// How to repeat it; `None` for materials that no command names.
+    pub repetition: Option<Repetition>,
+}
+
+/// What a ranking depends on beside its settings.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Repetition {
+    /// The program and its version.
+    pub software: &'static str,
+    /// The command line.
+    pub command: String,
+    /// For each material, the ground truth first, what was noticed and assumed in reading it.
+    pub readings: Vec<MaterialReading>,
+}
+
+/// How a material was read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct MaterialReading {
+    pub material: String,
+    pub remarks: Vec<String>,
 }
 
 impl RankReport {
     /// The ranking of the predictions of `outcome`.
     pub fn new(compared: Compared, target_error: f64, outcome: Outcome) -> Self {
         let places = places(&outcome);
-        Self { compared, target_error, outcome, places, floor: None, captures: None }
+        Self { compared, target_error, outcome, places, floor: None, captures: None, repetition: None }
     }
 
     /// The same report with the loss that the ground truth cannot resolve, and the number of captures that it is the mean loss between;
@@ -57,6 +77,18 @@ impl RankReport {
     #[must_use]
     pub fn with_floor(self, floor: Estimate, captures: Option<usize>) -> Self {
         Self { floor: Some(floor), captures, ..self }
+    }
+
+    /// The prediction that needed the most scenes, where there are others: all are compared in as many.
+    fn scenes_of(&self) -> String {
+        let error = |index: &usize| self.outcome.losses[*index].estimate.relative_error95();
+        let most = (0..self.outcome.losses.len()).max_by(|a, b| error(a).total_cmp(&error(b)));
+        match most.filter(|_| self.places.len() > 1) {
+            Some(most) => {
+                format!("as many scenes for all as {} needs\n", self.outcome.losses[most].prediction)
+            }
+            None => String::new(),
+        }
     }
 
     /// Whether the loss, and its difference to the best, are above the floor; `None` without a floor or a difference.
@@ -103,7 +135,12 @@ impl Report for RankReport {
         let floor = self.floor.as_ref().map(|floor| floor_line(floor, self.captures)).unwrap_or_default();
         let heading = self.compared.heading("rendering loss");
         let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes, self.compared.size);
-        format!("{heading}{scenes}{floor}\n{}", aligned(&rows))
+        let needed = self.scenes_of();
+        let repetition = self
+            .repetition
+            .as_ref()
+            .map(|Repetition { software, command, .. }| format!("\nrepeat with {software}: {command}\n"));
+        format!("{heading}{scenes}{needed}{floor}\n{}{}", aligned(&rows), repetition.unwrap_or_default())
     }
 
     fn table(&self) -> Table {
@@ -139,6 +176,8 @@ struct RankJson<'a> {
     floor: Option<f64>,
     /// The number of captures that the floor is the mean loss between.
     captures: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    repetition: Option<&'a Repetition>,
     /// Best first.
     ranking: Vec<RankEntry<'a>>,
 }
@@ -158,7 +197,7 @@ struct RankEntry<'a> {
 
 impl Serialize for RankReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { compared, target_error, outcome, places, floor, captures } = self;
+        let Self { compared, target_error, outcome, places, floor, captures, repetition } = self;
         let entry = |place: &Ranked| {
             let [resolvable, to_best_resolvable] = self.resolvable(place);
             RankEntry {
@@ -178,6 +217,7 @@ impl Serialize for RankReport {
             target_reached: outcome.relative_error95() <= *target_error,
             floor: floor.map(|floor| floor.mean),
             captures: *captures,
+            repetition: repetition.as_ref(),
             ranking: places.iter().map(entry).collect(),
         };
         object.serialize(serializer)

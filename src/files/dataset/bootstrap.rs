@@ -6,38 +6,75 @@ use rand::{RngExt as _, SeedableRng as _};
 /// Resamples.
 const RESAMPLES: usize = 2000;
 
-/// The 95% interval of the mean of what `values` are a sample of, by the bootstrap-t (Efron 1981); `None` for fewer than 3
-/// values, and where one is infinite.
+/// The fewest values whose mean has an interval. Of three values 1 resample in 9 repeats one value, so that the ends are infinite; of
+/// four, the interval of exponential values is four times as wide as of five.
+pub const FEWEST: usize = 5;
+
+/// The 95% interval of the mean of what `values` of any sign are a sample of, by the bootstrap-t (Efron 1981); `None` for fewer than
+/// [`FEWEST`] values, and where an end is not finite.
 ///
 /// Resamples give the distribution of the studentized mean (m* - m) / s*; its quantiles take the place of those of Student's t. For
 /// means of few skewed values it covers better than BCa. The resamples are always the same ones.
 pub fn interval_of_mean(values: &[f64]) -> Option<[f64; 2]> {
-    if values.len() < 3 || values.iter().any(|value| !value.is_finite()) {
-        return None;
-    }
-    let (mean, error) = moments(values.iter().copied(), values.len());
+    let Moments { mean, error } = sample(values)?;
     if error == 0.0 {
         return Some([mean; 2]);
     }
-    let mut generator = ChaCha8Rng::seed_from_u64(0);
-    let mut resample = vec![0.0; values.len()];
-    let mut studentized: Vec<f64> = Vec::with_capacity(RESAMPLES);
-    for _ in 0..RESAMPLES {
-        resample.iter_mut().for_each(|value| *value = values[generator.random_range(0..values.len())]);
-        let (m, e) = moments(resample.iter().copied(), values.len());
-        // All values of the resample are the same: its t is unbounded on the side where it is.
-        studentized.push(if e > 0.0 { (m - mean) / e } else { f64::INFINITY.copysign(m - mean) });
-    }
-    studentized.sort_by(f64::total_cmp);
-    let quantile = |share: f64| studentized[(share * (RESAMPLES - 1) as f64).round() as usize];
-    let [low, high] = [0.975, 0.025].map(|share| mean - quantile(share) * error);
-    Some([low, high])
+    let [low, high] = quantiles(values, |resample| (resample.mean - mean) / resample.error);
+    finite([mean - high * error, mean - low * error])
 }
 
-/// Mean and standard error.
-fn moments(values: impl Iterator<Item = f64> + Clone, count: usize) -> (f64, f64) {
-    let count = count as f64;
-    let mean = values.clone().sum::<f64>() / count;
-    let squares = values.map(|value| (value - mean).powi(2)).sum::<f64>();
-    (mean, (squares / (count * (count - 1.0))).sqrt())
+/// The 95% interval of the mean of what `values` of 0 or more are a sample of, as [`interval_of_mean`], but of the logarithm of the mean
+/// (whose error is s / m): its ends are positive, as the mean is.
+pub fn interval_of_positive_mean(values: &[f64]) -> Option<[f64; 2]> {
+    let Moments { mean, error } = sample(values)?;
+    if error == 0.0 {
+        return Some([mean; 2]);
+    }
+    let studentized = |resample: Moments| (resample.mean / mean).ln() * resample.mean / resample.error;
+    let [low, high] = quantiles(values, studentized);
+    finite([high, low].map(|quantile| mean * (-quantile * error / mean).exp()))
+}
+
+/// A mean and its standard error.
+#[derive(Clone, Copy)]
+struct Moments {
+    mean: f64,
+    error: f64,
+}
+
+impl Moments {
+    fn of(values: &[f64]) -> Self {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let squares = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
+        Self { mean, error: (squares / (count * (count - 1.0))).sqrt() }
+    }
+}
+
+/// The moments of values that have an interval.
+fn sample(values: &[f64]) -> Option<Moments> {
+    (values.len() >= FEWEST && values.iter().all(|value| value.is_finite())).then(|| Moments::of(values))
+}
+
+/// The 2.5% and 97.5% quantiles of what `studentized` makes of resamples.
+fn quantiles(values: &[f64], studentized: impl Fn(Moments) -> f64) -> [f64; 2] {
+    let mean = Moments::of(values).mean;
+    let mut generator = ChaCha8Rng::seed_from_u64(0);
+    let mut resample = vec![0.0; values.len()];
+    let one = |_| {
+        resample.iter_mut().for_each(|value| *value = values[generator.random_range(0..values.len())]);
+        let moments = Moments::of(&resample);
+        // All values of the resample are the same: it is unbounded on the side where it is.
+        let unbounded = f64::INFINITY.copysign(moments.mean - mean);
+        Some(studentized(moments)).filter(|t| moments.error > 0.0 && !t.is_nan()).unwrap_or(unbounded)
+    };
+    let mut all: Vec<f64> = (0..RESAMPLES).map(one).collect();
+    all.sort_by(f64::total_cmp);
+    [0.025, 0.975].map(|share| all[(share * (RESAMPLES - 1) as f64).round() as usize])
+}
+
+/// An interval with ends.
+fn finite(ends: [f64; 2]) -> Option<[f64; 2]> {
+    ends.iter().all(|end| end.is_finite()).then_some(ends)
 }

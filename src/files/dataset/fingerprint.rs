@@ -112,17 +112,25 @@ fn nanoseconds(metadata: &Metadata) -> Option<u64> {
     since.as_nanos().try_into().ok()
 }
 
-/// FNV-1a of the content of a file (Fowler, Noll and Vo), 64 bits.
-fn hash(path: &Path) -> Result<String, Error> {
-    const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+/// FNV-1a (Fowler, Noll and Vo) of bytes, 64 bits.
+pub(super) fn fnv1a(bytes: &[u8]) -> u64 {
+    continued(BASIS, bytes)
+}
+
+const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+
+fn continued(hash: u64, bytes: &[u8]) -> u64 {
     const PRIME: u64 = 0x0100_0000_01b3;
+    bytes.iter().fold(hash, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
+}
+
+/// FNV-1a of the content of a file, in hexadecimal.
+fn hash(path: &Path) -> Result<String, Error> {
     let (mut file, mut buffer, mut hash) = (NamedFile::by_user(path).open()?, vec![0; 1 << 16], BASIS);
     loop {
         match file.read(&mut buffer).map_err(|source| Error::unreadable(path, source))? {
             0 => return Ok(format!("{hash:016x}")),
-            count => {
-                buffer[..count].iter().for_each(|byte| hash = (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
-            }
+            count => hash = continued(hash, &buffer[..count]),
         }
     }
 }

@@ -25,7 +25,7 @@ use crate::atomic::write_text;
 use crate::open::NamedFile;
 
 /// The version of the format that is written and read.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 /// The key of the format in the head.
 const KEY: &str = "svbrdf-journal";
 /// Journals of the first format have no such key, but this one.
@@ -200,11 +200,20 @@ impl Line {
     }
 }
 
-/// The results of several journals of one data set, in order.
+/// The results of several journals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Merged {
+    pub settings: DatasetSettings,
+    pub reading: DatasetReading,
+    /// In the order of the data set.
+    pub results: Vec<MaterialResult>,
+}
+
+/// The results of several journals of one data set.
 ///
 /// # Errors
 /// [`Error::Unreadable`]; [`Error::BadJournal`] where they have different heads, or results are missing or not the same.
-pub fn merged(paths: &[PathBuf]) -> Result<(DatasetSettings, Vec<MaterialResult>), Error> {
+pub fn merged(paths: &[PathBuf]) -> Result<Merged, Error> {
     let mut first: Option<(&Path, Head)> = None;
     let mut all: BTreeMap<usize, MaterialResult> = BTreeMap::new();
     for path in paths {
@@ -235,7 +244,8 @@ pub fn merged(paths: &[PathBuf]) -> Result<(DatasetSettings, Vec<MaterialResult>
     if missing > 0 {
         return Err(bad(last, format!("{missing} of {count} materials are in none of the journals")));
     }
-    Ok((head.settings, all.into_values().collect()))
+    let Head { settings, reading, .. } = head;
+    Ok(Merged { settings, reading, results: all.into_values().collect() })
 }
 
 /// The cases whose results are not there yet.

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use svbrdf_core::error::Error;
 
-use super::record::{Candidate, Case};
+use super::record::{Candidate, Case, Method};
 use crate::open::NamedFile;
 
 /// Extensions of files that are no materials.
@@ -43,7 +43,7 @@ impl FromStr for Shard {
     }
 }
 
-/// Matches the materials in the folder `ground_truths` with those of the same name in the folder of each method.
+/// Matches the materials in the folder `ground_truths` with those of the same name in the folder of each method, or at its pattern.
 ///
 /// Every file or folder there is a material, by its name without extension; a folder that holds nothing but folders is searched
 /// itself, and its name is put before theirs. Several predictions of a material are `name_0`, `name_1` and so on. A material
@@ -51,26 +51,98 @@ impl FromStr for Shard {
 ///
 /// # Errors
 /// [`Error::Unreadable`], and [`Error::NotAMaterial`] where there are no materials.
-pub fn cases_of_folders(ground_truths: &Path, methods: &[(String, PathBuf)]) -> Result<Vec<Case>, Error> {
+pub fn cases_of_folders(ground_truths: &Path, methods: &[Method]) -> Result<Vec<Case>, Error> {
     let truths = entries(ground_truths)?;
     if truths.is_empty() {
         return Err(nothing_in(ground_truths, "materials"));
     }
-    let found = methods.iter().map(|(_, folder)| entries(folder)).collect::<Result<Vec<_>, _>>()?;
+    let found = methods.iter().map(Predictions::of).collect::<Result<Vec<_>, _>>()?;
     let case = |(index, (material, ground_truth)): (usize, (&String, &PathBuf))| {
-        let mut candidates = Vec::new();
-        for ((method, folder), found) in methods.iter().zip(&found) {
-            let mut paths: Vec<PathBuf> = found.get(material).into_iter().cloned().collect();
-            paths.extend((0..).map_while(|sample| found.get(&format!("{material}_{sample}")).cloned()));
-            if paths.is_empty() {
-                paths.push(folder.join(material));
-            }
-            let candidate = |(sample, path)| Candidate { method: method.clone(), sample, path };
-            candidates.extend(paths.into_iter().enumerate().map(candidate));
-        }
+        let candidates =
+            methods.iter().zip(&found).flat_map(|(method, found)| found.candidates(method, material));
+        let candidates = candidates.collect();
         Case { index, material: material.clone(), ground_truth: ground_truth.clone(), candidates }
     };
     Ok(truths.iter().enumerate().map(case).collect())
+}
+
+/// The predictions of a method.
+enum Predictions<'a> {
+    /// Those in its folder, by name.
+    InFolder(BTreeMap<String, PathBuf>),
+    /// Those at a pattern.
+    AtPattern(&'a str),
+}
+
+impl<'a> Predictions<'a> {
+    fn of(method: &'a Method) -> Result<Self, Error> {
+        match method.path.to_str().filter(|path| path.contains(PLACEHOLDER) && !method.path.exists()) {
+            Some(pattern) => Ok(Self::AtPattern(pattern)),
+            None => entries(&method.path).map(Self::InFolder),
+        }
+    }
+
+    /// The predictions of a material, or the one that is missing.
+    fn candidates(&self, method: &Method, material: &str) -> Vec<Candidate> {
+        let samples = (0..).map_while(|sample| self.get(&format!("{material}_{sample}")));
+        let paths: Vec<PathBuf> = self.get(material).into_iter().chain(samples).collect();
+        let one = |(sample, path, missing)| Candidate { method: method.name.clone(), sample, path, missing };
+        if paths.is_empty() {
+            return vec![one((0, self.expected(method, material), Some(self.missing(method, material))))];
+        }
+        paths.into_iter().enumerate().map(|(sample, path)| one((sample, path, None))).collect()
+    }
+
+    fn get(&self, name: &str) -> Option<PathBuf> {
+        match self {
+            Self::InFolder(found) => found.get(name).cloned(),
+            Self::AtPattern(pattern) => Some(at(pattern, name)).filter(|path| is_there(path)),
+        }
+    }
+
+    fn expected(&self, method: &Method, material: &str) -> PathBuf {
+        match self {
+            Self::InFolder(_) => method.path.join(material),
+            Self::AtPattern(pattern) => at(pattern, material),
+        }
+    }
+
+    /// What is there instead.
+    fn missing(&self, method: &Method, material: &str) -> String {
+        let none = format!("no prediction named {material} in {}", method.path.display());
+        let Self::InFolder(found) = self else {
+            return format!("no prediction at {}", self.expected(method, material).display());
+        };
+        let is_near = |name: &str| name.starts_with(material) || name.ends_with(material);
+        let Some((name, path)) = found.iter().find(|(name, _)| is_near(name)) else { return none };
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let pattern = method.path.join(file.replacen(material, PLACEHOLDER, 1));
+        let folders = material.contains('/') || name.contains('/');
+        match folders {
+            true => format!("{none}; found {name}"),
+            false => format!("{none}; found {file}: if this is it, name the pattern {}", pattern.display()),
+        }
+    }
+}
+
+/// Stands for the name of a material in the pattern of a method.
+const PLACEHOLDER: &str = "{}";
+
+/// The path of a material by the pattern of a method.
+fn at(pattern: &str, material: &str) -> PathBuf {
+    PathBuf::from(pattern.replace(PLACEHOLDER, material))
+}
+
+/// Whether there is a file or folder of this path, or, where it names no form of files, files of a set that begin with it.
+fn is_there(path: &Path) -> bool {
+    let Some(name) = path.file_name().map(|name| name.to_string_lossy()) else { return false };
+    if path.exists() || path.extension().is_some() {
+        return path.exists();
+    }
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let begins =
+        |entry: PathBuf| entry.file_name().is_some_and(|entry| entry.to_string_lossy().starts_with(&*name));
+    children(parent).is_ok_and(|entries| entries.into_iter().any(begins))
 }
 
 /// The materials of a folder by name.
@@ -148,7 +220,8 @@ pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
         let count = samples.entry((at, method.clone())).or_insert(0);
         let sample = *count;
         *count += 1;
-        cases[at].candidates.push(Candidate { method, sample, path: folder.join(cell(prediction)) });
+        let path = folder.join(cell(prediction));
+        cases[at].candidates.push(Candidate { method, sample, path, missing: None });
     }
     if cases.is_empty() { Err(nothing_in(path, "rows")) } else { Ok(cases) }
 }

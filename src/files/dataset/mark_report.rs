@@ -5,30 +5,23 @@ use std::collections::BTreeSet;
 use svbrdf_core::report::aligned;
 
 use super::mark_summary::{MarkSummary, summarize_marks};
-use super::record::MaterialResult;
-use super::summary::{MethodSummary, Pick};
-
-/// The marks of a method; `methods` begin with the best one.
-pub(super) fn summary(
-    method: &str,
-    methods: &[MethodSummary],
-    results: &[MaterialResult],
-    pick: Pick,
-) -> Option<MarkSummary> {
-    let best = methods.first().map(|summary| summary.method.as_str()).filter(|best| *best != method);
-    summarize_marks(method, best, results, pick)
-}
+use super::report::DatasetReport;
 
 /// The table of [`rows`] as text; empty without diagnoses.
-pub(super) fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
-    let rows = rows(methods, results, pick);
+pub(super) fn text(report: &DatasetReport) -> String {
+    let rows = rows(report);
     if rows.is_empty() { String::new() } else { format!("\n{}", aligned(&rows)) }
 }
 
 /// The numbers of materials, a column for each method, below a row of headings; no rows without diagnoses.
-pub(crate) fn rows(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> Vec<Vec<String>> {
+pub(crate) fn rows(report: &DatasetReport) -> Vec<Vec<String>> {
+    if !report.settings.diagnose {
+        return Vec::new();
+    }
+    let DatasetReport { ranking, results, pick, .. } = report;
+    let methods = &ranking.methods;
     let columns: Vec<Option<MarkSummary>> =
-        methods.iter().map(|summary| self::summary(&summary.method, methods, results, pick)).collect();
+        methods.iter().map(|summary| summarize_marks(ranking, summary, results, *pick)).collect();
     let known: Vec<&MarkSummary> = columns.iter().flatten().collect();
     if known.is_empty() {
         return Vec::new();

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
-use super::metric_summary::counted;
+use super::pick::{Pick, counted, counted_loss};
+use super::ranking::{MethodSummary, Ranking};
 use super::record::{MaterialResult, PredictionResult};
-use super::summary::{Pick, counted_loss};
 
 /// The marks of a method over the materials that were diagnosed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -23,14 +23,16 @@ pub struct MarkSummary {
     pub to_best_not_resolvable: Option<usize>,
 }
 
-/// The marks of `method`; `best` is the best method, where it is another one. `None` where no prediction was diagnosed. Of several
-/// predictions of a material, those count that count for the loss; the material has the marks of all of them.
+/// The marks of a method of `ranking` over all materials that it has; `None` where no prediction was diagnosed. Of several predictions of
+/// a material, those count that count for the loss; the material has the marks of all of them.
 pub fn summarize_marks(
-    method: &str,
-    best: Option<&str>,
+    ranking: &Ranking,
+    summary: &MethodSummary,
     results: &[MaterialResult],
     pick: Pick,
 ) -> Option<MarkSummary> {
+    let method = summary.method.as_str();
+    let best = ranking.best().map(|best| best.method.as_str()).filter(|best| *best != method);
     let mut summary = MarkSummary {
         materials: 0,
         marked: 0,

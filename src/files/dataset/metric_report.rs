@@ -6,7 +6,7 @@ use svbrdf_core::report::{aligned, bold, escaped, latex};
 
 use super::metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
 use super::record::MaterialResult;
-use super::summary::{MethodSummary, Pick};
+use super::report::DatasetReport;
 
 /// The names of the metrics of the results.
 pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {
@@ -15,15 +15,15 @@ pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {
 }
 
 /// A table of the means over materials with their intervals, a column for each method; empty without metrics.
-pub(super) fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
-    let names = names(results);
+pub(super) fn text(report: &DatasetReport) -> String {
+    let names = names(&report.results);
     if names.is_empty() {
         return String::new();
     }
-    let columns: Vec<_> =
-        methods.iter().map(|summary| summarize_metrics(&summary.method, results, pick)).collect();
+    let columns = columns(report);
     let mut heading = vec!["metric, mean over materials".to_owned()];
-    heading.extend(methods.iter().flat_map(|summary| [summary.method.clone(), "95%".to_owned()]));
+    heading
+        .extend(report.ranking.methods.iter().flat_map(|summary| [summary.method.clone(), "95%".to_owned()]));
     let row = |name: &str| {
         let cells = columns.iter().flat_map(|metrics| cells(metrics.get(name)));
         [name.to_owned()].into_iter().chain(cells).collect()
@@ -34,13 +34,13 @@ pub(super) fn text(methods: &[MethodSummary], results: &[MaterialResult], pick: 
 
 /// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
 /// without metrics.
-pub(super) fn latex_table(methods: &[MethodSummary], results: &[MaterialResult], pick: Pick) -> String {
-    let methods: Vec<&str> = methods.iter().map(|summary| summary.method.as_str()).collect();
-    let best = best_by_metric(&methods, results, pick);
+pub(super) fn latex_table(report: &DatasetReport) -> String {
+    let methods = &report.ranking.methods;
+    let best = best_by_metric(&report.ranking, &report.results, report.pick);
     if best.is_empty() {
         return String::new();
     }
-    let columns: Vec<_> = methods.iter().map(|method| summarize_metrics(method, results, pick)).collect();
+    let columns = columns(report);
     let row = |(name, best): (&String, &Vec<bool>)| {
         let cell = |(metrics, &best): (&BTreeMap<String, MetricSummary>, &bool)| {
             metrics.get(name).map_or("--".to_owned(), |metric| bold(&number(metric.mean), best))
@@ -50,9 +50,15 @@ pub(super) fn latex_table(methods: &[MethodSummary], results: &[MaterialResult],
         format!("{} {arrow} & {} \\\\\n", escaped(name), cells.join(" & "))
     };
     let rows: String = best.iter().map(row).collect();
-    let names: Vec<String> = methods.iter().map(|method| escaped(method)).collect();
+    let names: Vec<String> = methods.iter().map(|summary| escaped(&summary.method)).collect();
     let heading = format!("Metric, mean over materials & {}", names.join(" & "));
     format!("\n{}", latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
+}
+
+/// The metrics of each method.
+fn columns(report: &DatasetReport) -> Vec<BTreeMap<String, MetricSummary>> {
+    let DatasetReport { ranking, results, pick, .. } = report;
+    ranking.methods.iter().map(|method| summarize_metrics(ranking, method, results, *pick)).collect()
 }
 
 /// A number in LaTeX.
@@ -61,8 +67,8 @@ fn number(value: f64) -> String {
 }
 
 fn cells(metric: Option<&MetricSummary>) -> [String; 2] {
-    let mean = metric.map_or("unknown".to_owned(), |metric| format!("{:.6}", metric.mean));
+    let mean = metric.map_or("-".to_owned(), |metric| format!("{:.6}", metric.mean));
     let interval = metric.and_then(|metric| metric.interval95_materials);
-    let interval = interval.map_or("unknown".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
+    let interval = interval.map_or("-".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
     [mean, interval]
 }

@@ -1,4 +1,4 @@
-//! Metrics of maps over all materials.
+//! Metrics of maps over the materials of a ranking.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,110 +6,145 @@ use serde::Serialize;
 
 use svbrdf_core::statistics::median;
 
-use super::bootstrap::interval_of_mean;
-use super::record::{MaterialResult, PredictionResult};
-use super::summary::Pick;
+use super::bootstrap::{interval_of_mean, interval_of_positive_mean};
+use super::pick::{Pick, counted};
+use super::ranking::{MethodSummary, Ranking};
+use super::record::MaterialResult;
 
-/// A metric of a method over the materials that it has a prediction of.
+/// A metric of a method over the materials that its mean loss is over.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MetricSummary {
+    /// The mean; of a PSNR, that of the mean square error, which is infinite only where the maps of all materials are equal.
     pub mean: f64,
     pub median: f64,
-    /// The 95% interval of the mean over all materials like these; `None` for fewer than 3, and where the mean is infinite: of the
-    /// PSNR, where maps of a material are equal.
+    /// The 95% interval of the mean over all materials like these; `None` for fewer than [`FEWEST`](super::FEWEST), and where the mean
+    /// is infinite.
     pub interval95_materials: Option<[f64; 2]>,
 }
 
-/// The metrics of `method` by name. Of several predictions of a material, those count that count for the loss.
+/// How values of a metric are averaged: as errors of 0 or more, which have a mean and an interval whatever they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Scale {
+    /// The metric itself.
+    Error,
+    /// 1 - the similarity, which is at least -1.
+    Similarity,
+    /// The mean square error of a PSNR in dB, in squares of the range.
+    Decibel,
+}
+
+impl Scale {
+    fn of(metric: &str) -> Self {
+        match metric {
+            _ if metric.starts_with("ssim") => Self::Similarity,
+            _ if metric.starts_with("psnr") => Self::Decibel,
+            _ => Self::Error,
+        }
+    }
+
+    fn error(self, value: f64) -> f64 {
+        match self {
+            Self::Error => value,
+            Self::Similarity => 1.0 - value,
+            Self::Decibel => 10_f64.powf(-value / 10.0),
+        }
+    }
+
+    fn value(self, error: f64) -> f64 {
+        match self {
+            Self::Error => error,
+            Self::Similarity => (1.0 - error).max(-1.0),
+            Self::Decibel => -10.0 * error.log10(),
+        }
+    }
+
+    /// The interval of values, from that of errors.
+    fn interval(self, errors: [f64; 2]) -> Option<[f64; 2]> {
+        let [a, b] = errors.map(|error| self.value(error));
+        Some([a.min(b), a.max(b)]).filter(|ends| ends.iter().all(|end| end.is_finite()))
+    }
+}
+
+/// The metrics of a method of `ranking` by name. Of several predictions of a material, those count that count for the loss.
 pub fn summarize_metrics(
-    method: &str,
+    ranking: &Ranking,
+    method: &MethodSummary,
     results: &[MaterialResult],
     pick: Pick,
 ) -> BTreeMap<String, MetricSummary> {
-    let summary = |(name, values): (&str, BTreeMap<usize, f64>)| {
-        let mut values: Vec<f64> = values.into_values().collect();
-        let mean = mean(&values);
-        let interval95_materials = interval_of_mean(&values);
-        let median = median(&mut values).unwrap_or(f64::NAN);
-        (name.to_owned(), MetricSummary { mean, median, interval95_materials })
+    let summary = |(name, errors): (&str, BTreeMap<usize, f64>)| {
+        let scale = Scale::of(name);
+        let mut errors: Vec<f64> = errors.into_values().collect();
+        let interval = interval_of_positive_mean(&errors).and_then(|ends| scale.interval(ends));
+        let summary = MetricSummary {
+            mean: scale.value(mean(&errors)),
+            interval95_materials: interval,
+            median: scale.value(median(&mut errors).unwrap_or(f64::NAN)),
+        };
+        (name.to_owned(), summary)
     };
-    values_of(method, results, pick).into_iter().map(summary).collect()
+    errors_of(ranking, method, results, pick).into_iter().map(summary).collect()
 }
 
 /// Whether larger values of a metric are better ones: similarities and signal-to-noise ratios.
 pub fn is_better_larger(metric: &str) -> bool {
-    ["ssim", "psnr"].iter().any(|start| metric.starts_with(start))
+    Scale::of(metric) != Scale::Error
 }
 
-/// For each metric by name: which of `methods` is the best one, or cannot be separated from it. That is where the 95% interval of the
-/// mean of their differences, over the materials of both, includes 0 or is unknown; or where an infinite one is not worse.
+/// For each metric by name: which methods of `ranking` are the best one, or cannot be separated from it. Only methods that are compared
+/// are; a method ties with the best one where the 95% interval of the mean of their differences includes 0 or is unknown.
 pub fn best_by_metric(
-    methods: &[&str],
+    ranking: &Ranking,
     results: &[MaterialResult],
     pick: Pick,
 ) -> BTreeMap<String, Vec<bool>> {
-    let values: Vec<_> = methods.iter().map(|method| values_of(method, results, pick)).collect();
-    let names: BTreeSet<&str> = values.iter().flat_map(|values| values.keys().copied()).collect();
-    let none = BTreeMap::new();
+    let errors: Vec<_> =
+        ranking.methods.iter().map(|method| errors_of(ranking, method, results, pick)).collect();
+    let names: BTreeSet<&str> = errors.iter().flat_map(|errors| errors.keys().copied()).collect();
     let best_of = |name: &str| {
-        let sign = if is_better_larger(name) { -1.0 } else { 1.0 };
-        let of: Vec<&BTreeMap<usize, f64>> =
-            values.iter().map(|values| values.get(name).unwrap_or(&none)).collect();
-        let known = of.iter().filter(|values| !values.is_empty());
-        let cost = |values: &BTreeMap<usize, f64>| sign * mean(&values.values().copied().collect::<Vec<_>>());
-        let best = known.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        let ties = |values: &&BTreeMap<usize, f64>| {
-            let Some(best) = best.filter(|_| !values.is_empty()) else { return false };
-            let paired = values
-                .iter()
-                .filter_map(|(material, value)| Some(sign * difference(*value, *best.get(material)?)));
-            let paired: Vec<f64> = paired.collect();
-            let is_worse = mean(&paired) == f64::INFINITY;
-            !is_worse && interval_of_mean(&paired).is_none_or(|[low, _]| low <= 0.0)
+        let compared = |(summary, errors): (&MethodSummary, &Errors<'_>)| {
+            errors.get(name).filter(|_| summary.is_compared).cloned()
+        };
+        let of: Vec<Option<BTreeMap<usize, f64>>> =
+            ranking.methods.iter().zip(&errors).map(compared).collect();
+        let mean = |errors: &BTreeMap<usize, f64>| mean(&errors.values().copied().collect::<Vec<_>>());
+        let best = of.iter().flatten().min_by(|a, b| mean(a).total_cmp(&mean(b)));
+        let ties = |errors: &Option<BTreeMap<usize, f64>>| {
+            errors.as_ref().zip(best).is_some_and(|(errors, best)| ties(errors, best))
         };
         of.iter().map(ties).collect()
     };
     names.into_iter().map(|name| (name.to_owned(), best_of(name))).collect()
 }
 
-/// a - b, and 0 for two infinities.
-fn difference(a: f64, b: f64) -> f64 {
-    if a == b { 0.0 } else { a - b }
+/// Whether the materials of both cannot separate a method from the best one.
+fn ties(errors: &BTreeMap<usize, f64>, best: &BTreeMap<usize, f64>) -> bool {
+    let paired = errors.iter().filter_map(|(material, error)| Some(error - best.get(material)?));
+    interval_of_mean(&paired.collect::<Vec<_>>()).is_none_or(|[low, _]| low <= 0.0)
 }
 
 fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// For each metric the value of each material, by its index among all.
-fn values_of<'a>(
-    method: &str,
+/// The errors of each metric by the index of the material.
+type Errors<'a> = BTreeMap<&'a str, BTreeMap<usize, f64>>;
+
+fn errors_of<'a>(
+    ranking: &Ranking,
+    method: &MethodSummary,
     results: &'a [MaterialResult],
     pick: Pick,
-) -> BTreeMap<&'a str, BTreeMap<usize, f64>> {
-    let mut values: BTreeMap<&str, BTreeMap<usize, f64>> = BTreeMap::new();
-    for result in results {
-        let counted = counted(result, method, pick);
+) -> Errors<'a> {
+    let mut errors: Errors<'a> = BTreeMap::new();
+    for result in ranking.results_of(method, results) {
+        let counted = counted(result, &method.method, pick);
         for name in counted.first().map(|prediction| prediction.metrics.keys()).into_iter().flatten() {
+            let scale = Scale::of(name);
             let all = counted.iter().filter_map(|prediction| prediction.metrics.get(name));
-            values.entry(name).or_default().insert(result.index, all.sum::<f64>() / counted.len() as f64);
+            let sum: f64 = all.map(|value| scale.error(*value)).sum();
+            errors.entry(name).or_default().insert(result.index, sum / counted.len() as f64);
         }
     }
-    values
-}
-
-/// The predictions of a material by a method that count: those with a loss.
-pub(super) fn counted<'a>(result: &'a MaterialResult, method: &str, pick: Pick) -> Vec<&'a PredictionResult> {
-    let mut of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
-    let loss =
-        |prediction: &PredictionResult| prediction.result.as_ref().map_or(f64::INFINITY, |known| known.loss);
-    let has_loss = |prediction: &&PredictionResult| prediction.result.is_ok();
-    match pick {
-        Pick::Fixed => of_method.next().filter(has_loss).into_iter().collect(),
-        Pick::Best => {
-            let known = of_method.filter(has_loss);
-            known.min_by(|a, b| loss(a).total_cmp(&loss(b))).into_iter().collect()
-        }
-        Pick::Mean => of_method.filter(has_loss).collect(),
-    }
+    errors
 }

@@ -2,7 +2,7 @@
 //!
 //! A data set is a list of [`Case`]s, one for each material: [`cases_of_folders`] matches folders by name, [`cases_of_table`] reads a table of
 //! pairs. [`run`] gives a [`MaterialResult`] for each and keeps them in a journal, so that an interrupted run continues; [`merged`]
-//! joins the journals of parts of a run, and [`summarize`] compares the methods by them.
+//! joins the journals of parts of a run, and a [`Ranking`] compares the methods by them.
 
 mod bootstrap;
 mod evaluate;
@@ -14,19 +14,25 @@ pub(crate) mod mark_report;
 mod mark_summary;
 mod metric_report;
 mod metric_summary;
+mod pick;
+mod ranking;
 mod record;
+mod remarks;
+mod repetition;
 mod report;
 mod run;
-mod summary;
 
-pub use bootstrap::interval_of_mean;
-pub use journal::{Recomputed, merged};
+pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
+pub use journal::{Merged, Recomputed, merged};
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use mark_summary::{MarkSummary, summarize_marks};
 pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
+pub use pick::{Pick, counted_loss, counted_sample};
+pub use ranking::{MethodDifference, MethodSummary, Ranking};
 pub use record::{
-    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
+    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
+    PredictionResult, Source,
 };
+pub use remarks::{DoubtCount, ReadingSummary, Remark};
 pub use report::DatasetReport;
 pub use run::{DatasetResults, run};
-pub use summary::{MethodDifference, MethodSummary, Pick, counted_loss, counted_sample, summarize};

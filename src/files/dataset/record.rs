@@ -1,13 +1,17 @@
 //! Records of a data set: the cases to compare, the settings of a run and the results.
 
-use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use svbrdf_core::diagnose::Finding;
+use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 
+use super::fingerprint::fnv1a;
+use super::list::{cases_of_folders, cases_of_table};
+use super::remarks::Remark;
 use crate::read::ReadOptions;
 
 /// A material: its ground truth, and the predictions of all methods.
@@ -26,16 +30,63 @@ pub struct Candidate {
     pub method: String,
     /// Which of the predictions of this method, from 0.
     pub sample: usize,
+    /// Where it is, or would be.
     pub path: PathBuf,
+    /// Why there is none.
+    pub missing: Option<String>,
+}
+
+/// Where the materials of a data set are, as the user named them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// Folders of materials of the same names.
+    Folders {
+        #[serde(serialize_with = "as_text")]
+        ground_truths: PathBuf,
+        methods: Vec<Method>,
+    },
+    /// A table of pairs.
+    #[serde(serialize_with = "as_text")]
+    Table(PathBuf),
+}
+
+/// A method by its name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Method {
+    pub name: String,
+    /// The folder of its predictions, or a pattern: a path in which `{}` stands for the name of a material.
+    #[serde(serialize_with = "as_text")]
+    pub path: PathBuf,
+}
+
+/// A path as it is printed: it may be no Unicode.
+fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&path.display())
+}
+
+impl Source {
+    /// Its materials.
+    ///
+    /// # Errors
+    /// As [`cases_of_folders`](super::cases_of_folders) and [`cases_of_table`](super::cases_of_table).
+    pub fn cases(&self) -> Result<Vec<Case>, Error> {
+        match self {
+            Self::Folders { ground_truths, methods } => cases_of_folders(ground_truths, methods),
+            Self::Table(path) => cases_of_table(path),
+        }
+    }
 }
 
 /// The settings that the results of all materials have in common: results of other settings cannot be joined with them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DatasetSettings {
+    /// Where the materials are.
+    pub source: Source,
     pub convention: String,
     /// Half of the 95% interval of each loss over scenes, as a share of the loss.
     pub target_error: f64,
-    /// Names the scenes, together with the index of the material.
+    /// Names the scenes, together with the name of the material.
     pub seed: u64,
     /// The materials of the whole data set, in order.
     pub materials: Vec<String>,
@@ -51,7 +102,7 @@ pub struct DatasetSettings {
 
 impl DatasetSettings {
     /// The settings for `cases`, which are those of the whole data set.
-    pub fn new(convention: &str, target_error: f64, seed: u64, cases: &[Case]) -> Self {
+    pub fn new(source: Source, convention: &str, target_error: f64, seed: u64, cases: &[Case]) -> Self {
         let mut methods: Vec<String> = Vec::new();
         for candidate in cases.iter().flat_map(|case| &case.candidates) {
             if !methods.contains(&candidate.method) {
@@ -60,6 +111,7 @@ impl DatasetSettings {
         }
         let materials = cases.iter().map(|case| case.material.clone()).collect();
         Self {
+            source,
             convention: convention.to_owned(),
             target_error,
             seed,
@@ -81,6 +133,20 @@ impl DatasetSettings {
     pub fn with_diagnoses(self, diagnose: bool) -> Self {
         Self { diagnose, ..self }
     }
+
+    /// The seed of the scenes of each material, in order: by its name, and for materials of one name by their order, so that it does
+    /// not depend on which other materials there are.
+    pub fn seeds(&self) -> Vec<u64> {
+        let mut counts: HashMap<&str, u64> = HashMap::new();
+        let mut seeds = Vec::new();
+        for material in &self.materials {
+            let count = counts.entry(material).or_default();
+            *count += 1;
+            let [seed, count] = [self.seed, *count].map(u64::to_le_bytes);
+            seeds.push(fnv1a(&[&seed[..], &count, material.as_bytes()].concat()));
+        }
+        seeds
+    }
 }
 
 /// How the materials of a data set are read.
@@ -88,9 +154,20 @@ impl DatasetSettings {
 #[serde(rename_all = "kebab-case")]
 pub struct DatasetReading {
     pub ground_truths: ReadOptions,
+    /// Of all methods but those of `methods`.
     pub predictions: ReadOptions,
+    /// By the name of a method.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub methods: BTreeMap<String, ReadOptions>,
     /// Whether a material that can only be read by guesses has no result.
     pub strict: bool,
+}
+
+impl DatasetReading {
+    /// How the predictions of a method are read.
+    pub fn of_method(&self, method: &str) -> &ReadOptions {
+        self.methods.get(method).unwrap_or(&self.predictions)
+    }
 }
 
 /// The results of one material.
@@ -100,8 +177,8 @@ pub struct MaterialResult {
     pub material: String,
     /// The seed of its scenes: errors due to scenes are independent between materials.
     pub seed: u64,
-    /// The number of scenes.
-    pub scenes: usize,
+    /// What was noticed and assumed in reading the ground truth.
+    pub reading: Vec<Remark>,
     /// The loss that the ground truth cannot resolve, where diagnoses were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor: Option<f64>,
@@ -123,6 +200,8 @@ pub struct PredictionResult {
     pub path: String,
     /// The loss, or why there is none.
     pub result: Result<KnownLoss, String>,
+    /// What was noticed and assumed in reading it.
+    pub reading: Vec<Remark>,
     /// The metrics of its maps by name, where they were asked for; the PSNR of equal maps is infinite, in JSON null.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "with_infinities")]
     pub metrics: BTreeMap<String, f64>,
@@ -169,12 +248,15 @@ pub struct KnownLoss {
     /// Due to the sampling of scenes and texels.
     pub standard_error: f64,
     pub interval95: [f64; 2],
+    /// The number of scenes that its accuracy took: the first ones of the seed of its material, so that it does not depend on which
+    /// other predictions there are.
+    pub scenes: usize,
 }
 
 impl KnownLoss {
     /// The loss as an estimate.
     pub fn estimate(&self) -> Estimate {
-        let Self { loss, standard_error, interval95 } = *self;
+        let Self { loss, standard_error, interval95, .. } = *self;
         Estimate { mean: loss, standard_error: Some(standard_error), interval95: Some(interval95) }
     }
 }

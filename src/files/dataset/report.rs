@@ -6,13 +6,18 @@ use serde::{Serialize, Serializer};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::report::{Cell, Report, Table, aligned, bold, escaped, latex, missed};
+use svbrdf_core::text::line;
 
 use super::mark_report;
-use super::mark_summary::MarkSummary;
+use super::mark_summary::{MarkSummary, summarize_marks};
 use super::metric_report;
 use super::metric_summary::{MetricSummary, summarize_metrics};
-use super::record::{DatasetSettings, Mark, MaterialResult, PredictionResult};
-use super::summary::{MethodSummary, Pick, summarize};
+use super::pick::{Pick, counted};
+use super::ranking::{MethodSummary, Ranking};
+use super::record::{DatasetReading, DatasetSettings, Mark, MaterialResult, PredictionResult};
+use super::remarks::{ReadingSummary, Remark};
+use super::repetition;
+use crate::atomic::SOFTWARE;
 
 const TITLES: [&str; 9] = [
     "method",
@@ -26,7 +31,7 @@ const TITLES: [&str; 9] = [
     "95% over materials",
 ];
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 14] = [
     "material",
     "method",
     "sample",
@@ -38,6 +43,9 @@ const COLUMNS: [&str; 11] = [
     "scenes",
     "path",
     "error",
+    "compared",
+    "doubts",
+    "ground_truth_doubts",
 ];
 
 /// The columns of diagnoses.
@@ -47,24 +55,62 @@ const MARKS: [&str; 3] = ["floor", "resolvable", "marked"];
 #[derive(Clone, Debug)]
 pub struct DatasetReport {
     pub settings: DatasetSettings,
+    pub reading: DatasetReading,
     pub pick: Pick,
-    /// Best first.
-    pub methods: Vec<MethodSummary>,
+    pub ranking: Ranking,
     pub results: Vec<MaterialResult>,
 }
 
 impl DatasetReport {
     /// The report of `results`; of several predictions of a material, `pick` says which counts.
-    pub fn new(settings: DatasetSettings, results: Vec<MaterialResult>, pick: Pick) -> Self {
-        let methods = summarize(&settings.methods, &results, pick);
-        Self { settings, pick, methods, results }
+    pub fn new(
+        settings: DatasetSettings,
+        reading: DatasetReading,
+        results: Vec<MaterialResult>,
+        pick: Pick,
+    ) -> Self {
+        let ranking = Ranking::new(&settings.methods, &results, pick);
+        Self { settings, reading, pick, ranking, results }
     }
 
-    /// Tables for a paper: the best methods in bold, and the same of the metrics.
+    /// The command that makes these results again.
+    pub fn command(&self) -> String {
+        repetition::command(&self.settings, &self.reading, self.pick)
+    }
+
+    /// The doubts in reading the ground truths, and the predictions of each method: lines, none where nothing is in doubt.
+    pub fn doubts(&self) -> Vec<String> {
+        let mut methods = ReadingSummary::by_method(&self.results);
+        let of_method =
+            |summary: &MethodSummary| methods.remove(summary.method.as_str())?.line(&summary.method);
+        let truths = ReadingSummary::of_ground_truths(&self.results).line("ground truths");
+        truths.into_iter().chain(self.ranking.methods.iter().filter_map(of_method)).collect()
+    }
+
+    /// The materials that the means are over, and how they were read: lines.
+    pub fn conditions(&self) -> Vec<String> {
+        self.ranking.over(self.results.len()).into_iter().chain(self.doubts()).collect()
+    }
+
+    /// Every remark on the reading of a material, with its name and, for a prediction, its method.
+    pub fn remarks(&self) -> impl Iterator<Item = (String, &Remark)> {
+        self.results.iter().flat_map(|result| {
+            let truth =
+                result.reading.iter().map(|remark| (format!("{}, ground truth", result.material), remark));
+            let of =
+                move |prediction: &'_ PredictionResult| format!("{}, {}", result.material, prediction.method);
+            let predictions = result.predictions.iter();
+            truth.chain(
+                predictions.flat_map(move |one| one.reading.iter().map(move |remark| (of(one), remark))),
+            )
+        })
+    }
+
+    /// Tables for a paper: the best methods in bold, and the same of the metrics. What the numbers depend on is a comment above.
     pub fn latex(&self) -> String {
         let row = |summary: &MethodSummary| {
             let number = |value: f64| if value.is_nan() { "--".to_owned() } else { format!("{value:.4}") };
-            let mean = bold(&number(summary.mean), summary.materials > 0 && summary.ties_with_best());
+            let mean = bold(&number(summary.mean), summary.ties_with_best());
             let interval = summary
                 .interval95_materials
                 .map_or("--".to_owned(), |[low, high]| format!("[{low:.4}, {high:.4}]"));
@@ -72,12 +118,25 @@ impl DatasetReport {
             format!(
                 "{method} & {mean} & {interval} & {} & {} \\\\\n",
                 number(summary.median),
-                summary.materials
+                summary.count()
             )
         };
-        let rows: String = self.methods.iter().map(row).collect();
+        let (compared, lacking): (Vec<_>, Vec<_>) =
+            self.ranking.methods.iter().partition(|summary| summary.is_compared);
+        let mut rows: String = compared.into_iter().map(row).collect();
+        if !lacking.is_empty() {
+            rows += "\\midrule\n";
+            rows.extend(lacking.into_iter().map(row));
+        }
+        let comments = self.conditions().into_iter().chain([self.repetition()]);
+        let comments: String = comments.map(|comment| format!("% {}\n", line(&comment))).collect();
         let losses = latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows);
-        losses + &metric_report::latex_table(&self.methods, &self.results, self.pick)
+        comments + &losses + &metric_report::latex_table(self)
+    }
+
+    /// How to repeat the ranking: a line.
+    fn repetition(&self) -> String {
+        format!("repeat with {SOFTWARE}: {}", self.command())
     }
 
     fn losses(&self) -> String {
@@ -85,17 +144,17 @@ impl DatasetReport {
         let range = |interval: Option<[f64; 2]>| {
             interval
                 .filter(|[low, _]| !low.is_nan())
-                .map_or_else(|| "unknown".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"))
+                .map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"))
         };
         let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(self.methods.iter().map(|summary| {
+        rows.extend(self.ranking.methods.iter().map(|summary| {
             let [difference, of_difference] = match &summary.to_best {
                 None => [const { String::new() }; 2],
                 Some(difference) => [number(difference.mean), range(difference.interval95_materials)],
             };
             vec![
                 summary.method.clone(),
-                summary.materials.to_string(),
+                summary.count(),
                 summary.failures.to_string(),
                 number(summary.mean),
                 range(summary.interval95_materials),
@@ -107,42 +166,61 @@ impl DatasetReport {
         }));
         aligned(&rows)
     }
+
+    /// Whether the loss of a prediction is a part of a mean that is compared.
+    fn is_compared(&self, result: &MaterialResult, prediction: &PredictionResult) -> bool {
+        let is_of = |summary: &&MethodSummary| summary.method == prediction.method;
+        let method = self.ranking.methods.iter().find(is_of);
+        let counts =
+            counted(result, &prediction.method, self.pick).iter().any(|one| one.sample == prediction.sample);
+        counts
+            && self.ranking.common.contains(&result.index)
+            && method.is_some_and(|summary| summary.is_compared)
+    }
 }
 
 impl Report for DatasetReport {
     fn text(&self) -> String {
         let DatasetSettings { convention, target_error, seed, materials, .. } = &self.settings;
+        let lines = |lines: Vec<String>| lines.into_iter().map(|line| line + "\n").collect::<String>();
         format!(
-            "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n\n{}{}{}",
+            "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n\n{}\n{}{}{}\n{}\n",
             self.results.len(),
             materials.len(),
             100.0 * target_error,
             self.pick,
             self.losses(),
-            mark_report::text(&self.methods, &self.results, self.pick),
-            metric_report::text(&self.methods, &self.results, self.pick)
+            lines(self.conditions()),
+            mark_report::text(self),
+            metric_report::text(self),
+            self.repetition(),
         )
     }
 
     /// A row for each prediction.
     fn table(&self) -> Table {
         let metrics = metric_report::names(&self.results);
+        let doubts = |reading: &[Remark]| reading.iter().filter(|remark| remark.doubt.is_some()).count();
         let row = |result: &MaterialResult, prediction: &PredictionResult| {
             let start = [
                 result.material.as_str().into(),
                 prediction.method.as_str().into(),
                 prediction.sample.into(),
             ];
-            let numbers = match &prediction.result {
-                Ok(known) => [known.loss, known.standard_error, known.interval95[0], known.interval95[1]]
+            let known = prediction.result.as_ref().ok();
+            let numbers = match known {
+                Some(known) => [known.loss, known.standard_error, known.interval95[0], known.interval95[1]]
                     .map(Cell::from),
-                Err(_) => [const { Cell::Empty }; 4],
+                None => [const { Cell::Empty }; 4],
             };
             let end = [
                 result.seed.into(),
-                result.scenes.into(),
+                known.map(|known| known.scenes).into(),
                 prediction.path.as_str().into(),
                 prediction.result.as_ref().err().cloned().into(),
+                self.is_compared(result, prediction).into(),
+                doubts(&prediction.reading).into(),
+                doubts(&result.reading).into(),
             ];
             let metrics = metrics.iter().map(|name| prediction.metrics.get(*name).copied().into());
             let marks = self.settings.diagnose.then(|| marks(result, prediction));
@@ -169,7 +247,7 @@ impl Report for DatasetReport {
         let of = |result: &MaterialResult, prediction: &PredictionResult| {
             let known = prediction.result.as_ref().ok()?;
             let name = format!("{}, {}", result.material, prediction.method);
-            missed(self.settings.target_error, &name, &known.estimate(), result.scenes)
+            missed(self.settings.target_error, &name, &known.estimate(), known.scenes)
         };
         let all = self.results.iter();
         all.flat_map(|result| result.predictions.iter().filter_map(|p| of(result, p))).collect()
@@ -188,8 +266,18 @@ fn marks(result: &MaterialResult, prediction: &PredictionResult) -> [Cell; MARKS
 #[derive(Serialize)]
 struct DatasetJson<'a> {
     settings: &'a DatasetSettings,
+    /// How the files are read.
+    reading: &'a DatasetReading,
     pick: String,
-    /// Best first.
+    /// The program and its version.
+    software: &'static str,
+    /// The command that makes the results again.
+    command: String,
+    /// The names of the materials that the means of compared methods are over.
+    compared_materials: Vec<&'a str>,
+    /// How the ground truths were read.
+    ground_truths: ReadingSummary,
+    /// The compared ones first, best first.
     methods: Vec<MethodEntry<'a>>,
     results: &'a [MaterialResult],
 }
@@ -197,6 +285,8 @@ struct DatasetJson<'a> {
 #[derive(Serialize)]
 struct MethodEntry<'a> {
     method: &'a str,
+    /// Whether it has a loss of as many materials as any other; if not, its mean is over other materials.
+    compared: bool,
     materials: usize,
     failures: usize,
     mean: f64,
@@ -206,6 +296,8 @@ struct MethodEntry<'a> {
     to_best: Option<f64>,
     to_best_interval95_materials: Option<[f64; 2]>,
     ties_with_best: bool,
+    /// How its predictions were read.
+    reading: Option<ReadingSummary>,
     /// Of the maps, by name.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     metrics: BTreeMap<String, MetricSummary>,
@@ -215,10 +307,11 @@ struct MethodEntry<'a> {
 
 impl Serialize for DatasetReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { settings, pick, methods, results } = self;
-        let marks = |method: &str| mark_report::summary(method, methods, results, *pick);
-        let methods = methods.iter().map(|summary| MethodEntry {
+        let Self { settings, reading, pick, ranking, results } = self;
+        let mut readings = ReadingSummary::by_method(results);
+        let methods = ranking.methods.iter().map(|summary| MethodEntry {
             method: &summary.method,
+            compared: summary.is_compared,
             materials: summary.materials,
             failures: summary.failures,
             mean: summary.mean,
@@ -230,10 +323,22 @@ impl Serialize for DatasetReport {
                 .to_best
                 .and_then(|difference| difference.interval95_materials),
             ties_with_best: summary.ties_with_best(),
-            metrics: summarize_metrics(&summary.method, results, *pick),
-            marks: marks(&summary.method),
+            reading: readings.remove(summary.method.as_str()),
+            metrics: summarize_metrics(ranking, summary, results, *pick),
+            marks: summarize_marks(ranking, summary, results, *pick),
         });
-        DatasetJson { settings, pick: pick.to_string(), methods: methods.collect(), results }
-            .serialize(serializer)
+        let is_common = |result: &&MaterialResult| ranking.common.contains(&result.index);
+        DatasetJson {
+            settings,
+            reading,
+            pick: pick.to_string(),
+            software: SOFTWARE,
+            command: self.command(),
+            compared_materials: results.iter().filter(is_common).map(|one| one.material.as_str()).collect(),
+            ground_truths: ReadingSummary::of_ground_truths(results),
+            methods: methods.collect(),
+            results,
+        }
+        .serialize(serializer)
     }
 }

@@ -21,9 +21,9 @@ pub struct DatasetResults {
 
 /// The results of `cases` in order, computed in parallel.
 ///
-/// All predictions of a material are compared in the same scenes, as many as the target error of every one needs. A material that
-/// cannot be read or compared has a result, too, with the reason. A material is one step of `progress`. The results do not depend on
-/// the number of threads, nor on which other materials there are.
+/// Each prediction is compared in the first scenes of its material, as many as its target error needs. A material that cannot be read
+/// or compared has a result, too, with the reason. A material is one step of `progress`. The results do not depend on the number of
+/// threads, nor on which other materials and predictions there are.
 ///
 /// A result in the file `journal` is not computed again, unless a file that it was computed from has changed. New results are added to
 /// it as they come, and in the end it holds all of them in order. It is created where there is none.

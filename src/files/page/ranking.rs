@@ -40,18 +40,18 @@ fn heading(report: &DatasetReport) -> String {
     let percent = 100.0 * settings.target_error;
     let (convention, pick) = (escaped(&settings.convention), &report.pick);
     format!(
-        "Convention {convention}, &plusmn;{percent}% per loss, seed {}, pick {pick}. {SOFTWARE}.",
-        settings.seed
+        "Convention {convention}, &plusmn;{percent}% per loss, seed {}, pick {pick}. {SOFTWARE}. Repeat with <code>{}</code>",
+        settings.seed,
+        escaped(&report.command())
     )
 }
 
 fn methods(report: &DatasetReport) -> String {
-    let means =
-        report.methods.iter().filter(|summary| summary.materials > 0).map(estimate).collect::<Vec<_>>();
+    let methods = &report.ranking.methods;
+    let means = methods.iter().filter(|summary| summary.materials > 0).map(estimate).collect::<Vec<_>>();
     let axis = plots::axis(means.iter());
-    let best = report.methods.first().map_or("", |summary| summary.method.as_str());
     let mut rows = String::new();
-    for summary in &report.methods {
+    for summary in methods {
         let bar = if summary.materials > 0 { plots::bar(&estimate(summary), axis) } else { String::new() };
         let (difference, interval) = match &summary.to_best {
             None => (cell(None), "<td></td>".to_owned()),
@@ -70,28 +70,28 @@ fn methods(report: &DatasetReport) -> String {
             count(summary.failures),
         );
     }
+    let paired = report.ranking.best().map_or(String::new(), |best| {
+        format!("Differences are paired: over the materials of both, against {}. ", escaped(&best.method))
+    });
+    let conditions: String =
+        report.conditions().iter().map(|condition| format!("<li>{}</li>", escaped(condition))).collect();
     format!(
-        r#"<section aria-labelledby="methods"><h2 id="methods">Methods</h2><div class="wide"><table><thead><tr><th scope="col">Method</th><th scope="col">Mean loss</th><th scope="col">95% over materials</th><td></td><th scope="col">Against the best</th><th scope="col">&minus;&nbsp;best</th><th scope="col">95% over materials</th><th scope="col">Median</th><th scope="col">95% over scenes</th><th scope="col">Materials</th><th scope="col">Failed</th></tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Differences are paired: over the materials of both, against {}. The interval over materials covers other materials of this kind, the interval over scenes these materials alone.</p></section>"#,
-        escaped(best)
+        r#"<section aria-labelledby="methods"><h2 id="methods">Methods</h2><div class="wide"><table><thead><tr><th scope="col">Method</th><th scope="col">Mean loss</th><th scope="col">95% over materials</th><td></td><th scope="col">Against the best</th><th scope="col">&minus;&nbsp;best</th><th scope="col">95% over materials</th><th scope="col">Median</th><th scope="col">95% over scenes</th><th scope="col">Materials</th><th scope="col">Failed</th></tr></thead><tbody>{rows}</tbody></table></div><ul class="conditions">{conditions}</ul><p class="weak">{paired}The interval over materials covers other materials of this kind, the interval over scenes these materials alone.</p></section>"#
     )
 }
 
 /// The mean of a method with its interval over materials.
 fn estimate(summary: &MethodSummary) -> Estimate {
-    Estimate { mean: summary.mean, standard_error: None, interval95: bounded(summary.interval95_materials) }
-}
-
-/// The interval where it has ends: over three materials it is unbounded.
-fn bounded(interval: Option<[f64; 2]>) -> Option<[f64; 2]> {
-    interval.filter(|ends| ends.iter().all(|end| end.is_finite()))
+    Estimate { mean: summary.mean, standard_error: None, interval95: summary.interval95_materials }
 }
 
 /// The paired verdict on a method.
 fn verdict(summary: &MethodSummary) -> &'static str {
     match (&summary.to_best, summary.ties_with_best()) {
         _ if summary.materials == 0 => "no losses",
+        _ if !summary.is_compared => "lacks materials",
         (None, _) => "best",
-        (Some(difference), true) if bounded(difference.interval95_materials).is_none() => "too few materials",
+        (Some(difference), true) if difference.interval95_materials.is_none() => "too few materials",
         (Some(_), true) => "no significant difference",
         (Some(_), false) => "worse",
     }
@@ -99,8 +99,9 @@ fn verdict(summary: &MethodSummary) -> &'static str {
 
 /// The metrics of the maps, where there are any: a row for each, a column for each method.
 fn metrics(report: &DatasetReport) -> String {
-    let of = |summary: &MethodSummary| summarize_metrics(&summary.method, &report.results, report.pick);
-    let all: Vec<_> = report.methods.iter().map(of).collect();
+    let of =
+        |summary: &MethodSummary| summarize_metrics(&report.ranking, summary, &report.results, report.pick);
+    let all: Vec<_> = report.ranking.methods.iter().map(of).collect();
     let mut names: Vec<&String> = all.iter().flat_map(|metrics| metrics.keys()).collect();
     names.sort();
     names.dedup();
@@ -123,7 +124,7 @@ fn metrics(report: &DatasetReport) -> String {
 
 /// The marks of diagnoses, where there are any.
 fn marks(report: &DatasetReport) -> String {
-    let rows = mark_report::rows(&report.methods, &report.results, report.pick);
+    let rows = mark_report::rows(report);
     let Some((headings, rows)) = rows.split_first() else { return String::new() };
     let headings: String =
         headings.iter().map(|heading| format!(r#"<th scope="col">{}</th>"#, escaped(heading))).collect();
@@ -143,13 +144,9 @@ fn materials(report: &DatasetReport, views: &[MaterialView]) -> String {
     let mut rows = String::new();
     for (place, result) in report.results.iter().enumerate() {
         let cells: String =
-            report.methods.iter().map(|summary| loss(report, result, &summary.method)).collect();
+            report.ranking.methods.iter().map(|summary| loss(report, result, &summary.method)).collect();
         let name = material(&result.material, views.get(place).unwrap_or(&none));
-        let _ = write!(
-            rows,
-            r#"<tr><th scope="row" class="material">{name}</th>{cells}{}</tr>"#,
-            count(result.scenes)
-        );
+        let _ = write!(rows, r#"<tr><th scope="row" class="material">{name}</th>{cells}</tr>"#);
     }
     let links = if views.iter().any(|view| view.figure.is_some()) {
         " A name with a link opens the interactive figure of the material, a file beside this one."
@@ -157,13 +154,14 @@ fn materials(report: &DatasetReport, views: &[MaterialView]) -> String {
         ""
     };
     format!(
-        r#"<section aria-labelledby="materials"><h2 id="materials">Materials</h2><div class="wide"><table><thead><tr><th scope="col">Material</th>{}<th scope="col">Scenes</th></tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Loss, and its 95% interval over scenes. Renderings from left to right: ground truth, then the methods with a loss, in the order of the columns.{links}</p></section>"#,
+        r#"<section aria-labelledby="materials"><h2 id="materials">Materials</h2><div class="wide"><table><thead><tr><th scope="col">Material</th>{}</tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Loss, and its 95% interval over scenes. Renderings from left to right: ground truth, then the methods with a loss, in the order of the columns.{links}</p></section>"#,
         method_headings(report)
     )
 }
 
 fn method_headings(report: &DatasetReport) -> String {
     report
+        .ranking
         .methods
         .iter()
         .map(|summary| format!(r#"<th scope="col">{}</th>"#, escaped(&summary.method)))
@@ -203,19 +201,19 @@ fn cell(value: Option<f64>) -> String {
 }
 
 fn with_interval(value: Option<f64>, interval: Option<[f64; 2]>) -> String {
-    let (Some(value), Some([low, high])) = (value, bounded(interval)) else { return cell(value) };
+    let (Some(value), Some([low, high])) = (value, interval) else { return cell(value) };
     let [text, low, high] = [value, low, high].map(number);
     format!(r#"<td data-sort="{value}">{text}<small>{low} to {high}</small></td>"#)
 }
 
 /// A cell with the ends of an interval, sorted by the lower one.
 fn ends(interval: Option<[f64; 2]>) -> String {
-    match bounded(interval) {
+    match interval.filter(|[low, _]| !low.is_nan()) {
         Some([low, high]) => {
             let texts = [low, high].map(number);
             format!(r#"<td data-sort="{low}">{} to {}</td>"#, texts[0], texts[1])
         }
-        None => r#"<td data-sort="">unknown</td>"#.to_owned(),
+        None => r#"<td data-sort="">&ndash;</td>"#.to_owned(),
     }
 }
 

@@ -111,8 +111,11 @@ fn file_name(result: &MaterialResult) -> String {
 /// The indices of the materials that have a figure.
 fn chosen(report: &DatasetReport, figures: Figures) -> BTreeSet<usize> {
     let mean = |result: &MaterialResult| {
-        let losses =
-            report.methods.iter().filter_map(|summary| counted_loss(result, &summary.method, report.pick));
+        let losses = report
+            .ranking
+            .methods
+            .iter()
+            .filter_map(|summary| counted_loss(result, &summary.method, report.pick));
         let losses: Vec<f64> = losses.map(|known| known.loss).collect();
         (!losses.is_empty()).then(|| (losses.iter().sum::<f64>() / losses.len() as f64, result.index))
     };
@@ -137,11 +140,11 @@ fn opened(
     };
     let ground_truth = open(&case.ground_truth, &reading.ground_truths, &result.material)?;
     let mut materials = vec![ground_truth];
-    for summary in &report.methods {
+    for summary in &report.ranking.methods {
         let Some(sample) = counted_sample(result, &summary.method, report.pick) else { continue };
         let mut candidates = case.candidates.iter();
         let candidate = candidates.find(|one| one.method == summary.method && one.sample == sample)?;
-        materials.push(open(&candidate.path, &reading.predictions, &summary.method)?);
+        materials.push(open(&candidate.path, reading.of_method(&summary.method), &summary.method)?);
     }
     Some(materials)
 }
@@ -204,7 +207,7 @@ mod tests {
             index: 6,
             material: "../wood/\"oak\" é<".to_owned(),
             seed: 0,
-            scenes: 0,
+            reading: Vec::new(),
             floor: None,
             predictions: Vec::new(),
         };

@@ -1,5 +1,7 @@
 //! The maps of a material, and the words of file names that stand for them.
 
+use svbrdf_core::material::Map;
+
 /// What a picture of a material is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Role {
@@ -107,6 +109,17 @@ const IGNORED: &[&str] = &[
 ];
 
 impl Role {
+    /// The map of the material that it becomes; `None` for one that becomes several.
+    pub fn map(self) -> Option<Map> {
+        match self {
+            Self::Normal => Some(Map::Normal),
+            Self::Base | Self::Diffuse => Some(Map::Diffuse),
+            Self::Specular | Self::SpecularLevel => Some(Map::Specular),
+            Self::Roughness => Some(Map::Roughness),
+            _ => None,
+        }
+    }
+
     /// The name for users.
     pub fn name(self) -> &'static str {
         match self {

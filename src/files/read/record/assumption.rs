@@ -4,8 +4,11 @@ use std::fmt;
 
 use serde::Serialize;
 
+use svbrdf_core::material::Map;
+
 use super::note::SpecifiedBy;
 use super::reason::Reason;
+use super::storage_convention::StorageConvention;
 
 /// The subject of an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -88,6 +91,37 @@ impl Assumption {
         let interprets = !matches!(self.what, What::Missing | What::Size | What::Values);
         let is_stated = self.certainty >= Certainty::Sure || self.why.is_stated();
         self.certainty == Certainty::Unsure || (interprets && !is_stated)
+    }
+
+    /// Whether users are told about it without asking: it is unsure, or a map is missing, resized or changed. A choice that was
+    /// specified is not doubtful.
+    pub fn is_doubtful(&self) -> bool {
+        match self.certainty {
+            Certainty::Given => false,
+            Certainty::Unsure => true,
+            _ => matches!(self.what, What::Missing | What::Size | What::Values),
+        }
+    }
+
+    /// The map that it is about; `None` for the material as a whole.
+    pub fn map(&self) -> Option<Map> {
+        match (self.what, &self.why) {
+            (What::NormalY | What::NormalEncoding, _) => Some(Map::Normal),
+            (What::Albedo | What::Energy, _) => Some(Map::Diffuse),
+            (What::Specular, _) => Some(Map::Specular),
+            (What::Roughness, _) => Some(Map::Roughness),
+            (What::Missing | What::Values, why) => match why {
+                Reason::NoNormalMap | Reason::NoDirection { .. } => Some(Map::Normal),
+                Reason::StorageConvention(StorageConvention::NoListedNormals) => Some(Map::Normal),
+                // The specified reflectance of dielectrics stands for a specular map.
+                Reason::NoSpecularMap | Reason::Specified(_) => Some(Map::Specular),
+                Reason::Exponent(_) | Reason::DiffuseAlone => Some(Map::Roughness),
+                Reason::MoreThanAllLight { .. } => Some(Map::Diffuse),
+                Reason::NotFinite { map, .. } | Reason::OutsideUnit { map, .. } => map.map(),
+                _ => None,
+            },
+            (What::Layout | What::Workflow | What::Size, _) => None,
+        }
     }
 
     /// A choice that the caller specified.

@@ -1,6 +1,7 @@
 //! Assumptions about each map of a material, one line a map.
 
-use svbrdf_files::read::{Assumption, Certainty, Reason, Role, StorageConvention, What};
+use svbrdf_core::material::Map;
+use svbrdf_files::read::{Assumption, Certainty, What};
 
 /// The parts of a material that assumptions are about, in the order of the lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,33 +26,13 @@ impl Part {
         }
     }
 
-    fn of_map(role: Role) -> Self {
-        match role {
-            Role::Normal => Self::Normal,
-            Role::Base | Role::Diffuse => Self::Diffuse,
-            Role::Specular | Role::SpecularLevel => Self::Specular,
-            Role::Roughness => Self::Roughness,
-            _ => Self::Material,
-        }
-    }
-
     fn of(assumption: &Assumption) -> Self {
-        match (assumption.what, &assumption.why) {
-            (What::NormalY | What::NormalEncoding, _) => Self::Normal,
-            (What::Albedo | What::Energy, _) => Self::Diffuse,
-            (What::Specular, _) => Self::Specular,
-            (What::Roughness, _) => Self::Roughness,
-            (What::Missing | What::Values, why) => match why {
-                Reason::NoNormalMap | Reason::NoDirection { .. } => Self::Normal,
-                Reason::StorageConvention(StorageConvention::NoListedNormals) => Self::Normal,
-                // The specified reflectance of dielectrics stands for a specular map.
-                Reason::NoSpecularMap | Reason::Specified(_) => Self::Specular,
-                Reason::Exponent(_) | Reason::DiffuseAlone => Self::Roughness,
-                Reason::MoreThanAllLight { .. } => Self::Diffuse,
-                Reason::NotFinite { map, .. } | Reason::OutsideUnit { map, .. } => Self::of_map(*map),
-                _ => Self::Material,
-            },
-            (What::Layout | What::Workflow | What::Size, _) => Self::Material,
+        match assumption.map() {
+            None => Self::Material,
+            Some(Map::Normal) => Self::Normal,
+            Some(Map::Diffuse) => Self::Diffuse,
+            Some(Map::Specular) => Self::Specular,
+            Some(Map::Roughness) => Self::Roughness,
         }
     }
 }
@@ -115,7 +96,7 @@ fn words(part: Part, assumption: &Assumption) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use svbrdf_files::read::{SpecifiedBy, StorageConvention};
+    use svbrdf_files::read::{Reason, Role, SpecifiedBy, StorageConvention};
 
     fn assumption(what: What, chosen: &str, why: impl Into<Reason>, certainty: Certainty) -> Assumption {
         Assumption::new(what, chosen, why, certainty)

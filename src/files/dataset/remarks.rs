@@ -1,0 +1,105 @@
+//! Remarks on how the materials of a data set were read, and their numbers by method.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
+
+use super::record::MaterialResult;
+use crate::read::{Assumption, Note, Read, What};
+
+/// One thing that was noticed or assumed in reading a material.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Remark {
+    /// What the number of materials with remarks like it is of, such as "without normal map" or "unsure specular"; `None` for a remark
+    /// on nothing that is in doubt.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<String>,
+    /// The remark, as `info` prints it.
+    pub text: String,
+}
+
+impl Remark {
+    /// The remarks on a material that was read.
+    pub(super) fn of<T>(read: &Read<T>) -> Vec<Self> {
+        let notes = read.notes.iter().map(|note| Self { doubt: of_note(note), text: note.to_string() });
+        let assumptions = read.assumptions.iter();
+        notes
+            .chain(assumptions.map(|one| Self { doubt: of_assumption(one), text: one.to_string() }))
+            .collect()
+    }
+}
+
+fn of_note(note: &Note) -> Option<String> {
+    (!note.is_routine()).then(|| "with notes".to_owned())
+}
+
+fn of_assumption(assumption: &Assumption) -> Option<String> {
+    let map = assumption.map().map_or("a", |map| map.name());
+    assumption.is_doubtful().then(|| match assumption.what {
+        What::Missing => format!("without {map} map"),
+        What::Size => "with resized maps".to_owned(),
+        What::Values => "with changed values".to_owned(),
+        what => format!("with unsure {}", what.name()),
+    })
+}
+
+/// How the materials of a method, or the ground truths, were read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct ReadingSummary {
+    /// The number of materials that were read.
+    pub materials: usize,
+    /// For each doubt the number of materials that have it, the most frequent first.
+    pub doubts: Vec<DoubtCount>,
+}
+
+/// The number of materials with one doubt.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct DoubtCount {
+    /// As in [`Remark::doubt`].
+    pub doubt: String,
+    pub materials: usize,
+}
+
+impl ReadingSummary {
+    /// How the ground truths were read.
+    pub fn of_ground_truths(results: &[MaterialResult]) -> Self {
+        Self::new(results.iter().map(|result| result.reading.iter().collect()))
+    }
+
+    /// How the predictions of each method were read; of several of a material, each doubt counts once.
+    pub fn by_method(results: &[MaterialResult]) -> BTreeMap<&str, Self> {
+        let mut all: BTreeMap<&str, Vec<Vec<&Remark>>> = BTreeMap::new();
+        for result in results {
+            let mut remarks: BTreeMap<&str, Vec<&Remark>> = BTreeMap::new();
+            for prediction in &result.predictions {
+                remarks.entry(&prediction.method).or_default().extend(&prediction.reading);
+            }
+            remarks.into_iter().for_each(|(method, remarks)| all.entry(method).or_default().push(remarks));
+        }
+        all.into_iter().map(|(method, materials)| (method, Self::new(materials.into_iter()))).collect()
+    }
+
+    fn new<'a>(materials: impl Iterator<Item = Vec<&'a Remark>>) -> Self {
+        let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut read = 0;
+        // A material that was read has remarks: on its layout at least.
+        for remarks in materials.filter(|remarks| !remarks.is_empty()) {
+            read += 1;
+            let doubts: BTreeSet<&str> = remarks.into_iter().filter_map(|one| one.doubt.as_deref()).collect();
+            doubts.into_iter().for_each(|doubt| *counts.entry(doubt).or_default() += 1);
+        }
+        let count = |(doubt, materials): (&str, usize)| DoubtCount { doubt: doubt.to_owned(), materials };
+        let mut doubts: Vec<DoubtCount> = counts.into_iter().map(count).collect();
+        doubts.sort_by_key(|doubt| std::cmp::Reverse(doubt.materials));
+        Self { materials: read, doubts }
+    }
+
+    /// `ours: 3 of 3 without normal map; 2 of 3 with unsure specular`, where anything is in doubt.
+    pub fn line(&self, name: &str) -> Option<String> {
+        let part = |DoubtCount { doubt, materials }: &DoubtCount| {
+            format!("{materials} of {} {doubt}", self.materials)
+        };
+        let parts: Vec<String> = self.doubts.iter().map(part).collect();
+        (!parts.is_empty()).then(|| format!("{name}: {}", parts.join("; ")))
+    }
+}

@@ -1,0 +1,66 @@
+//! The command that repeats a ranking of a data set.
+
+use serde_json::Value;
+
+use svbrdf_core::text::quoted;
+
+use super::pick::Pick;
+use super::record::{DatasetReading, DatasetSettings, Method, Source};
+use crate::read::ReadOptions;
+
+/// The command line that makes the same results, quoted for a shell. Options that have their defaults are left out.
+pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick: Pick) -> String {
+    let DatasetSettings { source, convention, target_error, seed, metrics, diagnose, .. } = settings;
+    let mut words = vec!["svbrdf".to_owned(), "rank".to_owned()];
+    match source {
+        Source::Folders { ground_truths, methods } => {
+            words.extend(["--dataset".to_owned(), ground_truths.display().to_string()]);
+            words.extend(methods.iter().map(method));
+        }
+        Source::Table(path) => words.extend(["--pairs".to_owned(), path.display().to_string()]),
+    }
+    let options = [
+        ("--convention", convention.clone(), "printed"),
+        ("--target-error", format!("{}%", 100.0 * target_error), "1%"),
+        ("--seed", seed.to_string(), "0"),
+        ("--pick", pick.to_string(), "fixed"),
+    ];
+    let specified = options.into_iter().filter(|(_, value, default)| value != default);
+    words.extend(specified.flat_map(|(name, value, _)| [name.to_owned(), value]));
+    let switches = [("--metrics", *metrics), ("--diagnose", *diagnose), ("--strict", reading.strict)];
+    words.extend(switches.into_iter().filter(|(_, is)| *is).map(|(name, _)| name.to_owned()));
+    words.extend(read_options(reading));
+    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+}
+
+/// The path of a method, with its name where that is another one than the path has.
+fn method(method: &Method) -> String {
+    let path = method.path.display().to_string();
+    let own = method.path.file_name().unwrap_or_default().to_string_lossy();
+    if own == method.name.as_str() { path } else { format!("{}={path}", method.name) }
+}
+
+/// `--read gt:KEY=VALUE,...` for the ground truths, the predictions and the methods that are read by options.
+fn read_options(reading: &DatasetReading) -> Vec<String> {
+    let DatasetReading { ground_truths, predictions, methods, .. } = reading;
+    let of_methods = methods.iter().map(|(name, options)| (name.as_str(), options));
+    let all = [("gt", ground_truths), ("pred", predictions)].into_iter().chain(of_methods);
+    all.filter_map(|(name, options)| Some(["--read".to_owned(), format!("{name}:{}", pairs(options)?)]))
+        .flatten()
+        .collect()
+}
+
+/// The options that are specified, as `key=value,...`.
+fn pairs(options: &ReadOptions) -> Option<String> {
+    let Ok(Value::Object(options)) = serde_json::to_value(options) else { return None };
+    let text = |value: Value| match value {
+        Value::String(text) => text,
+        value => value.to_string(),
+    };
+    let pairs: Vec<String> = options
+        .into_iter()
+        .filter(|(_, value)| !value.is_null())
+        .map(|(key, value)| format!("{key}={}", text(value)))
+        .collect();
+    (!pairs.is_empty()).then(|| pairs.join(","))
+}

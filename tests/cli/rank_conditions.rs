@@ -1,0 +1,230 @@
+//! What stands around the numbers of a ranking: how files were read, over which materials a mean is, and how to repeat it.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use super::{run_in, succeed, svbrdf, text, write_material};
+
+const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
+fn data_set(methods: &[(&str, u8)], materials: usize) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more) in [("gt", 0)].iter().chain(methods) {
+        fs::create_dir(folder.path().join(name)).unwrap();
+        for i in 0..materials {
+            let path = folder.path().join(name).join(format!("m{i}.png"));
+            write_material(&path, 8, 40 + 20 * i as u8 + more);
+        }
+    }
+    folder
+}
+
+/// A material in a folder, without its normal map.
+fn write_without_normals(folder: &Path) {
+    fs::create_dir(folder).unwrap();
+    for (map, value) in [("diffuse", 200), ("specular", 12), ("roughness", 120)] {
+        image::GrayImage::from_pixel(8, 8, image::Luma([value]))
+            .save(folder.join(format!("{map}.png")))
+            .unwrap();
+    }
+}
+
+#[test]
+fn a_ranking_says_how_files_were_read() {
+    let folder = data_set(&[("ours", 8), ("theirs", 16)], 5);
+    for i in 0..3 {
+        fs::remove_file(folder.path().join(format!("theirs/m{i}.png"))).unwrap();
+        write_without_normals(&folder.path().join(format!("theirs/m{i}")));
+    }
+    let expected = "3 of 5 without normal map";
+    let doubts = |output: &str| output.lines().find(|line| line.contains(expected)).map(str::to_owned);
+    let table = succeed(folder.path(), RANK);
+    assert!(doubts(&table).is_some_and(|line| line.starts_with("theirs: ")), "{table}");
+    assert!(!table.lines().any(|line| line.starts_with("ours: ") && line.contains("normal map")), "{table}");
+
+    let output = run_in(folder.path(), &format!("{RANK} --format json"));
+    assert!(doubts(text(&output.stderr)).is_some(), "{}", text(&output.stderr));
+    let ranking = json(text(&output.stdout));
+    let theirs = ranking["methods"].as_array().unwrap().iter().find(|one| one["method"] == "theirs").unwrap();
+    let without = theirs["reading"]["doubts"].as_array().unwrap();
+    let without = without.iter().find(|doubt| doubt["doubt"] == "without normal map").unwrap();
+    assert_eq!((&without["materials"], &theirs["reading"]["materials"]), (&3.into(), &5.into()));
+    let remarks = ranking["results"][0]["predictions"][1]["reading"].as_array().unwrap();
+    assert!(
+        remarks.iter().any(|one| one["text"].as_str().unwrap().starts_with("missing: normal")),
+        "{remarks:?}"
+    );
+
+    let rows = succeed(folder.path(), &format!("{RANK} --format csv"));
+    let mut rows = csv::Reader::from_reader(rows.as_bytes());
+    let column = rows.headers().unwrap().iter().position(|name| name == "doubts").unwrap();
+    let counts: Vec<usize> = rows.records().map(|row| row.unwrap()[column].parse().unwrap()).collect();
+    assert!(counts[1] > counts[7], "without a normal map, and with one: {counts:?}");
+    let latex = succeed(folder.path(), &format!("{RANK} --format latex"));
+    assert!(doubts(&latex).is_some_and(|line| line.starts_with("% theirs: ")), "{latex}");
+    succeed(folder.path(), &format!("{RANK} --format html -o page.html"));
+    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains(expected));
+
+    let verbose = run_in(folder.path(), &format!("{RANK} -v"));
+    let notes = text(&verbose.stderr);
+    assert!(notes.contains("note: m0, theirs: missing: normal"), "{notes}");
+    assert!(notes.contains("note: m4, ground truth: layout: "), "{notes}");
+}
+
+#[test]
+fn no_format_puts_a_method_first_that_failed_on_most_materials() {
+    // Of the easy material alone, where it is worse than the others.
+    let folder = data_set(&[("ours", 8), ("theirs", 16), ("few", 20)], 5);
+    for i in 1..5 {
+        fs::write(folder.path().join(format!("few/m{i}.png")), "not an image").unwrap();
+    }
+    let rank = "rank --dataset gt few theirs ours --target-error 5% --metrics";
+    let ranking = json(&succeed(folder.path(), &format!("{rank} --format json")));
+    let methods = ranking["methods"].as_array().unwrap();
+    let of = |key: &str| methods.iter().map(|one| one[key].clone()).collect::<Vec<_>>();
+    assert_eq!(of("method"), ["ours", "theirs", "few"]);
+    assert_eq!(of("compared"), [true, true, false]);
+    assert_eq!(of("ties_with_best")[2], false);
+    assert_eq!(ranking["compared_materials"].as_array().unwrap().len(), 5);
+    let table = succeed(folder.path(), rank);
+    assert!(table.contains("few has 1 of 5 materials: not compared"), "{table}");
+    let latex = succeed(folder.path(), &format!("{rank} --format latex"));
+    let of_few = latex.lines().find(|line| line.starts_with("few & ")).unwrap();
+    assert!(!of_few.contains("textbf") && of_few.contains("1 of 5"), "{latex}");
+    let metrics = latex.split("Metric, mean").nth(1).unwrap();
+    let bold_last = metrics
+        .lines()
+        .filter(|line| line.contains("arrow"))
+        .any(|line| line.rsplit(" & ").next().unwrap().contains("textbf"));
+    assert!(!bold_last, "{metrics}");
+    succeed(folder.path(), &format!("{rank} --format html -o page.html"));
+    let page = fs::read_to_string(folder.path().join("page.html")).unwrap();
+    assert_eq!(page.matches("<td>best</td>").count(), 1);
+    assert!(page.find("<td>best</td>").unwrap() < page.find("<td>lacks materials</td>").unwrap());
+    let rows = succeed(folder.path(), &format!("{rank} --format csv"));
+    let mut rows = csv::Reader::from_reader(rows.as_bytes());
+    let headers = rows.headers().unwrap().clone();
+    let cell = |name: &str| headers.iter().position(|header| header == name).unwrap();
+    for row in rows.records().map(Result::unwrap) {
+        assert_eq!(&row[cell("compared")] == "true", &row[cell("method")] != "few", "{row:?}");
+    }
+}
+
+#[test]
+fn a_loss_does_not_depend_on_its_rivals_nor_on_other_materials() {
+    let folder = data_set(&[("ours", 8), ("theirs", 80)], 4);
+    let losses = |args: &str| -> Vec<(Value, Value)> {
+        let ranking = json(&succeed(folder.path(), &format!("{args} --format json")));
+        let of = |result: &Value| {
+            let predictions = result["predictions"].as_array().unwrap().clone();
+            let ours = predictions.into_iter().find(|one| one["method"] == "ours").unwrap();
+            (result["material"].clone(), ours["result"]["Ok"].clone())
+        };
+        ranking["results"].as_array().unwrap().iter().map(of).collect()
+    };
+    let both = losses("rank --dataset gt ours theirs --target-error 2%");
+    assert_eq!(losses("rank --dataset gt ours --target-error 2%"), both);
+    fs::remove_file(folder.path().join("gt/m1.png")).unwrap();
+    let fewer: Vec<_> = both.iter().filter(|(name, _)| name != "m1").cloned().collect();
+    assert_eq!(losses("rank --dataset gt ours --target-error 2%"), fewer);
+    assert_ne!(losses("rank --dataset gt ours --target-error 2% --seed 1"), fewer);
+}
+
+#[test]
+fn a_ranking_says_how_to_repeat_it() {
+    let folder = data_set(&[("ours", 8), ("their maps", 16)], 5);
+    let args = [
+        "rank",
+        "--dataset",
+        "gt",
+        "ours",
+        "their maps",
+        "--target-error",
+        "3%",
+        "--seed",
+        "7",
+        "--pick",
+        "mean",
+        "--convention",
+        "guided-2020",
+        "--metrics",
+        "--preset",
+        "deschaintre",
+    ];
+    let run = |args: &[&str]| {
+        let output = svbrdf().args(args).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        text(&output.stdout).to_owned()
+    };
+    let table = run(&args);
+    let version = env!("CARGO_PKG_VERSION");
+    let repeat = table.lines().find_map(|line| line.strip_prefix(&format!("repeat with svbrdf {version}: ")));
+    let words = shlex(repeat.unwrap_or_else(|| panic!("{table}")));
+    let words: Vec<&str> = words.iter().map(String::as_str).skip(1).collect();
+    assert_eq!(run(&words), table);
+    let ranking = json(&run(&[&args[..], &["--format", "json"]].concat()));
+    assert_eq!(ranking["command"], repeat.unwrap());
+    assert_eq!(ranking["reading"]["predictions"]["preset"], "deschaintre");
+    assert!(ranking["software"].as_str().unwrap().contains(version));
+    run(&[&args[..], &["--format", "html", "-o", "page.html"]].concat());
+    let page = fs::read_to_string(folder.path().join("page.html")).unwrap();
+    assert!(page.contains("rank --dataset gt ours") && page.contains(version));
+}
+
+/// The words of a command as a shell reads them: plain ones, and those in single quotes.
+fn shlex(command: &str) -> Vec<String> {
+    let (mut words, mut is_quoted, mut begins) = (Vec::new(), false, true);
+    for c in command.chars() {
+        match c {
+            '\'' => is_quoted = !is_quoted,
+            ' ' if !is_quoted => begins = true,
+            c => {
+                if std::mem::take(&mut begins) {
+                    words.push(String::new());
+                }
+                words.last_mut().unwrap().push(c);
+            }
+        }
+    }
+    words
+}
+
+#[test]
+fn predictions_of_other_names_are_found_by_a_pattern() {
+    let folder = data_set(&[], 3);
+    fs::create_dir(folder.path().join("out")).unwrap();
+    for i in 0..3 {
+        write_material(&folder.path().join(format!("out/m{i}_pred.png")), 8, 60 + 20 * i);
+    }
+    let output = run_in(folder.path(), "rank --dataset gt out --target-error 5%");
+    let notes = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(notes.contains("no prediction named m0 in out; found m0_pred.png"), "{notes}");
+    assert!(notes.contains("out/{}_pred.png"), "{notes}");
+    let ranking =
+        json(&succeed(folder.path(), "rank --dataset gt out/{}_pred.png --target-error 5% --format json"));
+    assert_eq!(
+        (&ranking["methods"][0]["method"], &ranking["methods"][0]["materials"]),
+        (&"pred".into(), &3.into())
+    );
+    fs::remove_file(folder.path().join("out/m1_pred.png")).unwrap();
+    let output = run_in(folder.path(), "rank --dataset gt out/{}_pred.png --target-error 5%");
+    let notes = text(&output.stderr);
+    assert!(notes.contains("no prediction at out/m1_pred.png"), "{notes}");
+}
+
+#[test]
+fn a_loss_of_folders_of_materials_says_how_to_rank_them() {
+    let folder = data_set(&[("ours", 8)], 3);
+    let output = run_in(folder.path(), "loss gt ours");
+    assert_eq!(output.status.code(), Some(1));
+    let message = text(&output.stderr);
+    assert!(message.contains("svbrdf rank --dataset gt ours"), "{message}");
+}
