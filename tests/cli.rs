@@ -17,6 +17,7 @@ mod photo;
 mod pictures;
 mod rank;
 mod rank_html;
+mod read;
 mod report;
 mod scenes;
 mod session;

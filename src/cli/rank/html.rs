@@ -34,7 +34,7 @@ pub fn write(args: &RankArgs, report: &DatasetReport) -> Result<(), CommandError
     let predictions = cases.iter().flat_map(|case| case.candidates.iter().map(|one| one.path.as_path()));
     let inputs = cases.iter().map(|case| case.ground_truth.as_path()).chain(predictions);
     check_output(path, inputs.chain(args.journal.as_deref()))?;
-    let reading = reading(args);
+    let reading = reading(args)?;
     Ok(stoppable(|progress| {
         let views = watched_on(progress, "rendering materials", |progress| {
             material_views(report, &cases, &reading, args.figures, path, progress)
