@@ -18,6 +18,7 @@ mod pictures;
 mod rank;
 mod rank_conditions;
 mod rank_html;
+mod read;
 mod report;
 mod scenes;
 mod session;

@@ -7,6 +7,7 @@ use svbrdf_files::inputs::check_output;
 use svbrdf_files::read::{Binding, Preset};
 use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 
+use super::args::NamedPath;
 use super::args::reading::ReadingArgs;
 use super::job::materials::{noted, read_one};
 use super::output::CommandError;
@@ -24,9 +25,9 @@ use super::output::stop::stoppable;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  svbrdf convert textures/ brick.exr")]
 pub struct ConvertArgs {
-    /// A packed or layered image, a folder, a name prefix, or one of the files
-    #[arg(id = "ground_truth", value_name = "IN", required = true)]
-    material: PathBuf,
+    /// A packed or layered image, a folder, a name prefix, or one of the files; NAME=PATH names it
+    #[arg(id = "ground_truth", value_name = "IN", required = true, value_parser = NamedPath::parser())]
+    material: NamedPath,
 
     /// File or folder to write
     #[arg(value_name = "OUT", required = true)]

@@ -1,7 +1,6 @@
 //! `svbrdf info`: the content of the files of a material, and the assumptions in reading them.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 use clap::ValueEnum;
 use serde::Serialize;
@@ -10,17 +9,17 @@ use svbrdf_core::text::printable;
 use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;
-use super::args::{Given, modes};
+use super::args::{Given, NamedPath, modes};
 use super::job::materials::read_one;
 use super::output::{CommandError, advice, exit, json};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf info textures/ --normal-y down --save")]
+#[command(after_help = "Example:\n  svbrdf info textures/ --read normal-y=down --save")]
 pub struct InfoArgs {
-    /// A packed or layered image, a folder, a name prefix, or one of the files
-    #[arg(id = "ground_truth", value_name = "MATERIAL", required = true)]
-    material: PathBuf,
+    /// A packed or layered image, a folder, a name prefix, or one of the files; NAME=PATH names it
+    #[arg(id = "ground_truth", value_name = "MATERIAL", required = true, value_parser = NamedPath::parser())]
+    material: NamedPath,
 
     /// Output format: text for people, json for programs
     #[arg(long, value_enum, default_value_t)]
@@ -70,8 +69,9 @@ pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
     given.check(&modes::INFO)?;
     let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading)?;
     if args.save {
-        let saved = Sidecar::load(&args.material)?.overridden_by(&args.reading.options(), &args.bindings);
-        exit::tell(&format!("note: saved in {}", saved.save(&args.material)?.display()));
+        let (path, options) = (&args.material.path, args.reading.of_one(&args.material)?);
+        let saved = Sidecar::load(path)?.overridden_by(&options, &args.bindings);
+        exit::tell(&format!("note: saved in {}", saved.save(path)?.display()));
     }
     let info = Info {
         name: read.material.name(),

@@ -26,11 +26,12 @@ mod worst;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
-use clap::{ArgAction, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use clap::{ArgAction, ArgMatches, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use args::reading::former;
 use args::{Given, TrustArgs};
 use output::CommandError;
-use output::exit::{exit_code, explain, put};
+use output::exit::{exit_code, explain, put, tell};
 
 /// The licences of the crates and fonts in this program.
 const THIRD_PARTY: &str = include_str!("../../THIRD-PARTY");
@@ -125,10 +126,18 @@ pub fn main() -> ExitCode {
         .try_get_matches()
         .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
     {
-        Ok((cli, matches)) => exit_code(cli.run(&Given::of(&command, &matches))),
+        Ok((cli, matches)) => {
+            exit_code(note_former_options(&matches).and_then(|()| cli.run(&Given::of(&command, &matches))))
+        }
         Err(version) if version.kind() == ErrorKind::DisplayVersion => exit_code(print_version()),
         Err(unusual) => explain(&unusual),
     }
+}
+
+/// Notes the former options of reading, and the form that replaces them.
+fn note_former_options(matches: &ArgMatches) -> Result<(), CommandError> {
+    former::note(matches)?.iter().for_each(|note| tell(note));
+    Ok(())
 }
 
 /// The parser of the command line stops at `--version`, wherever `--verbose` stands.

@@ -44,11 +44,9 @@ pub struct ViewArgs {
 /// [`Error::NoWindow`] without a display, [`Error::NoAdapter`] without a graphics adapter.
 pub fn run(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
     given.check(&modes::VIEW)?;
-    let materials: Vec<_> = args.materials.paths().filter(|path| !scene_file::is_named(path)).collect();
-    match materials.as_slice() {
-        [path, ..] if Session::is_named(path) => given.check(&modes::SESSION)?,
-        [] | [_] => given.check(&modes::NO_PREDICTION)?,
-        _ => {}
+    let first = args.materials.paths().find(|path| !scene_file::is_named(path));
+    if first.is_some_and(|path| Session::is_named(path)) {
+        given.check(&modes::SESSION)?;
     }
     if args.photo.as_deref().is_some_and(Capture::is_named) {
         given.check(&modes::VIEW_CAPTURE)?;
@@ -79,16 +77,17 @@ fn open_window(args: ViewArgs) -> Result<(), CommandError> {
     let mut materials = args.materials;
     let scenes = take_scenes(&mut materials)?;
     let session = session::given(&materials)?;
+    let sources =
+        if session.is_none() && materials.ground_truth.is_some() { materials.sources()? } else { Vec::new() };
+    let mut sources = sources.into_iter();
     Ok(svbrdf::open_viewer(svbrdf::ViewerOptions {
         session,
         photograph,
         scenes,
         strict: materials.reading.both.strict,
         fit,
-        ground_truth_read: materials.reading.of_ground_truth(),
-        prediction_read: materials.reading.of_predictions(),
-        ground_truth: materials.ground_truth,
-        predictions: materials.predictions,
+        ground_truth: sources.next(),
+        predictions: sources.collect(),
     })?)
 }
 
@@ -109,10 +108,11 @@ fn photograph_of(args: &ViewArgs) -> Result<Option<(SessionPhotograph, Option<Sc
 #[cfg(feature = "viewer")]
 fn take_scenes(materials: &mut MaterialArgs) -> Result<Option<FileScenes>, Error> {
     let all = materials.ground_truth.take().into_iter().chain(std::mem::take(&mut materials.predictions));
-    let (files, others): (Vec<_>, Vec<_>) = all.partition(|path| scene_file::is_named(path));
+    let (files, others): (Vec<_>, Vec<_>) = all.partition(|given| scene_file::is_named(&given.path));
     let mut others = others.into_iter();
     materials.ground_truth = others.next();
     materials.predictions = others.collect();
+    let files: Vec<_> = files.into_iter().map(|given| given.path).collect();
     scene_file::read_one(&files)
 }
 

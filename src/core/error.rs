@@ -156,6 +156,10 @@ pub enum Error {
     #[error("unknown {what} `{found}`; use one of: {known}")]
     UnknownName { what: &'static str, found: String, known: String },
 
+    /// Two values of one option.
+    #[error("{option} is specified twice; leave out one")]
+    SpecifiedTwice { option: String },
+
     /// A loss over no scenes, or over too many.
     #[error(
         "a loss needs at least one scene and at most {most}, found {count}; ask for another number of near-field or \

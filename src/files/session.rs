@@ -45,6 +45,9 @@ pub struct Session {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct SessionMaterial {
+    /// The name that it is given; `None` for that of its files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// Its file, folder or prefix. In a file, it is relative to the folder of the file. `None` for a built-in material.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<PathBuf>,
@@ -197,6 +200,7 @@ mod tests {
     fn session(paths: &[PathBuf]) -> Session {
         let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };
         let material = |path: &PathBuf| SessionMaterial {
+            name: None,
             path: Some(path.clone()),
             built_in: None,
             read,

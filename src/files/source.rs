@@ -34,6 +34,8 @@ pub enum Place {
 /// Where a material comes from and how it is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MaterialSource {
+    /// The name that it is given; `None` for that of its files.
+    pub name: Option<String>,
     pub place: Place,
     /// What is specified; a built-in material is read in its own way.
     pub options: ReadOptions,
@@ -46,12 +48,18 @@ pub struct MaterialSource {
 impl MaterialSource {
     /// The material at `path`, whose sidecar file completes `options`.
     pub fn path(path: PathBuf, options: ReadOptions) -> Self {
-        Self { place: Place::Path(path), options, uses_sidecar: true, fit: false }
+        Self { name: None, place: Place::Path(path), options, uses_sidecar: true, fit: false }
     }
 
     /// The built-in material of this number, 0 for the ground truth.
     pub fn built_in(number: usize) -> Self {
-        Self { place: Place::BuiltIn(number), options: ReadOptions::AUTO, uses_sidecar: false, fit: false }
+        Self {
+            name: None,
+            place: Place::BuiltIn(number),
+            options: ReadOptions::AUTO,
+            uses_sidecar: false,
+            fit: false,
+        }
     }
 
     /// An entry of a session, which alone specifies how the material is read.
@@ -60,7 +68,7 @@ impl MaterialSource {
             (Some(path), _) => Place::Path(path.clone()),
             (None, number) => Place::BuiltIn(number.unwrap_or(0)),
         };
-        Self { place, options: entry.read, uses_sidecar: false, fit: entry.fit }
+        Self { name: entry.name.clone(), place, options: entry.read, uses_sidecar: false, fit: entry.fit }
     }
 
     /// Its path; empty for a built-in material.
@@ -76,11 +84,29 @@ impl MaterialSource {
     /// # Errors
     /// As [`read::read`]; [`Error::NoSuchBuiltIn`].
     pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
-        match &self.place {
+        let read: Read<T> = match &self.place {
             Place::BuiltIn(number) => samples::load_one(*number),
             Place::Path(path) if self.uses_sidecar => read::read(path, &self.options, progress),
             Place::Path(path) => read::read_as(path, &self.options, progress),
-        }
+        }?;
+        Ok(match &self.name {
+            Some(name) => Read { material: read.material.renamed(name.clone()), ..read },
+            None => read,
+        })
+    }
+
+    /// The names that it may have once it is read, found without its pixels; at least one.
+    pub fn possible_names(&self) -> Vec<String> {
+        self.name
+            .clone()
+            .map_or_else(|| read::possible_names(self.location(), &self.options), |name| vec![name])
+    }
+}
+
+impl From<PathBuf> for MaterialSource {
+    /// The material at this path, of which nothing is specified.
+    fn from(path: PathBuf) -> Self {
+        Self::path(path, ReadOptions::AUTO)
     }
 }
 

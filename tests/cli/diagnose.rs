@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::{folder, succeed, write_tiles};
 
 const SIDE: u32 = 32;
-const READ: &str = "--preset deschaintre --order ndrs";
+const READ: &str = "--preset deschaintre --read order=ndrs";
 
 fn json(text: &str) -> Value {
     serde_json::from_str(text).unwrap()
@@ -38,8 +38,8 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
     write(&of("directx.png"), |tile, [r, g, b]| if tile == 0 { [r, 255 - g, b] } else { [r, g, b] });
     write(&of("gloss.png"), |tile, texel| if tile == 2 { texel.map(|v| 255 - v) } else { texel });
     for (name, hypothesis, value, option) in [
-        ("directx", "normal_y", "flipped", "--pred-normal-y down"),
-        ("gloss", "roughness", "gloss", "--pred-roughness gloss"),
+        ("directx", "normal_y", "flipped", "--read directx:normal-y=down"),
+        ("gloss", "roughness", "gloss", "--read gloss:roughness=gloss"),
     ] {
         let printed =
             json(&succeed(folder.path(), &format!("diagnose truth.png {name}.png {READ} --format json")));
@@ -205,7 +205,7 @@ fn a_data_set_counts_the_materials_of_each_method_by_their_marks() {
         "{ours} {theirs}"
     );
     let marks = &found["results"][0]["predictions"][0]["marks"];
-    assert_eq!(marks[0]["remedy"], "--pred-normal-y down");
+    assert_eq!(marks[0]["remedy"], "normal-y=down");
     assert!(found["results"][0]["floor"].as_f64().unwrap() > 0.0);
     let text = rank("--diagnose");
     let row = |name: &str| -> Vec<String> {

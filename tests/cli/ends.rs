@@ -8,10 +8,10 @@ use super::{fail, folder, succeed, svbrdf, text};
 fn help_shows_examples_and_exit_codes() {
     let folder = folder();
     let help = succeed(folder.path(), "--help");
-    for expected in ["view", "loss", "render", "Examples:", "Exit codes:", "64", "--albedo", "--normal-y"] {
+    for expected in ["view", "loss", "render", "Examples:", "Exit codes:", "64", "--read", "--preset"] {
         assert!(help.contains(expected), "{expected} is missing in\n{help}");
     }
-    for (subcommand, option) in [("view", "--gt-albedo"), ("loss", "--scenes"), ("render", "--exposure")] {
+    for (subcommand, option) in [("view", "--read"), ("loss", "--scenes"), ("render", "--exposure")] {
         assert!(succeed(folder.path(), &format!("{subcommand} --help")).contains(option));
     }
     assert!(succeed(folder.path(), "--version").contains(env!("CARGO_PKG_VERSION")));
@@ -30,7 +30,7 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
         ("loss gt.png a.png --scenes one.json --seed 1", 64, "cannot be used with"),
         ("loss gt.png", 64, "no prediction"),
         ("loss gt.png a.png --colour", 64, "--colour"),
-        ("loss --albedo srgb", 64, "<GT>"),
+        ("loss --read albedo=srgb", 64, "<GT>"),
         ("loss gt.png a.png --scenes nan.json", 1, "nan.json"),
         ("loss gt.png a.png --scenes below.json", 1, "scene 0: its light [0.5, 0.5, -1.0] is not above"),
         ("loss gt.png a.png --scenes none.json", 1, "no scene"),

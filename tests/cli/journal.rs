@@ -34,42 +34,45 @@ fn results(folder: &Path, args: &str) -> (Value, String) {
 fn a_journal_of_other_options_of_reading_is_refused() {
     let folder = data_set();
     let run = |options: &str| format!("{RANK} --journal run.jsonl {options}");
-    succeed(folder.path(), &run("--albedo gamma2.2"));
+    succeed(folder.path(), &run("--read albedo=gamma2.2"));
     let before = fs::read(folder.path().join("run.jsonl")).unwrap();
     for (options, difference) in [
-        ("--albedo linear", r#"reading.ground-truths.albedo is "gamma2.2", but "linear""#),
+        ("--read albedo=linear", r#"reading.ground-truths.albedo is "gamma2.2", but "linear""#),
         ("", r#"reading.predictions.albedo is "gamma2.2", but unspecified"#),
-        ("--albedo gamma2.2 --normal-y down", r#"normal-y is unspecified, but "down""#),
+        ("--read albedo=gamma2.2 --read normal-y=down", r#"normal-y is unspecified, but "down""#),
         (
-            "--albedo gamma2.2 --pred-albedo linear",
+            "--read albedo=gamma2.2 --read pred:albedo=linear",
             r#"reading.predictions.albedo is "gamma2.2", but "linear""#,
         ),
-        ("--albedo gamma2.2 --roughness gloss", "roughness"),
-        ("--albedo gamma2.2 --flip-v", "flip-v"),
-        ("--albedo gamma2.2 --strict", "reading.strict is false, but true"),
-        ("--albedo gamma2.2 --convention guided-2020", r#"convention is "printed", but "guided-2020""#),
-        ("--albedo gamma2.2 --seed 3", "seed is 0, but 3 in this run"),
-        ("--albedo gamma2.2 --metrics", "metrics"),
-        ("--albedo gamma2.2 --diagnose", "diagnose is unspecified, but true"),
+        ("--read albedo=gamma2.2 --read roughness=gloss", "roughness"),
+        ("--read albedo=gamma2.2 --read flip-v=true", "flip-v"),
+        ("--read albedo=gamma2.2 --strict", "reading.strict is false, but true"),
+        ("--read albedo=gamma2.2 --convention guided-2020", r#"convention is "printed", but "guided-2020""#),
+        ("--read albedo=gamma2.2 --seed 3", "seed is 0, but 3 in this run"),
+        ("--read albedo=gamma2.2 --metrics", "metrics"),
+        ("--read albedo=gamma2.2 --diagnose", "diagnose is unspecified, but true"),
     ] {
         let stderr = fail(folder.path(), &run(options), 1);
         assert!(stderr.contains("of other settings") && stderr.contains(difference), "{options}: {stderr}");
     }
     assert_eq!(fs::read(folder.path().join("run.jsonl")).unwrap(), before);
-    succeed(folder.path(), &run("--albedo gamma2.2"));
+    succeed(folder.path(), &run("--read albedo=gamma2.2"));
 }
 
 #[test]
 fn parts_that_were_read_differently_are_not_joined() {
     let folder = data_set();
     for (part, albedo) in [(1, "gamma2.2"), (2, "linear")] {
-        succeed(folder.path(), &format!("{RANK} --shard {part}/2 --journal {part}.jsonl --albedo {albedo}"));
+        succeed(
+            folder.path(),
+            &format!("{RANK} --shard {part}/2 --journal {part}.jsonl --read albedo={albedo}"),
+        );
     }
     let stderr = fail(folder.path(), "rank --merge 1.jsonl 2.jsonl", 1);
     for part in ["2.jsonl cannot be used", r#"albedo is "linear", but "gamma2.2""#, "in 1.jsonl"] {
         assert!(stderr.contains(part), "{part}: {stderr}");
     }
-    succeed(folder.path(), &format!("{RANK} --shard 2/2 --journal 3.jsonl --albedo gamma2.2"));
+    succeed(folder.path(), &format!("{RANK} --shard 2/2 --journal 3.jsonl --read albedo=gamma2.2"));
     succeed(folder.path(), "rank --merge 1.jsonl 3.jsonl");
 }
 

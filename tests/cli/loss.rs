@@ -128,7 +128,7 @@ fn a_time_budget_gives_a_loss_and_nonsense_is_refused() {
         ("--time-budget 2m", "in us, ms or s"),
         ("--texels -3", "a number such as 256"),
         ("--texels 0", "a number such as 256"),
-        ("--dielectric-f0 -1", "a number from 0 to 1"),
+        ("--read dielectric-f0=-1", "a number from 0 to 1"),
         ("--resize-to -1", "a width from 1"),
         ("--sampler halton", "sobol"),
     ] {
@@ -211,7 +211,7 @@ fn an_accuracy_that_is_not_reached_is_said() {
     assert_eq!((&json["target_error"], &json["target_reached"]), (&json!(1e-5), &json!(false)));
     let strict = run_in(
         folder.path(),
-        &format!("loss {missed} --strict --preset deschaintre --order ndrs --format csv"),
+        &format!("loss {missed} --strict --preset deschaintre --read order=ndrs --format csv"),
     );
     assert_eq!(strict.status.code(), Some(1));
     assert!(
@@ -222,7 +222,7 @@ fn an_accuracy_that_is_not_reached_is_said() {
     assert!(text(&strict.stderr).contains("error: a is known to"));
     let reached = losses_as_json(
         folder.path(),
-        "gt.png a.png --target-error 10% --strict --preset deschaintre --order ndrs",
+        "gt.png a.png --target-error 10% --strict --preset deschaintre --read order=ndrs",
     );
     assert_eq!(reached["target_reached"], json!(true));
 }

@@ -11,13 +11,13 @@ fn options_of_reading_change_what_is_read() {
     let loss = |args: &str| {
         losses_as_json(folder.path(), &format!("gt.png a.png {args}"))["results"][0]["loss"].clone()
     };
-    let linear = loss("--albedo linear");
-    let both = loss("--albedo gamma2.2");
-    assert_eq!(both, loss("--gt-albedo gamma2.2 --pred-albedo gamma2.2"));
-    assert_eq!(loss("--albedo srgb --gt-albedo linear --pred-albedo linear"), linear);
+    let linear = loss("--read albedo=linear");
+    let both = loss("--read albedo=gamma2.2");
+    assert_eq!(both, loss("--read gt:albedo=gamma2.2 --read pred:albedo=gamma2.2"));
+    assert_eq!(loss("--read albedo=srgb --read gt:albedo=linear --read pred:albedo=linear"), linear);
     assert_ne!(linear, both);
-    assert_ne!(loss("--gt-albedo gamma2.2 --pred-albedo linear"), both);
-    assert_ne!(loss("--albedo linear --normal-y down"), linear);
+    assert_ne!(loss("--read gt:albedo=gamma2.2 --read pred:albedo=linear"), both);
+    assert_ne!(loss("--read albedo=linear --read normal-y=down"), linear);
 }
 
 #[test]
@@ -30,7 +30,8 @@ fn info_says_what_was_assumed_and_strict_refuses_guesses() {
     let json: Value = serde_json::from_str(&succeed(folder.path(), "info gt.png --format json")).unwrap();
     assert_eq!(json["maps"].as_array().unwrap().len(), 4);
     assert_eq!(json["assumptions"][0]["what"], "layout");
-    let given = succeed(folder.path(), "info gt.png --albedo srgb --order ndrs --normal-y down");
+    let given =
+        succeed(folder.path(), "info gt.png --read albedo=srgb --read order=ndrs --read normal-y=down");
     assert!(
         given.contains("albedo: srgb: as specified") && given.contains("normal y: down: as specified"),
         "{given}"
@@ -83,11 +84,12 @@ fn a_size_that_does_not_fit_is_refused() {
     for (materials, width, found) in
         [("slim.png slim.png", 16_384, "16384 x 114688"), ("gt.png a.png", 16_384, "10 GiB")]
     {
-        let args = format!("loss {materials} --order ndrs --grid 4x1 --resize-to {width}");
+        let args = format!("loss {materials} --read order=ndrs --read grid=4x1 --resize-to {width}");
         let stderr = fail(folder.path(), &args, 1);
         assert!(stderr.contains(found) && stderr.contains("smaller width"), "{stderr}");
     }
-    let json = losses_as_json(folder.path(), "slim.png slim.png --order ndrs --grid 4x1 --resize-to 20");
+    let json =
+        losses_as_json(folder.path(), "slim.png slim.png --read order=ndrs --read grid=4x1 --resize-to 20");
     assert_eq!(json["size"], json!([20, 140]));
 }
 

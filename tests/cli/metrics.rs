@@ -26,7 +26,7 @@ fn the_protocol_of_matfusion_compares_values_as_stored() {
     let prediction = [[140, 120, 240], [180, 130, 60], [120; 3], [30, 25, 10]];
     write_tiles(&of("gt.png"), truth);
     write_tiles(&of("a.png"), prediction);
-    let args = "metrics --protocol matfusion gt.png a.png --order ndrs --albedo gamma2.2 --normal-y up --roughness r";
+    let args = "metrics --protocol matfusion gt.png a.png --read order=ndrs --read albedo=gamma2.2 --read normal-y=up --read roughness=r";
     let found = json(&succeed(folder.path(), &format!("{args} --format json")));
     assert_eq!(found["protocol"], "matfusion");
     let rmse = |map: usize, decode: fn(f64) -> f64| {
@@ -127,7 +127,7 @@ fn a_ranking_of_a_data_set_has_metrics_of_the_maps() {
         }
     }
     fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();
-    let rank = "rank --dataset gt ours theirs --target-error 5% --metrics --roughness r";
+    let rank = "rank --dataset gt ours theirs --target-error 5% --metrics --read roughness=r";
     let found = json(&succeed(folder.path(), &format!("{rank} --format json")));
     for (method, expected) in [(0, 8.0), (1, 40.0)] {
         let metrics = &found["methods"][method]["metrics"];

@@ -48,7 +48,7 @@ fn what_a_form_for_other_programs_loses_is_said() {
         .save(at.join("metal/metallic.png"))
         .unwrap();
     for out in ["y.glb", "y.mtlx", "y --like gltf"] {
-        let said = notes(at, &format!("convert metal {out} --normal-y up"));
+        let said = notes(at, &format!("convert metal {out} --read normal-y=up"));
         let kept = "written as base colour and metallic, which change diffuse by at most 0.0000 (mean 0.0000), specular by \
                     at most 0.0000 (mean 0.0000)";
         assert!(said.len() == 1 && said[0].ends_with(kept), "{said:?}");

@@ -25,10 +25,33 @@ enum Shows {
 
 /// How materials are read: a session specifies it.
 #[rustfmt::skip]
-const OF_SESSION: [&str; 21] = [
-    "preset", "albedo", "specular-albedo", "normal-y", "roughness", "normal-encoding", "workflow", "dielectric-f0", "energy", "order",
-    "grid", "flip-v", "exemplar", "non-finite", "gt-albedo", "pred-albedo", "pred-specular-albedo", "pred-normal-y",
-    "pred-roughness", "pred-energy", "resize-to",
+const OF_SESSION: [&str; 22] = [
+    "albedo", "specular-albedo", "normal-y", "roughness", "normal-encoding", "workflow", "dielectric-f0", "energy", "order", "grid",
+    "flip-v", "exemplar", "non-finite", "gt:albedo", "pred:albedo", "pred:specular-albedo", "pred:normal-y", "pred:roughness",
+    "pred:energy", "pred:preset", "preset", "resize-to",
+];
+/// The statements of `--read`, each of which is tried like an option of its own.
+const READ: [(&str, &str); 20] = [
+    ("albedo", "albedo=gamma2.2"),
+    ("specular-albedo", "specular-albedo=srgb"),
+    ("normal-y", "normal-y=down"),
+    ("roughness", "roughness=gloss"),
+    ("normal-encoding", "normal-encoding=signed"),
+    ("workflow", "workflow=metallic"),
+    ("dielectric-f0", "dielectric-f0=0.2"),
+    ("energy", "energy=unscaled"),
+    ("order", "order=dnrs"),
+    ("grid", "grid=2x2"),
+    ("flip-v", "flip-v=true"),
+    ("exemplar", "exemplar=1"),
+    ("non-finite", "non-finite=replace"),
+    ("gt:albedo", "gt:albedo=gamma2.2"),
+    ("pred:albedo", "pred:albedo=gamma2.2"),
+    ("pred:specular-albedo", "pred:specular-albedo=srgb"),
+    ("pred:normal-y", "pred:normal-y=down"),
+    ("pred:roughness", "pred:roughness=gloss"),
+    ("pred:energy", "pred:energy=unscaled"),
+    ("pred:preset", "pred:preset=gao"),
 ];
 /// The options of a photograph, and what a window has no use for.
 #[rustfmt::skip]
@@ -86,7 +109,14 @@ const MODES: [(&str, Shows); 49] = [
         "view gt.png",
         Shows::Refusals(&[
             &WITHOUT_PHOTO,
-            &["pred-albedo", "pred-specular-albedo", "pred-normal-y", "pred-roughness", "pred-energy"],
+            &[
+                "pred:albedo",
+                "pred:specular-albedo",
+                "pred:normal-y",
+                "pred:roughness",
+                "pred:energy",
+                "pred:preset",
+            ],
         ]),
     ),
     ("view s.svbrdf-session.json", Shows::Refusals(&[&WITHOUT_PHOTO, &OF_SESSION])),
@@ -98,26 +128,8 @@ const MODES: [(&str, Shows); 49] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 76] = [
-    ("albedo", "gamma2.2"),
-    ("specular-albedo", "srgb"),
-    ("normal-y", "down"),
-    ("roughness", "gloss"),
-    ("normal-encoding", "signed"),
-    ("workflow", "metallic"),
-    ("dielectric-f0", "0.2"),
-    ("energy", "unscaled"),
-    ("order", "dnrs"),
-    ("grid", "2x2"),
+const VALUES: [(&str, &str); 58] = [
     ("preset", "gao"),
-    ("exemplar", "1"),
-    ("non-finite", "replace"),
-    ("gt-albedo", "gamma2.2"),
-    ("pred-albedo", "gamma2.2"),
-    ("pred-specular-albedo", "srgb"),
-    ("pred-normal-y", "down"),
-    ("pred-roughness", "gloss"),
-    ("pred-energy", "unscaled"),
     ("resize-to", "6"),
     ("convention", "guided-2020"),
     ("near", "3"),
@@ -192,7 +204,7 @@ const PREMISES: [(&str, [&str; 2], &str); 6] = [
 const UNSEEN: [(&str, &[&str]); 2] = [
     (
         "render gt.png a.png -o x.png --show normal",
-        &["dielectric-f0", "energy", "preset", "roughness", "pred-energy", "pred-roughness"],
+        &["dielectric-f0", "energy", "preset", "roughness", "pred:energy", "pred:preset", "pred:roughness"],
     ),
     ("info gt.png", &["dielectric-f0"]),
 ];
@@ -295,6 +307,15 @@ fn options(command: &str) -> BTreeSet<String> {
         .collect()
 }
 
+/// The statements of `--read` in place of it: those for one side only where there are two.
+fn statements(command: &str, option: String) -> Vec<String> {
+    if option != "read" {
+        return vec![option];
+    }
+    let is_tried = |key: &&str| !["info", "convert"].contains(&command) || !key.contains(':');
+    READ.iter().map(|(key, _)| *key).filter(is_tried).map(str::to_owned).collect()
+}
+
 fn copied(from: &Path, to: &Path) {
     for entry in fs::read_dir(from).unwrap() {
         let path = entry.unwrap().path();
@@ -394,22 +415,27 @@ fn problem(
     shows: Shows,
     option: &str,
 ) -> Option<String> {
-    let value = named(&VALUES, |row| row.0, mode, option).map_or("", |(_, value)| value);
+    let typed = match READ.iter().find(|(key, _)| *key == option) {
+        Some((_, statement)) => format!("--read {statement}"),
+        None => {
+            format!("--{option} {}", named(&VALUES, |row| row.0, mode, option).map_or("", |(_, value)| value))
+        }
+    };
     let base = base(mode, option);
     // `--corners` would take a path after it as a value: options come last.
-    let with = Outcome::of(fixture, &format!("{base} --{option} {value}"));
+    let with = Outcome::of(fixture, &format!("{base} {typed}"));
     if with.code == Some(64) && !with.is_refused() {
-        return Some(format!("{base} --{option}: {}", with.stderr));
+        return Some(format!("{base} {typed}: {}", with.stderr));
     }
     match shows {
         Shows::Everything if with.is_refused() => None,
         Shows::Everything => {
             let unseen = UNSEEN.iter().any(|(of, options)| *of == mode && options.contains(&option));
-            (with == without[&base] && !unseen).then(|| format!("{base} ignores --{option}"))
+            (with == without[&base] && !unseen).then(|| format!("{base} ignores {typed}"))
         }
         Shows::Refusals(expected) => {
             let is_expected = expected.iter().any(|group| group.contains(&option));
-            (with.is_refused() != is_expected).then(|| format!("{base} --{option}: {}", with.stderr))
+            (with.is_refused() != is_expected).then(|| format!("{base} {typed}: {}", with.stderr))
         }
     }
 }
@@ -429,6 +455,7 @@ fn every_option_changes_the_result_or_is_refused() {
             options(command)
                 .into_iter()
                 .filter(is_new)
+                .flat_map(|option| statements(command, option))
                 .map(|option| (*mode, *shows, option))
                 .collect::<Vec<_>>()
         })

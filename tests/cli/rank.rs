@@ -63,7 +63,7 @@ fn a_data_set_names_the_losses_that_miss_the_target_error() {
         write_material(&folder.path().join(name).join("mirror.png"), 4, roughness);
         write_material(&folder.path().join(name).join("rough.png"), 4, 100 + 10 * roughness);
     }
-    let command = "rank --dataset gt ours --preset deschaintre --order ndrs --format csv";
+    let command = "rank --dataset gt ours --preset deschaintre --read order=ndrs --format csv";
     let output = run_in(folder.path(), command);
     let warnings = text(&output.stderr);
     assert!(output.status.success() && warnings.matches("warning: ").count() == 1, "{warnings}");

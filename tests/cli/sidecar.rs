@@ -9,7 +9,7 @@ use super::*;
 fn saved_options_hold_for_every_command_until_others_are_specified() {
     let folder = folder();
     let of = |name: &str| folder.path().join(name);
-    let report = succeed(folder.path(), "info a.png --roughness gloss --exemplar 0 --save");
+    let report = succeed(folder.path(), "info a.png --read roughness=gloss --read exemplar=0 --save");
     assert!(report.contains("roughness: gloss: as specified"), "{report}");
     let saved: Value = serde_json::from_str(&std::fs::read_to_string(of("a.svbrdf.json")).unwrap()).unwrap();
     assert_eq!(saved, json!({"roughness": "gloss", "exemplar": 0}));
@@ -27,12 +27,12 @@ fn saved_options_hold_for_every_command_until_others_are_specified() {
         read.unwrap().material.planes().clone()
     };
     let saved = converted("a.png");
-    assert_eq!(saved, converted("c.png --roughness gloss"));
+    assert_eq!(saved, converted("c.png --read roughness=gloss"));
     assert_ne!(saved, converted("c.png"));
-    assert_ne!(saved, converted("a.png --roughness r"));
+    assert_ne!(saved, converted("a.png --read roughness=r"));
     RgbImage::from_pixel(8, 8, Rgb([99; 3])).save(of("r.png")).unwrap();
     // Saved again, new options are added and specified ones replaced.
-    let again = "info a.png --roughness alpha --map roughness=r.png --grid 4x1 --save";
+    let again = "info a.png --read roughness=alpha --map roughness=r.png --read grid=4x1 --save";
     assert!(succeed(folder.path(), again).contains("roughness: alpha: as specified"));
     let saved: Value = serde_json::from_str(&std::fs::read_to_string(of("a.svbrdf.json")).unwrap()).unwrap();
     assert_eq!(
@@ -44,11 +44,11 @@ fn saved_options_hold_for_every_command_until_others_are_specified() {
 #[test]
 fn nothing_is_saved_of_options_that_are_refused() {
     let folder = folder();
-    fail(folder.path(), "info a.png --grid 5x1 --save", 1);
+    fail(folder.path(), "info a.png --read grid=5x1 --save", 1);
     std::fs::write(folder.path().join("a.svbrdf.json"), r#"{"albdo": "srgb"}"#).unwrap();
     let message = fail(folder.path(), "info a.png", 1);
     assert!(message.contains("unknown key `albdo`"), "{message}");
-    fail(folder.path(), "info a.png --save --albedo srgb", 1);
+    fail(folder.path(), "info a.png --save --read albedo=srgb", 1);
     assert!(std::fs::read_to_string(folder.path().join("a.svbrdf.json")).unwrap().contains("albdo"));
 }
 
@@ -59,12 +59,12 @@ fn options_are_not_saved_through_a_link() {
     let of = |name: &str| folder.path().join(name);
     std::fs::write(of("elsewhere.json"), "a file of somebody").unwrap();
     std::os::unix::fs::symlink("elsewhere.json", of("a.svbrdf.json")).unwrap();
-    let message = fail(folder.path(), "info a.png --roughness gloss --save", 1);
+    let message = fail(folder.path(), "info a.png --read roughness=gloss --save", 1);
     assert!(message.contains("a.svbrdf.json"), "{message}");
     assert_eq!(std::fs::read_to_string(of("elsewhere.json")).unwrap(), "a file of somebody");
     std::fs::remove_file(of("elsewhere.json")).unwrap();
     // Nor where it points to nothing yet.
-    let message = fail(folder.path(), "info a.png --roughness gloss --save", 1);
+    let message = fail(folder.path(), "info a.png --read roughness=gloss --save", 1);
     assert!(
         message.contains("it is a link to elsewhere.json") && message.contains("remove the link"),
         "{message}"

@@ -36,7 +36,7 @@ fn a_share_below_0_is_explained() {
         let tiles = [[128, 128, 255], [2; 3], [roughness; 3], [specular; 3]];
         write_tiles(&folder.path().join(format!("{name}.png")), 4, |x, _| tiles[x as usize / 4]);
     }
-    let table = succeed(folder.path(), "blame metal.png dull.png --preset deschaintre --order ndrs");
+    let table = succeed(folder.path(), "blame metal.png dull.png --preset deschaintre --read order=ndrs");
     let note =
         "Below 0%, the wrong specular hides errors of other maps, whose shares add up to more than 100%.";
     assert!(table.contains("specular   -90.1%") && table.ends_with(&format!("\n\n{note}\n")), "{table}");
@@ -57,7 +57,7 @@ fn a_question_ends_at_its_limit_of_scenes_and_says_so() {
     for (name, roughness) in [("mirror", 1), ("near", 2)] {
         write_material(&folder.path().join(format!("{name}.png")), 4, roughness);
     }
-    let pair = "mirror.png near.png --preset deschaintre --order ndrs";
+    let pair = "mirror.png near.png --preset deschaintre --read order=ndrs";
     for (command, results, scenes, who) in [
         ("blame", "attributions", 49_152, "near is known to +-"),
         ("worst", "results", 49_152, "the mean of near is known to +-"),

@@ -8,6 +8,7 @@ use svbrdf::viewer::model::command::SceneCommand;
 use svbrdf_core::material::Material;
 use svbrdf_files::read::{Albedo, ReadOptions};
 use svbrdf_files::samples::generate;
+use svbrdf_files::source::MaterialSource;
 
 use super::*;
 
@@ -34,8 +35,11 @@ fn change(window: &mut Window<'_>) {
 
 /// A window on both, high enough for all panels, once their loss is there.
 fn on_two_strips<'a>([truth, guess]: [PathBuf; 2]) -> Window<'a> {
-    let options =
-        ViewerOptions { ground_truth: Some(truth), predictions: vec![guess], ..ViewerOptions::default() };
+    let options = ViewerOptions {
+        ground_truth: Some(truth.into()),
+        predictions: vec![guess.into()],
+        ..ViewerOptions::default()
+    };
     let mut window = window(options);
     tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
@@ -137,7 +141,8 @@ fn a_click_on_another_workflow_changes_the_material() {
     put("metallic.png", 255);
     put("roughness.png", 128);
     put("specular.png", 99);
-    let options = ViewerOptions { ground_truth: Some(folder.path().to_owned()), ..ViewerOptions::default() };
+    let options =
+        ViewerOptions { ground_truth: Some(folder.path().to_owned().into()), ..ViewerOptions::default() };
     let mut window = window(options);
     tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
@@ -166,7 +171,7 @@ fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
     let tile =
         |x: u32, _| image::Rgb(if (32..64).contains(&x) { [128, 128, 255] } else { [(x % 32) as u8; 3] });
     image::RgbImage::from_fn(3 * 32, 16, tile).save(&path).unwrap();
-    let options = ViewerOptions { ground_truth: Some(path), ..ViewerOptions::default() };
+    let options = ViewerOptions { ground_truth: Some(path.into()), ..ViewerOptions::default() };
     let mut window = window(options);
     tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 2000.0));
@@ -261,7 +266,7 @@ fn a_pasted_material_is_read_as_those_that_are_open() {
     let (_folder, [truth, guess]) = two_strips();
     let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };
     let options =
-        ViewerOptions { ground_truth: Some(truth), ground_truth_read: read, ..ViewerOptions::default() };
+        ViewerOptions { ground_truth: Some(MaterialSource::path(truth, read)), ..ViewerOptions::default() };
     let mut window = window(options);
     let ctx = window.ctx.clone();
     window.state_mut().apply(&ctx, SceneCommand::Paste(guess.display().to_string()).into());

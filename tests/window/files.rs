@@ -133,8 +133,8 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
     let [large, small] = two_sizes(folder.path());
     for fit in [false, true] {
         let options = ViewerOptions {
-            ground_truth: Some(large.clone()),
-            predictions: vec![small.clone()],
+            ground_truth: Some(large.clone().into()),
+            predictions: vec![small.clone().into()],
             fit,
             ..ViewerOptions::default()
         };
@@ -169,7 +169,7 @@ fn guesses_are_refused_where_the_window_was_told_to() {
         strip.crop_imm(map * side, 0, side, side).save(path).unwrap();
     }
     for strict in [false, true] {
-        let ground_truth = Some(folder.path().join("map"));
+        let ground_truth = Some(folder.path().join("map").into());
         let window = window(ViewerOptions { ground_truth, strict, ..ViewerOptions::default() });
         assert_eq!(window.state().names().len(), usize::from(!strict));
         let refused = window.state().messages().iter().any(|text| text.contains("ambiguous"));
@@ -189,8 +189,8 @@ fn predictions_of_one_name_are_told_apart_by_their_folders() {
         path
     });
     let options = ViewerOptions {
-        ground_truth: Some(large),
-        predictions: predictions.to_vec(),
+        ground_truth: Some(large.into()),
+        predictions: predictions.map(Into::into).to_vec(),
         ..ViewerOptions::default()
     };
     let mut window = window(options);

@@ -18,7 +18,8 @@ fn each_map_has_one_line_a_badge_where_it_is_unsure_and_folded_drop_downs() {
         let map = image::imageops::crop_imm(&strip, tile * side, 0, side, side).to_image();
         map.save(folder.path().join(format!("{name}.png"))).unwrap();
     }
-    let options = ViewerOptions { ground_truth: Some(folder.path().to_owned()), ..ViewerOptions::default() };
+    let options =
+        ViewerOptions { ground_truth: Some(folder.path().to_owned().into()), ..ViewerOptions::default() };
     let mut window = window(options);
     tab(&mut window, "Files");
     window.set_size(vec2(1200.0, 1400.0));
@@ -48,7 +49,7 @@ fn a_file_of_several_materials_has_a_chooser() {
     }
     let text = "newmtl red\nmap_Kd red.png\nPr 0.2\nnewmtl green\nmap_Kd green.png\nPr 0.7\n";
     std::fs::write(&path, text).unwrap();
-    let options = ViewerOptions { ground_truth: Some(path), ..ViewerOptions::default() };
+    let options = ViewerOptions { ground_truth: Some(path.into()), ..ViewerOptions::default() };
     let mut window = window(options);
     tab(&mut window, "Files");
     let diffuse = |app: &App| app.materials().next().unwrap().texel(0).diffuse;

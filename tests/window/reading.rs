@@ -66,8 +66,8 @@ fn window_of_files() -> (tempfile::TempDir, [PathBuf; 2], Window<'static>) {
     let folder = tempfile::tempdir().unwrap();
     let paths = ["gt.png", "p.png"].map(|name| strip(&folder.path().join(name), 1));
     let options = ViewerOptions {
-        ground_truth: Some(paths[0].clone()),
-        predictions: vec![paths[1].clone()],
+        ground_truth: Some(paths[0].clone().into()),
+        predictions: vec![paths[1].clone().into()],
         ..ViewerOptions::default()
     };
     let window = window(options);

@@ -144,7 +144,11 @@ fn strips(folder: &Path) -> [PathBuf; 2] {
 fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let folder = tempfile::tempdir().unwrap();
     let [gt, p] = strips(folder.path());
-    let options = ViewerOptions { ground_truth: Some(gt), predictions: vec![p], ..ViewerOptions::default() };
+    let options = ViewerOptions {
+        ground_truth: Some(gt.into()),
+        predictions: vec![p.into()],
+        ..ViewerOptions::default()
+    };
     let mut first = window(options);
     let read = ReadOptions { normal_y: Some(svbrdf_files::read::NormalY::Down), ..ReadOptions::AUTO };
     apply(&mut first, MaterialsCommand::ReadAs { index: 1, read });
@@ -258,8 +262,8 @@ fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
     std::fs::write(&scenes, text).unwrap();
     let [ground_truth, predictions] = [gt.clone(), p.clone()];
     let mut window = window(ViewerOptions {
-        ground_truth: Some(ground_truth),
-        predictions: vec![predictions],
+        ground_truth: Some(ground_truth.into()),
+        predictions: vec![predictions.into()],
         scenes: Some(svbrdf_files::scene_file::read_named(&scenes).unwrap()),
         ..ViewerOptions::default()
     });

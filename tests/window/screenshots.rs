@@ -153,9 +153,12 @@ fn training() {
     .unwrap();
     write_steps(folder.path(), "baseline", 0.9, 0.25);
     write_steps(folder.path(), "ours", 1.0, 0.05);
-    let predictions = vec![folder.path().join("run")];
-    let mut window =
-        super::window(ViewerOptions { ground_truth: Some(truth), predictions, ..ViewerOptions::default() });
+    let predictions = vec![folder.path().join("run").into()];
+    let mut window = super::window(ViewerOptions {
+        ground_truth: Some(truth.into()),
+        predictions,
+        ..ViewerOptions::default()
+    });
     window.set_size(SIZE);
     wait(&mut window, "both runs", |app| app.names().len() == 3 && app.training_runs().len() == 2);
     apply(&mut window, MaterialsCommand::SetWatch(true));

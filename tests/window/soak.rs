@@ -245,8 +245,8 @@ fn check(window: &Window<'_>) {
 fn opened<'a>(files: &Files) -> Window<'a> {
     let [truth, predictions @ ..] = &files.names[..] else { unreachable!() };
     window(ViewerOptions {
-        ground_truth: Some(truth.clone()),
-        predictions: predictions.to_vec(),
+        ground_truth: Some(truth.clone().into()),
+        predictions: predictions.iter().cloned().map(Into::into).collect(),
         ..ViewerOptions::default()
     })
 }

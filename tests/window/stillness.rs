@@ -291,8 +291,9 @@ fn titles_of_many_predictions_keep_what_tells_them_apart() {
             if tile == 0 { [128, 128, 255] } else { [diffuse; 3] }
         });
     }
-    let predictions = names.iter().map(|name| path(&format!("model_of_a_run_{name}"))).collect();
-    let options = ViewerOptions { ground_truth: Some(path("gt")), predictions, ..ViewerOptions::default() };
+    let predictions = names.iter().map(|name| path(&format!("model_of_a_run_{name}")).into()).collect();
+    let options =
+        ViewerOptions { ground_truth: Some(path("gt").into()), predictions, ..ViewerOptions::default() };
     let window = super::window(options);
     assert_eq!(window.state().names().len(), 10, "{:?}", window.state().messages());
     let scenery = |window: &Window<'_>| {

@@ -15,8 +15,8 @@ fn tiny<'a>(folder: &std::path::Path) -> Window<'a> {
         path
     };
     let options = ViewerOptions {
-        ground_truth: Some(write("gt.png", 1.0)),
-        predictions: vec![write("a.png", 0.5)],
+        ground_truth: Some(write("gt.png", 1.0).into()),
+        predictions: vec![write("a.png", 0.5).into()],
         ..ViewerOptions::default()
     };
     window(options)

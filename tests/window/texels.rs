@@ -5,6 +5,7 @@ use std::path::Path;
 use svbrdf::viewer::model::view::state::Projection;
 use svbrdf_files::read::{Albedo, ReadOptions};
 use svbrdf_files::session_window::Framing;
+use svbrdf_files::source::MaterialSource;
 
 use super::*;
 
@@ -23,8 +24,7 @@ fn numbered(folder: &Path) -> ViewerOptions {
     save("roughness.png", &|_, _| [100, 100, 100]);
     let read = ReadOptions { albedo: Some(Albedo::Linear), ..ReadOptions::AUTO };
     ViewerOptions {
-        ground_truth: Some(folder.to_owned()),
-        ground_truth_read: read,
+        ground_truth: Some(MaterialSource::path(folder.to_owned(), read)),
         ..ViewerOptions::default()
     }
 }

@@ -41,8 +41,8 @@ fn window_of_run() -> (tempfile::TempDir, Window<'static>) {
         std::fs::write(step(folder.path(), number), strip(off)).unwrap();
     }
     let options = ViewerOptions {
-        ground_truth: Some(folder.path().join("gt.png")),
-        predictions: vec![folder.path().join("run")],
+        ground_truth: Some(folder.path().join("gt.png").into()),
+        predictions: vec![folder.path().join("run").into()],
         ..ViewerOptions::default()
     };
     let mut window = window(options);
@@ -141,8 +141,8 @@ fn a_young_step_that_is_shown_stays() {
     }
     std::fs::write(folder.path().join("gt.png"), strip(0)).unwrap();
     let options = ViewerOptions {
-        ground_truth: Some(folder.path().join("gt.png")),
-        predictions: vec![folder.path().join("run")],
+        ground_truth: Some(folder.path().join("gt.png").into()),
+        predictions: vec![folder.path().join("run").into()],
         ..ViewerOptions::default()
     };
     let mut window = window(options);

@@ -4,9 +4,12 @@ use std::path::PathBuf;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_files::steps::runs_in;
+use svbrdf_files::source::MaterialSource;
+use svbrdf_files::steps::{RunId, runs_in};
 
-use super::reading::PairReadingArgs;
+use super::NamedPath;
+use super::reading::{PairReadingArgs, Side};
+use crate::cli::output::CommandError;
 
 #[derive(Debug, clap::Args)]
 pub struct ComparisonArgs {
@@ -21,19 +24,41 @@ pub struct ComparisonArgs {
 #[derive(Debug, clap::Args)]
 pub struct MaterialArgs {
     /// Ground truth: a packed or layered image, a folder, a name prefix, or a session file of the window with its
-    /// predictions; without one, the built-in materials
-    #[arg(value_name = "GT")]
-    pub ground_truth: Option<PathBuf>,
+    /// predictions; without one, the built-in materials. NAME=PATH names it
+    #[arg(value_name = "GT", value_parser = NamedPath::parser())]
+    pub ground_truth: Option<NamedPath>,
 
-    /// Predictions of it, of the same size
-    #[arg(value_name = "PRED")]
-    pub predictions: Vec<PathBuf>,
+    /// Predictions of it, of the same size; NAME=PATH names one
+    #[arg(value_name = "PRED", value_parser = NamedPath::parser())]
+    pub predictions: Vec<NamedPath>,
 
     #[command(flatten)]
     pub reading: PairReadingArgs,
 }
 
 impl MaterialArgs {
+    /// The ground truth, then the predictions, each with the options that it is read with.
+    ///
+    /// # Errors
+    /// [`Error::SpecifiedTwice`]; [`CommandError::Usage`] for options of materials that do not exist.
+    pub fn sources(&self) -> Result<Vec<MaterialSource>, CommandError> {
+        let reading = self.reading.reading()?;
+        let sides = std::iter::once(Side::GroundTruth).chain(std::iter::repeat(Side::Prediction));
+        let given: Vec<_> =
+            self.ground_truth.iter().chain(&self.predictions).map(NamedPath::source).collect();
+        let names = reading.names_of(&given);
+        let (first, others) =
+            names.split_first().ok_or_else(|| Error::Internal("there is no material".to_owned()))?;
+        reading.check(Some(first), others)?;
+        let sources = given.into_iter().zip(&names).zip(sides);
+        Ok(sources
+            .map(|((source, name), side)| MaterialSource {
+                options: reading.options_for(side, name),
+                ..source
+            })
+            .collect())
+    }
+
     /// Puts the steps of training runs in the place of each prediction that is a folder of them. Returns the number of the step of
     /// each prediction.
     ///
@@ -41,13 +66,20 @@ impl MaterialArgs {
     /// Where a folder cannot be listed.
     pub fn expand_steps(&mut self) -> Result<Vec<Option<u64>>, Error> {
         let mut expanded = Vec::new();
-        for path in std::mem::take(&mut self.predictions) {
-            let runs = if path.is_dir() { runs_in(&path)? } else { Vec::new() };
+        for given in std::mem::take(&mut self.predictions) {
+            let runs = if given.path.is_dir() { runs_in(&given.path)? } else { Vec::new() };
             if runs.is_empty() {
-                expanded.push((path, None));
+                expanded.push((given.clone(), None));
             }
-            let steps = runs.into_iter().flat_map(|run| run.steps);
-            expanded.extend(steps.map(|step| (step.path, Some(step.number))));
+            for run in runs {
+                let named = |number| {
+                    given.name.clone().map(|name| RunId { name, ..run.id.clone() }.step_name(number))
+                };
+                let steps = run.steps.iter().map(|step| {
+                    (NamedPath { name: named(step.number), path: step.path.clone() }, Some(step.number))
+                });
+                expanded.extend(steps);
+            }
         }
         let (paths, steps) = expanded.into_iter().unzip();
         self.predictions = paths;
@@ -56,6 +88,6 @@ impl MaterialArgs {
 
     /// The paths as given: the ground truth, then the predictions.
     pub fn paths(&self) -> impl Iterator<Item = &PathBuf> {
-        self.ground_truth.iter().chain(&self.predictions)
+        self.ground_truth.iter().chain(&self.predictions).map(|given| &given.path)
     }
 }

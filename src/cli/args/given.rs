@@ -4,6 +4,7 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, Command};
 
 use super::modes::Mode;
+use super::reading::former;
 use crate::cli::output::CommandError;
 
 /// The names of the specified options of a subcommand, without dashes.
@@ -11,7 +12,7 @@ use crate::cli::output::CommandError;
 pub struct Given(Vec<String>);
 
 impl Given {
-    /// Those of the subcommand of `matches`, or of `command` itself where there is none.
+    /// Those of the subcommand of `matches`, or of `command` itself where there is none; for a former option the one that replaces it.
     pub fn of(command: &Command, matches: &ArgMatches) -> Self {
         if let Some((name, matches)) = matches.subcommand()
             && let Some(command) = command.find_subcommand(name)
@@ -20,7 +21,13 @@ impl Given {
         }
         let is_given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
         let given = command.get_arguments().filter(|argument| is_given(argument.get_id().as_str()));
-        Self(given.filter_map(|argument| argument.get_long()).map(str::to_owned).collect())
+        Self(
+            given
+                .filter_map(|argument| argument.get_long())
+                .map(former::current)
+                .map(str::to_owned)
+                .collect(),
+        )
     }
 
     /// Refuses the options that a mode does not use.

@@ -5,6 +5,7 @@ pub mod floor;
 pub mod given;
 pub mod lights;
 pub mod modes;
+pub mod named_path;
 pub mod photograph;
 pub mod reading;
 pub mod scenes;
@@ -14,5 +15,6 @@ pub mod wildcards;
 
 pub use comparison::{ComparisonArgs, MaterialArgs};
 pub use given::Given;
+pub use named_path::NamedPath;
 pub use scenes::SeedArgs;
 pub use trust::TrustArgs;

@@ -18,40 +18,16 @@ impl Mode {
     }
 }
 
-/// How a material is read.
-const READING: &[&str] = &[
-    "preset",
-    "albedo",
-    "specular-albedo",
-    "normal-y",
-    "roughness",
-    "normal-encoding",
-    "workflow",
-    "dielectric-f0",
-    "energy",
-    "order",
-    "grid",
-    "flip-v",
-    "exemplar",
-    "non-finite",
-];
-/// How a ground truth and its predictions are read where they differ, and their size.
-const PAIR: &[&str] = &["gt-albedo", "resize-to"];
-/// How predictions are read where they differ from the ground truth.
-const OF_PREDICTIONS: &[&str] =
-    &["pred-albedo", "pred-specular-albedo", "pred-normal-y", "pred-roughness", "pred-energy"];
+/// How materials are read, and their size.
+const READING: &[&str] = &["read", "preset", "resize-to"];
 /// The scenes of a command that samples them.
 const SCENES: &[&str] = &["near", "distant", "seed", "sampler", "scenes", "lights", "fov"];
 /// The one scene of a picture.
 const ONE_SCENE: &[&str] = &["view", "light", "distant"];
 
 /// Any command with a session file in place of the ground truth.
-pub const SESSION: Mode = Mode {
-    reason: "a session specifies how its materials are read",
-    unused: &[READING, PAIR, OF_PREDICTIONS],
-};
-/// Any command with a ground truth alone.
-pub const NO_PREDICTION: Mode = Mode { reason: "there is no prediction", unused: &[OF_PREDICTIONS] };
+pub const SESSION: Mode =
+    Mode { reason: "a session specifies how its materials are read", unused: &[READING] };
 
 /// Any command with a fixed set of scenes.
 pub const NAMED_SCENES: Mode = Mode {
@@ -117,8 +93,6 @@ pub const RANK_MERGE: Mode = Mode {
     reason: "journals hold results, and what these were made with",
     unused: &[
         READING,
-        PAIR,
-        OF_PREDICTIONS,
         &[
             "verbose",
             "journal",

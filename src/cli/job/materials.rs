@@ -19,7 +19,7 @@ use svbrdf_files::session::Session;
 use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
-use crate::cli::args::{Given, MaterialArgs, modes};
+use crate::cli::args::{Given, MaterialArgs, NamedPath, modes};
 use crate::cli::output::{CommandError, advice, exit, watched};
 
 /// Longest side of a material that is resized, as of one that is read.
@@ -51,19 +51,9 @@ impl MaterialJob {
                 given.check(&modes::SESSION)?;
                 session.materials.iter().map(MaterialSource::of_session).collect()
             }
-            (None, Some(ground_truth)) => {
-                let [first, others] = [args.reading.of_ground_truth(), args.reading.of_predictions()];
-                let predictions =
-                    args.predictions.iter().map(|path| MaterialSource::path(path.clone(), others));
-                std::iter::once(MaterialSource::path(ground_truth.clone(), first))
-                    .chain(predictions)
-                    .collect()
-            }
+            (None, Some(_)) => args.sources()?,
             (None, None) => (0..samples::COUNT).map(MaterialSource::built_in).collect::<Vec<_>>(),
         };
-        if sources.len() == 1 {
-            given.check(&modes::NO_PREDICTION)?;
-        }
         let PairReadingArgs { resize_to, both: ReadingArgs { strict, verbose, .. }, .. } = args.reading;
         Ok(Self { sources, paths: args.paths().cloned().collect(), resize_to, strict, verbose })
     }
@@ -108,6 +98,7 @@ impl MaterialJob {
         let mut materials: Vec<Material<T>> = Vec::new();
         let mut files: Vec<PathBuf> =
             self.paths.iter().filter(|path| Session::is_named(path)).cloned().collect();
+        check_names(&self.sources, &named)?;
         let names = distinct_names(&named);
         let storages = read.iter().map(Read::storage).collect();
         let memory = read.iter().map(|read| read.memory.clone()).collect();
@@ -228,19 +219,38 @@ fn note_data_set(paths: &[PathBuf]) {
     }
 }
 
-/// Reads one material with the maps of `bindings` in place of its own.
+/// Refuses a name that is given to one material and that another one has, too.
+fn check_names(sources: &[MaterialSource], named: &[(&str, &Path)]) -> Result<(), CommandError> {
+    let count = |name: &str| named.iter().filter(|(other, _)| *other == name).count();
+    let given = sources.iter().filter_map(|source| source.name.as_deref());
+    match given.map(|name| (count(name), name)).find(|(count, _)| *count > 1) {
+        Some((count, name)) => Err(CommandError::Usage(format!(
+            "{count} materials have the name {name}; give each its own as NAME=PATH"
+        ))),
+        None => Ok(()),
+    }
+}
+
+/// Reads one material with the maps of `bindings` in place of its own, under its name where it is given one.
 ///
 /// # Errors
-/// Those of the reader; [`Error::Guessed`] with `--strict`.
-pub fn read_one<T: Real>(path: &Path, bindings: &[Binding], args: &ReadingArgs) -> Result<Read<T>, Error> {
+/// Those of the reader; [`Error::Guessed`] with `--strict`; [`CommandError::Usage`] for options of other materials.
+pub fn read_one<T: Real>(
+    material: &NamedPath,
+    bindings: &[Binding],
+    args: &ReadingArgs,
+) -> Result<Read<T>, CommandError> {
+    let NamedPath { name, path } = material;
     note_pipe(path);
+    let options = args.of_one(material)?;
     let read: Read<T> = watched(&format!("reading {}", path.display()), |progress| {
-        read::read_bound(path, bindings, &args.options(), progress)
+        read::read_bound(path, bindings, &options, progress)
     })?;
     if args.strict {
         read.refuse_guesses(path)?;
     }
-    Ok(read)
+    let name = name.clone().unwrap_or_else(|| read.material.name().to_owned());
+    Ok(Read { material: read.material.renamed(name), ..read })
 }
 
 /// The assumptions and notes of reading one material, as `svbrdf info` prints them.

@@ -4,6 +4,8 @@ pub mod floor;
 pub mod materials;
 pub mod session;
 
+use std::path::PathBuf;
+
 use svbrdf_core::model::convention::Convention;
 
 use super::args::{ComparisonArgs, Given};
@@ -26,8 +28,8 @@ impl ComparisonJob {
     /// Where a session cannot be read or used; [`CommandError::Usage`] for options of reading that are not used.
     pub fn new(args: &ComparisonArgs, given: &Given) -> Result<Self, CommandError> {
         let file = session::given(&args.materials)?;
-        let settings = |(file, path)| SessionSettings::new(file, path);
-        let session = file.as_ref().zip(args.materials.ground_truth.as_deref()).map(settings).transpose()?;
+        let settings = |(file, path): (_, &PathBuf)| SessionSettings::new(file, path);
+        let session = file.as_ref().zip(args.materials.paths().next()).map(settings).transpose()?;
         let of_session = session.as_ref().map(|session| session.convention);
         Ok(Self {
             convention: args.convention.or(of_session).unwrap_or_default(),

@@ -29,9 +29,13 @@ pub struct SessionSettings {
 /// # Errors
 /// Those of [`Session::read`]; [`CommandError::Usage`] where predictions are given beside it.
 pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> {
-    let Some(path) = materials.ground_truth.as_ref().filter(|path| Session::is_named(path)) else {
+    let Some(given) = materials.ground_truth.as_ref().filter(|given| Session::is_named(&given.path)) else {
         return Ok(None);
     };
+    let path = &given.path;
+    if given.name.is_some() {
+        return Err(CommandError::usage("a session names its materials itself; give its path alone"));
+    }
     if !materials.predictions.is_empty() {
         return Err(CommandError::usage("a session names its predictions itself; give it alone"));
     }

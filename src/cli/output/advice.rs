@@ -11,17 +11,19 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
     Some(match error {
         Error::Outside { .. } => "--allow-outside allows it",
         Error::Memory { .. } => "--max-memory sets it",
-        Error::Guessed { .. } => "specify it by an option, or leave out --strict",
+        Error::Guessed { .. } => "specify it by --read, or leave out --strict",
         Error::SizesDiffer { .. } => "--resize-to gt, pred or a width brings materials to one size",
         Error::TooLarge { .. } => "give a smaller width to --resize-to",
-        Error::NotFinite { .. } => "--non-finite replace puts other numbers in their place",
-        Error::NoSuchExemplar { .. } => "--exemplar K chooses a material",
+        Error::NotFinite { .. } => "--read non-finite=replace puts other numbers in their place",
+        Error::NoSuchExemplar { .. } => "--read exemplar=K chooses a material",
         Error::MissingMap { .. } => {
             "info and convert: --map MAP=FILE, FILE:CHANNEL or a constant (roughness=0.5)"
         }
-        Error::NotPacked { grid: Some(_), .. } => "specify another --grid, or leave it out",
+        Error::NotPacked { grid: Some(_), .. } => {
+            "specify another grid by --read grid=COLUMNSxROWS, or leave it out"
+        }
         Error::NotPacked { grid: None, .. } => {
-            "--order and --grid specify the tiles; --order d reads the whole picture as diffuse"
+            "--read order=LETTERS,grid=COLUMNSxROWS specifies the tiles; --read order=d reads the whole picture as diffuse"
         }
         Error::UnsupportedOutput { problem: OutputProblem::NoPreset, .. } => "leave out --like",
         Error::UnsupportedOutput { problem: OutputProblem::FolderPreset, .. } => {
@@ -34,9 +36,9 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
 /// A note with the option that would change what it reports.
 pub fn with_option(note: &Note) -> String {
     match note {
-        Note::Rows { .. } | Note::Materials { .. } => format!("{note} Another: --exemplar."),
+        Note::Rows { .. } | Note::Materials { .. } => format!("{note} Another: --read exemplar=K."),
         Note::LinearGamma(Subject::Map(_) | Subject::Material | Subject::Picture) => {
-            format!("{note} --albedo linear uses it.")
+            format!("{note} --read albedo=linear uses it.")
         }
         _ => note.to_string(),
     }

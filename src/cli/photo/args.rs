@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_files::capture::CaptureExposure;
 
-use crate::cli::args::ComparisonArgs;
 use crate::cli::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
+use crate::cli::args::{ComparisonArgs, NamedPath};
 use crate::cli::output::report::ReportFormat;
 
 /// Compares renderings of materials with a photograph
@@ -80,7 +80,8 @@ impl PhotoArgs {
     /// The first argument without an option, which is a material where there is a capture, put before the others.
     pub fn shift_materials(&mut self) {
         let materials = &mut self.comparison.materials;
-        if let Some(second) = materials.ground_truth.replace(std::mem::take(&mut self.photo)) {
+        let first = NamedPath::from(std::mem::take(&mut self.photo).into_os_string());
+        if let Some(second) = materials.ground_truth.replace(first) {
             materials.predictions.insert(0, second);
         }
     }

@@ -1,24 +1,28 @@
 //! The materials of a data set, and how they are read.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use svbrdf_core::report::distinct_names;
 use svbrdf_files::dataset::{DatasetReading, Method, Source};
 
 use super::args::RankArgs;
+use crate::cli::args::reading::Side;
 use crate::cli::args::wildcards;
 use crate::cli::output::CommandError;
 
-/// How the materials are read.
-pub fn reading(args: &RankArgs) -> DatasetReading {
-    let reading = &args.comparison.materials.reading;
-    DatasetReading {
-        ground_truths: reading.of_ground_truth(),
-        predictions: reading.of_predictions(),
-        methods: BTreeMap::new(),
-        strict: reading.both.strict,
-    }
+/// How the ground truths and the predictions of `methods` are read.
+///
+/// # Errors
+/// [`Error::SpecifiedTwice`](svbrdf_core::error::Error::SpecifiedTwice); [`CommandError::Usage`] for a name that no method has.
+pub fn reading(args: &RankArgs, methods: &[String]) -> Result<DatasetReading, CommandError> {
+    let given = &args.comparison.materials.reading;
+    let reading = given.reading()?;
+    reading.check(None, methods)?;
+    let predictions = reading.options_for(Side::Prediction, "");
+    let of_method = |name: &String| (name.clone(), reading.options_for(Side::Prediction, name));
+    let methods = methods.iter().map(of_method).filter(|(_, options)| *options != predictions).collect();
+    let ground_truths = reading.options_for(Side::GroundTruth, "");
+    Ok(DatasetReading { ground_truths, predictions, methods, strict: given.both.strict })
 }
 
 /// The folders or the table of the materials.
@@ -31,22 +35,26 @@ pub fn source(args: &RankArgs) -> Result<Source, CommandError> {
     };
     if args.pairs {
         return match args.comparison.materials.predictions.as_slice() {
-            [] => Ok(Source::Table(ground_truth.clone())),
+            [] => Ok(Source::Table(ground_truth.path.clone())),
             _ => Err(CommandError::usage("--pairs takes one CSV table, which names the predictions")),
         };
     }
-    let paths = wildcards::expanded(&args.comparison.materials.predictions)?;
-    if paths.is_empty() {
+    let given = wildcards::expanded(&args.comparison.materials.predictions)?;
+    if given.is_empty() {
         return Err(CommandError::Usage(format!(
             "there is no method to compare with {}; give one or more folders",
-            ground_truth.display()
+            ground_truth.path.display()
         )));
     }
-    let named: Vec<(String, &Path)> = paths.iter().map(|path| (name(path), path.as_path())).collect();
+    let named: Vec<(String, &Path)> = given
+        .iter()
+        .map(|given| (given.name.clone().unwrap_or_else(|| name(&given.path)), given.path.as_path()))
+        .collect();
     let named: Vec<(&str, &Path)> = named.iter().map(|(name, path)| (name.as_str(), *path)).collect();
     let names = distinct_names(&named);
-    let methods = names.into_iter().zip(paths.iter().cloned()).map(|(name, path)| Method { name, path });
-    Ok(Source::Folders { ground_truths: ground_truth.clone(), methods: methods.collect() })
+    let methods = names.into_iter().zip(given.iter().map(|given| given.path.clone()));
+    let methods = methods.map(|(name, path)| Method { name, path }).collect();
+    Ok(Source::Folders { ground_truths: ground_truth.path.clone(), methods })
 }
 
 /// The name of a method: that of its folder, or what its pattern adds to the name of a material.

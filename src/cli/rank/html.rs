@@ -8,7 +8,6 @@ use svbrdf_files::inputs::check_output;
 use svbrdf_files::page::{check_destination, material_views, ranking};
 
 use super::args::{RankArgs, RankFormat};
-use super::cases::{reading, source};
 use crate::cli::args::{Given, modes};
 use crate::cli::output::stop::stoppable;
 use crate::cli::output::{CommandError, watched_on};
@@ -30,14 +29,13 @@ pub fn check(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
 /// Where a file cannot be written, or is one of the materials.
 pub fn write(args: &RankArgs, report: &DatasetReport) -> Result<(), CommandError> {
     let path = output(args)?;
-    let cases = if args.merge { Vec::new() } else { source(args)?.cases()? };
+    let cases = if args.merge { Vec::new() } else { report.settings.source.cases()? };
     let predictions = cases.iter().flat_map(|case| case.candidates.iter().map(|one| one.path.as_path()));
     let inputs = cases.iter().map(|case| case.ground_truth.as_path()).chain(predictions);
     check_output(path, inputs.chain(args.journal.as_deref()))?;
-    let reading = reading(args);
     Ok(stoppable(|progress| {
         let views = watched_on(progress, "rendering materials", |progress| {
-            material_views(report, &cases, &reading, args.figures, path, progress)
+            material_views(report, &cases, args.figures, path, progress)
         })?;
         write_text(path, &ranking(report, &views), progress)
     })?)

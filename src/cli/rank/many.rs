@@ -9,7 +9,7 @@ use svbrdf_files::dataset::{self, DatasetReport, DatasetResults, DatasetSettings
 use super::args::{RankArgs, RankFormat, check_limit};
 use super::cases::{reading, source};
 use super::html;
-use crate::cli::args::{Given, modes, wildcards};
+use crate::cli::args::{Given, NamedPath, modes, wildcards};
 use crate::cli::output::{CommandError, exit, target, watched};
 
 pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
@@ -43,8 +43,9 @@ fn tell_reading(args: &RankArgs, report: &DatasetReport) {
 /// The results of the journals that stand for GT and PRED.
 fn merged(args: &RankArgs, given: &Given) -> Result<Merged, CommandError> {
     given.check(&modes::RANK_MERGE)?;
-    let paths: Vec<PathBuf> = args.comparison.materials.paths().cloned().collect();
-    Ok(dataset::merged(&wildcards::expanded(&paths)?)?)
+    let paths: Vec<NamedPath> = args.comparison.materials.paths().cloned().map(NamedPath::from).collect();
+    let paths: Vec<PathBuf> = wildcards::expanded(&paths)?.into_iter().map(|given| given.path).collect();
+    Ok(dataset::merged(&paths)?)
 }
 
 /// The error of a data set without any loss.
@@ -80,7 +81,7 @@ fn evaluated(args: &RankArgs, given: &Given) -> Result<Merged, CommandError> {
         .with_metrics(args.metrics)
         .with_diagnoses(args.diagnose);
     let cases = args.shard.map_or(cases.clone(), |shard| shard.part(cases));
-    let reading = reading(args);
+    let reading = reading(args, &settings.methods)?;
     let DatasetResults { results, recomputed } = watched("comparing materials", |progress| {
         dataset::run(&cases, &settings, &reading, args.journal.as_deref(), progress)
     })?;

@@ -146,7 +146,8 @@ pub struct Finding {
     pub p: Option<f64>,
     /// Whether the loss falls significantly and by at least 10%, also after the corrections of the marked findings with larger shares.
     pub marked: bool,
-    /// The option of the command line that corrects the reading.
+    /// The option of reading that corrects it; a report writes it as an option of the command line.
+    #[serde(skip)]
     pub remedy: Option<Remedy>,
     /// What is changed with the value; `None` where it changes nothing, or is not tested.
     #[serde(skip)]

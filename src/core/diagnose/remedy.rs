@@ -2,10 +2,9 @@
 
 use std::fmt;
 
-use serde::{Serialize, Serializer};
-
 use super::reading::Reading;
 use super::storage::{Storage, Transfer};
+use crate::text::quoted;
 
 /// An option of reading with the name of the value that corrects a prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +39,11 @@ impl Remedy {
         }
     }
 
+    /// The option of the command line for the material `name`, quoted for a shell: `--read 'run 2:normal-y=down'`.
+    pub fn command_option(self, name: &str) -> String {
+        format!("--read {}", quoted(&format!("{name}:{self}")))
+    }
+
     /// The name of the value.
     pub fn value(self) -> &'static str {
         match self {
@@ -63,15 +67,9 @@ impl Remedy {
     }
 }
 
-/// The option of the command line for predictions: `--pred-normal-y down`.
+/// The option and its value, as `--read` and a sidecar file have them: `normal-y=down`.
 impl fmt::Display for Remedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "--pred-{} {}", self.option(), self.value())
-    }
-}
-
-impl Serialize for Remedy {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
+        write!(f, "{}={}", self.option(), self.value())
     }
 }

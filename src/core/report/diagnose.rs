@@ -49,7 +49,7 @@ impl DiagnoseReport {
     fn text_of(&self, diagnosis: &Diagnosis) -> String {
         let [mean, _, interval] = diagnosis.loss.texts();
         let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(diagnosis.findings.iter().map(row));
+        rows.extend(diagnosis.findings.iter().map(|finding| row(finding, &diagnosis.prediction)));
         let mut rungs = vec![RUNGS.map(str::to_owned).to_vec()];
         rungs.extend(diagnosis.ladder.iter().map(|rung: &Rung| {
             let [truth, prediction] = rung.roughness.map(|roughness| format!("{roughness:.4}"));
@@ -72,7 +72,7 @@ impl DiagnoseReport {
             sentence: sentence(diagnosis, Some(&self.floor)),
             loss: *loss,
             resolvable: loss.mean > self.floor.mean,
-            findings,
+            findings: findings.iter().map(|finding| FindingEntry::new(finding, prediction)).collect(),
             ladder,
             seams,
         }
@@ -107,7 +107,8 @@ fn cell(value: &Value) -> Cell {
     }
 }
 
-fn row(finding: &Finding) -> Vec<String> {
+/// A line of the table of `prediction`.
+fn row(finding: &Finding, prediction: &str) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6}"));
     let interval =
         finding.interval95.map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
@@ -119,7 +120,11 @@ fn row(finding: &Finding) -> Vec<String> {
         number(finding.loss),
         interval,
         finding.share.map_or_else(|| "-".to_owned(), |share| format!("{:.1}%", 100.0 * share)),
-        finding.remedy.filter(|_| finding.marked).map(|remedy| remedy.to_string()).unwrap_or_default(),
+        finding
+            .remedy
+            .filter(|_| finding.marked)
+            .map(|remedy| remedy.command_option(prediction))
+            .unwrap_or_default(),
     ]
 }
 
@@ -154,7 +159,7 @@ impl Report for DiagnoseReport {
                 share_high,
                 finding.p.into(),
                 finding.marked.into(),
-                finding.remedy.map(|remedy| remedy.to_string()).into(),
+                finding.remedy.map(|remedy| remedy.command_option(&diagnosis.prediction)).into(),
             ]
         };
         let all = self.diagnoses.iter();
@@ -183,7 +188,7 @@ struct DiagnosisEntry<'a> {
     loss: Estimate,
     /// Whether the loss is above the floor.
     resolvable: bool,
-    findings: &'a [Finding],
+    findings: Vec<FindingEntry<'a>>,
     ladder: &'a [Rung],
     seams: &'a [Seam],
 }
@@ -199,5 +204,19 @@ impl Serialize for DiagnoseReport {
             predictions: self.diagnoses.iter().map(|diagnosis| self.entry(diagnosis)).collect(),
         }
         .serialize(serializer)
+    }
+}
+
+/// A finding, and the option of the command line that corrects the reading.
+#[derive(Serialize)]
+struct FindingEntry<'a> {
+    #[serde(flatten)]
+    finding: &'a Finding,
+    remedy: Option<String>,
+}
+
+impl<'a> FindingEntry<'a> {
+    fn new(finding: &'a Finding, prediction: &str) -> Self {
+        Self { finding, remedy: finding.remedy.map(|remedy| remedy.command_option(prediction)) }
     }
 }

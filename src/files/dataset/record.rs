@@ -219,7 +219,7 @@ pub struct Mark {
     pub value: serde_json::Value,
     /// The part of the loss that disappears under the hypothesis.
     pub share: f64,
-    /// The option of the command line that corrects the reading.
+    /// The option that corrects the reading, as `--read` has it after the name of the method: `normal-y=down`.
     pub remedy: Option<String>,
 }
 

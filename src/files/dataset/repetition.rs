@@ -1,12 +1,9 @@
 //! The command that repeats a ranking of a data set.
 
-use serde_json::Value;
-
 use svbrdf_core::text::quoted;
 
 use super::pick::Pick;
 use super::record::{DatasetReading, DatasetSettings, Method, Source};
-use crate::read::ReadOptions;
 
 /// The command line that makes the same results, quoted for a shell. Options that have their defaults are left out.
 pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick: Pick) -> String {
@@ -45,22 +42,8 @@ fn read_options(reading: &DatasetReading) -> Vec<String> {
     let DatasetReading { ground_truths, predictions, methods, .. } = reading;
     let of_methods = methods.iter().map(|(name, options)| (name.as_str(), options));
     let all = [("gt", ground_truths), ("pred", predictions)].into_iter().chain(of_methods);
-    all.filter_map(|(name, options)| Some(["--read".to_owned(), format!("{name}:{}", pairs(options)?)]))
-        .flatten()
+    all.map(|(name, options)| (name, options.words()))
+        .filter(|(_, words)| !words.is_empty())
+        .flat_map(|(name, words)| ["--read".to_owned(), format!("{name}:{words}")])
         .collect()
-}
-
-/// The options that are specified, as `key=value,...`.
-fn pairs(options: &ReadOptions) -> Option<String> {
-    let Ok(Value::Object(options)) = serde_json::to_value(options) else { return None };
-    let text = |value: Value| match value {
-        Value::String(text) => text,
-        value => value.to_string(),
-    };
-    let pairs: Vec<String> = options
-        .into_iter()
-        .filter(|(_, value)| !value.is_null())
-        .map(|(key, value)| format!("{key}={}", text(value)))
-        .collect();
-    (!pairs.is_empty()).then(|| pairs.join(","))
 }

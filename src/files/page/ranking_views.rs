@@ -19,7 +19,7 @@ use super::labels::Labels;
 use super::pictures;
 use super::ranking::MaterialView;
 use crate::atomic::write_text;
-use crate::dataset::{Case, DatasetReading, DatasetReport, MaterialResult, counted_loss, counted_sample};
+use crate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
 use crate::read::{self, ReadOptions};
 use crate::session_window::Display;
 
@@ -67,7 +67,6 @@ impl FromStr for Figures {
 pub fn material_views(
     report: &DatasetReport,
     cases: &[Case],
-    reading: &DatasetReading,
     figures: Option<Figures>,
     page: &Path,
     progress: &Progress,
@@ -84,7 +83,7 @@ pub fn material_views(
     let cases: BTreeMap<usize, &Case> = cases.iter().map(|case| (case.index, case)).collect();
     progress.begin(report.results.len() as u64);
     let one = |result: &MaterialResult| {
-        let materials = cases.get(&result.index).and_then(|case| opened(report, result, case, reading));
+        let materials = cases.get(&result.index).and_then(|case| opened(report, result, case));
         let view = materials.map_or(Ok(MaterialView::default()), |materials| {
             let figure = chosen.contains(&result.index).then(|| folder.join(file_name(result)));
             view(&materials, &convention, figure, progress)
@@ -129,22 +128,17 @@ fn chosen(report: &DatasetReport, figures: Figures) -> BTreeSet<usize> {
 }
 
 /// The ground truth, then the prediction of each method that has one, under the name of the method; `None` where one cannot be read.
-fn opened(
-    report: &DatasetReport,
-    result: &MaterialResult,
-    case: &Case,
-    reading: &DatasetReading,
-) -> Option<Vec<Material<f32>>> {
+fn opened(report: &DatasetReport, result: &MaterialResult, case: &Case) -> Option<Vec<Material<f32>>> {
     let open = |path: &Path, options: &ReadOptions, name: &str| -> Option<Material<f32>> {
         Some(read::read(path, options, &Progress::default()).ok()?.material.renamed(name))
     };
-    let ground_truth = open(&case.ground_truth, &reading.ground_truths, &result.material)?;
+    let ground_truth = open(&case.ground_truth, &report.reading.ground_truths, &result.material)?;
     let mut materials = vec![ground_truth];
     for summary in &report.ranking.methods {
         let Some(sample) = counted_sample(result, &summary.method, report.pick) else { continue };
         let mut candidates = case.candidates.iter();
         let candidate = candidates.find(|one| one.method == summary.method && one.sample == sample)?;
-        materials.push(open(&candidate.path, reading.of_method(&summary.method), &summary.method)?);
+        materials.push(open(&candidate.path, report.reading.of_method(&summary.method), &summary.method)?);
     }
     Some(materials)
 }

@@ -32,6 +32,7 @@ use std::sync::Arc;
 
 pub use assemble::Read;
 pub use gather::map_report::MapReport;
+pub use locate::is_prefix;
 pub use locate::sidecar::Sidecar;
 pub use located::binding::Binding;
 pub(crate) use names::Label;
@@ -137,6 +138,18 @@ fn read_with<T: Real>(
         read.files.push(file);
     }
     Ok(read)
+}
+
+/// The names that the material at `path` may have once it is read, found without its pixels; at least one.
+pub fn possible_names(path: &Path, options: &ReadOptions) -> Vec<String> {
+    let saved = Sidecar::load(path).unwrap_or_default();
+    let used = saved.overridden_by(options, &[]).options;
+    let found = locate::names(path, &used).unwrap_or_default();
+    if found.is_empty() {
+        vec![path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()]
+    } else {
+        found
+    }
 }
 
 /// Reads a packed or layered image from memory; `name` is the name of the material.

@@ -48,7 +48,7 @@ fn open_new_runs(parts: &mut Parts, open: &[RunId], news: &RunNews) {
         let opens = is_new && news.before.is_some() && parts.model.settings.watch;
         if let (true, Some(like)) = (opens, &like) {
             let origin = Origin::Path(run.folder.clone());
-            let source = Source { origin, run: Some(run), chosen: None, ..like.clone() };
+            let source = Source { name: None, origin, run: Some(run), chosen: None, ..like.clone() };
             parts.jobs.read(&parts.model, ReadRequest::new(vec![source], Target::Predictions));
         }
     }

@@ -33,9 +33,8 @@ impl Model {
             (Some(session), _) => self.open_session(session),
             (None, None) => ReadRequest::built_in(),
             (None, Some(ground_truth)) => {
-                let predictions = sources(&options.predictions, options.prediction_read);
-                let ground_truth = Source::file(ground_truth, options.ground_truth_read);
-                let all = std::iter::once(ground_truth).chain(predictions).collect();
+                let predictions = sources(options.predictions);
+                let all = std::iter::once(Source::from(ground_truth)).chain(predictions).collect();
                 ReadRequest::new(all, Target::Everything)
             }
         };
@@ -59,7 +58,7 @@ impl Model {
             };
             let read = if built_in.is_some() { ReadOptions::AUTO } else { one.read.options };
             let steps = one.read.run.is_some();
-            SessionMaterial { path, built_in, read, fit: one.read.fit, steps }
+            SessionMaterial { name: one.read.name.clone(), path, built_in, read, fit: one.read.fit, steps }
         });
         let view = &self.view;
         let convention = view.convention.clone();
@@ -148,6 +147,6 @@ fn source(material: &SessionMaterial) -> Option<Source> {
         }
         (None, number) => return number.map(Source::built_in),
     };
-    let (read, fit) = (material.read, material.fit);
-    Some(Source { origin, specified: read, chosen: Some(read), fit, run })
+    let (name, read, fit) = (material.name.clone(), material.read, material.fit);
+    Some(Source { name, origin, specified: read, chosen: Some(read), fit, run })
 }

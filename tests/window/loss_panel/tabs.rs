@@ -61,8 +61,10 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
         path
     };
     let options = ViewerOptions {
-        ground_truth: Some(save("gt.png".to_owned())),
-        predictions: (0..14).map(|i| save(format!("a_long_name_of_an_experiment_seed_{i:03}.png"))).collect(),
+        ground_truth: Some(save("gt.png".to_owned()).into()),
+        predictions: (0..14)
+            .map(|i| save(format!("a_long_name_of_an_experiment_seed_{i:03}.png")).into())
+            .collect(),
         ..ViewerOptions::default()
     };
     let mut window = window(options);

@@ -60,8 +60,11 @@ fn a_share_below_0_is_explained_below_the_bars() {
         image::RgbImage::from_fn(64, 16, |x, _| image::Rgb(tiles[x as usize / 16])).save(&path).unwrap();
         path
     });
-    let options =
-        ViewerOptions { ground_truth: Some(metal), predictions: vec![dull], ..ViewerOptions::default() };
+    let options = ViewerOptions {
+        ground_truth: Some(metal.into()),
+        predictions: vec![dull.into()],
+        ..ViewerOptions::default()
+    };
     let mut window = super::super::window(options);
     wait(&mut window, "the materials", |app| app.names().len() == 2);
     tab(&mut window, "Why");

@@ -49,18 +49,13 @@ fn symmetries() {
 fn readings() {
     let linear = Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
     let planted = [
-        (Reading::NormalY, Reading::NormalY, Hypothesis::NormalY, Some("--pred-normal-y down")),
+        (Reading::NormalY, Reading::NormalY, Hypothesis::NormalY, Some("normal-y=down")),
         (Reading::NormalX, Reading::NormalX, Hypothesis::NormalX, None),
-        (Reading::Gloss, Reading::Gloss, Hypothesis::Roughness, Some("--pred-roughness gloss")),
-        (
-            Reading::SquaredRoughness,
-            Reading::RootOfRoughness,
-            Hypothesis::Roughness,
-            Some("--pred-roughness alpha"),
-        ),
+        (Reading::Gloss, Reading::Gloss, Hypothesis::Roughness, Some("roughness=gloss")),
+        (Reading::SquaredRoughness, Reading::RootOfRoughness, Hypothesis::Roughness, Some("roughness=alpha")),
         (Reading::RootOfRoughness, Reading::SquaredRoughness, Hypothesis::Roughness, None),
         (Reading::RedBlue, Reading::RedBlue, Hypothesis::Channels, None),
-        (Reading::Scaled, Reading::Unscaled, Hypothesis::Energy, Some("--pred-energy unscaled")),
+        (Reading::Scaled, Reading::Unscaled, Hypothesis::Energy, Some("energy=unscaled")),
     ];
     for seed in 0..3 {
         let truth = generated(seed, SIDE);
@@ -95,7 +90,7 @@ fn encodings_of_colours() {
             let found = found(&truth, &wrong, read_as);
             assert_eq!(only(&found), (Hypothesis::AlbedoEncoding, Value::Name(name)), "material {seed}");
             let remedy = found.marked().next().unwrap().remedy.map(|remedy| remedy.to_string());
-            assert_eq!(remedy, Some(format!("--pred-albedo {name}")));
+            assert_eq!(remedy, Some(format!("albedo={name}")));
         }
     }
 }

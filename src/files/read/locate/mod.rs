@@ -47,6 +47,22 @@ pub(super) fn locate(path: &Path, saved: &Sidecar, used: &Sidecar) -> Result<Loc
     Ok(found)
 }
 
+/// The names that the material at `path` may have, the most likely first: which of them, its pixels decide.
+pub(super) fn names(path: &Path, options: &ReadOptions) -> Result<Vec<String>, Error> {
+    let found = candidates(&sidecar::material_of(path)?, &[], &options.with_preset())?;
+    Ok(match found.name {
+        Some(name) => vec![name],
+        None => found.candidates.iter().map(Candidate::name).collect(),
+    })
+}
+
+/// Whether `path` is no file and no folder, but the beginning of the names of files.
+pub fn is_prefix(path: &Path) -> bool {
+    let prefix = path.file_name().unwrap_or_default().to_string_lossy();
+    let files = || directory::list(path, &folder_of(path), &prefix);
+    !path.exists() && !prefix.is_empty() && files().is_ok_and(|files| !files.is_empty())
+}
+
 /// What may be at `path` beside the maps of the roles `bound`.
 fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Located, Error> {
     if path.is_dir() {

@@ -135,7 +135,7 @@ impl Sidecar {
             let source = io::Error::other(format!("it is a link to {}", target.display()));
             return Err(Error::Unwritable { path: place, source, remedy: "remove the link" });
         }
-        let mut all = object(&self.options);
+        let mut all = self.options.object();
         all.retain(|_, value| !value.is_null());
         let folder = place.parent().unwrap_or(Path::new(""));
         let maps = self.bindings.iter().map(|binding| {
@@ -162,7 +162,7 @@ impl Sidecar {
     ) {
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let sidecar = SpecifiedBy::Sidecar(name);
-        let (saved, used) = (object(&self.options.with_preset()), object(&options.with_preset()));
+        let (saved, used) = (self.options.with_preset().object(), options.with_preset().object());
         let is_saved =
             |key: &str| saved.get(key).is_some_and(|value| !value.is_null() && used.get(key) == Some(value));
         let is_any_saved = |what: What| {
@@ -207,16 +207,8 @@ fn keys_of(what: What) -> &'static [&'static str] {
     }
 }
 
-fn object(options: &ReadOptions) -> Map<String, Value> {
-    match serde_json::to_value(options) {
-        Ok(Value::Object(all)) => all,
-        _ => Map::new(),
-    }
-}
-
 fn keys() -> Vec<String> {
-    let options = object(&ReadOptions::AUTO);
-    options.into_iter().map(|(key, _)| key).chain([MAPS.to_owned()]).collect()
+    ReadOptions::keys().into_iter().chain([MAPS.to_owned()]).collect()
 }
 
 /// Whether `path` is named like a sidecar file.

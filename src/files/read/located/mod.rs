@@ -51,6 +51,22 @@ pub(crate) enum Candidate {
     Mtlx(LocatedMtlx),
 }
 
+impl Candidate {
+    /// The name of the material.
+    pub(crate) fn name(&self) -> String {
+        match self {
+            Self::Picture(picture) => {
+                let path = picture.file.path();
+                path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+            }
+            Self::Set(set) => set.name.clone(),
+            Self::Gltf(material) => material.name.clone(),
+            Self::Mtl(material) => material.entry.name.clone(),
+            Self::Mtlx(surface) => surface.name.clone(),
+        }
+    }
+}
+
 /// A picture that may hold a whole material, in tiles or layers.
 #[derive(Debug)]
 pub(crate) struct WholePicture {

@@ -10,6 +10,7 @@ mod preset;
 mod remedy;
 mod role;
 pub(crate) mod transfer;
+mod words;
 
 use std::path::Path;
 

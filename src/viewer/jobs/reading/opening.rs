@@ -125,7 +125,7 @@ impl Opening {
     ) -> Self {
         let name = |item: &Item| match item {
             Item::Loaded(_) => String::new(),
-            Item::Read(source) => source.name(),
+            Item::Read(source) => source.label(),
         };
         let names: Vec<String> = items.iter().map(name).collect();
         let id = |item: &Item| match item {

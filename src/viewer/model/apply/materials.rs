@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
+use svbrdf_files::source::MaterialSource;
 
 use crate::viewer::model::Model;
 use crate::viewer::model::command::MaterialsCommand;
@@ -70,8 +71,9 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     model.read = read;
     let target = if replace { Target::Everything } else { Target::Predictions };
     let (first, predictions) = paths.split_at(usize::from(replace).min(paths.len()));
-    let first = first.iter().map(|path| Source::file(path.clone(), read));
-    let sources = first.chain(sources(predictions, read)).collect();
+    let material = |path: &PathBuf| MaterialSource::path(path.clone(), read);
+    let predictions = sources(predictions.iter().map(material).collect());
+    let sources = first.iter().map(material).map(Source::from).chain(predictions).collect();
     vec![Effect::ReadForDialog(ReadRequest::new(sources, target))]
 }
 

@@ -41,6 +41,8 @@ impl MaterialId {
 #[derive(Debug)]
 pub struct ReadMaterial {
     pub id: MaterialId,
+    /// The name that it is given; `None` for that of its files.
+    pub name: Option<String>,
     pub origin: Origin,
     /// The options specified when it was opened.
     pub specified: ReadOptions,
@@ -73,10 +75,11 @@ impl ReadMaterial {
         let files: Vec<_> =
             read.files.into_iter().map(|path| (Stamp::of(&path), path)).map(|(s, p)| (p, s)).collect();
         let Read { material, assumptions, notes, maps, options, saved, memory, .. } = read;
-        let Source { origin, specified, fit, run, .. } = source;
+        let Source { name, origin, specified, fit, run, .. } = source;
         let id = MaterialId::new(&files);
         Self {
             id,
+            name,
             origin,
             specified,
             options,
@@ -103,9 +106,10 @@ impl ReadMaterial {
 
     /// This material with other maps, which no file holds.
     pub fn with_material(&self, material: Material<f32>) -> Self {
-        let Self { origin, specified, options, saved, fit, run, .. } = self;
+        let Self { name, origin, specified, options, saved, fit, run, .. } = self;
         Self {
             id: MaterialId::new(&[]),
+            name: name.clone(),
             origin: origin.clone(),
             specified: *specified,
             options: *options,
@@ -134,7 +138,7 @@ impl ReadMaterial {
             matches!(self.origin, Origin::Path(_)) && self.options != self.specified.over(self.saved);
         let chosen = is_chosen.then_some(self.options);
         let (origin, run) = (self.origin.clone(), self.run.clone());
-        Source { origin, specified: self.specified, chosen, fit: self.fit, run }
+        Source { name: self.name.clone(), origin, specified: self.specified, chosen, fit: self.fit, run }
     }
 }
 
@@ -162,8 +166,8 @@ impl Rules {
         if self.strict {
             read.refuse_guesses(path)?;
         }
-        if let (Some(run), Some((_, number))) = (&source.run, RunId::of_step(path)) {
-            read.material = read.material.renamed(run.step_name(number));
+        if let Some(name) = source.material_name(path) {
+            read.material = read.material.renamed(name);
         }
         source.fit |= self.fit;
         let from = read.material.size();

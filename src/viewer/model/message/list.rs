@@ -73,11 +73,12 @@ mod tests {
     use super::*;
     use crate::viewer::model::material::problem::MaterialProblem;
     use crate::viewer::model::material::source::Source;
+    use std::path::PathBuf;
     use svbrdf_core::error::Error;
-    use svbrdf_files::read::ReadOptions;
+    use svbrdf_files::source::MaterialSource;
 
     fn not_read(path: &str) -> Message {
-        let source = Box::new(Source::file(path.into(), ReadOptions::AUTO));
+        let source = Box::new(Source::from(MaterialSource::from(PathBuf::from(path))));
         MaterialProblem::NotRead { source, error: Error::Internal(format!("{path} is broken")), opening: 1 }
             .into()
     }

@@ -147,6 +147,7 @@ impl fmt::Display for Message {
 mod tests {
     use super::*;
     use crate::viewer::model::material::problem::SizeMismatch;
+    use svbrdf_files::source::MaterialSource;
 
     #[test]
     fn only_what_went_wrong_is_an_error() {
@@ -155,7 +156,7 @@ mod tests {
             prediction_size: [128, 64],
             ground_truth: "large".to_owned(),
             ground_truth_size: [256, 256],
-            source: Source::file("small.png".into(), ReadOptions::AUTO),
+            source: Source::from(MaterialSource::from(PathBuf::from("small.png"))),
         };
         let sizes = Box::new(sizes);
         let saved = Error::AboveLimit { name: "Saved".to_owned(), loss: 2.0, limit: 1.0 };
@@ -180,7 +181,7 @@ mod tests {
     #[test]
     fn the_limit_of_memory_comes_with_its_option() {
         let error = || Error::Memory { what: "a.png".to_owned(), bytes: 4 << 30, limit: 1 << 30 };
-        let source = Box::new(Source::file("a.png".into(), ReadOptions::AUTO));
+        let source = Box::new(Source::from(MaterialSource::from(PathBuf::from("a.png"))));
         let not_read = MaterialProblem::NotRead { source, error: error(), opening: 1 };
         for message in [Message::Failed(error()), not_read.into()] {
             let text = message.to_string();

@@ -1,11 +1,9 @@
 //! Options of the window: what it starts with.
 
-use std::path::PathBuf;
-
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::{Session, SessionPhotograph};
+use svbrdf_files::source::MaterialSource;
 
 /// The materials that the window opens, and how it reads them.
 #[derive(Clone, Debug, Default)]
@@ -13,10 +11,8 @@ pub struct ViewerOptions {
     /// A session, in place of materials.
     pub session: Option<Session>,
     /// `None` for the built-in pair.
-    pub ground_truth: Option<PathBuf>,
-    pub predictions: Vec<PathBuf>,
-    pub ground_truth_read: ReadOptions,
-    pub prediction_read: ReadOptions,
+    pub ground_truth: Option<MaterialSource>,
+    pub predictions: Vec<MaterialSource>,
     /// Whether guesses about materials are errors.
     pub strict: bool,
     /// Whether predictions of another size are resized to the ground truth.

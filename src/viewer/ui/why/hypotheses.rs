@@ -67,7 +67,13 @@ impl HypothesisLines<'_> {
         let change = shown_change(finding, self.pair);
         let is_shown = change.is_some() && change == self.corrected;
         let response = line(ui, finding.hypothesis, Some(finding), is_shown);
-        let response = response.on_hover_ui(|ui| details(ui, finding, change, is_shown));
+        let response = response.on_hover_ui(|ui| {
+            details(ui, finding, change, is_shown);
+            if let Some(remedy) = finding.remedy {
+                let option = remedy.command_option(self.pair.prediction().name());
+                ui.label(format!("Option of the command line: {option}"));
+            }
+        });
         if change.is_some() && response.clicked() {
             commands.push(toggle(change, self.corrected).into());
         }
@@ -154,9 +160,6 @@ fn details(ui: &mut egui::Ui, finding: &Finding, change: Option<Change>, is_show
         Some(p) => ui.label(format!("p = {p:.2e}, corrected for all hypotheses")),
         None => ui.label("Reported, not tested"),
     };
-    if let Some(remedy) = finding.remedy {
-        ui.label(format!("Option of the command line: {remedy}"));
-    }
     match (finding.change, change) {
         (_, Some(change)) if is_shown => {
             ui.label(format!("Click to show the prediction itself, not {change}"))

@@ -1,0 +1,218 @@
+//! The decision of the command line on how each material is read.
+
+use svbrdf_core::error::Error;
+use svbrdf_core::report::distinct_names;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::source::MaterialSource;
+
+use super::statement::{Statement, Whose};
+use crate::cli::output::CommandError;
+
+/// How the materials of a command are read, by their sides and names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Reading {
+    both: ReadOptions,
+    ground_truth: ReadOptions,
+    predictions: ReadOptions,
+    named: Vec<(String, ReadOptions)>,
+}
+
+/// The side of a comparison that a material is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    GroundTruth,
+    Prediction,
+}
+
+impl Reading {
+    /// What the `statements` specify together.
+    ///
+    /// # Errors
+    /// [`Error::SpecifiedTwice`] where two of them specify one option of the same materials.
+    pub fn new<'a>(statements: impl IntoIterator<Item = &'a Statement>) -> Result<Self, Error> {
+        let mut reading = Self::default();
+        for Statement { whose, options } in statements {
+            let specified = match whose {
+                Whose::All => &mut reading.both,
+                Whose::GroundTruth => &mut reading.ground_truth,
+                Whose::Predictions => &mut reading.predictions,
+                Whose::Named(name) => reading.of_name(name),
+            };
+            *specified = specified.and(*options)?;
+        }
+        Ok(reading)
+    }
+
+    /// How the material or method `name` on this side is read: what is specified for its name, then for its side, then for all.
+    pub fn options_for(&self, side: Side, name: &str) -> ReadOptions {
+        let named = self.named.iter().find(|(of, _)| of == name);
+        let of_name = named.map_or(ReadOptions::AUTO, |(_, options)| *options);
+        let of_side = match side {
+            Side::GroundTruth => self.ground_truth,
+            Side::Prediction => self.predictions,
+        };
+        of_name.over(of_side).over(self.both)
+    }
+
+    /// The names of materials, as reports print them. Of the names that a material may have once it is read: one for which something is
+    /// specified, or else the most likely.
+    pub fn names_of(&self, sources: &[MaterialSource]) -> Vec<String> {
+        let possible: Vec<_> = sources.iter().map(|source| self.possible_names(source)).collect();
+        let choices = possible.iter().map(Vec::len).max().unwrap_or(0);
+        let of_choice = |choice: usize| {
+            let name =
+                |names: &'_ Vec<String>| names.get(choice).or(names.last()).cloned().unwrap_or_default();
+            let names: Vec<String> = possible.iter().map(name).collect();
+            let named: Vec<_> =
+                names.iter().map(String::as_str).zip(sources.iter().map(MaterialSource::location)).collect();
+            distinct_names(&named)
+        };
+        let all: Vec<Vec<String>> = (0..choices).map(of_choice).collect();
+        let chosen = |index: usize| {
+            let specified = all.iter().find(|names| self.named.iter().any(|(name, _)| *name == names[index]));
+            specified.or(all.first()).map_or_else(String::new, |names| names[index].clone())
+        };
+        (0..sources.len()).map(chosen).collect()
+    }
+
+    /// Files are looked at only where something is specified for some of the materials.
+    fn possible_names(&self, source: &MaterialSource) -> Vec<String> {
+        match &source.name {
+            None if *self != Self { both: self.both, ..Self::default() } => source.possible_names(),
+            name => vec![name.clone().unwrap_or_default()],
+        }
+    }
+
+    /// Whether something is specified for a material by its name.
+    pub fn has_names(&self) -> bool {
+        !self.named.is_empty()
+    }
+
+    /// The statements that specify this, one for the same materials.
+    pub fn statements(&self) -> Vec<Statement> {
+        let of_sides = [
+            (Whose::All, self.both),
+            (Whose::GroundTruth, self.ground_truth),
+            (Whose::Predictions, self.predictions),
+        ];
+        let named = self.named.iter().map(|(name, options)| (Whose::Named(name.clone()), *options));
+        let all = of_sides.into_iter().chain(named).map(|(whose, options)| Statement { whose, options });
+        all.filter(|statement| statement.options != ReadOptions::AUTO).collect()
+    }
+
+    /// Refuses what is specified for materials that do not exist: those on a side without any, and names that no material has. The
+    /// ground truth of a data set has no name.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn check(&self, ground_truth: Option<&str>, predictions: &[String]) -> Result<(), CommandError> {
+        let names: Vec<&str> =
+            ground_truth.into_iter().chain(predictions.iter().map(String::as_str)).collect();
+        self.statements()
+            .iter()
+            .find_map(|one| problem(one, &names, predictions))
+            .map_or(Ok(()), |problem| Err(CommandError::Usage(problem)))
+    }
+
+    fn of_name(&mut self, name: &str) -> &mut ReadOptions {
+        let known = self.named.iter().position(|(of, _)| of == name);
+        let index = known.unwrap_or_else(|| {
+            self.named.push((name.to_owned(), ReadOptions::AUTO));
+            self.named.len() - 1
+        });
+        &mut self.named[index].1
+    }
+}
+
+/// Why a statement is not for exactly the materials that it should be for.
+fn problem(statement: &Statement, names: &[&str], predictions: &[String]) -> Option<String> {
+    let ambiguous = |word: &str, meaning: &str| {
+        format!(
+            "{word}: in {statement} is {meaning}, and a material has the name {word}; give it another name, as in \
+             other={word}.png"
+        )
+    };
+    match &statement.whose {
+        Whose::Predictions if predictions.is_empty() => {
+            Some(format!("there is no prediction; leave out {statement}"))
+        }
+        Whose::GroundTruth if predictions.iter().any(|name| name == "gt") => {
+            Some(ambiguous("gt", "the ground truth"))
+        }
+        Whose::Predictions
+            if names.len() > 1 + usize::from(names.len() > predictions.len()) && names.contains(&"pred") =>
+        {
+            Some(ambiguous("pred", "all predictions"))
+        }
+        Whose::Named(name) if !names.contains(&name.as_str()) => Some(format!(
+            "no material is named {name}, as in {statement}; the names are {}",
+            names.join(", ")
+        )),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn reading(statements: &[&str]) -> Result<Reading, Error> {
+        let parsed: Vec<Statement> = statements.iter().map(|text| text.parse().unwrap()).collect();
+        Reading::new(&parsed)
+    }
+
+    #[test]
+    fn the_name_counts_before_the_side_and_the_side_before_all() {
+        let reading = reading(&[
+            "albedo=srgb,roughness=r",
+            "pred:albedo=linear",
+            "a:b=c:albedo=log0.01",
+            "pred:energy=scaled",
+        ])
+        .unwrap();
+        let words = |side, name| reading.options_for(side, name).words();
+        assert_eq!(words(Side::GroundTruth, "gt"), "albedo=srgb,roughness=r");
+        assert_eq!(words(Side::Prediction, "other"), "albedo=linear,energy=scaled,roughness=r");
+        assert_eq!(words(Side::Prediction, "a:b=c"), "albedo=log0.01,energy=scaled,roughness=r");
+        let typed: Vec<_> = reading.statements().iter().map(ToString::to_string).collect();
+        let expected = [
+            "--read albedo=srgb,roughness=r",
+            "--read pred:albedo=linear,energy=scaled",
+            "--read a:b=c:albedo=log0.01",
+        ];
+        assert_eq!(typed, expected);
+    }
+
+    #[test]
+    fn one_option_of_the_same_materials_is_specified_once() {
+        let error = reading(&["a:albedo=srgb", "a:albedo=srgb"]).unwrap_err();
+        assert_eq!(error.to_string(), "albedo is specified twice; leave out one");
+        reading(&["a:albedo=srgb", "b:albedo=srgb", "albedo=srgb"]).unwrap();
+    }
+
+    #[test]
+    fn statements_for_materials_that_do_not_exist_or_could_be_others_are_refused() {
+        let check = |statement: &str, ground_truth: &str, predictions: &[&str]| {
+            let predictions: Vec<String> = predictions.iter().map(|&name| name.to_owned()).collect();
+            reading(&[statement]).unwrap().check(Some(ground_truth), &predictions)
+        };
+        let refused = [
+            ("pred:albedo=srgb", "gt", vec![], "there is no prediction; leave out --read pred:albedo=srgb"),
+            ("c:albedo=srgb", "gt", vec!["a", "b"], "the names are gt, a, b"),
+            ("gt:albedo=srgb", "truth", vec!["gt"], "the ground truth"),
+            ("pred:albedo=srgb", "gt", vec!["pred", "b"], "all predictions"),
+        ];
+        for (statement, ground_truth, predictions, expected) in refused {
+            let error = check(statement, ground_truth, &predictions).unwrap_err().to_string();
+            assert!(error.contains(expected), "{statement}: {error}");
+        }
+        for (statement, ground_truth, predictions) in [
+            ("gt:albedo=srgb", "gt", vec!["a"]),
+            ("pred:albedo=srgb", "gt", vec!["pred"]),
+            ("b:albedo=srgb", "gt", vec!["a", "b"]),
+            ("truth:albedo=srgb", "truth", vec![]),
+        ] {
+            check(statement, ground_truth, &predictions).unwrap();
+        }
+    }
+}

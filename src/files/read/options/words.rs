@@ -1,0 +1,163 @@
+//! Options of reading in words: `KEY=VALUE`, with the keys and values of sidecar files.
+
+use std::str::FromStr;
+
+use serde_json::{Map, Value};
+
+use svbrdf_core::error::Error;
+
+use super::ReadOptions;
+
+impl ReadOptions {
+    /// The keys, in alphabetical order.
+    pub fn keys() -> Vec<String> {
+        Self::AUTO.object().into_iter().map(|(key, _)| key).collect()
+    }
+
+    /// The specified options as `KEY=VALUE`, in the order of [`ReadOptions::keys`], with commas between them.
+    pub fn words(&self) -> String {
+        let words = self.object().into_iter().filter_map(|(key, value)| match value {
+            Value::Null => None,
+            Value::String(text) => Some(format!("{key}={text}")),
+            other => Some(format!("{key}={other}")),
+        });
+        words.collect::<Vec<_>>().join(",")
+    }
+
+    /// These options and `others`.
+    ///
+    /// # Errors
+    /// [`Error::SpecifiedTwice`] where both specify an option.
+    pub fn and(self, others: Self) -> Result<Self, Error> {
+        let mut all = self.object();
+        for (key, value) in others.object().into_iter().filter(|(_, value)| !value.is_null()) {
+            if all.get(&key).is_some_and(|value| !value.is_null()) {
+                return Err(Error::SpecifiedTwice { option: key });
+            }
+            all.insert(key, value);
+        }
+        serde_json::from_value(all.into()).map_err(|error| Error::Internal(error.to_string()))
+    }
+
+    /// Every option by its key; null where it is not specified.
+    pub(crate) fn object(&self) -> Map<String, Value> {
+        match serde_json::to_value(self) {
+            Ok(Value::Object(all)) => all,
+            _ => Map::new(),
+        }
+    }
+
+    /// The one option `key` with the value of this name.
+    fn of_word(key: &str, value: &str) -> Result<Self, Error> {
+        let auto = Self::AUTO;
+        Ok(match key {
+            "preset" => Self { preset: Some(value.parse()?), ..auto },
+            "albedo" => Self { albedo: Some(value.parse()?), ..auto },
+            "specular-albedo" => Self { specular: Some(value.parse()?), ..auto },
+            "normal-y" => Self { normal_y: Some(value.parse()?), ..auto },
+            "normal-encoding" => Self { normal_encoding: Some(value.parse()?), ..auto },
+            "roughness" => Self { roughness: Some(value.parse()?), ..auto },
+            "workflow" => Self { workflow: Some(value.parse()?), ..auto },
+            "dielectric-f0" => Self { dielectric: Some(value.parse()?), ..auto },
+            "energy" => Self { energy: Some(value.parse()?), ..auto },
+            "order" => Self { order: Some(value.parse()?), ..auto },
+            "grid" => Self { grid: Some(value.parse()?), ..auto },
+            "exemplar" => Self { exemplar: Some(known("exemplar", value, "a whole number from 0")?), ..auto },
+            "flip-v" => Self { flip_v: Some(known("flip-v", value, "true, false")?), ..auto },
+            "non-finite" => Self { non_finite: Some(value.parse()?), ..auto },
+            _ => {
+                let (found, known) = (key.to_owned(), Self::keys().join(", "));
+                return Err(Error::UnknownName { what: "option of reading", found, known });
+            }
+        })
+    }
+}
+
+/// A value, or the error that says which are `known`.
+fn known<T: FromStr>(what: &'static str, value: &str, known: &str) -> Result<T, Error> {
+    value.parse().map_err(|_| Error::UnknownName { what, found: value.to_owned(), known: known.to_owned() })
+}
+
+impl FromStr for ReadOptions {
+    type Err = Error;
+
+    /// Options as [`ReadOptions::words`] writes them: `albedo=srgb,normal-y=down`.
+    fn from_str(text: &str) -> Result<Self, Error> {
+        text.split(',').try_fold(Self::AUTO, |options, word| {
+            let Some((key, value)) = word.split_once('=') else {
+                let (found, known) = (word.to_owned(), "KEY=VALUE, such as albedo=srgb".to_owned());
+                return Err(Error::UnknownName { what: "option of reading", found, known });
+            };
+            options.and(Self::of_word(key.trim(), value.trim())?)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{
+        Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, Roughness, Workflow,
+    };
+    use super::*;
+
+    /// Every option with all of its values, or some where there are many.
+    fn values() -> Vec<(&'static str, Vec<String>)> {
+        fn of<T: ToString>(all: impl IntoIterator<Item = T>) -> Vec<String> {
+            all.into_iter().map(|value| value.to_string()).collect()
+        }
+        vec![
+            ("preset", of(Preset::ALL)),
+            ("albedo", of(Albedo::ALL)),
+            ("specular-albedo", of(Albedo::ALL)),
+            ("normal-y", of(NormalY::ALL)),
+            ("normal-encoding", of(NormalEncoding::ALL)),
+            ("roughness", of(Roughness::ALL)),
+            ("workflow", of(Workflow::ALL)),
+            ("dielectric-f0", of(["0.0", "0.04", "0.3333333333333333", "1.0"])),
+            ("energy", of(Energy::ALL)),
+            ("order", of(Order::ALL)),
+            ("grid", of(["1x1", "4x1", "64x64"])),
+            ("exemplar", of([0, 7])),
+            ("flip-v", of([true, false])),
+            ("non-finite", of(NonFinite::ALL)),
+        ]
+    }
+
+    #[test]
+    fn options_in_words_are_read_as_they_were() {
+        let values = values();
+        let mut keys: Vec<_> = values.iter().map(|(key, _)| (*key).to_owned()).collect();
+        keys.sort();
+        assert_eq!(keys, ReadOptions::keys(), "every key is tested");
+        for seed in 0..2000_usize {
+            // Each option is left out or has one of its values, all in combinations that do not repeat early.
+            let pick = |(place, (key, all)): (usize, &(&str, Vec<String>))| {
+                let choice = (seed * (2 * place + 3) + seed / (place + 1)) % (all.len() + 1);
+                all.get(choice).map(|value| format!("{key}={value}"))
+            };
+            let mut words: Vec<String> = values.iter().enumerate().filter_map(pick).collect();
+            words.sort();
+            let text = words.join(",");
+            if !text.is_empty() {
+                assert_eq!(text.parse::<ReadOptions>().unwrap().words(), text);
+            }
+        }
+    }
+
+    #[test]
+    fn words_that_specify_nothing_known_are_refused_with_those_that_do() {
+        for (text, expected) in [
+            ("albdo=srgb", "albedo, dielectric-f0"),
+            ("albedo", "KEY=VALUE"),
+            ("", "KEY=VALUE"),
+            ("albedo=sRGB", "linear, srgb"),
+            ("exemplar=-1", "a whole number"),
+            ("flip-v=yes", "true, false"),
+            ("maps=a.png", "albedo, dielectric-f0"),
+            ("albedo=srgb,albedo=linear", "albedo is specified twice"),
+        ] {
+            let error = text.parse::<ReadOptions>().unwrap_err().to_string();
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! `--read`, `--preset` and `NAME=PATH`: how each material is read, and its name.
+
+use serde_json::json;
+
+use super::*;
+
+fn loss_of(folder: &Path, args: &str) -> Value {
+    losses_as_json(folder, args)["results"][0]["loss"].clone()
+}
+
+#[test]
+fn options_of_reading_apply_to_all_to_a_side_or_to_a_name() {
+    let folder = folder();
+    let loss = |args: &str| loss_of(folder.path(), args);
+    let linear = loss("gt.png a.png --read albedo=linear");
+    let both = loss("gt.png a.png --read albedo=gamma2.2");
+    assert_ne!(linear, both);
+    let sides = "gt.png a.png --read gt:albedo=gamma2.2 --read pred:albedo=gamma2.2";
+    assert_eq!(loss(sides), both);
+    assert_eq!(loss("gt.png a.png --read gt:albedo=gamma2.2 --read a:albedo=gamma2.2"), both);
+    // The name counts before the side, and the side before all.
+    assert_eq!(
+        loss("gt.png a.png --read albedo=srgb --read gt:albedo=linear --read pred:albedo=linear"),
+        linear
+    );
+    assert_eq!(
+        loss("gt.png a.png --read albedo=linear --read pred:albedo=srgb --read a:albedo=linear"),
+        linear
+    );
+    let one = losses_as_json(folder.path(), "gt.png a.png b.png --read b:roughness=gloss");
+    let other = losses_as_json(folder.path(), "gt.png a.png b.png");
+    let few = |json: &Value, index: usize| json["results"][index]["few_scenes_loss"].clone();
+    assert_eq!(few(&one, 0), few(&other, 0));
+    assert_ne!(few(&one, 1), few(&other, 1));
+    // Several options of one material, and a preset of one side.
+    let several = loss("gt.png a.png --read pred:albedo=srgb,roughness=gloss");
+    assert_eq!(several, loss("gt.png a.png --read pred:albedo=srgb --read pred:roughness=gloss"));
+    assert_eq!(loss("gt.png a.png --preset pred:gao"), loss("gt.png a.png --read a:preset=gao"));
+    assert_ne!(loss("gt.png a.png --preset pred:gao"), loss("gt.png a.png --preset gao"));
+}
+
+#[test]
+fn unknown_keys_values_and_names_are_refused_with_those_that_exist() {
+    let folder = folder();
+    for (args, said) in [
+        ("loss gt.png a.png --read albdo=srgb", "use one of: albedo, dielectric-f0"),
+        ("loss gt.png a.png --read albedo=sRGB", "linear, srgb, gamma2.2, log0.01"),
+        ("loss gt.png a.png b.png --read c:albedo=srgb", "the names are gt, a, b"),
+        ("loss gt.png a.png --read albedo=srgb --read albedo=linear", "albedo is specified twice"),
+        ("loss gt.png a.png --preset gao --read preset=gltf", "preset is specified twice"),
+        (
+            "render gt.png -o x.png --read pred:albedo=srgb",
+            "there is no prediction; leave out --read pred:albedo=srgb",
+        ),
+        ("loss a.png gt.png --read gt:albedo=srgb", "give it another name"),
+        ("info gt.png --read a:albedo=srgb", "the names are gt"),
+        ("loss --read albedo=srgb", "<GT>"),
+    ] {
+        let stderr = fail(folder.path(), args, 64);
+        assert!(stderr.contains(said), "{args}: `{said}` is missing in {stderr}");
+    }
+    succeed(folder.path(), "info gt.png --read gt:albedo=srgb");
+}
+
+/// Old and new form, and what is read.
+#[test]
+fn former_options_do_the_same_and_note_the_form_that_replaces_them() {
+    let folder = folder();
+    let run = |args: &str| {
+        let output = run_in(folder.path(), args);
+        assert!(output.status.success(), "{args}: {output:?}");
+        (output.stdout, text(&output.stderr).to_owned())
+    };
+    for (former, options, current) in [
+        ("--albedo srgb", "--albedo", "--read albedo=srgb"),
+        ("--specular-albedo srgb", "--specular-albedo", "--read specular-albedo=srgb"),
+        ("--normal-y down", "--normal-y", "--read normal-y=down"),
+        ("--normal-code signed", "--normal-encoding", "--read normal-encoding=signed"),
+        (
+            "--roughness gloss --energy unscaled",
+            "--roughness, --energy",
+            "--read energy=unscaled,roughness=gloss",
+        ),
+        ("--workflow specular", "--workflow", "--read workflow=specular"),
+        ("--dielectric-f0 0.2", "--dielectric-f0", "--read dielectric-f0=0.2"),
+        ("--order dnrs", "--order", "--read order=dnrs"),
+        ("--grid 2x2", "--grid", "--read grid=2x2"),
+        ("--flip-v", "--flip-v", "--read flip-v=true"),
+        ("--flip-v=false", "--flip-v", "--read flip-v=false"),
+        ("--exemplar 0", "--exemplar", "--read exemplar=0"),
+        ("--non-finite replace", "--non-finite", "--read non-finite=replace"),
+        (
+            "--gt-albedo srgb --pred-albedo log0.01",
+            "--gt-albedo, --pred-albedo",
+            "--read gt:albedo=srgb --read pred:albedo=log0.01",
+        ),
+        ("--pred-specular-albedo srgb", "--pred-specular-albedo", "--read pred:specular-albedo=srgb"),
+        ("--pred-normal-y down", "--pred-normal-y", "--read pred:normal-y=down"),
+        ("--pred-roughness alpha", "--pred-roughness", "--read pred:roughness=alpha"),
+        ("--pred-energy unscaled", "--pred-energy", "--read pred:energy=unscaled"),
+    ] {
+        let [old, new] =
+            [former, current].map(|options| run(&format!("loss gt.png a.png --scenes one.json {options}")));
+        assert_eq!(old.0, new.0, "{former}");
+        let note = format!("svbrdf: note: {options} end with the next version; use {current}\n");
+        assert_eq!(old.1.replacen(&note, "", 1), new.1, "{former}");
+        assert!(old.1.contains(&note), "{former}: {}", old.1);
+    }
+    let help = succeed(folder.path(), "loss --help");
+    assert!(
+        help.contains("--read <") && !help.contains("--pred-albedo") && !help.contains("  --albedo"),
+        "{help}"
+    );
+}
+
+#[test]
+fn a_material_has_the_name_before_its_path_in_every_result() {
+    let folder = folder();
+    let at = folder.path();
+    let json = losses_as_json(at, "truth=gt.png ours=a.png b.png");
+    assert_eq!((&json["ground_truth"], &json["ground_truth_path"]), (&json!("truth"), &json!("gt.png")));
+    let names =
+        |index: usize| (json["results"][index]["prediction"].clone(), json["results"][index]["path"].clone());
+    assert_eq!([names(0), names(1)], [(json!("ours"), json!("a.png")), (json!("b"), json!("b.png"))]);
+    for (args, said) in [
+        ("loss gt.png ours=a.png theirs=b.png --scenes one.json", "\ntheirs - ours, "),
+        ("rank gt.png ours=a.png theirs=b.png --target-error 30% --format csv", "ours,"),
+        ("blame gt.png ours=a.png", "ours"),
+        ("diagnose gt.png ours=a.png", "ours"),
+        ("metrics gt.png ours=a.png", "ours"),
+        ("scenes gt.png ours=a.png --near 2 --distant 1 --format csv", "ours"),
+        ("info ours=a.png", "ours, 8 x 8 texels"),
+    ] {
+        let printed = succeed(at, args);
+        assert!(printed.contains(said), "{args}: `{said}` is missing in {printed}");
+    }
+    succeed(at, "report truth=gt.png ours=a.png -o r.html --target-error 30%");
+    let page = std::fs::read_to_string(at.join("r.html")).unwrap();
+    assert!(page.contains("truth") && page.contains(">ours<"), "names of the report");
+    succeed(at, "convert ours=a.png out.exr");
+    // The name and its option together.
+    let loss = |args: &str| loss_of(at, args);
+    assert_eq!(loss("gt.png ours=a.png --read ours:albedo=srgb"), loss("gt.png a.png --read a:albedo=srgb"));
+}
+
+#[test]
+fn a_path_that_exists_is_opened_whatever_its_name() {
+    let folder = folder();
+    let at = folder.path();
+    std::fs::copy(at.join("a.png"), at.join("lr=0.1.png")).unwrap();
+    assert_eq!(losses_as_json(at, "gt.png lr=0.1.png")["results"][0]["prediction"], "lr=0.1");
+    assert_eq!(losses_as_json(at, "gt.png x=lr=0.1.png")["results"][0]["prediction"], "x");
+    let stderr = fail(at, "loss gt.png x=missing.png", 1);
+    assert!(stderr.contains("missing.png") && !stderr.contains("x=missing.png"), "{stderr}");
+    for (args, said) in [
+        ("loss gt.png x=a.png x=b.png", "2 materials have the name x"),
+        ("loss gt.png b=a.png b.png", "2 materials have the name b"),
+        ("rank gt.png x=?.png", "the name x is for one"),
+        ("loss x=s.svbrdf-session.json", "a session names its materials itself"),
+    ] {
+        let stderr = fail(at, args, 64);
+        assert!(stderr.contains(said), "{args}: {stderr}");
+    }
+}
+
+#[test]
+fn the_steps_of_a_run_with_a_name_have_it() {
+    let folder = folder();
+    let at = folder.path();
+    std::fs::create_dir(at.join("run")).unwrap();
+    for (step, from) in [("wood_step1.png", "a.png"), ("wood_step2.png", "b.png")] {
+        std::fs::copy(at.join(from), at.join("run").join(step)).unwrap();
+    }
+    let json = losses_as_json(at, "gt.png ours=run");
+    let names = [0, 1].map(|index| json["results"][index]["prediction"].clone());
+    assert_eq!(names, [json!("ours, step 1"), json!("ours, step 2")]);
+}
