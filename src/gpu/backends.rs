@@ -17,7 +17,10 @@ const KNOWN: [&str; 11] =
 pub(super) fn check() -> Result<(), Error> {
     match std::env::var_os(VARIABLE) {
         Some(value) if !is_known(&value) => Err(Error::NoAdapter {
-            problem: format!("expected names of graphics interfaces in {VARIABLE}, found \"{}\"", value.display()),
+            problem: format!(
+                "expected names of graphics interfaces in {VARIABLE}, found \"{}\"",
+                value.display()
+            ),
             remedy: "set it to vulkan, metal, dx12 or gl, several separated by commas, or unset it",
         }),
         _ => Ok(()),

@@ -6,8 +6,6 @@
 #[cfg(feature = "viewer")]
 pub mod app;
 #[cfg(feature = "viewer")]
-mod display;
-#[cfg(feature = "viewer")]
 pub mod jobs;
 pub mod model;
 #[cfg(feature = "viewer")]

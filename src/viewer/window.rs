@@ -14,8 +14,7 @@ use svbrdf_core::error::Error;
 use svbrdf_gpu::Gpu;
 
 use super::app::device_loss::{Adapters, DeviceLosses, given_up};
-use super::app::{App, CrashGuard, Stop, outcome, stored_file};
-use super::display;
+use super::app::{App, CrashGuard, Stop, display, outcome, stored_file};
 use super::jobs::work::{panics, priority};
 use super::model::message::Message;
 use super::model::settings::options::ViewerOptions;

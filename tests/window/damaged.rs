@@ -96,7 +96,7 @@ fn sessions_of_random_values_open_or_are_refused() {
 
 /// What egui stores of a program, in memory.
 #[derive(Default)]
-struct Memory(HashMap<String, String>);
+pub(super) struct Memory(pub(super) HashMap<String, String>);
 
 impl eframe::Storage for Memory {
     fn get_string(&self, key: &str) -> Option<String> {

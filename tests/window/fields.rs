@@ -35,7 +35,8 @@ fn tab_through(window: &mut Window<'_>) -> usize {
     for _ in 0..STEPS {
         window.key_press(egui::Key::Tab);
         window.run_steps(2);
-        let focused = window.query_all_by_role(Role::TextInput).chain(window.query_all_by_role(Role::SpinButton));
+        let focused =
+            window.query_all_by_role(Role::TextInput).chain(window.query_all_by_role(Role::SpinButton));
         let focused = focused.filter(|node| node.is_focused());
         fields.extend(focused.map(|node| format!("{:?}", node.rect())));
     }

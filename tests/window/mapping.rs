@@ -88,7 +88,8 @@ fn random_view(window: &mut Window<'_>, random: &mut ChaCha8Rng) -> String {
 
 /// A pane, magnified at random.
 fn random_pane(window: &mut Window<'_>, random: &mut ChaCha8Rng) -> egui::Rect {
-    let panes: Vec<egui::Rect> = window.query_all_by_label_contains("Pane ").map(|node| node.rect()).collect();
+    let panes: Vec<egui::Rect> =
+        window.query_all_by_label_contains("Pane ").map(|node| node.rect()).collect();
     let pane = panes[below(random, panes.len())];
     let at = pane.min + pane.size() * vec2(0.3 + 0.4 * unit(random), 0.45 + 0.1 * unit(random));
     wheel(window, at, below(random, 7) as f32);
@@ -130,7 +131,10 @@ fn readout_pin_and_rectangle_are_of_the_texels_that_the_screen_shows() {
             let [first, last] = [region.first, region.last].map(|end| end[axis] % SIZE[axis] as usize);
             let is_all = along(region, axis).len() == SIZE[axis] as usize;
             let ends = BTreeSet::from([a[axis], b[axis]]);
-            assert!(is_all || BTreeSet::from([first, last]) == ends, "{what}: {region:?} from {a:?} to {b:?}");
+            assert!(
+                is_all || BTreeSet::from([first, last]) == ends,
+                "{what}: {region:?} from {a:?} to {b:?}"
+            );
         }
         if window.state().parts.model.view.display.projection == Projection::Flat {
             let columns: BTreeSet<usize> = (from[0].min(to[0])..=from[0].max(to[0]))

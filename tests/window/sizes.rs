@@ -148,7 +148,10 @@ fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_brings_it_back() {
             window.step();
         }
         window.run_steps(3);
-        assert_eq!((window.ctx.zoom_factor(), window.state().parts.model.settings.ui_scale), (expected, expected));
+        assert_eq!(
+            (window.ctx.zoom_factor(), window.state().parts.model.settings.ui_scale),
+            (expected, expected)
+        );
     }
     window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Num0);
     window.run_steps(3);

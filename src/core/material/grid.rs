@@ -35,9 +35,8 @@ impl Grid {
     /// The (column, row) of the texel that covers the point (x, y) of the plane; `None` outside of the material.
     pub fn texel_at(&self, point: [f32; 2]) -> Option<[usize; 2]> {
         let [column, row] = self.place(point);
-        let index = |place: f32, count: usize| {
-            (place >= 0.0 && place < count as f32).then_some(place as usize)
-        };
+        let index =
+            |place: f32, count: usize| (place >= 0.0 && place < count as f32).then_some(place as usize);
         Some([index(column, self.width)?, index(row, self.height)?])
     }
 

@@ -8,7 +8,7 @@ use eframe::egui_wgpu::WgpuError;
 
 use svbrdf_core::error::Error;
 
-use crate::viewer::display;
+use super::display;
 use crate::viewer::jobs::work::panics;
 
 /// How far the window has come, and the panic that ended it.
@@ -154,7 +154,9 @@ mod tests {
     #[test]
     fn a_start_that_panics_moves_the_settings_aside_and_says_so() {
         let library = Some("planted in the library");
-        let starts: [(&[fn()], _, &str); 4] = [
+        /// Its frames, the panic of its library, and what is reported.
+        type Start = (&'static [fn()], Option<&'static str>, &'static str);
+        let starts: [Start; 4] = [
             (&[], library, "planted in the library"),
             (&[|| ()], library, "planted in the library"),
             (&[PLANTED], None, "planted in a panel"),

@@ -3,6 +3,7 @@
 pub mod context;
 pub mod crash;
 pub mod device_loss;
+pub mod display;
 pub mod effects;
 pub mod events;
 #[cfg(feature = "testing")]

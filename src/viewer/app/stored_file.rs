@@ -95,7 +95,8 @@ impl Entries {
         if has_settings && settings.is_none() {
             return None;
         }
-        let is_window = eframe::get_value(self, WINDOW).is_some_and(|window: StoredWindow| window.is_usable());
+        let is_window =
+            eframe::get_value(self, WINDOW).is_some_and(|window: StoredWindow| window.is_usable());
         let keys = [SETTINGS, RECENT, SESSION].into_iter().chain(is_window.then_some(WINDOW));
         let mut entries: HashMap<String, String> =
             keys.filter_map(|key| Some((key.to_owned(), self.0.get(key)?.clone()))).collect();

@@ -133,7 +133,8 @@ mod tests {
         });
         let of = |region: Region| {
             let ln = |v: f64| (v + PRINTED.epsilon).ln();
-            let texels: Vec<usize> = region.texels([256; 2]).map(|[column, row]| row * 256 + column).collect();
+            let texels: Vec<usize> =
+                region.texels([256; 2]).map(|[column, row]| row * 256 + column).collect();
             let term = |i: usize, c: usize| {
                 (ln(pictures[1].pixels[i][c]) - ln(pictures[0].pixels[i][c])).abs() / 3.0
             };

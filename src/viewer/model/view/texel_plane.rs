@@ -202,7 +202,10 @@ mod tests {
                 let place = plane.place(seen);
                 let is_shown = copies.iter().any(|copy| is_between(place, copy.min, copy.max));
                 let is_near_edge = place.iter().any(|place| (place - place.round()).abs() < 1e-3);
-                assert!(is_near_edge || is_shown == inside.contains(&texel), "{plane:?} {region:?}: {place:?}");
+                assert!(
+                    is_near_edge || is_shown == inside.contains(&texel),
+                    "{plane:?} {region:?}: {place:?}"
+                );
             }
         }
     }

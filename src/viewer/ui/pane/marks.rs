@@ -51,8 +51,8 @@ impl Placed {
         if self.side(CellRect::of_cell(first).centre()) < READABLE {
             return;
         }
-        let cells = (first[1]..=last[1])
-            .flat_map(|row| (first[0]..=last[0]).map(move |column| [column, row]));
+        let cells =
+            (first[1]..=last[1]).flat_map(|row| (first[0]..=last[0]).map(move |column| [column, row]));
         for cell in cells {
             let Some(at) = self.pos(CellRect::of_cell(cell).centre()) else { continue };
             let text: Vec<String> = numbers(self.texels.texel_of(cell)).iter().map(|v| short(*v)).collect();

@@ -32,7 +32,8 @@ pub fn title_bar(
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let replaced = chosen && scenery.state.display.is_replaced();
-    let back = inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
+    let back =
+        inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
     let painter = ui.painter_at(rect);
     let colour = if content.index == 0 || !is_material {
         theme::ground_truth(ui.visuals())

@@ -292,13 +292,7 @@ impl Viewport {
     }
 
     /// What is drawn over a pane about texels.
-    fn paint_marks(
-        &self,
-        painter: &egui::Painter,
-        scenery: &Scenery<'_>,
-        content: Content,
-        placed: &Placed,
-    ) {
+    fn paint_marks(&self, painter: &egui::Painter, scenery: &Scenery<'_>, content: Content, placed: &Placed) {
         let state = scenery.state;
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);

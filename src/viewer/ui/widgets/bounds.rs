@@ -24,8 +24,7 @@ mod tests {
     use eframe::egui::vec2;
 
     /// Numbers that a side or a position may have, usable and not.
-    const NUMBERS: [f32; 9] =
-        [0.0, 2.5, 8.0, 640.0, -4.0, 1e9, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
+    const NUMBERS: [f32; 9] = [0.0, 2.5, 8.0, 640.0, -4.0, 1e9, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
 
     #[test]
     fn a_value_is_between_its_ends_and_halfway_between_ends_that_are_the_wrong_way_round() {
