@@ -4,6 +4,7 @@ mod arguments;
 mod device_loss;
 mod dialogs;
 mod sessions;
+mod starts;
 
 use std::path::Path;
 use std::process::{Command, Stdio};

@@ -201,9 +201,13 @@ impl From<SessionWindow> for Map<String, Value> {
 impl TryFrom<Map<String, Value>> for SessionWindow {
     type Error = String;
 
-    /// The text names the field that cannot be read.
+    /// The text names the field that cannot be read or used.
     fn try_from(mut parts: Map<String, Value>) -> Result<Self, String> {
-        Ok(Self { display: part(&mut parts, DISPLAY)?, loss: part(&mut parts, LOSS)? })
+        let (display, loss) = (part(&mut parts, DISPLAY)?, part::<LossSettings>(&mut parts, LOSS)?);
+        if let Some(loss) = &loss {
+            loss.check().map_err(|problem| format!("window.{LOSS}.{problem}"))?;
+        }
+        Ok(Self { display, loss })
     }
 }
 

@@ -5,6 +5,7 @@ use wgpu::{Adapter, Backends, Device, DeviceDescriptor, InstanceDescriptor, Queu
 use svbrdf_core::error::Error;
 
 use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY, select};
+use super::backends;
 use super::fault::Faults;
 
 /// A graphics device, its queue, and what is known about it. Clones share the device.
@@ -22,6 +23,7 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoAdapter`] where there is none, [`Error::Gpu`] where its driver refuses.
     pub fn headless() -> Result<Self, Error> {
+        Self::check_environment()?;
         let instance = wgpu::Instance::new(InstanceDescriptor::new_without_display_handle_from_env());
         let adapters = pollster::block_on(instance.enumerate_adapters(Backends::all()));
         let (adapter, reason) = select(&adapters, None).ok_or_else(|| no_adapter("none was found"))?;
@@ -32,6 +34,14 @@ impl Gpu {
                 remedy: "update its driver, or use the CPU",
             })?;
         Self::new(&adapter, device, queue, reason)
+    }
+
+    /// Checks that `WGPU_BACKEND` names graphics interfaces.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`].
+    pub fn check_environment() -> Result<(), Error> {
+        backends::check()
     }
 
     /// The device of a window.

@@ -11,6 +11,7 @@
 //! panic: they are an [`Error::Gpu`](svbrdf_core::error::Error::Gpu) or wait in [`Gpu::take_fault`].
 
 mod adapter;
+mod backends;
 mod context;
 mod display;
 mod fault;

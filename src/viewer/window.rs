@@ -2,6 +2,7 @@
 //! of a panic.
 
 use std::cell::RefCell;
+use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -13,10 +14,13 @@ use svbrdf_core::error::Error;
 use svbrdf_gpu::Gpu;
 
 use super::app::device_loss::{Adapters, DeviceLosses, given_up};
-use super::app::{App, CrashGuard, Stop, outcome};
+use super::app::{App, CrashGuard, Stop, display, outcome, stored_file};
 use super::jobs::work::{panics, priority};
+use super::model::message::Message;
 use super::model::settings::options::ViewerOptions;
 
+/// The name of the window, and of the folder of its settings.
+const NAME: &str = "svbrdf";
 /// How long a driver has to recover before the next device is asked for.
 const PAUSE_AFTER_LOSS: Duration = Duration::from_millis(300);
 
@@ -31,7 +35,7 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
     panics::print(false);
     let stop = Stop::default();
     priority::yield_to_window();
-    let result = windows(options, &stop);
+    let result = Gpu::check_environment().and_then(|()| windows(options, &stop));
     panics::print(true);
     result?;
     if stop.is_stopped() { Err(Error::Cancelled) } else { Ok(()) }
@@ -41,16 +45,23 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
 #[derive(Clone, Default)]
 struct Surviving(Rc<RefCell<Option<App>>>);
 
+/// The folder of the settings.
+fn settings_folder() -> Option<PathBuf> {
+    eframe::storage_dir(NAME)
+}
+
 /// Opens the window, and opens it again where its device was lost.
 fn windows(options: ViewerOptions, stop: &Stop) -> Result<(), Error> {
+    let damaged = settings_folder().map(|folder| stored_file::prepare(&folder)).transpose()?.flatten();
     let (app, crash) = (Surviving::default(), CrashGuard::default());
     let (mut losses, mut adapters) = (DeviceLosses::default(), Adapters::All);
     loop {
         // winit 0.30 panics where libxkbcommon or another library that it loads is missing.
-        let result = panics::caught(|| Ok(open(&app, adapters, &options, stop, &crash)));
+        let result = panics::caught(|| Ok(open(&app, adapters, &options, damaged.as_ref(), stop, &crash)));
         let loss = app.0.borrow().as_ref().and_then(|app| app.loss().map(str::to_owned));
         let Some(loss) = loss.filter(|_| !stop.is_stopped()) else {
-            return outcome(&crash, result);
+            let move_settings = || settings_folder().and_then(|folder| stored_file::move_aside(&folder));
+            return outcome(&crash, result, move_settings);
         };
         // winit 0.30 creates one event loop in a process; a panic leaves it unusable.
         let next = result.ok().and_then(|_| losses.next(Instant::now()));
@@ -64,6 +75,7 @@ fn open(
     app: &Surviving,
     adapters: Adapters,
     options: &ViewerOptions,
+    damaged: Option<&PathBuf>,
     stop: &Stop,
     crash: &CrashGuard,
 ) -> Result<(), eframe::Error> {
@@ -75,12 +87,13 @@ fn open(
                 let mut new = App::new(cc, options.clone());
                 new.stop_at_signals(stop);
                 new.guard(crash);
+                new.parts.model.report(damaged.cloned().map(Message::SettingsDamaged));
                 *place = Some(new);
             }
         }
         Box::new(app.clone())
     };
-    eframe::run_native("svbrdf", native_options(adapters), Box::new(|cc| Ok(create(cc))))
+    eframe::run_native(NAME, native_options(adapters), Box::new(|cc| Ok(create(cc))))
 }
 
 impl Surviving {
@@ -102,6 +115,11 @@ impl eframe::App for Surviving {
         self.with(|app| app.save(storage));
     }
 
+    fn persist_egui_memory(&self) -> bool {
+        // Its numbers decide the window, and no file of them can be checked.
+        false
+    }
+
     fn on_exit(&mut self) {
         self.with(eframe::App::on_exit);
     }
@@ -116,8 +134,8 @@ fn native_options(adapters: Adapters) -> eframe::NativeOptions {
     setup.device_descriptor = Arc::new(Gpu::device_descriptor);
     let mut options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
-            .with_title("svbrdf")
-            .with_app_id("svbrdf")
+            .with_title(NAME)
+            .with_app_id(NAME)
             .with_icon(icon())
             // With its title bar it fits a screen of 1366 x 768.
             .with_inner_size([1340.0, 700.0])
@@ -129,6 +147,7 @@ fn native_options(adapters: Adapters) -> eframe::NativeOptions {
         ..Default::default()
     };
     options.wgpu_options.wgpu_setup = WgpuSetup::CreateNew(setup);
+    display::choose(&mut options);
     options
 }
 

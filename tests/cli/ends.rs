@@ -82,6 +82,37 @@ fn without_an_adapter_the_gpu_is_a_clear_error() {
 }
 
 #[test]
+fn an_unknown_graphics_interface_is_named() {
+    let folder = folder();
+    for (value, args) in [
+        ("", "render gt.png --gpu -o x.png"),
+        ("vulcan", "render gt.png --gpu -o x.png"),
+        ("vulkan,dx13", "loss gt.png a.png --near 2 --backend gpu"),
+        ("vulcan", "view gt.png a.png"),
+    ] {
+        let mut command = svbrdf();
+        command.args(args.split(' ')).current_dir(folder.path()).env("WGPU_BACKEND", value);
+        let output = command.output().unwrap();
+        let stderr = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args}: {stderr}");
+        let found = format!("WGPU_BACKEND, found \"{value}\"");
+        assert!(stderr.contains(&found) && stderr.contains("unset it"), "{args}: {stderr}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn displays_that_do_not_answer_are_named() {
+    let folder = folder();
+    let mut command = svbrdf();
+    command.arg("view").current_dir(folder.path()).env("XDG_RUNTIME_DIR", folder.path());
+    let output = command.env("WAYLAND_DISPLAY", "wayland-7").env("DISPLAY", ":9973").output().unwrap();
+    let stderr = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert!(stderr.contains("WAYLAND_DISPLAY=wayland-7") && stderr.contains("DISPLAY=:9973"), "{stderr}");
+}
+
+#[test]
 fn a_closed_pipe_is_no_error() {
     let mut child =
         svbrdf().args(["loss", "--near", "2"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();

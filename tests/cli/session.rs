@@ -75,6 +75,34 @@ fn every_command_refuses_a_session_with_an_unknown_convention() {
     }
 }
 
+#[test]
+fn every_command_refuses_loss_settings_out_of_range_and_names_the_field() {
+    let folder = folder();
+    let at = folder.path();
+    succeed(at, "render gt.png -o photo.png");
+    write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
+    let good = std::fs::read_to_string(at.join(SESSION)).unwrap();
+    let no_scenes = r#""ask": "File", "file": {"name": "a.json", "scenes": []}"#;
+    let below = r#""ask": "File", "file": {"name": "a.json", "scenes": [
+        {"kind": "near", "view": [0, 0, 1], "light": [0, 0, -1]}]}"#;
+    for (settings, field, found) in [
+        (r#""ask": "Accuracy", "target_percent": -1"#, "window.loss.target_percent", "found -1"),
+        (r#""ask": "Accuracy", "target_percent": 0"#, "window.loss.target_percent", "found 0"),
+        (r#""ask": "Accuracy", "target_percent": 1e9"#, "window.loss.target_percent", "found 1000000000"),
+        (no_scenes, "window.loss.file.scenes", "found none"),
+        (below, "window.loss.file.scenes", "scene 0"),
+    ] {
+        let text = good.replace(r#""ask": "Scenes", "near": 4, "distant": 2"#, settings);
+        assert_ne!(text, good);
+        std::fs::write(at.join(SESSION), text).unwrap();
+        for command in COMMANDS {
+            let stderr = fail(at, &command.replace("{}", SESSION), 1);
+            let is_clear = [SESSION, field, found].iter().all(|part| stderr.contains(part));
+            assert!(is_clear, "{command}, {settings}: {stderr}");
+        }
+    }
+}
+
 /// A session that can be opened once: a pipe, which is removed as soon as it has been opened.
 #[cfg(unix)]
 #[test]

@@ -31,3 +31,19 @@ fn a_panic_in_a_frame_closes_the_window_and_draws_no_frame_again() {
     window.step();
     assert_eq!(window.state().parts.model.view.exposure_ev, exposure, "no frame is drawn after it");
 }
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn the_settings_of_a_frame_that_panicked_are_not_stored() {
+    let stored = |window: &mut Window<'_>| {
+        let mut memory = super::damaged::Memory::default();
+        eframe::App::save(window.state_mut(), &mut memory);
+        ["settings", "recent"].map(|key| memory.0.contains_key(key))
+    };
+    let mut window = built_in();
+    assert_eq!(stored(&mut window), [true, true]);
+    window.input_mut().dropped_files.push(std::sync::Arc::new(Planted));
+    window.step();
+    assert!(window.state().has_crashed());
+    assert_eq!(stored(&mut window), [false, true]);
+}

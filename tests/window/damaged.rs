@@ -1,7 +1,6 @@
 //! Settings and sessions with random values: no window crashes on them.
 
 use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use rand::SeedableRng as _;
@@ -97,7 +96,7 @@ fn sessions_of_random_values_open_or_are_refused() {
 
 /// What egui stores of a program, in memory.
 #[derive(Default)]
-struct Memory(HashMap<String, String>);
+pub(super) struct Memory(pub(super) HashMap<String, String>);
 
 impl eframe::Storage for Memory {
     fn get_string(&self, key: &str) -> Option<String> {
@@ -144,24 +143,23 @@ fn with_other_numbers(text: &str, random: &mut ChaCha8Rng) -> String {
 }
 
 /// The model that is loaded from these stored texts.
-fn loaded(stored: &Memory, folder: &Path) -> Model {
+fn loaded(stored: &Memory) -> Model {
     let mut model = Model::default();
-    Stored::load(Some(stored), Some(folder), &mut model);
+    Stored::load(Some(stored), &mut model);
     model
 }
 
 #[test]
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn no_window_crashes_on_settings_of_random_numbers() {
-    let folder = tempfile::tempdir().unwrap();
     let mut usual = Memory::default();
-    Stored::load(None, None, &mut Model::default()).store(&Model::default(), &mut usual);
+    Stored::load(None, &mut Model::default()).store(&Model::default(), &mut usual);
     let (mut changed, mut random) = (0, ChaCha8Rng::seed_from_u64(31));
     for _ in 0..WINDOWS {
         let stored = Memory(
             usual.0.iter().map(|(key, text)| (key.clone(), with_other_numbers(text, &mut random))).collect(),
         );
-        let model = loaded(&stored, folder.path());
+        let model = loaded(&stored);
         changed += usize::from(model.settings != Model::default().settings);
         let mut window = started_on(model);
         window.run_steps(5);

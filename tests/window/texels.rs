@@ -10,10 +10,10 @@ use svbrdf_files::source::MaterialSource;
 use super::*;
 
 /// Columns and rows of a material whose diffuse map encodes the texel's place.
-const SIZE: [u32; 2] = [48, 20];
+pub(super) const SIZE: [u32; 2] = [48, 20];
 
 /// A folder with maps of a material; red of the diffuse map counts columns, green counts rows.
-fn numbered(folder: &Path) -> ViewerOptions {
+pub(super) fn numbered(folder: &Path) -> ViewerOptions {
     let save = |name: &str, at: &dyn Fn(u32, u32) -> [u8; 3]| {
         let picture = image::RgbImage::from_fn(SIZE[0], SIZE[1], |x, y| at(x, y).into());
         picture.save(folder.join(name)).unwrap();
@@ -30,7 +30,7 @@ fn numbered(folder: &Path) -> ViewerOptions {
 }
 
 /// The texel whose colour this is; `None` for the background.
-fn texel_of([red, green, blue]: [u8; 3]) -> Option<[usize; 2]> {
+pub(super) fn texel_of([red, green, blue]: [u8; 3]) -> Option<[usize; 2]> {
     // The map is linear, the screen sRGB.
     let shown = |value: usize| (255.0 * crate::pictures::srgb(value as f64 / 255.0)).round() as u8;
     let find = |count: u32, step: usize, seen: u8| {
@@ -40,7 +40,7 @@ fn texel_of([red, green, blue]: [u8; 3]) -> Option<[usize; 2]> {
     if is_background { None } else { Some([find(SIZE[0], 5, red)?, find(SIZE[1], 12, green)?]) }
 }
 
-fn wheel(window: &mut Window<'_>, at: Pos2, notches: f32) {
+pub(super) fn wheel(window: &mut Window<'_>, at: Pos2, notches: f32) {
     hover(window, at);
     window.event(egui::Event::MouseWheel {
         unit: egui::MouseWheelUnit::Line,

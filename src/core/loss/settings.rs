@@ -36,6 +36,18 @@ pub struct FileScenes {
     pub scenes: Vec<Scene>,
 }
 
+impl FileScenes {
+    fn check(&self) -> Result<(), String> {
+        if self.scenes.is_empty() {
+            return Err("file.scenes: expected at least one scene, found none".to_owned());
+        }
+        let unusable = |(number, scene): (usize, &Scene)| {
+            scene.check().err().map(|problem| format!("file.scenes: scene {number}: {problem}"))
+        };
+        self.scenes.iter().enumerate().find_map(unusable).map_or(Ok(()), Err)
+    }
+}
+
 /// How a loss is asked for. What the other ways of asking need is kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -72,6 +84,20 @@ impl Default for LossSettings {
 }
 
 impl LossSettings {
+    /// Checks the numbers of a file.
+    ///
+    /// # Errors
+    /// The field, what was expected and what was found.
+    pub fn check(&self) -> Result<(), String> {
+        let target = self.target_percent;
+        if !(target > 0.0 && target <= 100.0) {
+            return Err(format!(
+                "target_percent: expected a percentage above 0 and at most 100, found {target}"
+            ));
+        }
+        self.file.as_ref().map_or(Ok(()), FileScenes::check)
+    }
+
     /// What is asked for; fields that are not shown do not influence it.
     pub fn request(&self) -> Request {
         let Self { near, distant, seed, sampler, texels, .. } = *self;

@@ -18,25 +18,26 @@ impl Grid {
         [self.width, self.height].map(|n| n as f32 / self.half_spacings())
     }
 
-    /// The (column, row) of the texel that covers the point (x, y) of the plane; `None` outside of the material.
-    pub fn texel_at(&self, [x, y]: [f32; 2]) -> Option<[usize; 2]> {
+    /// The place (column, row) of the point (x, y) of the plane, counted in texels from the upper left corner of the material:
+    /// texel (i, j) covers the places from (i, j) to (i + 1, j + 1).
+    pub fn place(&self, [x, y]: [f32; 2]) -> [f32; 2] {
         let [half_width, half_height] = self.half_extent();
-        let index = |distance: f32, count: usize| {
-            let i = (distance * self.half_spacings() / 2.0).floor();
-            (i >= 0.0 && i < count as f32).then_some(i as usize)
-        };
-        Some([index(x + half_width, self.width)?, index(half_height - y, self.height)?])
+        [x + half_width, half_height - y].map(|distance| distance * self.half_spacings() / 2.0)
     }
 
-    /// As [`Grid::texel_at`], where the material is repeated 2 x 2 times in its own place, shifted by half of itself.
-    pub fn repeated_texel_at(&self, [x, y]: [f32; 2]) -> Option<[usize; 2]> {
-        self.texel_at([x, y])?;
+    /// The point (x, y) of the plane at a place: the inverse of [`Grid::place`].
+    pub fn point(&self, place: [f32; 2]) -> [f32; 2] {
         let [half_width, half_height] = self.half_extent();
-        let index = |distance: f32, count: usize| {
-            let texel = distance * self.half_spacings() / 2.0;
-            ((2.0 * texel + 0.5 * count as f32).rem_euclid(count as f32) as usize).min(count - 1)
-        };
-        Some([index(x + half_width, self.width), index(half_height - y, self.height)])
+        let [right, down] = place.map(|texels| texels * 2.0 / self.half_spacings());
+        [right - half_width, half_height - down]
+    }
+
+    /// The (column, row) of the texel that covers the point (x, y) of the plane; `None` outside of the material.
+    pub fn texel_at(&self, point: [f32; 2]) -> Option<[usize; 2]> {
+        let [column, row] = self.place(point);
+        let index =
+            |place: f32, count: usize| (place >= 0.0 && place < count as f32).then_some(place as usize);
+        Some([index(column, self.width)?, index(row, self.height)?])
     }
 
     /// How many halves of the distance between two texels make a unit of length.

@@ -66,7 +66,7 @@ fn colour(value: vec3f, from_reference: bool, pixel: vec2u) -> vec3f {
 }
 
 // The texel that is shown in the place of `texel`: another one where the material is repeated. The twin of
-// Grid::repeated_texel_at in src/material/grid.rs.
+// TexelPlane in src/viewer/model/view/texel_plane.rs.
 fn repeated(texel: vec2f) -> vec2f {
     if !TILED {
         return texel;

@@ -3,6 +3,7 @@
 pub mod context;
 pub mod crash;
 pub mod device_loss;
+pub mod display;
 pub mod effects;
 pub mod events;
 #[cfg(feature = "testing")]
@@ -11,6 +12,7 @@ pub mod parts;
 pub mod saving;
 pub mod stop;
 pub mod storage;
+pub mod stored_file;
 pub mod training;
 
 use std::time::{Duration, Instant};
@@ -31,6 +33,7 @@ use super::model::Model;
 use super::model::apply::{exposure, undo};
 use super::model::command::{Command, SceneCommand};
 use super::model::message::Message;
+use super::model::ranges::UI_SCALE;
 use super::model::settings::options::ViewerOptions;
 use super::ui::WindowUi;
 use super::ui::shading::gpu_view::GpuView;
@@ -54,7 +57,7 @@ impl App {
     pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
         theme::install(&cc.egui_ctx);
         let mut model = Model::default();
-        let stored = Stored::load(cc.storage, eframe::storage_dir("svbrdf").as_deref(), &mut model);
+        let stored = Stored::load(cc.storage, &mut model);
         cc.egui_ctx.set_zoom_factor(model.settings.ui_scale);
         let context = CurrentContext::new(&cc.egui_ctx);
         let gpu = adapter(cc, &mut model, &context);
@@ -108,8 +111,7 @@ impl App {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.parts.model.settings.dark);
-        // Ctrl with plus, minus or 0 changes it, too.
-        self.parts.model.settings.ui_scale = ctx.zoom_factor();
+        self.parts.model.settings.ui_scale = scale_in_range(&ctx);
         self.parts.model.time = self.opened_at + ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
         events::take_results(&mut self.parts, &ctx);
@@ -159,6 +161,9 @@ impl App {
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let crash = self.crash.clone();
+        if ui.input(|input| input.events.iter().any(is_by_hand)) {
+            crash.begin_use();
+        }
         let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui));
         if self.loss().is_some() {
             self.leave(ui.ctx());
@@ -177,7 +182,11 @@ impl eframe::App for App {
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         let crash = self.crash.clone();
         crash.attempt(|| self.parts.model.remember_session(self.parts.jobs.openings.is_empty()));
-        self.stored.store(&self.parts.model, storage);
+        if crash.has_crashed() {
+            self.stored.store_sessions(&self.parts.model, storage);
+        } else {
+            self.stored.store(&self.parts.model, storage);
+        }
     }
 
     fn on_exit(&mut self) {
@@ -189,6 +198,19 @@ impl eframe::App for App {
             let _ = saving.wait();
         }
     }
+}
+
+/// Whether somebody used the window.
+fn is_by_hand(event: &egui::Event) -> bool {
+    use egui::Event::{Key, MouseWheel, PointerButton, Text};
+    matches!(event, Key { .. } | Text(_) | PointerButton { .. } | MouseWheel { .. })
+}
+
+/// The scale of text and controls, which Ctrl with plus, minus or 0 changes, too.
+fn scale_in_range(ctx: &egui::Context) -> f32 {
+    let scale = ctx.zoom_factor().clamp(*UI_SCALE.start(), *UI_SCALE.end());
+    ctx.set_zoom_factor(scale);
+    scale
 }
 
 /// The adapter of a window, and its limits for the user interface; a message where its driver fails.

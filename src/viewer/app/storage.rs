@@ -1,7 +1,5 @@
 //! Storage of the settings and of the last session between two starts.
 
-use std::path::{Path, PathBuf};
-
 use eframe::egui;
 use serde::Deserialize;
 
@@ -13,14 +11,11 @@ use crate::viewer::model::ranges::bring_into_range;
 use crate::viewer::model::settings::Settings;
 
 /// The key of the settings in the storage.
-const SETTINGS: &str = "settings";
+pub const SETTINGS: &str = "settings";
 /// The key of the sessions of the last comparisons.
-const RECENT: &str = "recent";
+pub const RECENT: &str = "recent";
 /// The key under which earlier versions stored the last session.
-const SESSION: &str = "session";
-
-/// The name that eframe gives the file of the storage.
-const FILE: &str = "app.ron";
+pub const SESSION: &str = "session";
 
 /// The settings as last stored.
 #[derive(Debug)]
@@ -36,14 +31,10 @@ struct EarlierSettings {
 }
 
 impl Stored {
-    /// Loads what the last start has stored in `folder` into `model`. A file that cannot be read is moved aside, before it is
-    /// written again; numbers are brought into their ranges.
-    pub fn load(storage: Option<&dyn eframe::Storage>, folder: Option<&Path>, model: &mut Model) -> Self {
+    /// Loads what the last start has stored into `model`; numbers are brought into their ranges.
+    pub fn load(storage: Option<&dyn eframe::Storage>, model: &mut Model) -> Self {
         if let Some(storage) = storage {
-            let settings = eframe::get_value(storage, SETTINGS);
-            let damaged = if settings.is_none() { folder.and_then(moved_aside) } else { None };
-            model.report(damaged.map(Message::SettingsDamaged));
-            model.settings = settings.unwrap_or_default();
+            model.settings = eframe::get_value(storage, SETTINGS).unwrap_or_default();
             let out_of_range = bring_into_range(model).map(Message::OutOfRange);
             model.report(out_of_range);
             let earlier = || eframe::get_value::<EarlierSettings>(storage, SETTINGS)?.last;
@@ -72,27 +63,25 @@ impl Stored {
         }
     }
 
-    /// Stores settings and session.
+    /// Stores settings and sessions.
     pub fn store(&self, model: &Model, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, SETTINGS, &model.settings.for_next_start());
+        self.store_sessions(model, storage);
+    }
+
+    /// Stores the sessions, and leaves the settings as the last frame that was drawn has stored them: with those of a frame that has
+    /// panicked, the next start might panic, too.
+    pub fn store_sessions(&self, model: &Model, storage: &mut dyn eframe::Storage) {
         eframe::set_value(storage, RECENT, &model.recent);
     }
-}
-
-/// Renames the file of the storage in `folder`, where there is one, and returns its new path.
-fn moved_aside(folder: &Path) -> Option<PathBuf> {
-    let file = folder.join(FILE);
-    let aside = folder.join(format!("{FILE}.damaged"));
-    let has_content = file.metadata().is_ok_and(|found| found.len() > 0);
-    (has_content && std::fs::rename(file, &aside).is_ok()).then_some(aside)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use std::collections::HashMap;
+    use std::path::PathBuf;
     use svbrdf_core::loss::{Ask, FileScenes, LossSettings};
-    use svbrdf_files::open::NamedFile;
 
     #[derive(Default)]
     struct Memory(HashMap<String, String>);
@@ -116,8 +105,8 @@ mod tests {
     /// The model of the next start.
     fn restarted(model: &Model) -> Model {
         let (mut memory, mut next) = (Memory::default(), Model::default());
-        Stored::load(None, None, &mut Model::default()).store(model, &mut memory);
-        Stored::load(Some(&memory), None, &mut next);
+        Stored::load(None, &mut Model::default()).store(model, &mut memory);
+        Stored::load(Some(&memory), &mut next);
         next
     }
 
@@ -151,24 +140,8 @@ mod tests {
         let mut memory = Memory::default();
         eframe::set_value(&mut memory, SETTINGS, &Earlier { dark: false, last: Some(last.clone()) });
         let mut next = Model::default();
-        Stored::load(Some(&memory), None, &mut next);
+        Stored::load(Some(&memory), &mut next);
         assert_eq!((next.settings.dark, next.recent), (false, vec![last]));
-    }
-
-    #[test]
-    fn settings_that_cannot_be_read_are_kept_aside_and_said_so() {
-        let folder = tempfile::tempdir().unwrap();
-        let load = |memory: &Memory| {
-            let mut model = Model::default();
-            Stored::load(Some(memory), Some(folder.path()), &mut model);
-            model.messages.iter().map(ToString::to_string).collect::<Vec<_>>()
-        };
-        assert_eq!(load(&Memory::default()), [""; 0], "the first start has no file");
-        std::fs::write(folder.path().join(FILE), "{\"settings\": \"(dark: tr").unwrap();
-        let messages = load(&Memory::default());
-        assert!(messages.len() == 1 && messages[0].contains("app.ron.damaged"), "{messages:?}");
-        let aside = NamedFile::by_user(folder.path().join("app.ron.damaged")).text().unwrap();
-        assert!(aside.ends_with("(dark: tr"));
     }
 
     #[test]
@@ -177,7 +150,7 @@ mod tests {
             let mut memory = Memory::default();
             memory.0.insert(SETTINGS.to_owned(), format!("(dark: false, ui_scale: {scale})"));
             let mut model = Model::default();
-            Stored::load(Some(&memory), None, &mut model);
+            Stored::load(Some(&memory), &mut model);
             assert!((0.5..=4.0).contains(&model.settings.ui_scale) && !model.settings.dark, "{scale}");
             let messages: Vec<_> = model.messages.iter().map(ToString::to_string).collect();
             assert!(messages.len() == 1 && messages[0].contains("UI scale"), "{scale}: {messages:?}");

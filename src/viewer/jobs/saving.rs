@@ -88,7 +88,9 @@ pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
         let ([left, top], [width, height]) = (region.first, region.size());
         Crop { left, top, width, height }
     };
-    let crops = region.into_iter().map(crop).collect();
+    let size = displayed.materials().first().map(|ground_truth| ground_truth.material().size());
+    let parts = region.zip(size).into_iter().flat_map(|(region, size)| region.parts(size));
+    let crops = parts.map(crop).collect();
     let strip = Strip { columns, convention: state.convention(), exposure_ev: state.exposure_ev, crops };
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = PngDestination::new(&path)?;

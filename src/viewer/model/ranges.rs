@@ -17,7 +17,7 @@ const CENTRE: RangeInclusive<f32> = 0.0..=1e6;
 /// Greatest exposure either way, in stops.
 pub const STOPS: f32 = 20.0;
 /// Scale of text and controls.
-const UI_SCALE: RangeInclusive<f32> = 0.5..=4.0;
+pub const UI_SCALE: RangeInclusive<f32> = 0.5..=4.0;
 /// Target error of a loss in percent.
 const TARGET_PERCENT: RangeInclusive<f64> = 0.001..=100.0;
 /// Time for a loss in milliseconds.

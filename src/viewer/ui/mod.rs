@@ -136,7 +136,7 @@ impl WindowUi {
             materials: displayed.materials(),
             computed_maps: displayed.computed_maps().map(AsRef::as_ref),
             photographs: displayed.photographs().map(AsRef::as_ref),
-            texel: hovered.and_then(|hovered| view.texel_at(grid?, hovered.point)),
+            texel: hovered.and_then(|hovered| hovered.texel),
             hovered: hovered.map(|hovered| hovered.index),
             magnification: grid.map_or(1.0, |grid| self.viewport.magnification(grid, view)),
             is_armed: displayed.model.inspection.is_armed,

@@ -89,7 +89,9 @@ fn numbers<'a>(
     scene: &Scene,
     convention: &Convention,
 ) -> Vec<RegionNumbers> {
-    let texels: Vec<[usize; 2]> = region.texels().collect();
+    let mut materials = materials.peekable();
+    let size = materials.peek().map_or([0; 2], |material| material.size());
+    let texels: Vec<[usize; 2]> = region.texels(size).collect();
     let (model, rays) = (Model::<f32>::from(convention), scene.rays::<f32>());
     let mut ground_truth: Option<Vec<[f32; 3]>> = None;
     let mut all = Vec::new();
@@ -131,7 +133,8 @@ mod tests {
         });
         let of = |region: Region| {
             let ln = |v: f64| (v + PRINTED.epsilon).ln();
-            let texels: Vec<usize> = region.texels().map(|[column, row]| row * 256 + column).collect();
+            let texels: Vec<usize> =
+                region.texels([256; 2]).map(|[column, row]| row * 256 + column).collect();
             let term = |i: usize, c: usize| {
                 (ln(pictures[1].pixels[i][c]) - ln(pictures[0].pixels[i][c])).abs() / 3.0
             };
@@ -140,12 +143,13 @@ mod tests {
         };
         let all = Region { first: [0, 0], last: [255, 255] };
         let part = Region { first: [200, 10], last: [255, 12] };
-        for region in [all, part] {
+        let over_seams = Region { first: [250, 240], last: [260, 257] };
+        for region in [all, part, over_seams] {
             let found = numbers(materials.iter(), region, Quantity::Roughness, &scene, &PRINTED);
             assert!(found[0].loss.is_none());
             assert!((found[1].loss.unwrap() - of(region)).abs() < 1e-5, "{found:?}, expected {}", of(region));
             let rough: Vec<f32> =
-                region.texels().map(|[c, r]| materials[1].texel(r * 256 + c).roughness).collect();
+                region.texels([256; 2]).map(|[c, r]| materials[1].texel(r * 256 + c).roughness).collect();
             assert_eq!(found[1].channels[0], Statistics::of(&rough));
         }
         assert!((of(all) - of(part)).abs() > 1e-3, "the planted fault differs");

@@ -35,7 +35,7 @@ impl Inspection {
     /// Drops what lies outside of materials of `size` = (width, height).
     pub fn keep_within(&mut self, size: [usize; 2]) {
         self.pins.retain(|pin| pin[0] < size[0] && pin[1] < size[1]);
-        self.region = self.region.filter(|region| region.last[0] < size[0] && region.last[1] < size[1]);
+        self.region = self.region.filter(|region| region.fits(size));
     }
 
     /// Whether the drawer has something to show.

@@ -62,10 +62,8 @@ impl Framed<'_> {
 
     /// The point at (x, y) of the pane, in texels.
     fn texel(&self, [x, y]: [f32; 2]) -> Option<[f32; 2]> {
-        let [x, y] = self.state.camera(self.grid, self.pane).plane_from_ndc(x, y)?;
-        let [half_width, half_height] = self.grid.half_extent();
-        let [width, height] = size(self.grid);
-        Some([(x / half_width + 1.0) * 0.5 * width, (1.0 - y / half_height) * 0.5 * height])
+        let point = self.state.camera(self.grid, self.pane).plane_from_ndc(x, y)?;
+        Some(self.grid.place(point))
     }
 }
 
@@ -75,7 +73,8 @@ impl ViewState {
         let fitted = self.fitted_camera(grid, aspect(pane));
         let Some(framing) = self.display.framing else { return fitted };
         let zoom = framing.pixels_per_texel / pixels_per_texel(&fitted, grid, pane);
-        let centre = fitted.ndc_from_point(point(grid, framing.centre));
+        let [x, y] = grid.point(framing.centre);
+        let centre = fitted.ndc_from_point(Vec3::new(x, y, 0.0));
         match centre {
             Some(centre) if zoom.is_finite() && zoom > 0.0 => fitted.zoomed(zoom, centre.map(|c| -c * zoom)),
             _ => fitted,
@@ -155,11 +154,6 @@ fn pixels_per_texel(fitted: &Camera, grid: Grid, pane: [f32; 2]) -> f32 {
     let texel = 2.0 * grid.half_extent()[1] / grid.height as f32;
     let pixels = 0.5 * pane[1] / fitted.half_height() * texel;
     if pixels.is_finite() && pixels > 0.0 { pixels } else { 1.0 }
-}
-
-fn point(grid: Grid, [x, y]: [f32; 2]) -> Vec3 {
-    let ([half_width, half_height], [width, height]) = (grid.half_extent(), size(grid));
-    Vec3::new((2.0 * x / width - 1.0) * half_width, (1.0 - 2.0 * y / height) * half_height, 0.0)
 }
 
 fn middle(grid: Grid) -> [f32; 2] {

@@ -5,3 +5,4 @@ pub mod endpoint;
 pub mod framing;
 pub mod geometry;
 pub mod state;
+pub mod texel_plane;

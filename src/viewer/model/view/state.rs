@@ -7,6 +7,8 @@ use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_files::session_window::Display;
 
+use super::texel_plane::TexelPlane;
+
 pub use svbrdf_files::session_window::{AutoExposure, Layout, Projection};
 
 /// Light, view and display, as one value: undo returns to an earlier one.
@@ -65,9 +67,9 @@ impl ViewState {
         }
     }
 
-    /// The texel that is seen at a point of the plane.
-    pub fn texel_at(&self, grid: Grid, point: [f32; 2]) -> Option<[usize; 2]> {
-        if self.display.tiled { grid.repeated_texel_at(point) } else { grid.texel_at(point) }
+    /// The texels of a material of this grid as the panes show them.
+    pub fn texels(&self, grid: Grid) -> TexelPlane {
+        TexelPlane::new(grid, self.display.tiled)
     }
 
     /// The default light, view and display, with the current prediction, layout and convention.

@@ -11,6 +11,9 @@ use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use crate::viewer::ui::widgets::number;
 use crate::viewer::ui::widgets::theme;
 
+/// Width and height of a picture of the view, in pixels.
+const SIDE: std::ops::RangeInclusive<u32> = 64..=8192;
+
 /// What is typed and chosen so far.
 #[derive(Debug)]
 pub struct SaveDialog {
@@ -114,7 +117,7 @@ impl SaveDialog {
             for (name, side, default) in
                 [("Width in pixels", 0, view_size[0]), ("Height in pixels", 1, view_size[1])]
             {
-                number(ui, name, &mut self.size[side], default, |drag| drag.range(64..=8192))
+                number(ui, name, &mut self.size[side], default, |drag| drag.range(SIDE))
                     .on_hover_text(format!("{name} of the picture"));
             }
             if ui.button("As in the window").on_hover_text("The size of the panes in the window").clicked() {
@@ -137,7 +140,8 @@ impl SaveDialog {
             return;
         }
         self.field.clear();
-        let request = SaveRequest { kind: self.what, path, size: self.size, handles: self.handles };
+        let size = self.size.map(|side| side.clamp(*SIDE.start(), *SIDE.end()));
+        let request = SaveRequest { kind: self.what, path, size, handles: self.handles };
         commands.push(WindowCommand::Save(request).into());
     }
 }

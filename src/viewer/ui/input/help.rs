@@ -15,8 +15,8 @@ pub fn ui(ctx: &egui::Context) -> Option<Command> {
     let mut open = true;
     let room = ctx.content_rect().size();
     let columns = if room.x > WIDTHS[1] + 60.0 { 2 } else { 1 };
-    let width = WIDTHS[columns - 1].min(room.x - 40.0);
-    let height = room.y - 130.0;
+    let width = WIDTHS[columns - 1].min((room.x - 40.0).max(0.0));
+    let height = (room.y - 130.0).max(0.0);
     egui::Window::new("Keys and mouse")
         .open(&mut open)
         .collapsible(false)

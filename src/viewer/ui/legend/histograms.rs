@@ -8,6 +8,7 @@ use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::panes::histograms::{Channel, Values};
 use crate::viewer::model::material::loaded::LoadedMaterial;
 use crate::viewer::ui::legend::strip::{beyond, outline};
+use crate::viewer::ui::widgets::bounds::inset;
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::theme;
 
@@ -67,12 +68,13 @@ impl<'a> ValueStrip<'a> {
         let area = response.rect.with_max_y(response.rect.top() + HEIGHT);
         let ink = ui.visuals().weak_text_color();
         painter.rect_stroke(area, 0.0, Stroke::new(1.0, ink.gamma_multiply(0.4)), egui::StrokeKind::Inside);
+        let inner = inset(area, vec2(2.0, 2.0));
         for (slot, one) in channel.iter().enumerate() {
             let width = if slot == self.chosen || slot == 0 { 1.8 } else { 1.0 };
-            let line = outline(&one.histogram, area.shrink(2.0));
+            let line = outline(&one.histogram, inner);
             let stroke = Stroke::new(width, colour(slot, ui.visuals()));
             painter.extend(theme::series_line(&line, slot.saturating_sub(1), stroke));
-            painter.extend(beyond(&one.histogram, area.shrink(2.0), stroke.color));
+            painter.extend(beyond(&one.histogram, inner, stroke.color));
         }
         key(&painter, area, channel.len(), ui.visuals());
         if let Some(first) = channel.first() {

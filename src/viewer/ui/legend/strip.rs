@@ -12,6 +12,7 @@ use crate::viewer::jobs::displayed::Displayed;
 use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
 use crate::viewer::model::command::{Command, DisplayCommand};
 use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::viewer::ui::widgets::bounds::inset;
 use crate::viewer::ui::widgets::colour_bar::colour_bar;
 use crate::viewer::ui::widgets::number;
 use crate::viewer::ui::widgets::numbers::digits;
@@ -169,7 +170,7 @@ impl<'a> LegendStrip<'a> {
         let size = vec2(width, HISTOGRAM + BAR + 14.0);
         let (response, painter) = ui.allocate_painter(size, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::slider(true, self.range, "Difference range"));
-        let area = response.rect.shrink2(vec2(8.0, 0.0)).with_max_y(response.rect.top() + HISTOGRAM + BAR);
+        let area = inset(response.rect, vec2(8.0, 0.0)).with_max_y(response.rect.top() + HISTOGRAM + BAR);
         let [low, high] = self.axis();
         let x = |value: f64| {
             let share = ((value - low) / (high - low)).clamp(0.0, 1.0) as f32;
@@ -228,7 +229,7 @@ pub fn outline(histogram: &Histogram, area: Rect) -> Vec<Pos2> {
     let step = area.width() / histogram.counts.len() as f32;
     let point = |(i, count): (usize, &u64)| {
         let mark = if *count > 0 { LEAST_MARK } else { 0.0 };
-        let height = mark + log(*count) / highest * (area.height() - 4.0 - LEAST_MARK);
+        let height = mark + log(*count) / highest * (area.height() - 4.0 - LEAST_MARK).max(0.0);
         pos2(area.left() + (i as f32 + 0.5) * step, area.bottom() - height)
     };
     histogram.counts.iter().enumerate().map(point).collect()

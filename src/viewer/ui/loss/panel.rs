@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use eframe::egui::{self, RichText, Slider};
+use eframe::egui::{self, RichText, Slider, SliderClamping};
 
 use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
@@ -304,7 +304,8 @@ fn time(ui: &mut egui::Ui, milliseconds: &mut u64) {
 /// A logarithmic slider without its number.
 fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) -> egui::Response {
     ui.spacing_mut().slider_width = 80.0;
-    let response = ui.add(slider.logarithmic(true).show_value(false));
+    let slider = slider.logarithmic(true).show_value(false).clamping(SliderClamping::Edits);
+    let response = ui.add(slider);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, name));
     response
 }

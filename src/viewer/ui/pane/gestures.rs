@@ -2,18 +2,16 @@
 //!
 //! They are read before the panes are shaded: what a drag changes is in the frame that read it.
 
-use eframe::egui::{self, PointerButton, Pos2, Rect, Response, Vec2};
+use eframe::egui::{self, PointerButton, Pos2, Response, Vec2};
 
-use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;
 
 use crate::viewer::model::command::{Command, DisplayCommand, InspectionCommand, SceneCommand};
-use crate::viewer::model::inspection::Region;
 use crate::viewer::model::view::endpoint::{self, Endpoint};
 use crate::viewer::model::view::state::{Layout, Projection, ViewState};
 use crate::viewer::ui::pane::handles::{self, REACH};
+use crate::viewer::ui::pane::placed::Placed;
 
 /// Radians of orbit per point that the pointer moves.
 const ORBIT_SPEED: f64 = 0.008;
@@ -41,13 +39,11 @@ pub enum Gesture {
 /// A pane under the mouse.
 #[derive(Clone, Copy, Debug)]
 pub struct PaneTarget<'a> {
-    pub rect: Rect,
-    pub camera: &'a Camera,
+    pub placed: Placed,
     pub state: &'a ViewState,
     pub highlight_follows: bool,
     /// Whether the handle of the view is shown, and can be grabbed.
     pub view_handle: bool,
-    pub grid: Grid,
     /// Whether a left-drag draws a rectangle.
     pub is_armed: bool,
 }
@@ -63,7 +59,7 @@ impl PaneTarget<'_> {
             PointerButton::Primary if modifiers.alt => Gesture::Pin,
             PointerButton::Primary => {
                 let on_map = self.state.display.quantity != Quantity::Rendering;
-                match self.point(pos).filter(|_| self.is_armed || on_map && modifiers.shift) {
+                match self.placed.point(pos).filter(|_| self.is_armed || on_map && modifiers.shift) {
                     Some(point) => Gesture::Rectangle(point),
                     None => self.grabbed(pos),
                 }
@@ -75,12 +71,6 @@ impl PaneTarget<'_> {
             PointerButton::Secondary => Gesture::View,
             _ => Gesture::Pan,
         }
-    }
-
-    /// The point of the plane that is seen at `pos`.
-    fn point(&self, pos: Pos2) -> Option<[f32; 2]> {
-        let [x, y] = handles::ndc_from_pos(self.rect, pos);
-        self.camera.plane_from_ndc(x, y)
     }
 
     /// What a left press grabs: the wipe line first, then the sun, then the eye; elsewhere it moves the light. Maps have no
@@ -104,11 +94,13 @@ impl PaneTarget<'_> {
 
     fn over(&self, endpoint: Endpoint, pos: Pos2) -> bool {
         let at = endpoint::over_plane(&self.state.scene, endpoint);
-        handles::pos_from_plane(self.camera, self.rect, at).is_some_and(|(at, _)| at.distance(pos) <= REACH)
+        let seen = handles::pos_from_plane(&self.placed.camera, self.placed.rect, at);
+        seen.is_some_and(|(at, _)| at.distance(pos) <= REACH)
     }
 
     fn over_wipe(&self, pos: Pos2) -> bool {
-        let line = self.rect.left() + self.state.display.wipe * self.rect.width();
+        let rect = self.placed.rect;
+        let line = rect.left() + self.state.display.wipe * rect.width();
         self.state.display.layout == Layout::Wipe && (pos.x - line).abs() <= REACH * 0.6
     }
 
@@ -126,7 +118,8 @@ impl PaneTarget<'_> {
 
     /// What `gesture` does as the pointer stands at `pos` after moving by `delta`.
     fn carry_on(&self, gesture: Gesture, pos: Pos2, delta: Vec2) -> Option<Command> {
-        let plane = || self.point(pos).map(|p| p.map(f64::from));
+        let rect = self.placed.rect;
+        let plane = || self.placed.point(pos).map(|p| p.map(f64::from));
         let over_plane = |endpoint| plane().map(|p| SceneCommand::MoveOverPlane(endpoint, p).into());
         let (right, up) = (f64::from(delta.x) * ORBIT_SPEED, -f64::from(delta.y) * ORBIT_SPEED);
         match gesture {
@@ -144,22 +137,20 @@ impl PaneTarget<'_> {
             }
             Gesture::Pin => None,
             Gesture::Rectangle(from) => {
-                let region = Region::between(self.grid, from, self.point(pos)?)?;
+                let region = self.placed.texels.region(from, self.placed.point(pos)?)?;
                 Some(InspectionCommand::SetRegion(Some(region)).into())
             }
             Gesture::Pan => {
-                let by = delta / (self.rect.size() * 0.5);
+                let by = delta / (rect.size() * 0.5);
                 Some(DisplayCommand::Pan([by.x, -by.y]).into())
             }
-            Gesture::Wipe => {
-                Some(DisplayCommand::SetWipe((pos.x - self.rect.left()) / self.rect.width()).into())
-            }
+            Gesture::Wipe => Some(DisplayCommand::SetWipe((pos.x - rect.left()) / rect.width()).into()),
         }
     }
 
     /// What the wheel does over this pane.
     fn wheel(&self, ctx: &egui::Context, pos: Pos2) -> Vec<Command> {
-        let at = handles::ndc_from_pos(self.rect, pos);
+        let at = handles::ndc_from_pos(self.placed.rect, pos);
         ctx.input(|input| {
             let notches = input.events.iter().filter_map(|event| match event {
                 egui::Event::MouseWheel { unit, delta, modifiers, .. } => {
@@ -211,7 +202,7 @@ pub fn commands(
             commands.extend(target.carry_on(gesture, pos, Vec2::ZERO));
         }
         if gesture == Gesture::Pin
-            && let Some(texel) = target.point(pos).and_then(|point| target.state.texel_at(target.grid, point))
+            && let Some(texel) = target.placed.texel_at(pos)
         {
             commands.push(InspectionCommand::TogglePin(texel).into());
         }

@@ -7,6 +7,7 @@ use svbrdf_core::picture::camera::Camera;
 
 use crate::viewer::model::view::endpoint::{self, Endpoint};
 use crate::viewer::model::view::state::{Projection, ViewState};
+use crate::viewer::ui::widgets::bounds::{inset, nearest};
 use crate::viewer::ui::widgets::theme;
 
 /// Distance, in points, within which a press grabs a handle or the wipe line.
@@ -43,9 +44,7 @@ pub fn paint_endpoints(painter: &Painter, rect: Rect, camera: &Camera, state: &V
 pub fn pos_from_plane(camera: &Camera, rect: Rect, [x, y]: [f64; 2]) -> Option<(Pos2, bool)> {
     let ndc = camera.ndc_from_point(Vec3::new(x as f32, y as f32, 0.0))?;
     let pos = pos_from_ndc(rect, ndc);
-    let inside = rect.shrink(RADIUS);
-    let clamped =
-        pos2(pos.x.clamp(inside.left(), inside.right()), pos.y.clamp(inside.top(), inside.bottom()));
+    let clamped = nearest(inset(rect, Vec2::splat(RADIUS)), pos);
     Some((clamped, clamped != pos))
 }
 

@@ -5,6 +5,7 @@ pub mod gestures;
 pub mod handles;
 pub mod hovered;
 pub mod marks;
+pub mod placed;
 pub mod scale;
 pub mod scenery;
 pub mod texels;

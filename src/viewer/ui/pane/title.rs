@@ -7,6 +7,7 @@ use svbrdf_gpu::DisplayMode;
 use crate::viewer::model::command::{Command, DisplayCommand};
 use crate::viewer::model::view::state::Layout;
 use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::viewer::ui::widgets::bounds::inset;
 use crate::viewer::ui::widgets::names::{FEWEST, fitted};
 use crate::viewer::ui::widgets::numbers::significant;
 use crate::viewer::ui::widgets::theme;
@@ -31,7 +32,8 @@ pub fn title_bar(
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let replaced = chosen && scenery.state.display.is_replaced();
-    let back = Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()).shrink(2.0);
+    let back =
+        inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
     let painter = ui.painter_at(rect);
     let colour = if content.index == 0 || !is_material {
         theme::ground_truth(ui.visuals())
@@ -57,7 +59,7 @@ pub fn title_bar(
         )
     });
     let room = if replaced { BACK } else { loss.map_or(0.0, |loss| loss.width() + 8.0) };
-    let width = rect.width() - left - 8.0 - room;
+    let width = (rect.width() - left - 8.0 - room).max(0.0);
     let font = FontId::proportional(13.5);
     // Names lose what they have in common, and then their middles; where that is not enough, the quantity goes, which the legend has.
     let short = fitted(ui, &font, width, |most| self::text(scenery, content, most, true))

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use eframe::egui::{self, Rect, Sense, Vec2};
 
 use svbrdf_core::material::Grid;
-use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 
@@ -13,7 +12,7 @@ use super::cells::{TITLE, cells, free_cell, picture_rect};
 use super::gestures::{self, Gesture, PaneTarget};
 use super::handles;
 use super::hovered::Hovered;
-use super::marks::Placed;
+use super::placed::Placed;
 use super::scale::Scale;
 use super::scenery::{Content, PhotographUse, Scenery};
 use super::texels::texels;
@@ -48,7 +47,7 @@ pub struct PaneDrawing<'a> {
 pub struct Viewport {
     gesture: Option<Gesture>,
     /// Where the panes with materials were drawn, for the gestures of the next frame.
-    placed: Vec<PlacedPane>,
+    drawn: Vec<DrawnPane>,
     /// What is under the pointer.
     pub hovered: Option<Hovered>,
     /// The texel that was under the pointer last.
@@ -70,7 +69,7 @@ impl Default for Viewport {
     fn default() -> Self {
         Self {
             gesture: None,
-            placed: Vec::new(),
+            drawn: Vec::new(),
             hovered: None,
             last_texel: None,
             policy: DraftPolicy::default(),
@@ -85,7 +84,7 @@ impl Default for Viewport {
 
 /// A pane that was drawn.
 #[derive(Clone, Copy, Debug)]
-struct PlacedPane {
+struct DrawnPane {
     id: egui::Id,
     rect: Rect,
 }
@@ -101,16 +100,13 @@ impl Viewport {
         let Some(ground_truth) = scenery.materials.first() else { return Vec::new() };
         let grid = ground_truth.grid();
         let mut commands = Vec::new();
-        for PlacedPane { id, rect } in &self.placed {
+        for DrawnPane { id, rect } in &self.drawn {
             let Some(response) = ctx.read_response(*id) else { continue };
-            let camera = scenery.state.camera(grid, self.pane_pixels());
             let target = PaneTarget {
-                rect: *rect,
-                camera: &camera,
+                placed: placed(scenery.state, grid, *rect, self.pane_pixels()),
                 state: scenery.state,
                 highlight_follows: scenery.highlight_follows,
                 view_handle: scenery.view_handle,
-                grid,
                 is_armed: scenery.inspection.is_armed,
             };
             commands.extend(gestures::commands(ctx, &response, &target, &mut self.gesture));
@@ -123,7 +119,7 @@ impl Viewport {
         let area = ui.available_rect_before_wrap();
         self.area = area;
         self.hovered = None;
-        self.placed.clear();
+        self.drawn.clear();
         let PaneDrawing { gpu: Some(gpu), uploads, textures } = drawing else {
             note(ui, area, "No graphics adapter: materials cannot be drawn. The loss can be computed.");
             return Vec::new();
@@ -153,8 +149,11 @@ impl Viewport {
         self.has_extra = extra.is_some();
         panes.extend(extra);
         let mut on_material = panes.iter().filter(|(content, _)| scenery.corner_editor(*content).is_none());
-        self.hovered = on_material.find_map(|(content, cell)| Hovered::in_pane(ui, scenery, *content, *cell));
-        if let Some(texel) = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point)) {
+        self.hovered = on_material.find_map(|(content, cell)| {
+            let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());
+            Hovered::in_pane(ui, scenery, *content, &placed)
+        });
+        if let Some(texel) = self.hovered.and_then(|hovered| hovered.texel) {
             self.last_texel = Some(texel);
         }
         let mut commands = Vec::new();
@@ -181,7 +180,7 @@ impl Viewport {
     ) {
         let id = ui.scope_id().with(("pane", number));
         let response = ui.interact(rect, id, Sense::drag());
-        self.placed.push(PlacedPane { id, rect });
+        self.drawn.push(DrawnPane { id, rect });
         let kind = match (number < scenery.contents().len(), content.difference) {
             (true, _) => "Pane",
             (false, true) => "Difference pane",
@@ -189,8 +188,8 @@ impl Viewport {
         };
         let label = format!("{kind} {}", scenery.name_of(content, usize::MAX));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
-        let camera = scenery.state.camera(scenery.materials[0].grid(), self.pane_pixels());
-        self.paint(ui, scenery, gpu, (number, content), rect, camera);
+        let placed = placed(scenery.state, scenery.materials[0].grid(), rect, self.pane_pixels());
+        self.paint(ui, scenery, gpu, (number, content), &placed);
     }
 
     fn paint(
@@ -199,9 +198,9 @@ impl Viewport {
         scenery: &Scenery<'_>,
         gpu: &mut GpuView,
         (number, content): (usize, Content),
-        rect: Rect,
-        camera: Camera,
+        placed: &Placed,
     ) {
+        let (rect, camera) = (placed.rect, placed.camera);
         let state = scenery.state;
         let painter = ui.painter_at(rect);
         let background = theme::surround(scenery.dark).to_normalized_gamma_f32();
@@ -230,7 +229,7 @@ impl Viewport {
             }
         };
         gpu.paint(&painter, rect, number, drawn, params);
-        self.paint_marks(&painter, scenery, content, rect, &camera);
+        self.paint_marks(&painter, scenery, content, placed);
         if state.display.quantity == Quantity::Rendering && scenery.handles {
             handles::paint_endpoints(&painter, rect, &camera, state, scenery.view_handle);
         }
@@ -293,21 +292,8 @@ impl Viewport {
     }
 
     /// What is drawn over a pane about texels.
-    fn paint_marks(
-        &self,
-        painter: &egui::Painter,
-        scenery: &Scenery<'_>,
-        content: Content,
-        rect: Rect,
-        camera: &Camera,
-    ) {
-        let grid = scenery.materials[0].grid();
-        let placed = Placed { rect, camera, grid };
+    fn paint_marks(&self, painter: &egui::Painter, scenery: &Scenery<'_>, content: Content, placed: &Placed) {
         let state = scenery.state;
-        if state.display.tiled {
-            // A texel is in four places.
-            return;
-        }
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
             let photographs = scenery.photograph.and_then(|photograph| photograph.all).map(AsRef::as_ref);
@@ -325,7 +311,7 @@ impl Viewport {
             });
         }
         placed.paint_inspected(painter, scenery.inspection);
-        let texel = self.hovered.and_then(|hovered| scenery.state.texel_at(grid, hovered.point));
+        let texel = self.hovered.and_then(|hovered| hovered.texel);
         if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
             placed.paint_crosshair(painter, texel);
         }
@@ -333,17 +319,19 @@ impl Viewport {
 
     /// Screen pixels per texel in the middle of a pane.
     pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
-        let camera = state.camera(grid, self.pane_pixels());
         let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
-        let middle = camera.plane_from_ndc(0.0, 0.0).and_then(|point| grid.texel_at(point));
-        let middle = middle.unwrap_or([grid.width / 2, grid.height / 2]);
-        Placed { rect, camera: &camera, grid }.texel_side(middle)
+        placed(state, grid, rect, self.pane_pixels()).side_in_the_middle()
     }
 
     /// Width and height of the picture of a pane, in physical pixels; 0 before there is one.
     pub fn pane_pixels(&self) -> [f32; 2] {
         self.pane_pixels.into()
     }
+}
+
+/// A picture in `rect`, of panes of `pixels` = [width, height].
+fn placed(state: &ViewState, grid: Grid, rect: Rect, pixels: [f32; 2]) -> Placed {
+    Placed { rect, camera: state.camera(grid, pixels), texels: state.texels(grid) }
 }
 
 /// The badge of a pane whose adapter has no room for all texels.

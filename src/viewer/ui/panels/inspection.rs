@@ -58,7 +58,7 @@ impl<'a> Drawer<'a> {
         let frame = |ui: &egui::Ui| egui::Frame::side_top_panel(ui.style());
         let response = area.show(ctx, |ui| {
             frame(ui).show(ui, |ui| {
-                ui.set_width(panes.width() - 2.0 * MARGIN);
+                ui.set_width((panes.width() - 2.0 * MARGIN).max(0.0));
                 self.ui(ui)
             })
         });
@@ -163,7 +163,10 @@ impl<'a> Drawer<'a> {
 
     fn region(&self, ui: &mut egui::Ui, region: Region, commands: &mut Vec<Command>) {
         let [columns, rows] = region.size();
-        let ([left, top], [right, bottom]) = (region.first, region.last);
+        let size = self.materials.first().map_or([usize::MAX; 2], |one| one.material().size());
+        let [left, top] = region.first;
+        // Over a seam it ends in the next copy of the material.
+        let [right, bottom] = [0, 1].map(|axis| region.last[axis] % size[axis]);
         ui.horizontal(|ui| {
             ui.strong(format!("Rectangle {left},{top} to {right},{bottom}"));
             ui.label(format!("{columns} x {rows} texels, {}", self.state.display.quantity.name()));

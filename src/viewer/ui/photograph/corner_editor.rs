@@ -8,6 +8,7 @@ use svbrdf_files::photograph::Corners;
 
 use crate::viewer::jobs::photograph::EditedCorners;
 use crate::viewer::model::command::{Command, PhotographCommand};
+use crate::viewer::ui::widgets::bounds::inset;
 use crate::viewer::ui::widgets::hint::paint_hint;
 use crate::viewer::ui::widgets::texture::PanelTextures;
 use crate::viewer::ui::widgets::theme;
@@ -175,7 +176,7 @@ impl CornerEditor<'_> {
         let corner = self.0.corners.0[index];
         let at = placed.pos(corner);
         let side = MAGNIFIER.min(0.4 * pane.width().min(pane.height()));
-        let room = pane.shrink(0.5 * side + 8.0);
+        let room = inset(pane, Vec2::splat(0.5 * side + 8.0));
         let far = |at: f32, near: f32, far: f32| if at < 0.5 * (near + far) { far } else { near };
         let middle = pos2(far(at.x, room.left(), room.right()), far(at.y, room.top(), room.bottom()));
         let window = Rect::from_center_size(middle, Vec2::splat(side));

@@ -5,6 +5,7 @@ use svbrdf_core::picture::camera::Camera;
 
 use crate::viewer::model::inspection::Region;
 use crate::viewer::model::view::state::ViewState;
+use crate::viewer::model::view::texel_plane::TexelPlane;
 use crate::viewer::ui::shading::shaded::ShadedPart;
 
 /// Most texels along an axis that one stands for.
@@ -37,7 +38,7 @@ fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
             high[axis] = high[axis].max(point[axis]);
         }
     }
-    Region::between(grid, low, high)
+    TexelPlane::new(grid, false).region(low, high)
 }
 
 #[cfg(test)]

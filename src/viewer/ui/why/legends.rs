@@ -3,6 +3,7 @@
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, pos2, vec2};
 
 use crate::viewer::jobs::why::{DirectionMaps, ScaledPicture};
+use crate::viewer::ui::widgets::bounds::inset;
 use crate::viewer::ui::widgets::colour_bar::colour_bar;
 use crate::viewer::ui::widgets::numbers::{digits, signed};
 
@@ -37,8 +38,8 @@ fn bar(ui: &mut egui::Ui, legend: Option<(String, [String; 2])>, is_signed: bool
     let (ink, font) = (ui.visuals().text_color(), FontId::monospace(11.0));
     let middle = area.center().y;
     painter.text(pos2(area.left(), middle), Align2::LEFT_CENTER, name, font.clone(), ink);
-    let colours = Rect::from_x_y_ranges(area.left() + 100.0..=area.right() - 56.0, area.y_range())
-        .shrink2(vec2(0.0, 2.0));
+    let colours = Rect::from_x_y_ranges(area.left() + 100.0..=area.right() - 56.0, area.y_range());
+    let colours = inset(colours, vec2(0.0, 2.0));
     painter.text(pos2(colours.left() - 4.0, middle), Align2::RIGHT_CENTER, low, font.clone(), ink);
     painter.text(pos2(colours.right() + 4.0, middle), Align2::LEFT_CENTER, high, font, ink);
     painter.add(colour_bar(colours, [if is_signed { -1.0 } else { 0.0 }, 1.0], is_signed));

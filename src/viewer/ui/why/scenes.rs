@@ -11,6 +11,7 @@ use svbrdf_core::why::{RankedScene, Worst};
 use crate::viewer::jobs::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbnails};
 use crate::viewer::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};
 use crate::viewer::ui::why::WhyPanel;
+use crate::viewer::ui::widgets::bounds::{between, inset};
 use crate::viewer::ui::widgets::numbers::digits;
 use crate::viewer::ui::widgets::rows;
 use crate::viewer::ui::widgets::texture::PanelTextures;
@@ -59,7 +60,7 @@ impl WhyPanel<'_> {
         response.widget_info(|| {
             egui::WidgetInfo::labeled(egui::Role::Image, true, "Histogram of the losses of the scenes")
         });
-        let area = response.rect.shrink2(vec2(4.0, 0.0)).with_max_y(response.rect.top() + HISTOGRAM);
+        let area = inset(response.rect, vec2(4.0, 0.0)).with_max_y(response.rect.top() + HISTOGRAM);
         let Histogram { low, high, counts, .. } = &list.histogram;
         let x = |loss: f64| area.left() + area.width() * ((loss - low) / (high - low)).clamp(0.0, 1.0) as f32;
         let highest = counts.iter().copied().max().unwrap_or(0).max(1) as f32;
@@ -84,7 +85,7 @@ impl WhyPanel<'_> {
         let (font, weak) = (FontId::monospace(11.0), ui.visuals().weak_text_color());
         painter.text(area.left_bottom(), Align2::LEFT_TOP, "0", font.clone(), weak);
         painter.text(area.right_bottom(), Align2::RIGHT_TOP, digits(*high), font.clone(), weak);
-        let mean = pos2(x(list.mean).clamp(area.left() + 60.0, area.right() - 90.0), area.bottom());
+        let mean = pos2(between(x(list.mean), area.left() + 60.0, area.right() - 90.0), area.bottom());
         painter.text(
             mean,
             Align2::CENTER_TOP,

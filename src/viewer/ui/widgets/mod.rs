@@ -1,5 +1,6 @@
 //! Widgets and formats that several parts of the window share.
 
+pub mod bounds;
 pub mod colour_bar;
 pub mod hemisphere;
 pub mod hint;
@@ -15,7 +16,7 @@ pub mod theme;
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, DragValue, Response};
 
-/// A number to drag or type; a double-click resets it to `default`.
+/// A number to drag or type; a double-click resets it to `default`. A field that nobody edits writes nothing.
 ///
 /// `name` is its accessible name.
 pub fn number<T: egui::emath::Numeric>(
@@ -26,7 +27,9 @@ pub fn number<T: egui::emath::Numeric>(
     shape: impl FnOnce(DragValue<'_>) -> DragValue<'_>,
 ) -> Response {
     let before = *value;
-    let response = ui.add(shape(DragValue::new(value)));
+    // As a field is left, egui writes its text once more, which has fewer digits than the number.
+    let is_edited = is_edited(ui, ui.next_auto_id());
+    let response = ui.add(shape(field(value, is_edited)));
     response.widget_info(|| {
         let mut info = egui::WidgetInfo::labeled(egui::Role::SpinButton, true, name);
         info.value = Some(before.to_f64());
@@ -37,6 +40,33 @@ pub fn number<T: egui::emath::Numeric>(
         ui.memory_mut(|m| m.surrender_focus(response.id));
     }
     response
+}
+
+/// Whether a field can be edited in this frame: by keys, by a drag or by assistive software.
+fn is_edited(ui: &egui::Ui, id: egui::Id) -> bool {
+    use egui::accesskit::Action;
+    let asked = |action| ui.input(|input| input.has_accesskit_action_request(id, action));
+    let has_focus = ui.is_enabled()
+        && ui.memory_mut(|memory| {
+            // Here Tab takes the focus away.
+            memory.interested_in_focus(id, ui.layer_id());
+            memory.has_focus(id)
+        });
+    has_focus
+        || ui.ctx().is_being_dragged(id)
+        || [Action::Increment, Action::Decrement, Action::SetValue].into_iter().any(asked)
+}
+
+/// A field of `value`, which it writes only where `is_edited`.
+fn field<T: egui::emath::Numeric>(value: &mut T, is_edited: bool) -> DragValue<'_> {
+    let field = DragValue::from_get_set(move |new| {
+        if let Some(new) = new.filter(|_| is_edited) {
+            *value = T::from_f64(new);
+        }
+        value.to_f64()
+    });
+    let field = field.clamp_existing_to_range(false);
+    if T::INTEGRAL { field.max_decimals(0).range(T::MIN..=T::MAX).speed(0.25) } else { field }
 }
 
 /// A panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.

@@ -1,0 +1,159 @@
+//! Windows of every size at every scale of text and controls: none crashes.
+
+use rand::SeedableRng as _;
+use rand::rngs::ChaCha8Rng;
+use svbrdf::viewer::model::command::WindowCommand;
+use svbrdf::viewer::model::inspection::Region;
+use svbrdf::viewer::model::settings::Tab;
+use svbrdf::viewer::model::view::state::{Layout, Projection};
+use svbrdf_core::picture::quantity::Quantity;
+
+use super::photograph::apply;
+use super::soak::below;
+use super::*;
+
+/// Scales of text and controls.
+const SCALES: [f32; 7] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
+/// Sizes in pixels that every state is shown at, each at the least and the greatest scale.
+const SMALL: [[f32; 2]; 4] = [[10.0, 10.0], [10.0, 900.0], [1400.0, 10.0], [640.0, 420.0]];
+/// Random sizes of every state.
+const RANDOM: usize = 8;
+
+/// Shows the window at a size in pixels and a scale.
+fn resize(window: &mut Window<'_>, [width, height]: [f32; 2], scale: f32) {
+    window.ctx.set_zoom_factor(scale);
+    // In its first frame a new scale comes with the old size.
+    window.step();
+    let size = vec2(width, height) / scale;
+    window.set_size(size);
+    window.run_steps(3);
+    let found = window.ctx.content_rect().size();
+    assert!((found - size).length() < 1.0, "{found:?}, expected {size:?}");
+}
+
+/// Shows the window at all sizes and scales of the test.
+fn check(window: &mut Window<'_>, state: &str) {
+    let mut random = ChaCha8Rng::seed_from_u64(17);
+    let mut side = || {
+        let most = [90, 1300][below(&mut random, 2)];
+        10.0 + below(&mut random, most) as f32
+    };
+    let random: Vec<[f32; 2]> = (0..RANDOM).map(|_| [side(), side()]).collect();
+    let small = SMALL.into_iter().flat_map(|size| [(size, SCALES[0]), (size, SCALES[SCALES.len() - 1])]);
+    let all = small.chain(random.into_iter().zip(SCALES.into_iter().cycle()));
+    for (number, (size, scale)) in all.enumerate() {
+        resize(window, size, scale);
+        assert!(!window.state().has_crashed(), "{state}: {size:?} pixels at a scale of {scale}");
+        if number % 4 == 0 {
+            window.render().unwrap();
+        }
+    }
+    resize(window, [1200.0, 800.0], 1.0);
+    assert!(window.state().names().len() > 1, "{state}: its materials are still there");
+}
+
+/// A pin at each end of the material, and a rectangle.
+fn inspect(window: &mut Window<'_>) {
+    let inspection = &mut window.state_mut().parts.model.inspection;
+    inspection.pins = vec![[0, 0], [255, 255]];
+    inspection.region = Some(Region { first: [100, 20], last: [180, 90] });
+    window.run_steps(4);
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn panes_are_drawn_at_every_size_and_scale() {
+    let mut window = built_in();
+    check(&mut window, "a start");
+    inspect(&mut window);
+    for layout in [Layout::SideBySide, Layout::Wipe, Layout::Single] {
+        for projection in [Projection::Flat, Projection::Perspective] {
+            let display = &mut window.state_mut().parts.model.view.display;
+            (display.layout, display.projection) = (layout, projection);
+            display.tiled = layout == Layout::SideBySide;
+            display.difference = projection == Projection::Perspective;
+            check(&mut window, &format!("{layout:?}, {projection:?}"));
+        }
+    }
+    window.state_mut().parts.model.settings.histograms = true;
+    window.state_mut().parts.model.view.display.quantity = Quantity::Roughness;
+    window.state_mut().parts.model.view.display.difference = false;
+    window.state_mut().parts.model.settings.side_panel = false;
+    check(&mut window, "histograms");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn tabs_are_drawn_at_every_size_and_scale() {
+    let mut window = built_in();
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    for tab in [Tab::Loss, Tab::Files, Tab::Why] {
+        window.state_mut().parts.model.settings.tab = tab;
+        window.run_steps(4);
+        if tab == Tab::Why {
+            wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
+        }
+        // Narrow windows have no side panel until it is asked for.
+        resize(&mut window, [700.0, 500.0], 1.0);
+        if !window.state().parts.model.side_panel() {
+            press(&mut window, egui::Key::B);
+        }
+        check(&mut window, &format!("{tab:?}"));
+    }
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
+    let mut window = built_in();
+    for opened in ["Open", "Save"] {
+        window.get_by_label(opened).click();
+        window.run_steps(6);
+        check(&mut window, opened);
+        press(&mut window, egui::Key::Escape);
+    }
+    window.get_by_label("Menu").click();
+    window.run_steps(4);
+    check(&mut window, "menu");
+    press(&mut window, egui::Key::Escape);
+    apply(&mut window, WindowCommand::ShowHelp(true));
+    check(&mut window, "help");
+    apply(&mut window, WindowCommand::ShowHelp(false));
+    for number in 0..4 {
+        let path = std::path::PathBuf::from(format!("no/such/{}/material {number}.png", "folder".repeat(20)));
+        window.input_mut().dropped_files = vec![std::sync::Arc::new(Dropped(path))];
+        window.run_steps(2);
+    }
+    wait(&mut window, "the messages", |app| !app.is_reading() && app.messages().len() > 1);
+    check(&mut window, "messages");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn a_photograph_is_drawn_at_every_size_and_scale() {
+    let (mut window, _folder) = super::photograph::opened();
+    check(&mut window, "a photograph");
+    window.get_by_label("Corners of the material").click();
+    window.run_steps(12);
+    check(&mut window, "its corners");
+}
+
+#[test]
+#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
+fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_brings_it_back() {
+    let mut window = built_in();
+    for (key, expected) in [(egui::Key::Plus, 4.0), (egui::Key::Minus, 0.5)] {
+        for _ in 0..60 {
+            window.key_press_modifiers(egui::Modifiers::COMMAND, key);
+            window.step();
+        }
+        window.run_steps(3);
+        assert_eq!(
+            (window.ctx.zoom_factor(), window.state().parts.model.settings.ui_scale),
+            (expected, expected)
+        );
+    }
+    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Num0);
+    window.run_steps(3);
+    assert_eq!(window.state().parts.model.settings.ui_scale, 1.0);
+}
