@@ -1,4 +1,5 @@
-//! Manifests: licences in `THIRD-PARTY`, the reason of each direct dependency, one version everywhere.
+//! Manifests: licences in `THIRD-PARTY`, the reason of each direct dependency, one version everywhere. Workflows: pinned actions,
+//! least permissions.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -132,6 +133,72 @@ fn all_crates_and_packages_have_one_version() {
         newest(&read("packaging/io.github.OWNER.svbrdf.metainfo.xml"), "<release version=\""),
         version
     );
+}
+
+/// The workflows: file name and text.
+fn workflows() -> Vec<(String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(".github/workflows");
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().file_name());
+    let names = entries.map(|name| name.into_string().unwrap());
+    names.map(|name| (name.clone(), read(&format!(".github/workflows/{name}")))).collect()
+}
+
+/// The actions of a workflow, as `OWNER/NAME@COMMIT # VERSION`.
+fn actions(workflow: &str) -> Vec<&str> {
+    let lines = workflow.lines().map(|line| line.trim_start().trim_start_matches("- "));
+    lines.filter_map(|line| line.strip_prefix("uses:")).map(str::trim).collect()
+}
+
+/// Whether an action is of the checkout, or pinned by its whole commit with its version in a comment.
+fn is_pinned(action: &str) -> bool {
+    let commit_and_version = action.split_once('@').and_then(|(_, pinned)| pinned.split_once(" # v"));
+    action.starts_with("./")
+        || commit_and_version.is_some_and(|(commit, version)| {
+            let is_hash = commit.len() == 40 && commit.bytes().all(|b| b.is_ascii_hexdigit());
+            is_hash && version.starts_with(|c: char| c.is_ascii_digit())
+        })
+}
+
+/// What all jobs of a workflow may do, one permission a line.
+fn common_permissions(workflow: &str) -> Option<Vec<&str>> {
+    let head = workflow.split_once("\njobs:")?.0;
+    let listed = head.split_once("\npermissions:\n")?.1;
+    Some(listed.lines().take_while(|line| line.starts_with("  ")).map(str::trim).collect())
+}
+
+#[test]
+fn every_action_is_pinned_by_its_commit() {
+    let workflows = workflows();
+    let all: Vec<_> =
+        workflows.iter().flat_map(|(name, text)| actions(text).into_iter().map(move |a| (name, a))).collect();
+    assert!(all.len() > 30, "{all:?}");
+    let loose: Vec<_> = all.iter().filter(|(_, action)| !is_pinned(action)).collect();
+    assert!(
+        loose.is_empty(),
+        "give the commit and the version, as in `OWNER/NAME@COMMIT # v1.2.3`: {loose:?}"
+    );
+    assert!(is_pinned("./.github/actions/a"));
+    let commit = "0123456789abcdef0123456789abcdef01234567";
+    assert!(is_pinned(&format!("a/b@{commit} # v1.2.3")));
+    for loose in
+        ["a/b@v6 # v6", "a/b@release/v1", &format!("a/b@{commit}"), &format!("a/b@{} # v1", &commit[1..])]
+    {
+        assert!(!is_pinned(loose), "{loose}");
+    }
+    // dist writes release.yml with the commits of its own file.
+    let dist = read("dist-workspace.toml");
+    for (_, action) in all.iter().filter(|(name, _)| *name == "release.yml") {
+        let (name, commit) = action.split_once('@').unwrap();
+        assert!(dist.contains(&format!("\"{name}\" = \"{commit}\"")), "dist-workspace.toml: {action}");
+    }
+}
+
+#[test]
+fn no_workflow_gives_write_access_to_all_its_jobs() {
+    for (name, text) in workflows() {
+        assert_eq!(common_permissions(&text), Some(vec!["contents: read"]), "{name}");
+    }
+    assert_eq!(common_permissions("name: a\n\njobs:\n  permissions:\n"), None);
 }
 
 #[test]

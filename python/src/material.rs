@@ -1,28 +1,24 @@
-//! Materials: from arrays and files, to arrays, files and pictures.
+//! Materials: from arrays, to arrays and pictures.
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use numpy::Element;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
 use svbrdf_core::diagnose::Storage;
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
-use svbrdf_core::progress::Progress;
 use svbrdf_core::{render as renderer, report};
-use svbrdf_files::read::{self as reading, Certainty, Read, ReadOptions};
-use svbrdf_files::samples;
-use svbrdf_files::write::{self as writing, WriteOptions};
+use svbrdf_files::read::ReadOptions;
 
 use crate::arrays::{self, Bytes};
 use crate::errors::exception;
 use crate::model::SceneTuple;
-use crate::work;
+use crate::{pickle, work};
 
 /// A material.
 #[pyclass(frozen, module = "svbrdf._core")]
@@ -74,12 +70,24 @@ impl Arrays<'_> {
 
 #[pymethods]
 impl CoreMaterial {
+    /// `storage` is that of the material which the arrays were copied from.
     #[staticmethod]
-    fn from_arrays(py: Python<'_>, arrays: Arrays<'_>, precision: &str) -> PyResult<Self> {
+    fn from_arrays(
+        py: Python<'_>,
+        arrays: Arrays<'_>,
+        precision: &str,
+        storage: Option<&str>,
+    ) -> PyResult<Self> {
+        let storage = storage.map_or_else(|| Ok(Storage::exact()), pickle::storage)?;
         match Precision::from_str(precision).map_err(exception)? {
-            Precision::F32 => arrays.material(py).map(|material| single(material, Storage::exact())),
-            Precision::F64 => arrays.material(py).map(|material| double(material, Storage::exact())),
+            Precision::F32 => arrays.material(py).map(|material| single(material, storage)),
+            Precision::F64 => arrays.material(py).map(|material| double(material, storage)),
         }
+    }
+
+    #[getter]
+    fn storage(&self) -> PyResult<String> {
+        pickle::text(&self.storage)
     }
 
     #[getter]
@@ -116,11 +124,13 @@ impl CoreMaterial {
     }
 }
 
-fn single(material: Material<f32>, storage: Storage) -> CoreMaterial {
+/// A material of the core in f32.
+pub fn single(material: Material<f32>, storage: Storage) -> CoreMaterial {
     CoreMaterial { values: Values::F32(material), storage }
 }
 
-fn double(material: Material<f64>, storage: Storage) -> CoreMaterial {
+/// A material of the core in f64.
+pub fn double(material: Material<f64>, storage: Storage) -> CoreMaterial {
     CoreMaterial { values: Values::F64(material), storage }
 }
 
@@ -158,118 +168,12 @@ fn map_bytes<'py, T: Real + Bytes>(
     arrays::bytes(py, 3 * colour[0].len(), numbers)
 }
 
-/// What reading a material gave.
-#[derive(Debug, IntoPyObject)]
-pub struct Found {
-    material: CoreMaterial,
-    notes: Vec<String>,
-    /// About what, the choice, why, how certain.
-    assumptions: Vec<[String; 4]>,
-    files: Vec<PathBuf>,
-    /// The read options, with those of the sidecar file, as JSON.
-    options: String,
-}
-
-/// Reads a material; `options` are those of a sidecar file, as JSON.
-#[pyfunction]
-pub fn read(
-    py: Python<'_>,
-    path: PathBuf,
-    options: &str,
-    precision: &str,
-    strict: bool,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Found> {
-    let options = &read_options(options)?;
-    match Precision::from_str(precision).map_err(exception)? {
-        Precision::F32 => {
-            let read =
-                work::run(py, progress, |progress| read_checked::<f32>(&path, options, strict, progress))?;
-            found(read, single)
-        }
-        Precision::F64 => {
-            let read =
-                work::run(py, progress, |progress| read_checked::<f64>(&path, options, strict, progress))?;
-            found(read, double)
-        }
-    }
-}
-
 /// The read options of a sidecar file's JSON.
 ///
 /// # Errors
 /// Where an option has no such value.
 pub fn read_options(json: &str) -> PyResult<ReadOptions> {
     serde_json::from_str(json).map_err(|e| crate::errors::Error::new_err(e.to_string()))
-}
-
-fn read_checked<T: Real>(
-    path: &Path,
-    options: &ReadOptions,
-    strict: bool,
-    progress: &Progress,
-) -> Result<Read<T>, Error> {
-    let read = reading::read(path, options, progress)?;
-    if strict {
-        read.refuse_guesses(path)?;
-    }
-    Ok(read)
-}
-
-fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>, Storage) -> CoreMaterial) -> PyResult<Found> {
-    let certainty = |certainty| match certainty {
-        Certainty::Unsure => "unsure",
-        Certainty::Likely => "likely",
-        Certainty::Sure => "sure",
-        Certainty::Given => "given",
-    };
-    let assumptions = read.assumptions.iter();
-    let assumptions = assumptions
-        .map(|a| [a.what.name(), &a.chosen, &a.why.to_string(), certainty(a.certainty)].map(str::to_owned));
-    let (options, storage) = (serde_json::to_string(&read.options), read.storage());
-    Ok(Found {
-        assumptions: assumptions.collect(),
-        notes: read.notes.iter().map(ToString::to_string).collect(),
-        files: read.files,
-        options: options.map_err(|e| crate::errors::Error::new_err(e.to_string()))?,
-        material: material(read.material, storage),
-    })
-}
-
-/// The built-in ground truth, then the predictions of it.
-#[pyfunction]
-pub fn built_in(py: Python<'_>, precision: &str) -> PyResult<Vec<CoreMaterial>> {
-    fn all<T: Real>(material: fn(Material<T>, Storage) -> CoreMaterial) -> Result<Vec<CoreMaterial>, Error> {
-        let samples = samples::load::<T>()?;
-        let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
-        let with_storage = |read: Read<T>| {
-            let storage = read.storage();
-            material(read.material, storage)
-        };
-        Ok(all.map(with_storage).collect())
-    }
-    match Precision::from_str(precision).map_err(exception)? {
-        Precision::F32 => work::at_once(py, || all(single)),
-        Precision::F64 => work::at_once(py, || all(double)),
-    }
-}
-
-/// Writes a material. Returns what a form with base colour and metallic changes.
-#[pyfunction]
-pub fn write(
-    py: Python<'_>,
-    material: &CoreMaterial,
-    path: PathBuf,
-    depth: Option<&str>,
-    preset: Option<&str>,
-    preview: bool,
-) -> PyResult<Option<String>> {
-    let depth = depth.map(str::parse).transpose().map_err(exception)?;
-    let like = preset.map(str::parse).transpose().map_err(exception)?;
-    let kind = writing::FileKind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
-    let material = material.single();
-    let surface = work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))?;
-    Ok(surface.map(|surface| surface.to_string()))
 }
 
 /// Renders a material in one scene: the RGB values of all texels.

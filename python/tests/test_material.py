@@ -1,5 +1,7 @@
 """Materials: arrays in, arrays out, files."""
 
+import copy
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -192,3 +194,92 @@ def test_a_rendering_is_that_of_the_reference(points: list[dict[str, Any]]) -> N
         np.testing.assert_allclose(got, row["expected"], rtol=bound, atol=1e-300, err_msg=row["id"])
         checked += 1
     assert checked > 100
+
+
+def test_normals_that_look_stored_in_0_to_1_are_warned_of() -> None:
+    built_in = svbrdf.built_in()[0]
+    named = {name: getattr(built_in, name) for name in ("diffuse", "specular", "roughness")}
+    stored = (built_in.normal + 1) / 2
+    with pytest.warns(svbrdf.AssumptionWarning, match=r"normal encoding: signed: no x or y is negative") as told:
+        material = svbrdf.Material(**named, normal=stored)
+    assert len(told) == 1
+    assert told[0].filename == __file__
+    assert "lengths are" in str(told[0].message)
+    assert 'normal_encoding="unsigned"' in str(told[0].message)
+    (assumption,) = material.assumptions
+    assert (assumption.chosen, assumption.certainty) == ("signed", "unsure")
+    with pytest.warns(svbrdf.AssumptionWarning):
+        svbrdf.Material(**named, normal=np.moveaxis(np.ascontiguousarray(np.moveaxis(stored, -1, 0)), 0, -1))
+    # What is unit or points left somewhere is not, nor is what was said to be signed. Warnings are errors here.
+    flat, tilted = np.zeros((2, *stored.shape), np.float32)
+    flat[..., 2], tilted[..., :] = 2.5, (0.6, 0, 0.8)
+    for normal in (built_in.normal, 3 * built_in.normal, flat, tilted):
+        assert svbrdf.Material(**named, normal=normal).assumptions == ()
+    assert svbrdf.Material(**named, normal=stored, normal_encoding="signed").assumptions == ()
+
+
+def test_a_normal_encoding_is_that_of_the_reader(tmp_path: Path) -> None:
+    built_in = svbrdf.built_in()[0]
+    named = {name: getattr(built_in, name) for name in ("diffuse", "specular", "roughness")}
+    stored = ((built_in.normal + 1) / 2).astype(np.float32)
+    blue = np.concatenate([stored[..., :2], np.ones_like(stored[..., :1])], axis=-1)
+    for name, array in {"normal": stored, **named}.items():
+        np.save(tmp_path / f"{name}.npy", array)
+    for encoding, normal in (("unsigned", stored), ("xy", blue)):
+        np.save(tmp_path / "normal.npy", normal)
+        read = svbrdf.read(tmp_path, normal_encoding=encoding, normal_y="up", albedo="linear", roughness="r")  # type: ignore[arg-type]
+        material = svbrdf.Material(**named, normal=normal, normal_encoding=encoding)  # type: ignore[arg-type]
+        np.testing.assert_array_equal(material.normal, read.normal)
+        np.testing.assert_allclose(material.normal, built_in.normal, atol=1e-3)
+    two = svbrdf.Material(**named, normal=blue[..., :2], normal_encoding="xy")
+    np.testing.assert_array_equal(two.normal, svbrdf.Material(**named, normal=blue, normal_encoding="xy").normal)
+    # x in alpha, y in green.
+    swizzled = np.stack([blue[..., 2], stored[..., 1], blue[..., 2], stored[..., 0]], axis=-1)
+    material = svbrdf.Material(**named, normal=swizzled, normal_encoding="ag")
+    np.testing.assert_array_equal(material.normal, svbrdf.Material(**named, normal=blue, normal_encoding="xy").normal)
+    with pytest.raises(ValueError, match="normal_encoding: expected one of unsigned, signed, xy, ag, found 'rgb'"):
+        svbrdf.Material(**named, normal=stored, normal_encoding="rgb")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="normal: expected height x width x 4, found 256 x 256 x 3"):
+        svbrdf.Material(**named, normal=stored, normal_encoding="ag")
+    with pytest.raises(ValueError, match="normal: expected height x width x 2 or 3, found 256 x 256 x 4"):
+        svbrdf.Material(**named, normal=swizzled, normal_encoding="xy")
+
+
+@pytest.mark.parametrize("precision", ["f32", "f64"])
+def test_a_material_can_be_pickled_and_copied(tmp_path: Path, precision: Any) -> None:
+    ground_truth, prediction, _ = svbrdf.built_in(precision=precision)
+    svbrdf.write(prediction, tmp_path / "tiles.png")
+    read = svbrdf.read(tmp_path / "tiles.png", normal_y="up", precision=precision)
+    report = svbrdf.loss(ground_truth, read, near=2, distant=1, precision=precision)
+    for copied in (pickle.loads(pickle.dumps(read)), copy.copy(read), copy.deepcopy({"a": read})["a"]):
+        for name in ("normal", "diffuse", "specular", "roughness"):
+            np.testing.assert_array_equal(getattr(copied, name), getattr(read, name))
+        for name in ("name", "path", "size", "precision", "notes", "assumptions"):
+            assert getattr(copied, name) == getattr(read, name)
+        assert repr(copied) == repr(read)
+        again = svbrdf.loss(ground_truth, copied, near=2, distant=1, precision=precision)
+        assert again.to_dict() == report.to_dict()
+        # How its files store it decides what a diagnosis tries, and the loss that they cannot resolve.
+        assert copied._core.storage == read._core.storage != svbrdf.Material(**maps(4, 5))._core.storage
+        with pytest.raises(svbrdf.Error, match="which the result is made from"):
+            svbrdf.write(copied, tmp_path / "tiles.png")
+    unnamed = svbrdf.Material(**maps(4, 5))
+    assert svbrdf.loss(pickle.loads(pickle.dumps(unnamed)), unnamed, near=1, distant=1).ground_truth == "ground truth"
+    copied = copy.copy(read)
+    copied.path = None
+    assert read.path is not None
+
+
+def test_the_files_of_a_material_are_not_replaced(tmp_path: Path) -> None:
+    svbrdf.write(svbrdf.built_in()[0], tmp_path / "tiles.png")
+    (tmp_path / "hard.png").hardlink_to(tmp_path / "tiles.png")
+    before = (tmp_path / "tiles.png").read_bytes()
+    material = svbrdf.read(tmp_path / "tiles.png", normal_y="up")
+    for path in (tmp_path / "tiles.png", str(tmp_path / "hard.png")):
+        with pytest.raises(svbrdf.Error, match=r"cannot write .*\.png: it is the file .*tiles\.png, which"):
+            svbrdf.write(material, path, depth="16")
+    with pytest.raises(svbrdf.Error, match="which the result is made from; name another file"):
+        svbrdf.write(str(tmp_path / "tiles.png"), tmp_path / "tiles.png", preset="gao")
+    assert (tmp_path / "tiles.png").read_bytes() == before
+    svbrdf.write(material, tmp_path / "other.png")
+    assert (tmp_path / "other.png").exists()

@@ -137,7 +137,7 @@ def test_gradients_are_those_of_finite_differences(convention: str) -> None:
     prediction, ground_truth = random_maps(0, 3, 3), random_maps(1, 3, 3)
     prediction = prediction._replace(roughness=0.3 + 0.6 * prediction.roughness, normal=2.5 * prediction.normal)
     leaves = [map.clone().requires_grad_() for map in prediction]
-    loss = sv.RenderingLoss(convention=convention)
+    loss = sv.RenderingLoss(convention=convention, scenes=svbrdf.sample_scenes(convention=convention))
     loss(sv.Maps(*leaves), ground_truth).backward()
     step = 1e-6
     for index, leaf in enumerate(leaves):
@@ -187,7 +187,7 @@ def test_no_gradient_is_nan(precision: Any, convention: str) -> None:
         assert torch.isfinite(leaf.grad).all(), name
     assert all(leaf.grad.abs().sum() > 0 for leaf in given)
     above = [scene for scene in scenes if min(scene.view[2], scene.light[2]) > 0]
-    loss, added_up = gradients(sv.RenderingLoss(convention=convention, scenes=above), given, target)
+    loss, added_up = gradients(sv.RenderingLoss(convention=convention, scenes=above, check=False), given, target)
     assert torch.isfinite(loss)
     assert all(torch.isfinite(gradient).all() for gradient in added_up)
 
@@ -235,9 +235,70 @@ def test_shapes_that_would_broadcast_to_a_wrong_loss_are_refused() -> None:
     refused(": expected ... x 3 x [61] x [81], found", normal=batch.normal[..., :1, :1])
     with pytest.raises(ValueError, match="diffuse: expected"):
         sv.render(batch._replace(diffuse=batch.diffuse[..., :4]), svbrdf.sample_scenes()[0], loss.convention)
-    # One ground truth for a batch is no mistake.
+    # One ground truth for a batch is no mistake where it has no batch dimension.
     one = sv.Maps(*(map[0] for map in batch))
     assert loss(batch, one).item() > 0
+    assert loss(one, batch).item() > 0
+    of_one = sv.Maps(*(map[:1] for map in batch))
+    with pytest.raises(
+        ValueError, match=r"ground_truth.normal: expected the batch dimensions of prediction.normal, 3, or"
+    ):
+        loss(batch, of_one)
+    refused("diffuse: expected the batch dimensions of .*normal, 3, or none, found 1 x 3 x", diffuse=of_one.diffuse)
+
+
+def test_what_is_no_material_is_refused_by_the_name_of_the_argument() -> None:
+    maps, loss = random_maps(0), sv.RenderingLoss()
+    with pytest.raises(
+        TypeError, match=r"prediction: expected svbrdf.torch.Maps, found dict; make one by Maps\(normal="
+    ):
+        loss(maps._asdict(), maps)
+    with pytest.raises(TypeError, match=r"ground_truth: expected svbrdf.torch.Maps, found Tensor"):
+        loss(maps, maps.normal)
+    with pytest.raises(TypeError, match=r"ground_truth.diffuse: expected a tensor, found ndarray"):
+        loss(maps, maps._replace(diffuse=maps.diffuse.numpy()))
+
+
+def test_values_are_checked_in_the_first_call_by_the_name_of_the_map() -> None:
+    maps = random_maps(0)
+    nan = maps.roughness.clone()
+    nan[0, 0, 1] = float("nan")
+    no_length = maps.normal.clone()
+    no_length[:, 2, 3:5] = 0
+    for match, changed in (
+        (r"diffuse: expected values in \[0, 1\], found .* to 2\d\d; divide by .*255", {"diffuse": 255 * maps.diffuse}),
+        (r"specular: expected .*, found -0.\d+ to 0.\d+; give \(x \+ 1\) / 2", {"specular": 2 * maps.specular - 1}),
+        (r"roughness: expected .* to 1.\d+; clamp them, or end", {"roughness": 1.5 * maps.roughness}),
+        ("roughness: 1 of 48 values are NaN or infinite", {"roughness": nan}),
+        ("normal: 2 of 48 normals have no length, and so no gradient; give", {"normal": no_length}),
+    ):
+        wrong = maps._replace(**changed)
+        for which, pair in (("prediction", (wrong, maps)), ("ground_truth", (maps, wrong))):
+            loss = sv.RenderingLoss()
+            # What is refused is looked at again.
+            for _ in range(2):
+                with pytest.raises(ValueError, match=f"^{which}.{match}"):
+                    loss(*pair)
+            loss(maps, maps)
+            loss(*pair)
+            sv.RenderingLoss(check=False)(*pair)
+    for dtype in (torch.float16, torch.bfloat16):
+        sv.RenderingLoss()(converted(maps, dtype), maps)
+
+
+def test_normals_in_0_to_1_are_warned_of_once() -> None:
+    maps = random_maps(0)
+    stored = maps._replace(normal=(torch.nn.functional.normalize(maps.normal, dim=0) + 1) / 2)
+    batch = sv.Maps(*(torch.stack([map, map]) for map in stored))
+    loss = sv.RenderingLoss()
+    with pytest.warns(
+        svbrdf.AssumptionWarning, match="prediction.normal: no x or y is .*; give 2 .* normal - 1"
+    ) as told:
+        loss(batch, maps)
+    assert len(told) == 1
+    # Warnings are errors here.
+    loss(batch, maps)
+    sv.RenderingLoss(check=False)(batch, maps)
 
 
 def test_scenes_that_a_loss_has_no_use_for_are_refused() -> None:
@@ -250,9 +311,77 @@ def test_scenes_that_a_loss_has_no_use_for_are_refused() -> None:
         sv.RenderingLoss(convention="none")
 
 
+def test_each_call_has_new_scenes_which_the_generator_of_torch_repeats() -> None:
+    materials = [random_maps(seed) for seed in range(2)]
+    loss = sv.RenderingLoss()
+
+    def losses(seed: int | None = None) -> list[float]:
+        return [loss(*materials, seed=seed).item() for _ in range(3)]
+
+    torch.manual_seed(5)
+    first = losses()
+    assert len(set(first)) == 3
+    assert len({*first, *losses()}) == 6
+    torch.manual_seed(5)
+    assert losses() == first
+    assert len(set(losses(seed=3))) == 1
+    # Seeds and given scenes leave the generator alone.
+    torch.manual_seed(5)
+    loss(*materials, seed=3)
+    sv.RenderingLoss(scenes=svbrdf.sample_scenes())(*materials)
+    assert losses() == first
+    # 0 was the seed of every call.
+    assert loss(*materials, seed=0).item() not in first
+
+
+@pytest.mark.parametrize("convention", svbrdf.CONVENTIONS)
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+def test_straight_through_keeps_the_gradients_of_values_at_their_limits(precision: Any, convention: str) -> None:
+    ground_truth = converted(random_maps(1), DTYPES[precision])
+    chosen = svbrdf.CONVENTIONS[convention]
+    loss = sv.RenderingLoss(convention=convention, scenes=svbrdf.sample_scenes(convention=convention))
+    through = sv.RenderingLoss(convention=convention, scenes=loss.scenes, straight_through=True, check=False)
+    # Values within their limits have the same loss and gradient.
+    inside = converted(random_maps(0), DTYPES[precision])
+    for got, expected in zip(
+        gradients(through, inside, ground_truth)[1], gradients(loss, inside, ground_truth)[1], strict=True
+    ):
+        torch.testing.assert_close(got, expected, rtol=0, atol=0)
+    beyond = inside._replace(**{name: 3 * getattr(inside, name) - 1 for name in ("diffuse", "specular", "roughness")})
+    limited = beyond._replace(
+        diffuse=beyond.diffuse.clamp(0, 1),
+        specular=beyond.specular.clamp(0, 1),
+        roughness=beyond.roughness.clamp(chosen.roughness_floor, 1),
+    )
+    assert through(beyond, ground_truth) == loss(limited, ground_truth)
+    dead = beyond.roughness < chosen.roughness_floor
+    assert 0 < dead.sum() < dead.numel()
+    of_beyond = gradients(through, beyond, ground_truth)[1][:4]
+    assert all(torch.isfinite(gradient).all() for gradient in of_beyond)
+    assert (of_beyond[3][dead] != 0).any()
+    assert (of_beyond[1][beyond.diffuse < 0] != 0).any()
+    # Without, roughness below its floor has none.
+    below = limited._replace(roughness=beyond.roughness.clamp(-1, 1))
+    unlimited = sv.RenderingLoss(convention=convention, scenes=loss.scenes, check=False)
+    assert (gradients(unlimited, below, ground_truth)[1][3][dead] == 0).all()
+
+
+def test_straight_through_brings_values_back_into_their_range() -> None:
+    ground_truth = random_maps(1, 4, 4, torch.float32)
+    diffuse = torch.full_like(ground_truth.diffuse, -0.2).requires_grad_()
+    loss = sv.RenderingLoss(straight_through=True, check=False)
+    optimizer = torch.optim.Adam([diffuse], lr=0.02)
+    torch.manual_seed(0)
+    for _ in range(150):
+        optimizer.zero_grad()
+        loss(ground_truth._replace(diffuse=diffuse), ground_truth).backward()
+        optimizer.step()
+    assert (diffuse - ground_truth.diffuse).abs().mean() < 0.1
+
+
 def test_half_precision_is_computed_in_float32() -> None:
     prediction, ground_truth = (random_maps(seed, dtype=torch.float16) for seed in range(2))
-    loss = sv.RenderingLoss()
+    loss = sv.RenderingLoss(scenes=svbrdf.sample_scenes())
     got, of_half = gradients(loss, prediction, ground_truth)
     expected, of_single = gradients(loss, *(converted(m, torch.float32) for m in (prediction, ground_truth)))
     assert got == expected
@@ -279,6 +408,13 @@ def test_the_compiled_loss_is_the_same_and_compiles_once_for_all_seeds() -> None
         got = gradients(lambda p, g, seed=seed: compiled(p, g, seed=seed), *materials)
         for found, other in zip((got[0], *got[1]), (expected[0], *expected[1]), strict=True):
             torch.testing.assert_close(found, other, rtol=1e-11, atol=1e-13)
+    values = []
+    for compute in (loss, compiled):
+        torch.manual_seed(7)
+        values.append([gradients(compute, *materials)[0].item() for _ in range(3)])
+    assert values[1] == pytest.approx(values[0], rel=1e-11)
+    assert len(set(values[1])) == 3
+    # Seeds and no seed, with the check of the first call and without.
     assert compilations == 1
 
 
@@ -288,9 +424,10 @@ def test_training_on_the_loss_finds_the_roughness() -> None:
     loss = sv.RenderingLoss()
     optimizer = torch.optim.Adam([roughness], lr=0.02)
     before = (roughness - ground_truth.roughness).abs().mean().item()
-    for step in range(150):
+    torch.manual_seed(0)
+    for _ in range(150):
         optimizer.zero_grad()
-        loss(ground_truth._replace(roughness=roughness), ground_truth, seed=step).backward()
+        loss(ground_truth._replace(roughness=roughness), ground_truth).backward()
         optimizer.step()
     assert (roughness - ground_truth.roughness).abs().mean().item() < 0.2 * before
 
@@ -313,6 +450,6 @@ def test_tensors_are_materials_of_the_core() -> None:
 @pytest.mark.skipif(not torch.cuda.is_available(), reason="PyTorch has no CUDA device")
 def test_the_loss_is_the_same_on_a_cuda_device() -> None:
     a, b = random_maps(0), random_maps(1)
-    loss = sv.RenderingLoss()
+    loss = sv.RenderingLoss(scenes=svbrdf.sample_scenes())
     on_device = loss(sv.Maps(*(m.cuda() for m in a)), sv.Maps(*(m.cuda() for m in b))).item()
     assert on_device == pytest.approx(loss(a, b).item(), rel=1e-12)

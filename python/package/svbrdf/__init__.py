@@ -15,6 +15,7 @@ Results print as the tables of the command line, and have `to_dict()`, its JSON,
 are those of the command line, bit for bit. `svbrdf.torch` has the same loss for training.
 """
 
+from ._assumptions import Assumption, AssumptionWarning
 from ._blame import Attribution, BlameReport, MapShare, blame
 from ._capture import (
     CaptureMeans,
@@ -29,7 +30,7 @@ from ._core import Error, __version__
 from ._dataset import DatasetLoss, DatasetReport, MarkSummary, MethodSummary, MetricSummary, rank_dataset
 from ._diagnose import DiagnoseReport, Diagnosis, Finding, diagnose
 from ._loss import Difference, FewScenes, Loss, LossReport, RankedPrediction, RankReport, loss, rank
-from ._material import Assumption, AssumptionWarning, Material, built_in, read, write
+from ._material import Material, built_in, read, write
 from ._metrics import Metrics, MetricsReport, metrics
 from ._page import Figure, figure, report
 from ._photo import PhotoReport, PhotoResult, PhotoStatistics, photo

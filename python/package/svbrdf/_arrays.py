@@ -26,20 +26,10 @@ def as_array(name: str, given: object, channels: int, precision: str) -> tuple[N
         TypeError: The numbers are not floating-point ones.
         ValueError: The shape is another one, or texels are masked.
     """
-    if isinstance(given, np.ma.MaskedArray) and np.any(given.mask):
-        raise ValueError(f"{name}: expected a value in every texel, found masked ones; fill or crop them")
-    array = _numpy(name, given)
-    if array.dtype.kind != "f":
-        raise TypeError(
-            f"{name}: expected floating-point numbers, found {array.dtype}; convert them, as in {name} / 255"
-        )
+    array = numbers(name, given)
     if channels == 1 and array.ndim == 3 and array.shape[2] == 1:
         array = array[..., 0]
-    expected = "height x width x 3" if channels == 3 else "height x width"
-    if array.ndim != (3 if channels == 3 else 2) or (channels == 3 and array.shape[2] != 3):
-        found = " x ".join(map(str, array.shape)) or "a number"
-        advice = "move the channels to the end" if channels == 3 and array.shape[:1] == (3,) else "reshape it"
-        raise ValueError(f"{name}: expected {expected}, found {found}; {advice}")
+    check_shape(name, array, (channels,))
     array = array.astype(dtype_of(precision), copy=False)
     if channels == 3:
         # The memory of a tensor of 3 x height x width whose channels were moved to the end.
@@ -48,6 +38,41 @@ def as_array(name: str, given: object, channels: int, precision: str) -> tuple[N
             return planes, True
     # A copy only where the array has not this layout.
     return np.require(array, requirements=["C_CONTIGUOUS", "ALIGNED"]), False
+
+
+def numbers(name: str, given: object) -> NDArray[Any]:
+    """The map `name` as an array of floating-point numbers, none of them masked.
+
+    Raises:
+        TypeError: The numbers are not floating-point ones.
+        ValueError: Texels are masked.
+    """
+    if isinstance(given, np.ma.MaskedArray) and np.any(given.mask):
+        raise ValueError(f"{name}: expected a value in every texel, found masked ones; fill or crop them")
+    array = _numpy(name, given)
+    if array.dtype.kind != "f":
+        raise TypeError(
+            f"{name}: expected floating-point numbers, found {array.dtype}; convert them, as in {name} / 255"
+        )
+    return array
+
+
+def check_shape(name: str, array: NDArray[Any], channels: tuple[int, ...]) -> None:
+    """Whether a map is height x width x one of `channels`, or height x width where it has one channel.
+
+    Raises:
+        ValueError: It has another shape.
+    """
+    if channels == (1,):
+        fits, expected = array.ndim == 2, "height x width"
+    else:
+        fits = array.ndim == 3 and array.shape[2] in channels
+        expected = f"height x width x {' or '.join(map(str, channels))}"
+    if not fits:
+        found = " x ".join(map(str, array.shape)) or "a number"
+        is_first = array.ndim == 3 and channels != (1,) and array.shape[0] in channels
+        advice = "move the channels to the end" if is_first else "reshape it"
+        raise ValueError(f"{name}: expected {expected}, found {found}; {advice}")
 
 
 def _numpy(name: str, given: object) -> NDArray[Any]:

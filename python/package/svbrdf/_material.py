@@ -2,31 +2,17 @@
 
 import json
 import os
-import warnings
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._arrays import Precision, as_array, from_bytes
+from ._assumptions import Assumption, warn_unsure
+from ._normals import NormalEncoding, as_normals, looks_unsigned
 from ._progress import Report, reported
 
 Source = str | os.PathLike[str]
-
-
-class AssumptionWarning(UserWarning):
-    """Something about a file was assumed, and another reading is as plausible."""
-
-
-class Assumption(NamedTuple):
-    """One thing that reading a material assumed."""
-
-    what: str
-    """What it is about, such as "albedo" or "normal y"."""
-    chosen: str
-    why: str
-    certainty: str
-    """"given", "sure", "likely" or "unsure"."""
 
 
 class Material:
@@ -39,12 +25,17 @@ class Material:
     <svbrdf.Material 'gray', 6 x 4 texels, f32>
 
     Args:
-        normal: Height x width x 3. x right, y up, z out of the surface; of any length, normalized here.
+        normal: Height x width x 3. x right, y up, z out of the surface; of any length, normalized here. x and y are
+            negative where a normal points left or down: normals that are stored in [0, 1] take a `normal_encoding`.
         diffuse: Height x width x 3. Linear RGB in [0, 1].
         specular: Height x width x 3. Reflectance at normal incidence, linear RGB in [0, 1].
         roughness: Height x width. In [0, 1]; the GGX width is its square.
         name: What reports call the material.
         precision: What the values are kept in: "f32" or "f64".
+        normal_encoding: How the components of normals are stored, in the words of `svbrdf.read`: "signed", as they are;
+            "unsigned", as (n + 1) / 2; "xy", x and y as (n + 1) / 2 in 2 or 3 channels, of which a third is not read;
+            "ag", x in the fourth of 4 channels, y in the second. None: signed, with a warning where no x or y is
+            negative and lengths are not 1.
 
     Row 0 is the top row. Anything with `__array__` or `__dlpack__` in the memory of the CPU will do, such as a tensor
     of PyTorch. Arrays are read without a copy where they have numbers of the precision and are C-contiguous, or are
@@ -53,9 +44,20 @@ class Material:
 
     Raises:
         TypeError: A map is not an array of floating-point numbers.
-        ValueError: A map has another shape, or masked texels.
+        ValueError: A map has another shape, or masked texels, or there is no such encoding.
         svbrdf.Error: A value is NaN, infinite or out of its range, or a normal has no length.
+
+    Materials can be pickled, with what reading them found, and copied; a copy shares the values.
     """
+
+    path: str | None = None
+    """Where it was read from."""
+    notes: tuple[str, ...] = ()
+    """What reading it noticed."""
+    assumptions: tuple[Assumption, ...] = ()
+    """What reading it assumed."""
+    _options: str | None = None
+    _files: tuple[Source, ...] = ()
 
     def __init__(
         self,
@@ -66,9 +68,11 @@ class Material:
         roughness: ArrayLike,
         name: str | None = None,
         precision: Precision = "f32",
+        normal_encoding: NormalEncoding | None = None,
     ) -> None:
-        colours = {"normal": normal, "diffuse": diffuse, "specular": specular}
-        maps = {key: as_array(key, given, 3, precision) for key, given in colours.items()}
+        colours = {"diffuse": diffuse, "specular": specular}
+        maps = {"normal": as_normals(normal, normal_encoding, precision)}
+        maps |= {key: as_array(key, given, 3, precision) for key, given in colours.items()}
         values, _ = as_array("roughness", roughness, 1, precision)
         height, width = values.shape
         for key, (array, is_planar) in maps.items():
@@ -82,22 +86,38 @@ class Material:
         arrays["roughness"] = values
         arrays["planar"] = [is_planar for _, is_planar in maps.values()]
         arrays["name"], arrays["size"] = name or "material", (width, height)
-        self._core = _core.CoreMaterial.from_arrays(arrays, precision)
+        self._core = _core.CoreMaterial.from_arrays(arrays, precision, None)
         self._is_named = name is not None
-        self.path: str | None = None
-        """Where it was read from."""
-        self.notes: tuple[str, ...] = ()
-        """What reading it noticed."""
-        self.assumptions: tuple[Assumption, ...] = ()
-        """What reading it assumed."""
-        self._options: str | None = None
+        if normal_encoding is None:
+            self._check_signed(*maps["normal"])
 
     @classmethod
     def _of(cls, core: _core.CoreMaterial) -> "Material":
         material = cls.__new__(cls)
         material._core, material._is_named = core, True
-        material.path, material.notes, material.assumptions, material._options = None, (), (), None
         return material
+
+    def _check_signed(self, normal: NDArray[Any], is_planar: bool) -> None:
+        reason = looks_unsigned(normal.transpose(1, 2, 0) if is_planar else normal)
+        if reason is not None:
+            remedy = 'give normal_encoding="unsigned" if they are stored as (n + 1) / 2, else "signed"'
+            self.assumptions = (Assumption("normal encoding", "signed", f"{reason}; {remedy}", "unsure"),)
+            warn_unsure(self.name, self.assumptions, stacklevel=4)
+
+    def __copy__(self) -> "Material":
+        # The values never change.
+        copy = object.__new__(type(self))
+        copy.__dict__.update(self.__dict__)
+        return copy
+
+    def __deepcopy__(self, memo: object) -> "Material":
+        return self.__copy__()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        others = {key: value for key, value in self.__dict__.items() if key != "_core"}
+        arrays: dict[str, Any] = {name: self._map(name) for name in ("normal", "diffuse", "specular", "roughness")}
+        arrays |= {"planar": [False] * 3, "name": self.name, "size": self.size}
+        return _restored, (type(self), arrays, self.precision, self._core.storage, others)
 
     @property
     def name(self) -> str:
@@ -153,7 +173,7 @@ def read(
     albedo: Literal["linear", "srgb", "gamma2.2", "log0.01"] | None = None,
     specular_albedo: Literal["linear", "srgb", "gamma2.2", "log0.01"] | None = None,
     normal_y: Literal["up", "down"] | None = None,
-    normal_encoding: Literal["unsigned", "signed", "xy", "ag"] | None = None,
+    normal_encoding: NormalEncoding | None = None,
     roughness: Literal["r", "gloss", "alpha", "axay", "gamma2.2"] | None = None,
     workflow: Literal["specular", "metallic"] | None = None,
     dielectric_f0: float | None = None,
@@ -214,10 +234,20 @@ def read(
     material = Material._of(found["material"])
     material.path = os.fspath(path)
     material._options = found["options"]
+    material._files = tuple(found["files"])
     material.notes = tuple(found["notes"])
     material.assumptions = tuple(Assumption(*fields) for fields in found["assumptions"])
-    for unsure in (a for a in material.assumptions if a.certainty == "unsure"):
-        warnings.warn(f"{material.name}: {unsure.what}: {unsure.chosen}: {unsure.why}", AssumptionWarning, stacklevel=2)
+    warn_unsure(material.name, material.assumptions, stacklevel=3)
+    return material
+
+
+def _restored(
+    kind: type[Material], arrays: dict[str, Any], precision: Precision, storage: str, others: dict[str, Any]
+) -> Material:
+    """The material of a pickle."""
+    material = object.__new__(kind)
+    material._core = _core.CoreMaterial.from_arrays(arrays, precision, storage)
+    material.__dict__.update(others)
     return material
 
 
@@ -232,7 +262,7 @@ def write(
     """Writes a material by the extension of `path`: layered EXR, packed PNG, glTF, MaterialX, or a folder of PNG files.
 
     The file or folder appears when it is complete, or not at all; a document of MaterialX after the folder of its
-    pictures.
+    pictures. The files that the material was read from are not replaced.
 
     Args:
         material: A material, or the path of one.
@@ -246,9 +276,11 @@ def write(
 
     Raises:
         OSError: The file cannot be written.
-        svbrdf.Error: The kind of file does not have this depth, preset or preview.
+        svbrdf.Error: The kind of file does not have this depth, preset or preview, or `path` is a file that the
+            material was read from.
     """
-    return _core.write(opened(material)._core, path, depth, preset, preview)
+    material = opened(material)
+    return _core.write(material._core, path, material._files, depth, preset, preview)
 
 
 def built_in(*, precision: Precision = "f32") -> list[Material]:

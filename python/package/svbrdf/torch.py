@@ -1,55 +1,53 @@
 """The rendering loss in PyTorch, for training.
 
-One module in plain PyTorch, to be read and changed. It computes what the core computes: Algorithms 1 and 3 of
+Plain PyTorch, to be read and changed. It computes what the core computes: Algorithms 1 and 3 of
 Deschaintre et al. (2018-2020) in each of the four conventions, in the scenes of the same seeds. In float64 it agrees
 with the core within 1e-12, in float32 within 1e-5 (relative). No gradient is NaN: not at roughness 0, not at l = -v,
 not on black texels.
 
     loss = svbrdf.torch.RenderingLoss()
-    for step, (ground_truth, photo) in enumerate(batches):
-        loss(network(photo), ground_truth, seed=step).backward()
+    for ground_truth, photo in batches:
+        loss(network(photo), ground_truth).backward()
 
-`torch.compile(loss)` computes the same several times faster. The scenes are sampled outside of the compiled graph: no
-seed compiles anything anew.
+Every call samples new scenes, as the papers train; `seed` gives the same ones again. `torch.compile(loss)` computes the
+same several times faster. The scenes are sampled outside of the compiled graph: no seed compiles anything anew.
 
 Maps have channels first and any number of batch dimensions before them: normal, diffuse and specular ... x 3 x H x W,
-roughness ... x 1 x H x W. Values are linear; colours and roughness lie in [0, 1]. Shapes are checked, since some wrong
-ones would broadcast to a wrong loss; values are not.
+roughness ... x 1 x H x W. Values are linear; colours and roughness lie in [0, 1]. Shapes are checked in every call,
+since some wrong ones would broadcast to a wrong loss; values in the first call of a `RenderingLoss`.
+
+Bound the outputs of a network: diffuse and specular by a sigmoid, roughness by 0.02 + 0.98 sigmoid(x); add (0, 0, 1)
+to normals. The gradient along roughness falls with it, to 0 below the floor of the convention, and colours outside of
+[0, 1] can make the loss NaN. Maps that are optimized without a network need `straight_through`.
 
 A vector is three planes here, its components: ... x 1 x H x W each. Everything that depends on the scene alone is
 `Geometry`, computed once per scene for all materials; everything that depends on the material alone is `Terms`,
 computed once per material for all scenes.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import hypot, pi
-from typing import Any, Literal, NamedTuple, TypeVar
+from typing import Any, Literal, NamedTuple
 
 import torch
 from torch import Tensor
 
+from ._maps import Maps, check_shapes, check_values, is_compiling, outside_of_graph, working_type
 from ._scenes import CONVENTIONS, Convention, Scene, sample_scenes
 
-_F = TypeVar("_F", bound=Callable[..., Any])
-# PyTorch 1.13 has no compiler.
-_compiler: Any = getattr(torch, "compiler", None)
-_is_compiling: Callable[[], bool] = getattr(_compiler, "is_compiling", lambda: False)
-_outside_of_graph: Callable[[_F], _F] = getattr(_compiler, "disable", lambda function: function)
+__all__ = [
+    "Maps",
+    "RenderingLoss",
+    "check_scenes",
+    "check_shapes",
+    "check_values",
+    "endpoints",
+    "render",
+    "scene_losses",
+    "straight_through",
+]
 
 Vector = tuple[Tensor, Tensor, Tensor]
-
-
-class Maps(NamedTuple):
-    """The four maps of a batch of materials, channels first."""
-
-    normal: Tensor
-    """... x 3 x H x W: x right, y up, z out of the surface, row 0 on top; of any length."""
-    diffuse: Tensor
-    """... x 3 x H x W: linear RGB in [0, 1]."""
-    specular: Tensor
-    """... x 3 x H x W: reflectance at normal incidence, linear RGB in [0, 1]."""
-    roughness: Tensor
-    """... x 1 x H x W: in [0, 1]; the GGX width is its square."""
 
 
 class RenderingLoss(torch.nn.Module):
@@ -58,12 +56,19 @@ class RenderingLoss(torch.nn.Module):
     Without `torch.compile`, it computes the gradient together with the loss, scene after scene, so that it needs the
     memory of one scene. It then has first derivatives only; `scene_losses` has all.
 
+    The scenes of a call are named by its `seed`. Without, they are new in each call, by the generator of PyTorch:
+    `torch.manual_seed` makes a run repeatable. The papers train so, on 6 + 3 new scenes for every batch. Validate with
+    one seed, so that losses of different steps can be compared.
+
     Args:
         convention: A name of `svbrdf.CONVENTIONS`.
         near: The number of sampled near-field scenes.
         distant: The number of sampled distant scenes.
         sampler: "random" or "sobol".
         scenes: These scenes, in place of sampled ones.
+        straight_through: Whether diffuse, specular and roughness of the prediction are clamped to their limits with the
+            gradient of values that are not, so that an optimizer can bring them back: see `straight_through`.
+        check: Whether the first call checks the values of the maps, for which it copies them to the CPU.
 
     Raises:
         ValueError: There is no such convention, or no scene, or a light or view is not above the plane.
@@ -77,6 +82,8 @@ class RenderingLoss(torch.nn.Module):
         distant: int = 3,
         sampler: Literal["random", "sobol"] = "random",
         scenes: Sequence[Scene] | None = None,
+        straight_through: bool = False,
+        check: bool = True,
     ) -> None:
         super().__init__()
         if convention not in CONVENTIONS:
@@ -87,23 +94,37 @@ class RenderingLoss(torch.nn.Module):
         self.near, self.distant = near, distant
         self.sampler: Literal["random", "sobol"] = sampler
         self.scenes = scenes
+        self.straight_through = straight_through
+        self.check = check
 
-    def forward(self, prediction: Maps, ground_truth: Maps, *, seed: int = 0) -> Tensor:
-        """The mean loss of a batch, over the scenes that `seed` names. A training run passes its step as the seed.
+    def forward(self, prediction: Maps, ground_truth: Maps, *, seed: int | None = None) -> Tensor:
+        """The mean loss of a batch, over the scenes that `seed` names; None: new ones.
 
         Raises:
-            ValueError: A map has another shape.
+            TypeError: A material is not `Maps` of tensors.
+            ValueError: A map has another shape or, in the first call, values that are not those of a material.
         """
-        check_shapes(prediction, ground_truth)
+        check_shapes(prediction=prediction, ground_truth=ground_truth)
+        self._check_once(prediction, ground_truth)
         points = self._endpoints(seed)
-        if torch.is_grad_enabled() and not _is_compiling():
+        if self.straight_through:
+            prediction = straight_through(prediction, self.convention)
+        if torch.is_grad_enabled() and not is_compiling():
             return _MeanLoss.apply(points, self.convention, *prediction, *ground_truth)
         return _losses(prediction, ground_truth, points, self.convention).mean()
 
-    @_outside_of_graph
-    def _endpoints(self, seed: int) -> Tensor:
+    @outside_of_graph
+    def _check_once(self, prediction: Maps, ground_truth: Maps) -> None:
+        if self.check:
+            check_values(prediction=prediction, ground_truth=ground_truth)
+            self.check = False
+
+    @outside_of_graph
+    def _endpoints(self, seed: int | None) -> Tensor:
         scenes = self.scenes
         if scenes is None:
+            if seed is None:
+                seed = int(torch.randint(2**63 - 1, (), device="cpu"))
             scenes = sample_scenes(
                 self.near, self.distant, seed=seed, sampler=self.sampler, convention=self.convention.name
             )
@@ -116,7 +137,7 @@ def scene_losses(prediction: Maps, ground_truth: Maps, scenes: Sequence[Scene], 
     Raises:
         ValueError: A map has another shape.
     """
-    check_shapes(prediction, ground_truth)
+    check_shapes(prediction=prediction, ground_truth=ground_truth)
     return _losses(prediction, ground_truth, endpoints(scenes), convention)
 
 
@@ -126,21 +147,22 @@ def render(maps: Maps, scene: Scene, convention: Convention) -> Tensor:
     Raises:
         ValueError: A map has another shape.
     """
-    check_shapes(maps)
+    check_shapes(maps=maps)
     of_material = terms(maps, working_type(maps), convention)
     of_scene = geometry(endpoints([scene])[0], of_material, convention)
     return torch.cat(radiance(of_material, of_scene, convention), dim=-3)
 
 
-@_outside_of_graph
-def check_shapes(*materials: Maps) -> None:
-    """Whether all maps have their channels, and the height and width of the first one."""
-    height, width = materials[0][0].shape[-2:]
-    for maps in materials:
-        for name, channels, map in zip(Maps._fields, (3, 3, 3, 1), maps, strict=True):
-            if tuple(map.shape[-3:]) != (channels, height, width):
-                found = " x ".join(str(length) for length in map.shape)
-                raise ValueError(f"{name}: expected ... x {channels} x {height} x {width}, found {found}; reshape it")
+def straight_through(maps: Maps, convention: Convention) -> Maps:
+    """The maps with diffuse and specular clamped to [0, 1], and roughness to 1 and the floor of the convention.
+
+    The gradient is that of the clamped values, and passes to the values as they were: the gradient of `clamp` is 0
+    beyond its limits, and no step would bring them back.
+    """
+    normal, *values = (map.to(working_type(maps)) for map in maps)
+    limited = (map.detach().clamp(low, 1) for map, low in zip(values, (0, 0, convention.roughness_floor), strict=True))
+    # The difference is 0.
+    return Maps(normal, *(limit + (map - map.detach()) for limit, map in zip(limited, values, strict=True)))
 
 
 def check_scenes(scenes: Sequence[Scene]) -> None:
@@ -198,7 +220,7 @@ def _losses(prediction: Maps, ground_truth: Maps, points: Tensor, convention: Co
     """The loss of each scene and material, for the endpoints of the scenes."""
     dtype = working_type(prediction, ground_truth)
     got, expected = (terms(maps, dtype, convention) for maps in (prediction, ground_truth))
-    if not _is_compiling():
+    if not is_compiling():
         return torch.stack([_loss_of_scene(got, expected, row, convention) for row in points])
     # All scenes at once, as one more dimension in front of those of the batch: the compiler makes one loop of it. It
     # would compute the planes for each channel anew, so that channels are apart.
@@ -242,20 +264,12 @@ class Terms(NamedTuple):
 def terms(maps: Maps, dtype: torch.dtype, convention: Convention) -> Terms:
     """The terms of a material."""
     normal, diffuse, specular, roughness = (map.to(dtype) for map in maps)
-    rough = roughness.clamp(min=convention.roughness_floor)
+    # The floor itself has a gradient, unlike that of `clamp`.
+    rough = torch.where(roughness < convention.roughness_floor, convention.roughness_floor, roughness)
     a = rough * rough
     k, a2 = a * 0.5, a * a
     n = normalized(normal.split(1, dim=-3))
     return Terms(*n, k, 1 - k, a * (4 * pi) ** -0.5, a2, 1 - a2, diffuse * (1 - specular) * (1 / pi), specular)
-
-
-def working_type(*materials: Maps) -> torch.dtype:
-    """The type to compute in: that of the maps, float32 or wider."""
-    dtype = torch.float32
-    for maps in materials:
-        for map in maps:
-            dtype = torch.promote_types(dtype, map.dtype)
-    return dtype
 
 
 class Geometry(NamedTuple):
@@ -340,7 +354,7 @@ def geometry_factor(cosine: Tensor, material: Terms, convention: Convention) -> 
     return 1 / (denominator.clamp(min=convention.g_floor) if convention.g_floor > 0 else denominator)
 
 
-@_outside_of_graph
+@outside_of_graph
 def endpoints(scenes: Sequence[Scene]) -> Tensor:
     """Each scene as 7 numbers in float64: 1 if it is near, light, view.
 
