@@ -142,10 +142,10 @@ fn a_journal_without_a_head_is_refused_with_what_to_do() {
             assert!(stderr.contains(part), "{part}: {stderr}");
         }
     }
-    let newer = r#"{"svbrdf-journal":3,"program":"svbrdf 9.0.0"}"#;
+    let newer = r#"{"svbrdf-journal":4,"program":"svbrdf 9.0.0"}"#;
     fs::write(folder.path().join("new.jsonl"), format!("{newer}\n")).unwrap();
     let stderr = fail(folder.path(), &format!("{RANK} --journal new.jsonl"), 1);
-    assert!(stderr.contains("its format is 3, expected 2"), "{stderr}");
+    assert!(stderr.contains("its format is 4, expected 3"), "{stderr}");
 }
 
 #[test]

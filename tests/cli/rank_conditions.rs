@@ -228,3 +228,34 @@ fn a_loss_of_folders_of_materials_says_how_to_rank_them() {
     let message = text(&output.stderr);
     assert!(message.contains("svbrdf rank --dataset gt ours"), "{message}");
 }
+
+#[test]
+fn methods_of_unlike_conventions_are_ranked_together() {
+    let folder = data_set(&[("ours", 0)], 5);
+    fs::create_dir(folder.path().join("glossy")).unwrap();
+    for i in 0..5 {
+        // Of the ground truth, stored as gloss.
+        write_material(&folder.path().join(format!("glossy/m{i}.png")), 8, 255 - (40 + 20 * i));
+    }
+    let means = |options: &str| {
+        let rank = "rank --dataset gt same=ours glossy --target-error 5% --format json";
+        let ranking = json(&succeed(folder.path(), &format!("{rank} {options}")));
+        let methods = ranking["methods"].as_array().unwrap().clone();
+        let mean =
+            |name: &str| methods.iter().find(|one| one["method"] == name).unwrap()["mean"].as_f64().unwrap();
+        ([mean("same"), mean("glossy")], ranking)
+    };
+    let (as_stored, _) = means("");
+    assert!(as_stored[0] < 1e-9 && as_stored[1] > 0.05, "{as_stored:?}");
+    let (read, ranking) = means("--read glossy:roughness=gloss");
+    assert!(read[0] < 1e-9 && read[1] < 1e-6, "{read:?}");
+    assert_eq!(ranking["reading"]["methods"]["glossy"]["roughness"], "gloss");
+    let command = ranking["command"].as_str().unwrap();
+    assert!(
+        command.contains("same=ours glossy") && command.contains("--read glossy:roughness=gloss"),
+        "{command}"
+    );
+    let unknown = run_in(folder.path(), "rank --dataset gt ours --read other:roughness=gloss");
+    assert_eq!(unknown.status.code(), Some(64));
+    assert!(text(&unknown.stderr).contains("no material is named other"), "{}", text(&unknown.stderr));
+}
