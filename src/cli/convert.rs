@@ -17,7 +17,8 @@ use super::output::stop::stoppable;
 ///
 /// The extension of OUT selects the format: .exr is one layered EXR, linear; .png is a packed strip normal | diffuse |
 /// roughness | specular, linear; .glb is binary glTF, a plane with the material; .mtlx is MaterialX, an open_pbr_surface
-/// with a new folder OUT_textures of its pictures beside it; any other name is a folder of four PNG files, colours in sRGB.
+/// with a new folder OUT_textures of its pictures beside it. A folder gets four PNG files, colours in sRGB; it is a name
+/// without an extension, with / at its end, or of an empty folder.
 ///
 /// glTF and MaterialX get base colour and metallic where these change diffuse and specular by at most one step of 8 bits,
 /// else specular as it is. A note states which, and what it changes.

@@ -257,7 +257,9 @@ pub enum Error {
 /// Why a material cannot be written to a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OutputProblem {
-    #[error("cannot be written: name an .exr, .png, .glb or .mtlx file or a folder")]
+    #[error(
+        "cannot be written: expected an .exr, .png, .glb or .mtlx file, or a folder, which exists, ends with / or has no extension"
+    )]
     Kind,
     #[error("cannot have that depth; EXR has half and float, MaterialX all, every other form 8 and 16")]
     Depth,
