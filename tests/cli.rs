@@ -11,6 +11,7 @@ mod materials;
 mod metrics;
 mod notes;
 mod options;
+mod names;
 mod outside;
 mod packages;
 mod photo;

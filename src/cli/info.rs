@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use serde::Serialize;
 
-use svbrdf_core::text::printable;
+use svbrdf_core::text::{line, printable};
 use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;
@@ -90,17 +90,17 @@ pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
 fn text(info: &Info<'_>) -> String {
     let mut text = format!("{}, {} x {} texels\n\nAs stored:\n", info.name, info.size[0], info.size[1]);
     for map in info.maps {
-        let _ = writeln!(text, "  {map}");
+        let _ = writeln!(text, "  {}", line(&map.to_string()));
     }
     text += "\nAssumed:\n";
     for assumption in info.assumptions {
-        let _ = writeln!(text, "  {}", advice::assumption_with_option(assumption));
+        let _ = writeln!(text, "  {}", line(&advice::assumption_with_option(assumption)));
     }
     if !info.notes.is_empty() {
         text += "\nNoticed:\n";
     }
     for note in info.notes {
-        let _ = writeln!(text, "  {}", advice::with_option(note));
+        let _ = writeln!(text, "  {}", line(&advice::with_option(note)));
     }
     text
 }

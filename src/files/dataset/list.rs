@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use svbrdf_core::error::Error;
+use svbrdf_core::text::line;
 
 use super::record::{Candidate, Case};
 use crate::open::NamedFile;
@@ -65,10 +66,10 @@ pub fn cases_of_folders(ground_truths: &Path, methods: &[(String, PathBuf)]) -> 
             if paths.is_empty() {
                 paths.push(folder.join(material));
             }
-            let candidate = |(sample, path)| Candidate { method: method.clone(), sample, path };
+            let candidate = |(sample, path)| Candidate { method: line(method), sample, path };
             candidates.extend(paths.into_iter().enumerate().map(candidate));
         }
-        Case { index, material: material.clone(), ground_truth: ground_truth.clone(), candidates }
+        Case { index, material: line(material), ground_truth: ground_truth.clone(), candidates }
     };
     Ok(truths.iter().enumerate().map(case).collect())
 }
@@ -138,11 +139,11 @@ pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
         let row = row.map_err(bad)?;
         let cell = |column: usize| row.get(column).unwrap_or_default();
         let ground_truth = folder.join(cell(truth));
-        let method = method.map_or("prediction", cell).to_owned();
+        let method = line(method.map_or("prediction", cell));
         let at = *places.entry(ground_truth.clone()).or_insert(cases.len());
         if at == cases.len() {
             let stem = ground_truth.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let material = material.map_or(stem, |column| cell(column).to_owned());
+            let material = line(&material.map_or(stem, |column| cell(column).to_owned()));
             cases.push(Case { index: at, material, ground_truth, candidates: Vec::new() });
         }
         let count = samples.entry((at, method.clone())).or_insert(0);

@@ -51,7 +51,6 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::text::shortened;
 
 use crate::memory;
 use crate::open::NamedFile;
@@ -190,7 +189,7 @@ fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read
     let planes = assemble::planes(&mut linear, options);
     let [width, height] = linear.size;
     Ok(Read {
-        material: Material::new(shortened(&linear.name), width, height, planes)?,
+        material: Material::new(linear.name, width, height, planes)?,
         assumptions: linear.assumptions,
         notes: linear.notes,
         files: linear.files,
