@@ -9,6 +9,7 @@ mod journal;
 mod loss;
 mod materials;
 mod metrics;
+mod memory;
 mod notes;
 mod options;
 mod names;

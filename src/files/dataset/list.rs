@@ -1,6 +1,6 @@
 //! Lists of cases: materials of folders matched by name, and tables of pairs.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -9,6 +9,7 @@ use svbrdf_core::text::line;
 
 use super::record::{Candidate, Case};
 use crate::open::NamedFile;
+use crate::{inputs, memory};
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];
@@ -119,7 +120,7 @@ fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 /// rows of one method are samples, in their order.
 ///
 /// # Errors
-/// [`Error::Unreadable`], and [`Error::NotAMaterial`] where a column is missing or there are no rows.
+/// [`Error::Unreadable`]; [`Error::NotAMaterial`] where a column is missing or there are no rows; [`Error::Memory`].
 pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
     let bad = |problem: csv::Error| Error::unreadable(path, std::io::Error::other(problem));
     let file = NamedFile::by_user(path).reader()?;
@@ -151,7 +152,26 @@ pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
         *count += 1;
         cases[at].candidates.push(Candidate { method, sample, path: folder.join(cell(prediction)) });
     }
-    if cases.is_empty() { Err(nothing_in(path, "rows")) } else { Ok(cases) }
+    if cases.is_empty() {
+        return Err(nothing_in(path, "rows"));
+    }
+    check_count(path, &cases).map(|()| cases)
+}
+
+/// Refuses a table of so many methods and materials that their comparison does not fit into memory: it has an entry for every
+/// method and every material, whether the table has that pair or not.
+///
+/// # Errors
+/// [`Error::Memory`].
+fn check_count(path: &Path, cases: &[Case]) -> Result<(), Error> {
+    /// A loss that may be missing, and what is computed of it, in bytes.
+    const ENTRY: u64 = 128;
+    let candidates = cases.iter().flat_map(|case| &case.candidates);
+    let methods = candidates.map(|candidate| candidate.method.as_str()).collect::<HashSet<_>>().len() as u64;
+    let materials = cases.len() as u64;
+    let what =
+        || format!("comparing {methods} methods over {materials} materials, as {} lists,", path.display());
+    memory::reserve(methods.saturating_mul(materials).saturating_mul(ENTRY), what).map(drop)
 }
 
 fn nothing_in(path: &Path, expected: &str) -> Error {
