@@ -69,7 +69,7 @@ pub fn run(args: &ConvertArgs) -> Result<(), CommandError> {
     let options = WriteOptions { depth: args.depth, like: args.like, preview: args.preview };
     let kind = FileKind::new(&args.output, &options)?;
     let read = read_one(&args.material, &args.bindings, &args.reading)?;
-    check_output(&args.output, &read.files)?;
+    check_output(&args.output)?;
     let material: Material<f32> = noted(read, args.reading.verbose);
     let surface = stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))?;
     if let Some(surface) = surface {

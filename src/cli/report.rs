@@ -9,6 +9,7 @@ use svbrdf_core::report::Report as _;
 use svbrdf_core::text::quoted;
 use svbrdf_files::atomic::write_text;
 use svbrdf_files::page::{Findings, Labels, Page, Repetition, Report, View, check_destination, exposure};
+use svbrdf_files::inputs::check_output;
 use svbrdf_files::session_window::Layout;
 
 use super::args::scenes::OneSceneArgs;
@@ -77,7 +78,7 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
     check_options(args, &job, given)?;
     let request = request(args, job.session.as_ref(), given)?;
     let opened = job.materials.open::<f32>()?;
-    opened.check_output(&args.output, None)?;
+    check_output(&args.output)?;
     let view = view(args, &job, &opened.ground_truth)?;
     let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect::<Vec<_>>());
     let findings =

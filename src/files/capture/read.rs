@@ -12,6 +12,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use super::listed::Listed;
 use super::materialgan::TEXTS;
 use super::{Calibration, Capture, CapturedPhotograph, is_json};
+use crate::inputs;
 use crate::open::NamedFile;
 use crate::read::{PhotographOptions, Transfer};
 
@@ -37,6 +38,7 @@ impl Capture {
 
     /// The capture that the text of the file at `path` describes.
     fn parse(path: &Path, text: &str) -> Result<Self, Error> {
+        inputs::protect(path);
         let bad = |problem| Error::BadCapture { path: path.to_owned(), problem };
         let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
         let capture = match value.get("camera_pos").is_some() {

@@ -21,7 +21,8 @@ use super::evaluate::Evaluated;
 use super::fingerprint::MaterialFiles;
 use super::lock::Lock;
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
-use crate::atomic::write_text;
+use crate::atomic::{folder_of, update};
+use crate::inputs;
 use crate::open::NamedFile;
 
 /// The version of the format that is written and read.
@@ -208,7 +209,7 @@ pub fn merged(paths: &[PathBuf]) -> Result<(DatasetSettings, Vec<MaterialResult>
     let mut first: Option<(&Path, Head)> = None;
     let mut all: BTreeMap<usize, MaterialResult> = BTreeMap::new();
     for path in paths {
-        let (head, lines) = read(path)?;
+        let (head, lines) = read(&NamedFile::by_user(path))?;
         match &first {
             None => first = Some((path, head)),
             Some((other, expected)) if head != *expected => {
@@ -284,7 +285,7 @@ fn write(path: &Path, head: &Head, lines: &[Line]) -> Result<(), Error> {
     for line in lines {
         text += &text_of(path, line)?;
     }
-    write_text(path, &text, &Progress::default())
+    update(path, &Progress::default(), |file| file.write_all(text.as_bytes()))
 }
 
 fn text_of(path: &Path, value: &impl Serialize) -> Result<String, Error> {

@@ -124,6 +124,7 @@ fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
     let bad = |problem: csv::Error| Error::unreadable(path, std::io::Error::other(problem));
     let file = NamedFile::by_user(path).reader()?;
+    inputs::protect(path);
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
     let heading = reader.headers().map_err(bad)?.clone();
     let column = |name: &str| heading.iter().position(|heading| heading == name);

@@ -52,8 +52,8 @@ use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
-use crate::memory;
 use crate::open::NamedFile;
+use crate::{inputs, memory};
 
 use decode::pictures;
 use decode::reader::Reader;
@@ -135,6 +135,7 @@ fn read_with<T: Real>(
         saved.attribute(&file, &used.options, &mut read.assumptions, &mut read.notes);
         read.files.push(file);
     }
+    read.files.iter().for_each(|file| inputs::protect(file));
     Ok(read)
 }
 
