@@ -237,6 +237,13 @@ pub enum Error {
         path.display(), input.display())]
     ReplacesInput { path: PathBuf, input: PathBuf },
 
+    /// A report cannot be as small as is asked.
+    #[error(
+        "the report has {bytes} bytes with the smallest maps, more than the limit of {limit}; allow as many, or compare fewer \
+        materials"
+    )]
+    ReportTooLarge { bytes: usize, limit: usize },
+
     /// No graphics adapter can do what is asked.
     #[error("no usable graphics adapter: {problem}; {remedy}")]
     NoAdapter { problem: String, remedy: &'static str },

@@ -11,6 +11,7 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
     Some(match error {
         Error::Outside { .. } => "--allow-outside allows it",
         Error::Memory { .. } => "--max-memory sets it",
+        Error::ReportTooLarge { .. } => "--max-size sets it, and --figure leaves out the findings",
         Error::Guessed { .. } => "specify it by an option, or leave out --strict",
         Error::SizesDiffer { .. } => "--resize-to gt, pred or a width brings materials to one size",
         Error::TooLarge { .. } => "give a smaller width to --resize-to",

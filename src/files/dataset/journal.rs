@@ -84,7 +84,7 @@ impl Journal {
     /// Opens the journal at `path`, which may be there already, and the lines that it holds; those of `cases` whose files have
     /// changed are dropped and named.
     ///
-    /// A last line that was cut off, as when the program was ended, is dropped.
+    /// A last line that was cut off, as when the program was ended, is dropped. An empty file becomes a journal.
     ///
     /// # Errors
     /// [`Error::Unreadable`], [`Error::Unwritable`]; [`Error::BadJournal`] where the file has another head, contradicts itself, or
@@ -96,8 +96,9 @@ impl Journal {
     ) -> Result<(Self, Vec<Line>, Vec<Recomputed>), Error> {
         let lock = Lock::take(path)?;
         let mut lines = Vec::new();
-        if path.exists() {
-            let (found, known) = read(path)?;
+        let named = NamedFile::by_file(path, folder_of(path));
+        if path.exists() && !is_empty(&named)? {
+            let (found, known) = read(&named)?;
             if found != head {
                 let problem = format!(
                     "it is of other settings, materials or methods: {}",
@@ -245,8 +246,18 @@ pub(super) fn remaining(cases: &[Case], lines: &[Line]) -> Vec<Case> {
     cases.iter().filter(|case| !is_done(case)).cloned().collect()
 }
 
-fn read(path: &Path) -> Result<(Head, Vec<Line>), Error> {
-    let text = NamedFile::by_user(path).text()?;
+fn is_empty(file: &NamedFile) -> Result<bool, Error> {
+    let found = file.open()?.metadata().map_err(|source| Error::unreadable(file.path(), source))?;
+    Ok(found.len() == 0)
+}
+
+fn read(file: &NamedFile) -> Result<(Head, Vec<Line>), Error> {
+    let path = file.path();
+    let text = file.text()?;
+    inputs::protect(path);
+    if text.is_empty() {
+        return Err(bad(path, "it is empty, and no journal of a data set".to_owned()));
+    }
     let complete = text.rfind('\n').map_or("", |end| &text[..end]);
     let mut lines = complete.lines();
     let is_not =
