@@ -12,6 +12,7 @@ use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 use super::args::reading::ReadingArgs;
 use super::args::{Given, modes};
 use super::job::materials::read_one;
+use super::output::stop::stoppable;
 use super::output::{CommandError, advice, exit, json};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
@@ -71,7 +72,8 @@ pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
     let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading)?;
     if args.save {
         let saved = Sidecar::load(&args.material)?.overridden_by(&args.reading.options(), &args.bindings);
-        exit::tell(&format!("note: saved in {}", saved.save(&args.material)?.display()));
+        let place = stoppable(|progress| saved.save(&args.material, progress))?;
+        exit::tell(&format!("note: saved in {}", place.display()));
     }
     let info = Info {
         name: read.material.name(),
