@@ -9,8 +9,8 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::report::Report as _;
 use svbrdf_core::text::quoted;
 use svbrdf_files::atomic::write_text;
-use svbrdf_files::page::{Findings, Labels, Page, Repetition, Report, View, check_destination, exposure};
 use svbrdf_files::inputs::check_output;
+use svbrdf_files::page::{Findings, Labels, Page, Repetition, Report, View, check_destination, exposure};
 use svbrdf_files::session_window::Layout;
 
 use super::args::scenes::OneSceneArgs;
