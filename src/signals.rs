@@ -1,4 +1,4 @@
-//! Signals that end the program: SIGINT (Ctrl+C), SIGTERM and SIGHUP.
+//! Signals that end the program: SIGINT (Ctrl+C), SIGTERM, SIGHUP, and others that batch systems send.
 
 #[cfg(unix)]
 pub use unix::{on_end, outlive_size_limits};
@@ -11,16 +11,22 @@ mod unix {
     use std::sync::atomic::AtomicBool;
     use std::thread;
 
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    use signal_hook::consts::{
+        SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU, SIGXFSZ,
+    };
     use signal_hook::iterator::Signals;
 
     use svbrdf_files::open::NamedFile;
+
+    /// The signals that end a program that does not handle them, other than those of its own faults.
+    const ENDING: [i32; 10] =
+        [SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGXCPU];
 
     /// Calls `then` for every signal that ends the program, on a thread of its own. A signal that is ignored, as SIGINT in the
     /// background of a script and SIGHUP under nohup, stays ignored; the others are handled nevertheless.
     pub fn on_end(then: impl Fn() + Send + 'static) {
         let ignored = ignored();
-        let handled = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
+        let handled = ENDING.into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
         let Ok(mut signals) = Signals::new(handled) else { return };
         thread::spawn(move || signals.forever().for_each(|_| then()));
     }

@@ -55,7 +55,7 @@ def test_a_figure_is_the_figure_alone_in_a_sandbox() -> None:
     figure = svbrdf.figure(*pair(), scene=scene, language="de", height=300)
     values = data(figure.html)
     assert (values["start"]["scene"]["light"], values["labels"]["Light"]) == ([0.5, 0, 1], "Licht")
-    assert [material["name"] for material in values["materials"]] == ["truth", HOSTILE]
+    assert [material["name"] for material in values["materials"]] == ["truth", HOSTILE.replace("\u202e", r"\u{202e}")]
     shown = figure._repr_html_()
     assert shown.startswith('<iframe sandbox="allow-scripts"')
     assert html.unescape(shown[shown.index('srcdoc="') + 8 : -len('"></iframe>')]) == figure.html

@@ -18,7 +18,8 @@ use super::output::stop::stoppable;
 ///
 /// The extension of OUT selects the format: .exr is one layered EXR, linear; .png is a packed strip normal | diffuse |
 /// roughness | specular, linear; .glb is binary glTF, a plane with the material; .mtlx is MaterialX, an open_pbr_surface
-/// with a new folder OUT_textures of its pictures beside it; any other name is a folder of four PNG files, colours in sRGB.
+/// with a new folder OUT_textures of its pictures beside it. A folder gets four PNG files, colours in sRGB; it is a name
+/// without an extension, with / at its end, or of an empty folder.
 ///
 /// glTF and MaterialX get base colour and metallic where these change diffuse and specular by at most one step of 8 bits,
 /// else specular as it is. A note states which, and what it changes.
@@ -69,7 +70,7 @@ pub fn run(args: &ConvertArgs) -> Result<(), CommandError> {
     let options = WriteOptions { depth: args.depth, like: args.like, preview: args.preview };
     let kind = FileKind::new(&args.output, &options)?;
     let read = read_one(&args.material, &args.bindings, &args.reading)?;
-    check_output(&args.output, &read.files)?;
+    check_output(&args.output)?;
     let material: Material<f32> = noted(read, args.reading.verbose);
     let surface = stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))?;
     if let Some(surface) = surface {

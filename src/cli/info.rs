@@ -5,12 +5,13 @@ use std::fmt::Write as _;
 use clap::ValueEnum;
 use serde::Serialize;
 
-use svbrdf_core::text::printable;
+use svbrdf_core::text::{line, printable};
 use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;
 use super::args::{Given, NamedPath, modes};
 use super::job::materials::read_one;
+use super::output::stop::stoppable;
 use super::output::{CommandError, advice, exit, json};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
@@ -71,7 +72,8 @@ pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
     if args.save {
         let (path, options) = (&args.material.path, args.reading.of_one(&args.material)?);
         let saved = Sidecar::load(path)?.overridden_by(&options, &args.bindings);
-        exit::tell(&format!("note: saved in {}", saved.save(path)?.display()));
+        let place = stoppable(|progress| saved.save(path, progress))?;
+        exit::tell(&format!("note: saved in {}", place.display()));
     }
     let info = Info {
         name: read.material.name(),
@@ -90,17 +92,17 @@ pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
 fn text(info: &Info<'_>) -> String {
     let mut text = format!("{}, {} x {} texels\n\nAs stored:\n", info.name, info.size[0], info.size[1]);
     for map in info.maps {
-        let _ = writeln!(text, "  {map}");
+        let _ = writeln!(text, "  {}", line(&map.to_string()));
     }
     text += "\nAssumed:\n";
     for assumption in info.assumptions {
-        let _ = writeln!(text, "  {}", advice::assumption_with_option(assumption));
+        let _ = writeln!(text, "  {}", line(&advice::assumption_with_option(assumption)));
     }
     if !info.notes.is_empty() {
         text += "\nNoticed:\n";
     }
     for note in info.notes {
-        let _ = writeln!(text, "  {}", advice::with_option(note));
+        let _ = writeln!(text, "  {}", line(&advice::with_option(note)));
     }
     text
 }

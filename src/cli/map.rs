@@ -7,6 +7,7 @@ use svbrdf_core::loss::Comparison;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::report::{MapReport, Report as _};
 use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, write_text};
+use svbrdf_files::inputs::check_output;
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};
@@ -70,7 +71,7 @@ pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
     })?;
     let output = Output::new(&args.output)?;
     let opened = job.materials.open::<f32>()?;
-    opened.check_output(&args.output, args.scenes.file())?;
+    check_output(&args.output)?;
     let predictions: Vec<_> = opened.predictions.iter().collect();
     let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
     let over = |moved| {

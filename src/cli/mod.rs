@@ -152,7 +152,11 @@ impl Cli {
             return Ok(put(THIRD_PARTY)?);
         }
         self.trust.apply();
-        match self.command.unwrap_or(Subcommands::View(self.view)) {
+        let command = self.command.unwrap_or(Subcommands::View(self.view));
+        if !matches!(command, Subcommands::View(_)) {
+            svbrdf_files::inputs::protect_all();
+        }
+        match command {
             Subcommands::View(args) => view::run(args, given),
             Subcommands::Loss(args) => loss::run(args, given),
             Subcommands::Render(args) => render::run(&args, given),

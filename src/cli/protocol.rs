@@ -9,7 +9,6 @@ use svbrdf_core::metrics::{Metric, matfusion_renderings, of_matfusion};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::MetricsReport;
 use svbrdf_files::export::write_npy;
-use svbrdf_files::inputs::check_output;
 use svbrdf_files::read;
 use svbrdf_files::source::{MaterialSource, Place};
 
@@ -60,10 +59,10 @@ pub fn run(args: &ProtocolArgs, job: &ComparisonJob, format: ReportFormat) -> Re
             "a protocol takes the files of materials; name them instead of a session",
         ));
     }
-    let (all, files) = opened(&job.materials)?;
+    let all = opened(&job.materials)?;
     let (truth, predictions) = (&all[0], &all[1..]);
     if let Some(folder) = &args.renderings {
-        write_renderings(folder, &all, &files)?;
+        write_renderings(folder, &all)?;
     }
     let of = |prediction: &ProtocolMaterial| -> Result<(String, Vec<Metric>), Error> {
         let metrics = watched("rendering", |progress| {
@@ -75,11 +74,9 @@ pub fn run(args: &ProtocolArgs, job: &ComparisonJob, format: ReportFormat) -> Re
     Ok(exit::put(&format.write(&MetricsReport::matfusion(&truth.name, truth.size, results))?)?)
 }
 
-/// The ground truth, then the predictions, of one size; and the files that were read.
-fn opened(job: &MaterialJob) -> Result<(Vec<ProtocolMaterial>, Vec<PathBuf>), CommandError> {
-    let mut opened = job.open::<f64>()?;
-    let files = std::mem::take(&mut opened.files);
-    let materials: Vec<Material<f64>> = opened.into_all();
+/// The ground truth, then the predictions, of one size.
+fn opened(job: &MaterialJob) -> Result<Vec<ProtocolMaterial>, CommandError> {
+    let materials: Vec<Material<f64>> = job.open::<f64>()?.into_all();
     for prediction in &materials[1..] {
         check_same_size(&materials[0], prediction)?;
     }
@@ -91,12 +88,11 @@ fn opened(job: &MaterialJob) -> Result<(Vec<ProtocolMaterial>, Vec<PathBuf>), Co
         };
         Ok(ProtocolMaterial { name, planes, size })
     };
-    let materials = job.sources().iter().zip(&materials).map(stored).collect::<Result<_, _>>()?;
-    Ok((materials, files))
+    job.sources().iter().zip(&materials).map(stored).collect()
 }
 
 /// Writes the renderings of every material; the folder is made.
-fn write_renderings(folder: &Path, materials: &[ProtocolMaterial], files: &[PathBuf]) -> Result<(), Error> {
+fn write_renderings(folder: &Path, materials: &[ProtocolMaterial]) -> Result<(), Error> {
     let remedy = "check that the folder above it is there and writable";
     std::fs::create_dir_all(folder).map_err(|source| Error::Unwritable {
         path: folder.to_owned(),
@@ -110,7 +106,6 @@ fn write_renderings(folder: &Path, materials: &[ProtocolMaterial], files: &[Path
             .map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' })
             .collect();
         let path = folder.join(format!("{index}_{name}.npy"));
-        check_output(&path, files)?;
         watched(&format!("writing {}", path.display()), |progress| {
             let renderings = matfusion_renderings(&material.planes, material.size, progress)?;
             write_npy(&path, &renderings, &progress.part())

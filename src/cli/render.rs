@@ -12,6 +12,7 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::export::{Destination, PictureFormat, Provenance};
+use svbrdf_files::inputs::check_output;
 
 use super::args::scenes::OneSceneArgs;
 use super::args::values::{Range, stops};
@@ -79,7 +80,7 @@ struct RenderJob {
 pub fn run(args: &RenderArgs, given: &Given) -> Result<(), CommandError> {
     let job = RenderJob::new(args, given)?;
     let opened = job.comparison.materials.open::<f32>()?;
-    opened.check_output(&args.output, [])?;
+    check_output(&args.output)?;
     let materials = opened.into_all();
     if let ([ground_truth, predictions @ ..], Some(_)) = (materials.as_slice(), job.content.difference) {
         predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;

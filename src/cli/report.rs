@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::Report as _;
 use svbrdf_files::atomic::write_text;
+use svbrdf_files::inputs::check_output;
 use svbrdf_files::page::{Findings, Labels, Page, Repetition, Report, View, check_destination, exposure};
 use svbrdf_files::session_window::Layout;
 
@@ -28,7 +30,7 @@ pub struct ReportArgs {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
-    /// Largest size of the file, such as 10MB or 500kB: the maps of the figure are halved until it fits
+    /// Largest size of the file, such as 10MB or 500kB: the maps of the figure are halved until it fits, or it is refused
     #[arg(long, value_name = "SIZE", value_parser = values::bytes, default_value = "10MB")]
     max_size: usize,
 
@@ -68,7 +70,7 @@ pub struct ReportArgs {
 /// Computes the findings and writes the page.
 ///
 /// # Errors
-/// Where a material cannot be read or compared, or the file cannot be written; with `--strict` where the target error is not reached,
+/// Where a material cannot be read or compared, the page is larger than asked for, or the file cannot be written; with `--strict` where the target error is not reached,
 /// after the file is written.
 pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
     check_destination(&args.output)?;
@@ -76,7 +78,7 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
     check_options(args, &job, given)?;
     let request = request(args, job.session.as_ref(), given)?;
     let opened = job.materials.open::<f32>()?;
-    opened.check_output(&args.output, None)?;
+    check_output(&args.output)?;
     let view = view(args, &job, &opened.ground_truth)?;
     let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect::<Vec<_>>());
     let findings =
@@ -97,8 +99,9 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
         max_bytes: args.max_size,
     };
     let page = watched("writing", |progress| report.page(progress))?;
+    check_size(&page, args.max_size)?;
     stoppable(|progress| write_text(&args.output, &page.html, progress))?;
-    tell_size(&page, args.max_size);
+    tell_reduction(&page, args.max_size);
     target::warn_of(missed, job.materials.strict)
 }
 
@@ -139,17 +142,17 @@ fn request(
     Ok(saved.unwrap_or(Request::Accuracy { target, seed }))
 }
 
+/// Refuses a page of more than `limit` bytes, which smaller maps do not help.
+fn check_size(page: &Page, limit: usize) -> Result<(), Error> {
+    let bytes = page.html.len();
+    if bytes <= limit { Ok(()) } else { Err(Error::ReportTooLarge { bytes, limit }) }
+}
+
 /// Reports what the size of the file, at most `most` bytes, has cost.
-fn tell_size(page: &Page, most: usize) {
+fn tell_reduction(page: &Page, most: usize) {
     if let Some([width, height]) = page.reduced_to {
         exit::tell(&format!(
             "note: the maps of the figure are reduced to {width} x {height} texels for --max-size {most}; findings are of all texels"
-        ));
-    }
-    if page.html.len() > most {
-        let bytes = page.html.len();
-        exit::tell(&format!(
-            "warning: the file has {bytes} bytes, more than --max-size {most}; smaller maps do not help"
         ));
     }
 }

@@ -8,6 +8,7 @@ use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::export::PngDestination;
 use svbrdf_files::export::strip::{Column, Crop, Strip};
+use svbrdf_files::inputs::check_output;
 use svbrdf_files::scene_file;
 
 use super::args::lights::LightsArgs;
@@ -85,7 +86,7 @@ pub fn run(args: &StripArgs, given: &Given) -> Result<(), CommandError> {
     let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
     let strip = Strip { columns, convention: job.convention, exposure_ev, crops: args.crops.clone() };
     let opened = job.materials.open::<f32>()?;
-    opened.check_output(&args.output, args.scenes.as_deref())?;
+    check_output(&args.output)?;
     let materials = opened.into_all();
     if let [ground_truth, predictions @ ..] = materials.as_slice() {
         predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;

@@ -7,6 +7,7 @@ use svbrdf_core::loss::check_same_size;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::study::{self, Pair, Study};
 use svbrdf_files::export::{study_csv, study_plot as plot};
+use svbrdf_files::inputs::check_output;
 
 use super::args::{ComparisonArgs, Given};
 use super::job::materials::Opened;
@@ -45,7 +46,7 @@ pub fn run(args: &StudyArgs, given: &Given) -> Result<(), CommandError> {
     let table = args.output.as_deref().map(study_csv::destination).transpose()?;
     let opened = job.materials.open::<f32>()?;
     for output in args.output.iter().chain(&args.plot) {
-        opened.check_output(output, [])?;
+        check_output(output)?;
     }
     let study = measured(&opened, job.convention)?;
     stoppable(|progress| {

@@ -241,6 +241,13 @@ pub enum Error {
         path.display(), input.display())]
     ReplacesInput { path: PathBuf, input: PathBuf },
 
+    /// A report cannot be as small as is asked.
+    #[error(
+        "the report has {bytes} bytes with the smallest maps, more than the limit of {limit}; allow as many, or compare fewer \
+        materials"
+    )]
+    ReportTooLarge { bytes: usize, limit: usize },
+
     /// No graphics adapter can do what is asked.
     #[error("no usable graphics adapter: {problem}; {remedy}")]
     NoAdapter { problem: String, remedy: &'static str },
@@ -261,7 +268,9 @@ pub enum Error {
 /// Why a material cannot be written to a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OutputProblem {
-    #[error("cannot be written: name an .exr, .png, .glb or .mtlx file or a folder")]
+    #[error(
+        "cannot be written: expected an .exr, .png, .glb or .mtlx file, or a folder, which exists, ends with / or has no extension"
+    )]
     Kind,
     #[error("cannot have that depth; EXR has half and float, MaterialX all, every other form 8 and 16")]
     Depth,

@@ -21,15 +21,26 @@ pub fn percent(share: f64) -> String {
 /// Most characters of a line that has no end of its own, such as a name from a file.
 const LONGEST: usize = 2000;
 
-/// The text with every character that steers a terminal, or the direction of the text after it, written as `\u{...}`.
+/// The text with every character written as `\u{...}` that steers a terminal, breaks lines other than as `\n`, hides text, or
+/// changes the direction of the text after it. For texts of several lines, whose parts from files are each a [`line`].
 pub fn printable(text: &str) -> String {
-    let steers = |c: char| {
-        let is_direction = matches!(c, '\u{200e}' | '\u{200f}' | '\u{61c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-        c.is_control() && c != '\n' || is_direction
-    };
+    escaped(text, |c| c != '\n' && steers(c))
+}
+
+/// Whether a character is no visible part of a line.
+fn steers(c: char) -> bool {
+    let is_direction =
+        matches!(c, '\u{200e}' | '\u{200f}' | '\u{61c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    let is_break = matches!(c, '\u{2028}' | '\u{2029}');
+    // Invisible copies of ASCII.
+    let is_tag = matches!(c, '\u{e0000}'..='\u{e007f}');
+    c.is_control() || is_direction || is_break || is_tag
+}
+
+fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
-        if steers(c) { escaped.extend(c.escape_unicode()) } else { escaped.push(c) }
+        if is_escaped(c) { escaped.extend(c.escape_unicode()) } else { escaped.push(c) }
     }
     escaped
 }
@@ -43,9 +54,10 @@ pub fn quoted(argument: &str) -> String {
     format!("'{}'", argument.replace('\'', r"'\''"))
 }
 
-/// The text in one line of a readable length, in which nothing steers what follows: a name from a file, for a label.
+/// The text in one line of a readable length, in which nothing steers what follows: for every name from a file. Names of
+/// materials are lines from the start.
 pub fn line(text: &str) -> String {
-    printable(&shortened(text)).replace('\n', "\\u{a}")
+    escaped(&shortened(text), steers)
 }
 
 /// The text without its middle where it is too long to be read.
@@ -77,6 +89,8 @@ mod tests {
         assert!(long.chars().count() < 2100 && long.contains("... 998000 characters ..."), "{long}");
         assert_eq!(shortened("short"), "short");
         assert_eq!(line("two\nlines \u{202e}x"), "two\\u{a}lines \\u{202e}x");
+        assert_eq!(printable("a\u{2028}b\u{e0041}\n"), "a\\u{2028}b\\u{e0041}\n");
+        assert_eq!(line("a\u{2029}b\u{e007f}\u{85}"), "a\\u{2029}b\\u{e007f}\\u{85}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Writing of files and folders that appear when they are complete, or not at all.
+//! Writing of files that appear when they are complete, or not at all.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
+
+use crate::{inputs, own};
 
 /// The program and its version, as the files that it writes name it.
 pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
@@ -99,22 +101,60 @@ pub fn check_place(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// Writes a text file, which appears when it is complete, or not at all.
+/// [`replace`] by a text.
 ///
 /// # Errors
-/// [`Error::Unwritable`], [`Error::Cancelled`].
+/// As [`replace`].
 pub fn write_text(path: &Path, text: &str, progress: &Progress) -> Result<(), Error> {
     replace(path, progress, |file| file.write_all(text.as_bytes()))
 }
 
-/// Writes a temporary file beside `path`, brings it to the disk and renames it: at any moment, even after a loss of power, the old
-/// file or the new one is there, whole.
+/// Writes a file that a person named: a temporary file beside `path`, which is brought to the disk and renamed. At any moment,
+/// even after a loss of power, the old file or the new one is there, whole.
 ///
-/// A symbolic link stays, and what it points to is replaced. A device or a pipe stays, too: it is written to.
+/// A symbolic link stays, and what it points to is replaced, unless that is a protected input: whoever names a link means its
+/// target. A device or a pipe stays, too: it is written to.
 ///
 /// # Errors
-/// [`Error::Unwritable`]; [`Error::Cancelled`], and then `path` is as it was.
+/// [`Error::ReplacesInput`]; [`Error::Unwritable`]; [`Error::Cancelled`], and then `path` is as it was.
 pub fn replace(
+    path: &Path,
+    progress: &Progress,
+    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+) -> Result<(), Error> {
+    inputs::check_output(path)?;
+    written(path, progress, write)
+}
+
+/// [`replace`] for a file that the program named, such as a figure beside a page: a link there is refused, since whoever made it
+/// did not mean this file.
+///
+/// # Errors
+/// As [`replace`].
+pub fn replace_own(
+    path: &Path,
+    progress: &Progress,
+    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+) -> Result<(), Error> {
+    own::check(path)?;
+    replace(path, progress, write)
+}
+
+/// [`replace`] for a file that the program reads, changes and writes again, such as a journal. It is an input from then on.
+///
+/// # Errors
+/// As [`replace`].
+pub(crate) fn update(
+    path: &Path,
+    progress: &Progress,
+    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+) -> Result<(), Error> {
+    written(path, progress, write)?;
+    inputs::protect(path);
+    Ok(())
+}
+
+fn written(
     path: &Path,
     progress: &Progress,
     write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
@@ -126,7 +166,7 @@ pub fn replace(
         drop(buffer);
         check(progress)
     };
-    let written = || -> io::Result<()> {
+    let replaced = || -> io::Result<()> {
         if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
             // Formats go back to fill in lengths, which a pipe cannot.
             let mut whole = tempfile::tempfile()?;
@@ -143,50 +183,10 @@ pub fn replace(
         temporary.persist(&target)?;
         Ok(())
     };
-    written().map_err(|source| match progress.is_cancelled() {
+    replaced().map_err(|source| match progress.is_cancelled() {
         true => Error::Cancelled,
         false => unwritable(path, source, "check that its folder is writable and the disk not full"),
     })
-}
-
-/// Fills a temporary folder beside `path` by `fill`, and renames it. Only an empty folder gives way to it.
-///
-/// # Errors
-/// Those of `fill`, and of the file system.
-pub(crate) fn new_folder(
-    path: &Path,
-    progress: &Progress,
-    fill: impl FnOnce(&Path) -> io::Result<()>,
-) -> io::Result<()> {
-    // Before the work; the rename refuses it in any case.
-    if fs::read_dir(path).is_ok_and(|mut entries| entries.next().is_some()) {
-        return Err(io::Error::new(io::ErrorKind::DirectoryNotEmpty, "it is a folder that is not empty"));
-    }
-    let temporary = tempfile::Builder::new().prefix(".svbrdf-").tempdir_in(folder_of(path))?;
-    fill(temporary.path())?;
-    check(progress)?;
-    fs::rename(temporary.path(), path)?;
-    #[cfg(unix)]
-    fs::set_permissions(path, std::os::unix::fs::PermissionsExt::from_mode(0o755))?;
-    let _ = temporary.keep();
-    Ok(())
-}
-
-/// Writes a file of a folder that is not there yet, and brings it to the disk.
-///
-/// # Errors
-/// Those of `write`, and of the file system.
-pub(crate) fn new_file(
-    path: &Path,
-    progress: &Progress,
-    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    let mut buffer = BufWriter::new(Watched::new(&mut file, progress));
-    write(&mut buffer)?;
-    buffer.flush()?;
-    drop(buffer);
-    file.sync_all()
 }
 
 /// The target of `path` where it is a link: a file, or nothing yet.

@@ -8,6 +8,7 @@ use svbrdf_core::model::scene::{Scene, SceneFile};
 
 use crate::atomic::Destination;
 use crate::capture::Calibration;
+use crate::inputs;
 use crate::open::NamedFile;
 use crate::read::Sidecar;
 use crate::session::Session;
@@ -22,6 +23,7 @@ use crate::session::Session;
 /// Where the file cannot be read, is not of that form, has no scene, or has one that [`Scene::check`] refuses.
 pub fn read(path: &Path) -> Result<Vec<Scene>, Error> {
     let text = NamedFile::by_user(path).text()?;
+    inputs::protect(path);
     parse(&text).map_err(|problem| Error::BadScene { path: path.to_owned(), problem })
 }
 

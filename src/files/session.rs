@@ -11,6 +11,7 @@ use svbrdf_core::model::scene::Scene;
 
 use super::read::{PhotographOptions, ReadOptions};
 use super::session_window::SessionWindow;
+use crate::inputs;
 use crate::open::NamedFile;
 use crate::paths::{absolute, is_outside, relative};
 
@@ -103,6 +104,7 @@ impl Session {
     /// [`Error::Unreadable`], [`Error::BadSession`].
     pub fn read(path: &Path) -> Result<Self, Error> {
         let text = NamedFile::by_user(path).text()?;
+        inputs::protect(path);
         let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
         let value: Value = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
         // Before its fields are judged: a newer version may have others.

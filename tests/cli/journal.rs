@@ -132,6 +132,18 @@ fn files_that_were_copied_or_touched_have_the_same_results() {
 }
 
 #[test]
+fn an_empty_file_becomes_a_journal_and_is_not_joined() {
+    let folder = data_set();
+    fs::write(folder.path().join("empty.jsonl"), "").unwrap();
+    let error = fail(folder.path(), "rank --merge empty.jsonl", 1);
+    assert!(error.contains("it is empty"), "{error}");
+    succeed(folder.path(), &format!("{RANK} --journal empty.jsonl"));
+    succeed(folder.path(), &format!("{RANK} --journal new.jsonl"));
+    let of = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert!(of("empty.jsonl") == of("new.jsonl"));
+}
+
+#[test]
 fn a_journal_without_a_head_is_refused_with_what_to_do() {
     let folder = data_set();
     let first = r#"{"convention":"printed","target_error":0.1,"seed":0,"materials":["m0","m1","m2"],"methods":["ours","theirs"]}"#;

@@ -63,6 +63,23 @@ fn convert_writes_what_loss_finds_to_be_the_same() {
 }
 
 #[test]
+fn a_folder_exists_ends_with_a_slash_or_has_no_extension() {
+    let folder = folder();
+    for out in ["out.obj", "out.usd", "out.zip", "out.jpg", "out.gltf", "brick_v1.2"] {
+        let error = fail(folder.path(), &format!("convert gt.png {out}"), 64);
+        assert!(
+            error.contains(".exr, .png, .glb or .mtlx") && error.contains("ends with /"),
+            "{out}: {error}"
+        );
+    }
+    std::fs::create_dir(folder.path().join("there.zip")).unwrap();
+    for out in ["brick_v1.2/", "there.zip", "out", "strip.png/"] {
+        succeed(folder.path(), &format!("convert gt.png {out}"));
+        assert_eq!(super::files(&folder.path().join(out)).len(), 4, "{out}");
+    }
+}
+
+#[test]
 fn predictions_of_another_size_are_compared_once_it_is_said_how() {
     let folder = folder();
     assert!(fail(folder.path(), "loss gt.png big.png", 1).contains("--resize-to gt, pred or a width"));

@@ -160,6 +160,22 @@ fn maps_are_halved_until_the_file_fits_and_this_is_said() {
 }
 
 #[test]
+fn a_size_that_no_report_has_is_refused_with_the_least() {
+    let folder = folder();
+    for args in ["report gt.png a.png -o r.html --target-error 30%", "report gt.png a.png -o r.html --figure"]
+    {
+        let error = fail(folder.path(), &format!("{args} --max-size 1"), 1);
+        let least: u64 = error.split(' ').find_map(|word| word.parse().ok()).unwrap();
+        assert!(error.contains("--max-size") && error.contains("limit of 1;"), "{error}");
+        let length = || fs::metadata(folder.path().join("r.html")).unwrap().len();
+        // The page has the command that makes it, with the size.
+        succeed(folder.path(), &format!("{args} --max-size {}", least + 16));
+        assert!(length() <= least + 16 && length() > least / 2, "{least}: {}", length());
+        fs::remove_file(folder.path().join("r.html")).unwrap();
+    }
+}
+
+#[test]
 fn a_report_is_html_and_replaces_no_input() {
     let folder = folder();
     fail(folder.path(), "report gt.png a.png -o r.txt", 64);

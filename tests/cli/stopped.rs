@@ -15,7 +15,12 @@ const LARGE: u32 = 640;
 /// Starts a conversion in `folder`. Signals that the tests' own parent ignores are not ignored.
 fn convert(folder: &Path, out: &str) -> Child {
     let mut command = Command::new("env");
-    command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_svbrdf"), "convert", "large.png"]);
+    command.args([
+        "--default-signal=INT,TERM,HUP,QUIT,USR1,USR2,ALRM,XCPU",
+        env!("CARGO_BIN_EXE_svbrdf"),
+        "convert",
+        "large.png",
+    ]);
     command.args(out.split(' ')).current_dir(folder);
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
@@ -95,6 +100,41 @@ fn an_interrupt_at_any_moment_leaves_what_was_there() {
         send(signal, &child);
         assert!(is_interrupted(child.wait().unwrap()), "{out}");
         assert_eq!(files(folder.path()), before);
+    }
+}
+
+#[test]
+fn every_signal_that_ends_the_program_leaves_nothing() {
+    let folder = folder();
+    write_material(&folder.path().join("large.png"), LARGE, 90);
+    let before = files(folder.path());
+    for signal in ["QUIT", "USR1", "USR2", "ALRM", "XCPU", "HUP"] {
+        let mut child = convert(folder.path(), "out.exr --depth float");
+        assert!(writing(folder.path(), &mut child));
+        send(signal, &child);
+        let status = child.wait().unwrap();
+        let _ = fs::remove_file(folder.path().join("out.exr"));
+        assert!(status.success() || status.code() == Some(130), "{signal}: {status}");
+        assert_eq!(files(folder.path()), before, "{signal}: something is left");
+    }
+}
+
+#[test]
+fn a_signal_while_options_are_saved_leaves_nothing() {
+    let folder = folder();
+    for delay in (0..600).step_by(20) {
+        let mut command = Command::new("env");
+        command.args(["--default-signal=TERM", env!("CARGO_BIN_EXE_svbrdf"), "info", "gt.png", "--save"]);
+        command.current_dir(folder.path()).stdout(Stdio::null()).stderr(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        let began = writing(folder.path(), &mut child);
+        sleep(Duration::from_micros(delay));
+        if began && child.try_wait().unwrap().is_none() {
+            send("TERM", &child);
+        }
+        child.wait().unwrap();
+        let left: Vec<_> = files(folder.path()).into_iter().filter(|name| name.starts_with('.')).collect();
+        assert_eq!(left, [""; 0], "after {delay} us");
     }
 }
 

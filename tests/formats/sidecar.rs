@@ -64,7 +64,7 @@ fn everything_that_can_be_said_can_be_kept() {
     let text = |name: &str| format!("{name}={}", folder.path().join("a b.png").display());
     let bindings: Vec<Binding> = ["normal", "specular"].map(|map| (text(map) + ":r").parse().unwrap()).into();
     let kept = Sidecar { options, bindings };
-    let place = kept.save(&path).unwrap();
+    let place = kept.save(&path, &Progress::default()).unwrap();
     assert_eq!(Sidecar::load(&path).unwrap(), kept);
     let written = std::fs::read_to_string(place).unwrap();
     for line in
@@ -75,7 +75,7 @@ fn everything_that_can_be_said_can_be_kept() {
     // The name of a map alone does not make it one.
     std::fs::copy(&path, folder.path().join("metal.png")).unwrap();
     assert!(Sidecar::path_for(&folder.path().join("metal.png")).ends_with("metal.svbrdf.json"));
-    Sidecar::default().save(&path).unwrap();
+    Sidecar::default().save(&path, &Progress::default()).unwrap();
     assert_eq!(std::fs::read_to_string(Sidecar::path_for(&path)).unwrap(), "{}\n");
     assert_eq!(Sidecar::load(&path).unwrap(), Sidecar::default());
 }

@@ -7,6 +7,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
+use svbrdf_core::text::line;
 use svbrdf_files::page::{Findings, Labels, Repetition, Report, View};
 use svbrdf_files::session_window::Display;
 
@@ -61,10 +62,10 @@ fn hostile_names_add_no_elements() {
 
 #[test]
 #[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
-fn hostile_names_run_nothing_and_are_read_as_they_are() {
+fn hostile_names_run_nothing_and_are_read_as_lines() {
     let mut page = Page::open(&report(), [900, 900]);
     assert_eq!(page.after_frame("window.hit === undefined"), json!(true));
-    assert_eq!(page.evaluate("window.svbrdf.figure.materials.map(m => m.name)"), json!(NAMES));
+    assert_eq!(page.evaluate("window.svbrdf.figure.materials.map(m => m.name)"), json!(NAMES.map(line)));
     let title = page.evaluate("document.querySelector('.pane .title').textContent");
     assert_eq!(title, json!(format!("{} (ground truth)", NAMES[0])));
     let (_, complaints) = page.traffic();

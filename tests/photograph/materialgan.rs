@@ -122,3 +122,22 @@ fn json_height(texts: &CaptureReport, json: &CaptureReport) -> f64 {
     let height = |report: &CaptureReport| report.setting.capture.photographs[0].scene.light[2];
     (height(json) / height(texts)).powi(2)
 }
+
+#[test]
+fn a_calibration_with_a_mistake_is_named_and_not_overlooked() {
+    let [truth, ..] = small();
+    let folder = materialgan(&truth, [150.0, 120.0, 180.0]);
+    let path = folder.path().join("render.json");
+    let text = fs::read_to_string(&path).unwrap();
+    let size = text.split("\"im_size\":").nth(1).unwrap().split([',', '}']).next().unwrap().to_owned();
+    let quoted = text.replace(&format!("\"im_size\":{size}"), &format!("\"im_size\":\"{}\"", size.trim()));
+    assert_ne!(quoted, text);
+    let faint = text.replace("[150.0,120.0,180.0]", "[1e-320,120.0,180.0]");
+    for (text, problem) in
+        [(quoted, "invalid type: string"), (faint, "expected a light_pow from 1e-30 to 1e30")]
+    {
+        fs::write(&path, text).unwrap();
+        let error = Capture::read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains("render.json") && error.contains(problem), "{error}");
+    }
+}

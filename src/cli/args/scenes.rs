@@ -1,6 +1,6 @@
 //! The scenes of a subcommand, as arguments.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Request, Sampling, Texels};
@@ -56,11 +56,6 @@ impl SceneArgs {
             Request::Scenes(sampling) => Ok((Some(sampling), sampling.scenes(convention)?)),
             _ => Err(Error::Internal("scenes without a list".to_owned()).into()),
         }
-    }
-
-    /// The scene file, where there is one.
-    pub fn file(&self) -> Option<&Path> {
-        self.scenes.as_deref()
     }
 
     /// The request for these scenes on all texels.

@@ -10,7 +10,6 @@ use svbrdf_core::math::real::Real;
 use svbrdf_core::report::distinct_names;
 use svbrdf_core::text::quoted;
 use svbrdf_files::dataset::{self, Case, Method};
-use svbrdf_files::inputs::check_output;
 use svbrdf_files::memory::Reserved;
 use svbrdf_files::open::is_pipe_at;
 use svbrdf_files::read::{self, Assumption, Binding, Read};
@@ -96,8 +95,6 @@ impl MaterialJob {
             .map(|(read, source)| (read.material.name(), source.location()))
             .collect();
         let mut materials: Vec<Material<T>> = Vec::new();
-        let mut files: Vec<PathBuf> =
-            self.paths.iter().filter(|path| Session::is_named(path)).cloned().collect();
         check_names(&self.sources, &named)?;
         let names = distinct_names(&named);
         let storages = read.iter().map(Read::storage).collect();
@@ -105,7 +102,6 @@ impl MaterialJob {
         let readings = read.iter().map(reading).collect();
         for ((mut read, name), source) in read.into_iter().zip(names).zip(&self.sources) {
             read.material = read.material.renamed(name);
-            files.append(&mut read.files);
             let material = noted(read, self.verbose);
             let size = materials.first().map_or_else(|| material.size(), Material::size);
             materials.push(if source.fit { material.resized(size)? } else { material });
@@ -118,14 +114,7 @@ impl MaterialJob {
         let Some(ground_truth) = materials.next() else {
             return Err(Error::Internal("there is no ground truth".to_owned()).into());
         };
-        Ok(Opened {
-            ground_truth,
-            predictions: materials.collect(),
-            storages,
-            files,
-            readings,
-            _memory: memory,
-        })
+        Ok(Opened { ground_truth, predictions: materials.collect(), storages, readings, _memory: memory })
     }
 
     /// Further captures of the ground truth, read as it is, and resized to it where materials are resized.
@@ -166,8 +155,6 @@ pub struct Opened<T> {
     pub predictions: Vec<Material<T>>,
     /// How each is stored, the ground truth first.
     pub storages: Vec<Storage>,
-    /// Every file that was read.
-    pub files: Vec<PathBuf>,
     /// For each material the assumptions and notes of reading it.
     pub readings: Vec<Vec<String>>,
     /// The memory of the materials. It counts towards the limit while this lives.
@@ -178,18 +165,6 @@ impl<T> Opened<T> {
     /// The ground truth, then the predictions.
     pub fn into_all(self) -> Vec<Material<T>> {
         std::iter::once(self.ground_truth).chain(self.predictions).collect()
-    }
-
-    /// Refuses to write `output` where it is one of the files that were read: those of the materials, or `others`.
-    ///
-    /// # Errors
-    /// [`Error::ReplacesInput`].
-    pub fn check_output<'a>(
-        &'a self,
-        output: &Path,
-        others: impl IntoIterator<Item = &'a Path>,
-    ) -> Result<(), Error> {
-        check_output(output, self.files.iter().map(PathBuf::as_path).chain(others))
     }
 }
 

@@ -12,6 +12,7 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
         Error::Outside { .. } => "--allow-outside allows it",
         Error::Memory { .. } => "--max-memory sets it",
         Error::Guessed { .. } => "specify it by --read, or leave out --strict",
+        Error::ReportTooLarge { .. } => "--max-size sets it, and --figure leaves out the findings",
         Error::SizesDiffer { .. } => "--resize-to gt, pred or a width brings materials to one size",
         Error::TooLarge { .. } => "give a smaller width to --resize-to",
         Error::NotFinite { .. } => "--read non-finite=replace puts other numbers in their place",

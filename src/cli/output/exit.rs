@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::text::{printable, shortened};
+use svbrdf_core::text::{line, printable};
 
 use super::advice;
 use super::error::CommandError;
@@ -42,8 +42,8 @@ pub fn explain(unusual: &clap::Error) -> ExitCode {
 }
 
 /// A line on stderr, under the program's name. A closed stderr is no reason to stop.
-pub fn tell(line: &str) {
-    let _ = writeln!(io::stderr(), "svbrdf: {}", shortened(&printable(line)));
+pub fn tell(text: &str) {
+    let _ = writeln!(io::stderr(), "svbrdf: {}", line(text));
 }
 
 /// Writes a result for people to stdout: names from files do not steer the terminal.

@@ -7,8 +7,8 @@ use svbrdf_core::progress::Progress;
 
 use super::exit::INTERRUPTED;
 
-/// Runs work that leaves temporary files when killed. Ctrl+C, SIGTERM and SIGHUP cancel it, so that it removes them; a second
-/// signal ends the program at once. Before this work there is nothing to remove, and signals have their default effect.
+/// Runs work that leaves temporary files when killed. Ctrl+C and the other signals that end a program cancel it, so that it
+/// removes them; a second signal ends the program at once. Before this work there is nothing to remove, and signals have their default effect.
 pub fn stoppable<R>(work: impl FnOnce(&Progress) -> R) -> R {
     let progress = Progress::default();
     let part = progress.part();

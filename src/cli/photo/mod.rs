@@ -9,6 +9,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_files::export::{Destination, PictureFormat};
+use svbrdf_files::inputs::check_output;
 use svbrdf_files::photograph::{PhotoReport, PhotoSetting};
 use svbrdf_files::read::read_photograph;
 
@@ -51,7 +52,7 @@ fn of_photograph(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
         tell(&format!("note: {note}"));
     }
     let opened = job.materials.open::<f32>()?;
-    args.output.as_deref().map_or(Ok(()), |output| opened.check_output(output, [args.photo.as_path()]))?;
+    args.output.as_deref().map_or(Ok(()), check_output)?;
     let materials = opened.into_all();
     if destination.is_some() {
         check_heights(&materials)?;

@@ -32,6 +32,7 @@ use rayon::prelude::*;
 use crate::error::Error;
 use crate::math::real::{Real, Vector as _};
 use crate::model::brdf::Texel;
+use crate::text::line;
 use resize::Filter;
 
 /// The maps of a material as planes of `width * height` values, row 0 on top.
@@ -57,7 +58,7 @@ pub struct Material<T> {
 }
 
 impl<T: Real> Material<T> {
-    /// Takes over `planes` of `width` x `height` texels; normals of any length are normalized.
+    /// Takes over `planes` of `width` x `height` texels; normals of any length are normalized. The name becomes a [`line`].
     ///
     /// # Errors
     /// [`Error::NotAMaterial`] without texels, [`Error::SizesDiffer`] where a plane has not `width * height` values,
@@ -68,7 +69,7 @@ impl<T: Real> Material<T> {
         height: usize,
         mut planes: Planes<T>,
     ) -> Result<Self, Error> {
-        let name = name.into();
+        let name = line(&name.into());
         check_sizes(&name, width, height, &planes)?;
         let place = |index: usize| (index % width, index / width);
         let scalar_maps = [
@@ -112,7 +113,7 @@ impl<T: Real> Material<T> {
     /// The same material under another name.
     #[must_use]
     pub fn renamed(self, name: impl Into<String>) -> Self {
-        Self { name: name.into(), ..self }
+        Self { name: line(&name.into()), ..self }
     }
 
     pub fn width(&self) -> usize {

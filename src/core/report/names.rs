@@ -2,8 +2,10 @@
 
 use std::path::{Component, Path};
 
+use crate::text::line;
+
 /// The names of materials, told apart: equal names take as many of the last parts of their paths as
-/// that needs. The same path twice has the same name twice.
+/// that needs. The same path twice has the same name twice. Every name is a [`line`].
 pub fn distinct_names(named: &[(&str, &Path)]) -> Vec<String> {
     let one = |&(name, path): &(&str, &Path)| {
         let clash: Vec<_> =
@@ -20,7 +22,7 @@ pub fn distinct_names(named: &[(&str, &Path)]) -> Vec<String> {
         let count = (1..=longest).find(differ).unwrap_or(longest);
         last(&own, count).join("/")
     };
-    named.iter().map(one).collect()
+    named.iter().map(|material| line(&one(material))).collect()
 }
 
 /// The parts of a path from the root on.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::error::Error;
 use crate::loss::Estimate;
-use crate::text::printable;
+use crate::text::line;
 
 /// A value of a [`Table`].
 #[derive(Clone, Debug, PartialEq)]
@@ -37,9 +37,9 @@ impl Cell {
     fn in_table(&self) -> String {
         match self {
             Self::Text(text) if text.starts_with(['=', '+', '-', '@', '\t', '\r']) => {
-                format!("'{}", printable(text))
+                format!("'{}", line(text))
             }
-            Self::Text(text) => printable(text),
+            Self::Text(text) => line(text),
             number => number.to_string(),
         }
     }
@@ -128,8 +128,9 @@ impl Table {
     }
 }
 
-/// Lines of aligned columns, the first to the left, the others to the right.
+/// Lines of aligned columns, the first to the left, the others to the right. Every cell is a [`line`].
 pub fn aligned(rows: &[Vec<String>]) -> String {
+    let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(|cell| line(cell)).collect()).collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |c| {
         rows.iter().filter_map(|row| row.get(c)).map(|cell: &String| cell.chars().count()).max().unwrap_or(0)
@@ -139,9 +140,9 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
         0 => format!("{cell:<w$}", w = widths[0]),
         _ => format!("  {cell:>w$}", w = widths[c]),
     };
-    let line =
+    let row =
         |row: &Vec<String>| row.iter().enumerate().map(cell).collect::<String>().trim_end().to_owned() + "\n";
-    rows.iter().map(line).collect()
+    rows.iter().map(row).collect()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::text::line;
 
 use super::CapturedPhotograph;
 use crate::open::NamedFile;
@@ -50,7 +51,7 @@ impl Listed {
         let options = PhotographOptions { transfer, clip, light_colour: None };
         options.check().map_err(|problem| format!("photograph {index}: {problem}"))?;
         Ok(CapturedPhotograph {
-            name: entry.file.display().to_string(),
+            name: line(&entry.file.display().to_string()),
             file: NamedFile::within(&entry.file, by),
             scene: entry.scene,
             corners: entry.corners.or(self.corners).map(Corners),

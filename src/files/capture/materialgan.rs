@@ -1,13 +1,21 @@
 //! The calibration of the captures of MaterialGAN (Guo et al. 2020): positions and light in centimetres.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use serde::Deserialize;
+use serde_json::Value;
 
 use svbrdf_core::model::scene::{Kind, Scene};
 
 /// The text files of the first release of MaterialGAN, one number or three in a line. The first also stands for all of them.
 pub const TEXTS: [&str; 4] = ["camera_pos.txt", "light_pos.txt", "image_size.txt", "light_power.txt"];
+
+/// The key of the positions of the camera, by which a calibration is told from other JSON.
+pub const POSITIONS: &str = "camera_pos";
+
+/// Powers of a light that renderings can have.
+const POWERS: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// A JSON file of MaterialGAN, such as `render.json` or `optim_latent_256.json`, or the text files of its first release.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -42,6 +50,11 @@ impl LightPower {
 }
 
 impl Calibration {
+    /// Whether JSON is meant as a calibration, though it may have mistakes.
+    pub fn is_meant(text: &str) -> bool {
+        serde_json::from_str::<Value>(text).is_ok_and(|value| value.get(POSITIONS).is_some())
+    }
+
     /// The scene of each photograph, in units of half the width of the material.
     ///
     /// # Errors
@@ -98,12 +111,20 @@ impl Calibration {
     /// The problem, where it is no power.
     pub fn power(&self) -> Result<Option<LightPower>, String> {
         let Some(power) = self.light_pow else { return Ok(None) };
+        let [r, g, b] = power;
         if !power.iter().all(|channel| channel.is_finite() && *channel > 0.0) {
-            let [r, g, b] = power;
             return Err(format!("expected a light_pow of three numbers above 0, found {r}, {g}, {b}"));
         }
-        let mean = power.iter().sum::<f64>() / 3.0;
         let half_width = 0.5 * self.im_size;
+        let scaled = power.map(|channel| channel / half_width.powi(2));
+        if !power.iter().chain(&scaled).all(|channel| POWERS.contains(channel)) {
+            return Err(format!(
+                "expected a light_pow from 1e-30 to 1e30, also with half of im_size as the unit of length; found {r:e}, {g:e}, {b:e} \
+                and an im_size of {:e}",
+                self.im_size
+            ));
+        }
+        let mean = power.iter().sum::<f64>() / 3.0;
         Ok(Some(LightPower { mean: mean / half_width.powi(2), colour: power.map(|channel| channel / mean) }))
     }
 }
@@ -155,5 +176,8 @@ mod tests {
         assert_eq!(of("[3000, 750, 750]"), Ok(Some(expected)));
         assert_eq!(of("null"), Ok(None));
         assert!(of("[1500, 0, 1500]").unwrap_err().contains("above 0, found 1500, 0, 1500"));
+        for power in ["[1500, 1e-320, 1500]", "[1500, 1e40, 1500]"] {
+            assert!(of(power).unwrap_err().contains("from 1e-30 to 1e30"), "{power}");
+        }
     }
 }

@@ -10,8 +10,9 @@ use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::{Kind, Scene};
 
 use super::listed::Listed;
-use super::materialgan::TEXTS;
+use super::materialgan::{POSITIONS, TEXTS};
 use super::{Calibration, Capture, CapturedPhotograph, is_json};
+use crate::inputs;
 use crate::open::NamedFile;
 use crate::read::{PhotographOptions, Transfer};
 
@@ -37,9 +38,10 @@ impl Capture {
 
     /// The capture that the text of the file at `path` describes.
     fn parse(path: &Path, text: &str) -> Result<Self, Error> {
+        inputs::protect(path);
         let bad = |problem| Error::BadCapture { path: path.to_owned(), problem };
         let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
-        let capture = match value.get("camera_pos").is_some() {
+        let capture = match value.get(POSITIONS).is_some() {
             true => serde_json::from_str(text)
                 .map_err(|e| e.to_string())
                 .and_then(|calibration| Self::of_materialgan(path, &calibration)),
@@ -64,6 +66,7 @@ impl Capture {
             .target_dir
             .as_ref()
             .ok_or("its target_dir, the folder of the photographs, is missing")?;
+        let scenes = calibration.scenes()?;
         let power = calibration.power()?;
         let light_colour = power.filter(|power| !power.is_white()).map(|power| power.colour);
         let options = PhotographOptions { transfer: Some(Transfer::Gamma22), clip: None, light_colour };
@@ -72,7 +75,6 @@ impl Capture {
             let file = NamedFile::within(folder.join(&name), path);
             CapturedPhotograph { name, file, scene, corners: None, options }
         };
-        let scenes = calibration.scenes()?;
         let photographs = calibration.numbers().into_iter().zip(scenes).map(photograph).collect();
         Ok(Self { file: path.to_owned(), is_materialgan: true, photographs, falloff: true, power })
     }
@@ -124,17 +126,23 @@ fn in_folder(folder: &Path) -> Result<Capture, Error> {
         return Capture::parse(&own, &NamedFile::by_file(&own, folder).text()?);
     }
     let mut found: Vec<(PathBuf, Calibration, String)> = Vec::new();
+    let mut broken = None;
     for path in json_files(folder)? {
         let text = NamedFile::by_file(&path, folder).text()?;
-        let Ok(calibration) = serde_json::from_str::<Calibration>(&text) else { continue };
-        if !found.iter().any(|(_, other, _)| *other == calibration) {
-            found.push((path, calibration, text));
+        match serde_json::from_str::<Calibration>(&text) {
+            Ok(calibration) if found.iter().any(|(_, other, _)| *other == calibration) => {}
+            Ok(calibration) => found.push((path, calibration, text)),
+            Err(_) if Calibration::is_meant(&text) => broken = broken.or(Some((path, text))),
+            Err(_) => {}
         }
     }
     let problem = match found.as_slice() {
         [(path, _, text)] => return Capture::parse(path, text),
         [] if folder.join(TEXTS[0]).is_file() => return of_texts(folder),
-        [] => "found none of them".to_owned(),
+        [] => match broken {
+            Some((path, text)) => return Capture::parse(&path, &text),
+            None => "found none of them".to_owned(),
+        },
         several => {
             let name = |(path, ..): &(PathBuf, Calibration, String)| {
                 path.file_name().unwrap_or_default().to_string_lossy().into_owned()

@@ -21,7 +21,8 @@ use super::evaluate::Evaluated;
 use super::fingerprint::MaterialFiles;
 use super::lock::Lock;
 use super::record::{Case, DatasetReading, DatasetSettings, MaterialResult};
-use crate::atomic::write_text;
+use crate::atomic::{folder_of, update};
+use crate::inputs;
 use crate::open::NamedFile;
 
 /// The version of the format that is written and read.
@@ -83,7 +84,7 @@ impl Journal {
     /// Opens the journal at `path`, which may be there already, and the lines that it holds; those of `cases` whose files have
     /// changed are dropped and named.
     ///
-    /// A last line that was cut off, as when the program was ended, is dropped.
+    /// A last line that was cut off, as when the program was ended, is dropped. An empty file becomes a journal.
     ///
     /// # Errors
     /// [`Error::Unreadable`], [`Error::Unwritable`]; [`Error::BadJournal`] where the file has another head, contradicts itself, or
@@ -95,8 +96,9 @@ impl Journal {
     ) -> Result<(Self, Vec<Line>, Vec<Recomputed>), Error> {
         let lock = Lock::take(path)?;
         let mut lines = Vec::new();
-        if path.exists() {
-            let (found, known) = read(path)?;
+        let named = NamedFile::by_file(path, folder_of(path));
+        if path.exists() && !is_empty(&named)? {
+            let (found, known) = read(&named)?;
             if found != head {
                 let problem = format!(
                     "it is of other settings, materials or methods: {}",
@@ -217,7 +219,7 @@ pub fn merged(paths: &[PathBuf]) -> Result<Merged, Error> {
     let mut first: Option<(&Path, Head)> = None;
     let mut all: BTreeMap<usize, MaterialResult> = BTreeMap::new();
     for path in paths {
-        let (head, lines) = read(path)?;
+        let (head, lines) = read(&NamedFile::by_user(path))?;
         match &first {
             None => first = Some((path, head)),
             Some((other, expected)) if head != *expected => {
@@ -254,8 +256,18 @@ pub(super) fn remaining(cases: &[Case], lines: &[Line]) -> Vec<Case> {
     cases.iter().filter(|case| !is_done(case)).cloned().collect()
 }
 
-fn read(path: &Path) -> Result<(Head, Vec<Line>), Error> {
-    let text = NamedFile::by_user(path).text()?;
+fn is_empty(file: &NamedFile) -> Result<bool, Error> {
+    let found = file.open()?.metadata().map_err(|source| Error::unreadable(file.path(), source))?;
+    Ok(found.len() == 0)
+}
+
+fn read(file: &NamedFile) -> Result<(Head, Vec<Line>), Error> {
+    let path = file.path();
+    let text = file.text()?;
+    inputs::protect(path);
+    if text.is_empty() {
+        return Err(bad(path, "it is empty, and no journal of a data set".to_owned()));
+    }
     let complete = text.rfind('\n').map_or("", |end| &text[..end]);
     let mut lines = complete.lines();
     let is_not =
@@ -294,7 +306,7 @@ fn write(path: &Path, head: &Head, lines: &[Line]) -> Result<(), Error> {
     for line in lines {
         text += &text_of(path, line)?;
     }
-    write_text(path, &text, &Progress::default())
+    update(path, &Progress::default(), |file| file.write_all(text.as_bytes()))
 }
 
 fn text_of(path: &Path, value: &impl Serialize) -> Result<String, Error> {

@@ -1,13 +1,15 @@
 //! Lists of cases: materials of folders matched by name, and tables of pairs.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use svbrdf_core::error::Error;
+use svbrdf_core::text::line;
 
 use super::record::{Candidate, Case, Method};
 use crate::open::NamedFile;
+use crate::{inputs, memory};
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];
@@ -61,7 +63,7 @@ pub fn cases_of_folders(ground_truths: &Path, methods: &[Method]) -> Result<Vec<
         let candidates =
             methods.iter().zip(&found).flat_map(|(method, found)| found.candidates(method, material));
         let candidates = candidates.collect();
-        Case { index, material: material.clone(), ground_truth: ground_truth.clone(), candidates }
+        Case { index, material: line(material), ground_truth: ground_truth.clone(), candidates }
     };
     Ok(truths.iter().enumerate().map(case).collect())
 }
@@ -86,7 +88,7 @@ impl<'a> Predictions<'a> {
     fn candidates(&self, method: &Method, material: &str) -> Vec<Candidate> {
         let samples = (0..).map_while(|sample| self.get(&format!("{material}_{sample}")));
         let paths: Vec<PathBuf> = self.get(material).into_iter().chain(samples).collect();
-        let one = |(sample, path, missing)| Candidate { method: method.name.clone(), sample, path, missing };
+        let one = |(sample, path, missing)| Candidate { method: line(&method.name), sample, path, missing };
         if paths.is_empty() {
             return vec![one((0, self.expected(method, material), Some(self.missing(method, material))))];
         }
@@ -190,10 +192,11 @@ fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 /// rows of one method are samples, in their order.
 ///
 /// # Errors
-/// [`Error::Unreadable`], and [`Error::NotAMaterial`] where a column is missing or there are no rows.
+/// [`Error::Unreadable`]; [`Error::NotAMaterial`] where a column is missing or there are no rows; [`Error::Memory`].
 pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
     let bad = |problem: csv::Error| Error::unreadable(path, std::io::Error::other(problem));
     let file = NamedFile::by_user(path).reader()?;
+    inputs::protect(path);
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
     let heading = reader.headers().map_err(bad)?.clone();
     let column = |name: &str| heading.iter().position(|heading| heading == name);
@@ -210,11 +213,11 @@ pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
         let row = row.map_err(bad)?;
         let cell = |column: usize| row.get(column).unwrap_or_default();
         let ground_truth = folder.join(cell(truth));
-        let method = method.map_or("prediction", cell).to_owned();
+        let method = line(method.map_or("prediction", cell));
         let at = *places.entry(ground_truth.clone()).or_insert(cases.len());
         if at == cases.len() {
             let stem = ground_truth.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let material = material.map_or(stem, |column| cell(column).to_owned());
+            let material = line(&material.map_or(stem, |column| cell(column).to_owned()));
             cases.push(Case { index: at, material, ground_truth, candidates: Vec::new() });
         }
         let count = samples.entry((at, method.clone())).or_insert(0);
@@ -223,7 +226,26 @@ pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
         let path = folder.join(cell(prediction));
         cases[at].candidates.push(Candidate { method, sample, path, missing: None });
     }
-    if cases.is_empty() { Err(nothing_in(path, "rows")) } else { Ok(cases) }
+    if cases.is_empty() {
+        return Err(nothing_in(path, "rows"));
+    }
+    check_count(path, &cases).map(|()| cases)
+}
+
+/// Refuses a table of so many methods and materials that tables of their losses do not fit into memory: a page has a cell for every
+/// method and every material, whether the table of pairs has that pair or not.
+///
+/// # Errors
+/// [`Error::Memory`].
+fn check_count(path: &Path, cases: &[Case]) -> Result<(), Error> {
+    /// The cell of a loss, in bytes.
+    const ENTRY: u64 = 128;
+    let candidates = cases.iter().flat_map(|case| &case.candidates);
+    let methods = candidates.map(|candidate| candidate.method.as_str()).collect::<HashSet<_>>().len() as u64;
+    let materials = cases.len() as u64;
+    let what =
+        || format!("comparing {methods} methods over {materials} materials, as {} lists,", path.display());
+    memory::reserve(methods.saturating_mul(materials).saturating_mul(ENTRY), what).map(drop)
 }
 
 fn nothing_in(path: &Path, expected: &str) -> Error {

@@ -1,15 +1,18 @@
 //! The lock of a journal: a file beside it, which the process that adds results holds and is named in.
 
-use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Write as _};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
 
 use crate::open::NamedFile;
+use crate::own;
 
 /// How often a lock is tried that other processes remove at the same moment.
 const TRIES: usize = 100;
+/// How the text of a lock begins.
+const OWNER: &str = "process ";
 
 /// The lock of a journal, until it is dropped.
 #[derive(Debug)]
@@ -22,7 +25,8 @@ impl Lock {
     /// Takes the lock of the journal `journal`.
     ///
     /// # Errors
-    /// [`Error::JournalInUse`] where another process has it, [`Error::Unwritable`].
+    /// [`Error::JournalInUse`] where another process has it; [`Error::Unwritable`], also where the name of the lock is a link or
+    /// another file.
     pub(super) fn take(journal: &Path) -> Result<Self, Error> {
         let mut name = journal.as_os_str().to_owned();
         name.push(".lock");
@@ -30,8 +34,8 @@ impl Lock {
         let remedy = "check that the folder of the journal is writable";
         let unwritable = |source| Error::Unwritable { path: path.clone(), source, remedy };
         for _ in 0..TRIES {
-            let options = OpenOptions::new().write(true).create(true).truncate(false).to_owned();
-            let mut file = options.open(&path).map_err(unwritable)?;
+            check_content(&path, journal)?;
+            let mut file = own::open(&path)?;
             match file.try_lock() {
                 Err(TryLockError::WouldBlock) => return Err(in_use(journal, &path)),
                 // A file system without locks.
@@ -39,7 +43,7 @@ impl Lock {
                 Err(TryLockError::Error(source)) => return Err(unwritable(source)),
                 Ok(()) => {}
             }
-            let owner = format!("process {}\n", std::process::id());
+            let owner = format!("{OWNER}{}\n", std::process::id());
             let written = file.set_len(0).and_then(|()| file.write_all(owner.as_bytes()));
             written.map_err(unwritable)?;
             // Not one that its last owner has removed meanwhile. Windows lets nobody read a locked file.
@@ -56,6 +60,23 @@ impl Drop for Lock {
         // While it is still held: nobody else can be its owner.
         let _ = fs::remove_file(&self.path);
     }
+}
+
+/// Refuses to take a file that holds something else for a lock.
+///
+/// # Errors
+/// [`Error::Unwritable`]; as [`own::check`].
+fn check_content(path: &Path, journal: &Path) -> Result<(), Error> {
+    own::check(path)?;
+    // There is none, or another process has locked it.
+    let Ok(file) = NamedFile::by_file(path, journal).open() else { return Ok(()) };
+    let mut start = Vec::new();
+    let read = file.take(OWNER.len() as u64).read_to_end(&mut start);
+    if read.is_err() || OWNER.as_bytes().starts_with(&start) {
+        return Ok(());
+    }
+    let source = io::Error::other("it is no lock, although the lock of the journal has this name");
+    Err(Error::Unwritable { path: path.to_owned(), source, remedy: "name another journal" })
 }
 
 fn in_use(journal: &Path, lock: &Path) -> Error {

@@ -7,11 +7,11 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::progress::Progress;
 
-use crate::atomic::{check_place, replace};
+use crate::atomic::{check_place, replace_own};
 use crate::npy::Header;
 
-/// Writes pictures of one size into a file of NumPy: number x height x width x 3, 32-bit floats. It appears when it is complete,
-/// or not at all.
+/// Writes pictures of one size into a file of NumPy, which is named by the program: number x height x width x 3, 32-bit floats. It
+/// appears when it is complete, or not at all.
 ///
 /// # Errors
 /// [`Error::Unwritable`], [`Error::Cancelled`].
@@ -19,7 +19,7 @@ pub fn write_npy(path: &Path, pictures: &[Image<f32>], progress: &Progress) -> R
     check_place(path)?;
     let [width, height] = pictures.first().map_or([0; 2], |picture| [picture.width, picture.height]);
     let shape = [pictures.len(), height, width, 3];
-    replace(path, progress, |file| {
+    replace_own(path, progress, |file| {
         let mut file = BufWriter::new(file);
         file.write_all(&Header::of_floats(&shape))?;
         for value in pictures.iter().flat_map(|picture| picture.pixels.as_flattened()) {

@@ -1,6 +1,7 @@
 //! Views of the materials of a ranking: thumbnails of all, and figures of some, in files beside the page.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -18,8 +19,9 @@ use super::exposure::exposure;
 use super::labels::Labels;
 use super::pictures;
 use super::ranking::MaterialView;
-use crate::atomic::write_text;
+use crate::atomic::replace_own;
 use crate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
+use crate::own;
 use crate::read::{self, ReadOptions};
 use crate::session_window::Display;
 
@@ -75,10 +77,7 @@ pub fn material_views(
     let chosen = figures.map_or_else(BTreeSet::new, |figures| chosen(report, figures));
     let folder = folder(page);
     if !chosen.is_empty() {
-        std::fs::create_dir_all(&folder).map_err(|source| {
-            let remedy = "name the page so that a folder of this name can be beside it";
-            Error::Unwritable { path: folder.clone(), source, remedy }
-        })?;
+        own::folder(&folder)?;
     }
     let cases: BTreeMap<usize, &Case> = cases.iter().map(|case| (case.index, case)).collect();
     progress.begin(report.results.len() as u64);
@@ -168,7 +167,7 @@ fn view(
             max_bytes: FIGURE,
         };
         let page = report.page(&progress.part())?;
-        write_text(&path, &page.html, progress).map(|()| address(&path))
+        replace_own(&path, progress, |file| file.write_all(page.html.as_bytes())).map(|()| address(&path))
     });
     Ok(MaterialView { thumbnails: Some(thumbnails), figure: figure.transpose()? })
 }

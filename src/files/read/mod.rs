@@ -52,10 +52,9 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::text::shortened;
 
-use crate::memory;
 use crate::open::NamedFile;
+use crate::{inputs, memory};
 
 use decode::pictures;
 use decode::reader::Reader;
@@ -137,6 +136,7 @@ fn read_with<T: Real>(
         saved.attribute(&file, &used.options, &mut read.assumptions, &mut read.notes);
         read.files.push(file);
     }
+    read.files.iter().for_each(|file| inputs::protect(file));
     Ok(read)
 }
 
@@ -203,7 +203,7 @@ fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read
     let planes = assemble::planes(&mut linear, options);
     let [width, height] = linear.size;
     Ok(Read {
-        material: Material::new(shortened(&linear.name), width, height, planes)?,
+        material: Material::new(linear.name, width, height, planes)?,
         assumptions: linear.assumptions,
         notes: linear.notes,
         files: linear.files,

@@ -11,6 +11,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 
 use super::decode;
+use crate::inputs;
 use crate::open::NamedFile;
 use crate::read::options::{Albedo, transfer};
 use crate::read::raster::{Raster, Samples};
@@ -122,6 +123,7 @@ pub(crate) fn read_named_photograph(
     options: &PhotographOptions,
 ) -> Result<Photograph, Error> {
     let (raster, mut notes) = decode::photograph(file)?;
+    inputs::protect(file.path());
     let declared_linear = Note::LinearGamma(Subject::Photograph);
     let (transfer, transfer_from) = match options.transfer {
         Some(transfer) => (transfer, "as specified"),

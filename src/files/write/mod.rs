@@ -21,9 +21,6 @@ use svbrdf_core::progress::Progress;
 use super::read::Preset;
 use crate::atomic;
 
-/// Kinds of files that materials are read from and not written into: as the name of a folder they are a mistake.
-const NOT_WRITTEN: [&str; 10] = ["jpg", "jpeg", "tif", "tiff", "hdr", "npy", "npz", "gltf", "mtl", "json"];
-
 /// Options for the files to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WriteOptions {
@@ -57,7 +54,7 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// The kind that the extension of `path` and the `options` specify.
+    /// The kind that the extension of `path` and the `options` specify. A folder exists, ends with `/` or has no extension.
     ///
     /// # Errors
     /// [`Error::UnsupportedOutput`] for a kind of file that is not written, and for a depth, a preset or a preview that it has not.
@@ -65,10 +62,11 @@ impl FileKind {
         let WriteOptions { depth, like, preview } = *options;
         let refuse = |problem| Err(Error::UnsupportedOutput { path: path.to_owned(), problem });
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        if NOT_WRITTEN.contains(&extension.as_str()) {
+        let extension = if is_folder(path) { "" } else { &extension };
+        if !["", "exr", "png", "glb", "mtlx"].contains(&extension) {
             return refuse(OutputProblem::Kind);
         }
-        let depths: &[Depth] = match extension.as_str() {
+        let depths: &[Depth] = match extension {
             "exr" => &[Depth::Half, Depth::Float],
             "mtlx" => &[Depth::Eight, Depth::Sixteen, Depth::Half, Depth::Float],
             _ => &[Depth::Eight, Depth::Sixteen],
@@ -80,7 +78,7 @@ impl FileKind {
             return refuse(OutputProblem::Preview);
         }
         let sixteen = depth == Some(Depth::Sixteen);
-        match (extension.as_str(), like) {
+        match (extension, like) {
             ("exr", None) => Ok(Self::Exr { half: depth != Some(Depth::Float), preview }),
             ("glb", None) => Ok(Self::Glb { sixteen }),
             ("mtlx", None) => Ok(Self::Mtlx { depth: depth.unwrap_or(Depth::Eight) }),
@@ -96,6 +94,12 @@ impl FileKind {
             _ => refuse(OutputProblem::FolderPreset),
         }
     }
+}
+
+/// Whether `path` names a folder whatever its extension: one that exists, or that ends with a separator.
+fn is_folder(path: &Path) -> bool {
+    let last = path.as_os_str().to_string_lossy().chars().next_back();
+    path.is_dir() || last.is_some_and(std::path::is_separator)
 }
 
 /// Writes `material`: the file or folder appears when it is complete, or not at all; a document of MaterialX after its pictures.

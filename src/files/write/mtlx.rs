@@ -15,7 +15,7 @@ use super::maps::{MapEncoding, WrittenMap};
 use super::picture_exr;
 use super::png::{self, Picture, picture};
 use super::surface::{Surface, SurfaceForm};
-use crate::atomic;
+use crate::{atomic, new_folder};
 
 /// The end of the name of the folder of pictures.
 const FOLDER: &str = "_textures";
@@ -36,10 +36,10 @@ pub(super) fn write(
     let inputs = inputs(surface, depth);
     let text = document(reference(path, &folder)?, material.name(), surface, &inputs, depth);
     atomic::check_place(path)?;
-    let filled = atomic::new_folder(&folder, progress, |temporary| {
+    let filled = new_folder::new_folder(&folder, progress, |temporary| {
         inputs.par_iter().try_for_each(|input| {
             let name = temporary.join(file_name(input.picture.name, depth));
-            atomic::new_file(&name, progress, |file| match depth {
+            new_folder::new_file(&name, progress, |file| match depth {
                 Depth::Eight | Depth::Sixteen => {
                     png::one(file, material, &input.picture, depth == Depth::Sixteen, progress)
                 }

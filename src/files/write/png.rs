@@ -11,6 +11,7 @@ use svbrdf_core::progress::Progress;
 
 use super::maps::{Curves, MapEncoding, WrittenMap};
 use crate::atomic::{self, SOFTWARE};
+use crate::new_folder;
 use crate::read::{Order, Preset};
 
 /// About how many bytes of a picture are computed before they are compressed.
@@ -80,9 +81,9 @@ pub(super) fn folder(
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    atomic::new_folder(path, progress, |folder| {
+    new_folder::new_folder(path, progress, |folder| {
         files.par_iter().try_for_each(|picture| {
-            atomic::new_file(&folder.join(format!("{}.png", picture.name)), progress, |file| {
+            new_folder::new_file(&folder.join(format!("{}.png", picture.name)), progress, |file| {
                 one(file, material, picture, sixteen, progress)
             })
         })

@@ -7,7 +7,7 @@ use eframe::egui;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_files::export::Provenance;
-use svbrdf_files::inputs::check_output;
+use svbrdf_files::inputs::check_output_of;
 use svbrdf_files::session_window::Framing;
 
 use super::parts::Parts;
@@ -23,7 +23,7 @@ pub(super) fn save_file(
     ctx: &egui::Context,
     SaveRequest { kind, path, size, handles }: SaveRequest,
 ) {
-    if let Err(error) = check_output(&path, parts.model.files()) {
+    if let Err(error) = check_output_of(&path, parts.model.files()) {
         parts.model.report([Message::Failed(error)]);
         return;
     }

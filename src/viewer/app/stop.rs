@@ -1,4 +1,4 @@
-//! Stop at a signal: SIGTERM, SIGINT and SIGHUP: what is being written is cancelled, and the window closes.
+//! Stop at a signal that ends a program: what is being written is cancelled, and the window closes.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError, Weak};

@@ -1,8 +1,21 @@
-//! Headers of JPEG and PNG: fields before the pixels that the decoding libraries do not return.
+//! Headers of JPEG, PNG and HDR: what the decoding libraries do not return of them, or do not limit.
 
 use std::io::{self, Read as _, Seek as _};
 
 use super::reader::Reader;
+
+/// Most bytes of the header of an HDR.
+pub(crate) const LONGEST_HDR: u64 = 64 << 10;
+
+/// Whether the header of an HDR, an empty line and the line of the resolution at its end, is at most [`LONGEST_HDR`] long, or else
+/// the file: the library reads it to an end that may never come.
+pub(crate) fn is_hdr_head_short(reader: &mut Reader<'_>) -> io::Result<bool> {
+    let mut head = Vec::new();
+    reader.take(LONGEST_HDR).read_to_end(&mut head)?;
+    let end = head.windows(2).position(|two| two == b"\n\n");
+    let has_resolution = end.is_some_and(|end| head[end + 2..].contains(&b'\n'));
+    Ok(has_resolution || (head.len() as u64) < LONGEST_HDR)
+}
 
 /// How many components the pixels of a JPEG have, 4 for CMYK; `None` where no frame begins as it should.
 pub(crate) fn jpeg_components(reader: &mut Reader<'_>) -> io::Result<Option<u8>> {

@@ -54,6 +54,12 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded
             decode_with(Box::new(decoder), "JPEG", place)
         }
         Ok(ImageFormat::Hdr) => {
+            if !head::is_hdr_head_short(&mut reader).map_err(unreadable)? {
+                let problem =
+                    format!("expected an HDR whose header ends within {} KiB", head::LONGEST_HDR >> 10);
+                return Err(place.bad(problem, "write it again"));
+            }
+            reader.rewind().map_err(unreadable)?;
             let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
             decode_with(Box::new(decoder), "HDR", place)
         }

@@ -1,7 +1,7 @@
 //! The sidecar file: the options of reading a material, saved beside it.
 
 use std::fs;
-use std::io::{self, Write as _};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
@@ -9,13 +9,13 @@ use serde_json::{Map, Value};
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 
-use crate::atomic;
 use crate::open::NamedFile;
 use crate::read::located::binding::Binding;
 use crate::read::names::Label;
 use crate::read::options::ReadOptions;
 use crate::read::options::extensions::EXTENSIONS;
 use crate::read::record::{Assumption, Certainty, Note, SpecifiedBy, What};
+use crate::{atomic, own};
 
 /// The name of the file in a folder.
 const IN_FOLDER: &str = "svbrdf.json";
@@ -127,14 +127,10 @@ impl Sidecar {
     /// Writes the sidecar file of the material `path`; returns its path.
     ///
     /// # Errors
-    /// [`Error::Unwritable`].
-    pub fn save(&self, path: &Path) -> Result<PathBuf, Error> {
+    /// [`Error::Unwritable`], also where it is a link; [`Error::Cancelled`].
+    pub fn save(&self, path: &Path, progress: &Progress) -> Result<PathBuf, Error> {
         let place = Self::path_for(path);
-        if let Ok(target) = fs::read_link(&place) {
-            // Whoever made the folder chose the target.
-            let source = io::Error::other(format!("it is a link to {}", target.display()));
-            return Err(Error::Unwritable { path: place, source, remedy: "remove the link" });
-        }
+        own::check(&place)?;
         let mut all = self.options.object();
         all.retain(|_, value| !value.is_null());
         let folder = place.parent().unwrap_or(Path::new(""));
@@ -147,7 +143,7 @@ impl Sidecar {
             all.insert(MAPS.to_owned(), maps.into());
         }
         let text = format!("{:#}\n", Value::from(all));
-        atomic::replace(&place, &Progress::default(), |file| file.write_all(text.as_bytes()))?;
+        atomic::update(&place, progress, |file| file.write_all(text.as_bytes()))?;
         Ok(place)
     }
 

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{ReadOptions, Sidecar};
 
 use super::loaded::{LoadedMaterial, mismatch, rename};
@@ -187,7 +188,8 @@ impl MaterialList {
     pub fn save_assumptions(&self, index: usize) -> Result<Option<ReadRequest>, Error> {
         let Some(material) = self.all.get(index) else { return Ok(None) };
         let Origin::Path(path) = &material.read.origin else { return Ok(None) };
-        Sidecar { options: material.read.options, ..Sidecar::load(path)? }.save(path)?;
+        Sidecar { options: material.read.options, ..Sidecar::load(path)? }
+            .save(path, &Progress::default())?;
         Ok(self.again(index, |source| (source.specified, source.chosen) = (ReadOptions::AUTO, None)))
     }
 

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::report::distinct_names;
-use svbrdf_core::text::line;
 
 use super::problem::SizeMismatch;
 use super::read::{MaterialId, ReadMaterial};
@@ -21,13 +20,13 @@ pub struct LoadedMaterial {
 
 impl LoadedMaterial {
     pub fn new(read: Arc<ReadMaterial>) -> Self {
-        let name = line(read.material.name());
+        let name = read.material.name().to_owned();
         Self { read, problem: None, name }
     }
 
     /// A material made of others, with this name.
     pub fn named(read: Arc<ReadMaterial>, problem: Option<String>, name: String) -> Self {
-        Self { read, problem, name: line(&name) }
+        Self { read, problem, name }
     }
 
     /// What identifies its maps: every reading of every version of its files has another one.
@@ -68,7 +67,7 @@ pub fn ids(materials: &[LoadedMaterial]) -> Vec<MaterialId> {
 pub fn rename(materials: &mut [LoadedMaterial]) {
     let named: Vec<_> = materials.iter().map(|one| (one.material().name(), one.read.path())).collect();
     let names = distinct_names(&named);
-    materials.iter_mut().zip(names).for_each(|(material, name)| material.name = line(&name));
+    materials.iter_mut().zip(names).for_each(|(material, name)| material.name = name);
 }
 
 /// The two sizes, where `prediction` has another size than the ground truth.

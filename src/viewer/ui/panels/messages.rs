@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align2, RichText};
 
-use svbrdf_core::text::{printable, shortened};
+use svbrdf_core::text::line;
 
 use crate::viewer::model::command::{Command, WindowCommand};
 use crate::viewer::model::message::list::MessageList;
@@ -78,7 +78,7 @@ fn list(ui: &mut egui::Ui, messages: &[(usize, &Message)], commands: &mut Vec<Co
 
 /// The text of a message, in which names from files steer nothing.
 fn text_of(message: &Message) -> String {
-    printable(&shortened(&message.to_string()))
+    line(&message.to_string())
 }
 
 fn text(ui: &egui::Ui, message: &Message) -> RichText {

@@ -8,6 +8,7 @@ use gltf::{Document, Glb};
 use svbrdf_core::error::Error;
 
 use crate::lfs;
+use crate::memory::{self, Reserved};
 use crate::panics::caught;
 
 /// Parts of a glTF that materials need.
@@ -20,12 +21,14 @@ pub(super) struct GltfDocument {
     pub declared: Value,
     /// The binary part.
     pub blob: Option<Vec<u8>>,
+    /// The memory of all of these.
+    pub reserved: Reserved,
 }
 
 /// The document of the file `path`, whose bytes these are.
 ///
 /// # Errors
-/// [`Error::BadImage`].
+/// [`Error::BadImage`]; [`Error::Memory`].
 pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<GltfDocument, Error> {
     lfs::refuse_pointer(path, bytes)?;
     let invalid = |found: &str| bad(path, format!("expected valid glTF, found: {found}"));
@@ -38,6 +41,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<GltfDocument, Error> {
     } else {
         (bytes.to_vec(), None)
     };
+    let reserved = memory::reserve(bytes_of(&json), || format!("the document of {}", path.display()))?;
     let mut value: Value = serde_json::from_slice(&json).map_err(|e| invalid(&e.to_string()))?;
     let parts = value.as_object_mut().ok_or_else(|| invalid("no object"))?;
     // Extensions that a file requires mostly concern its meshes; extensions of a texture show in the texture.
@@ -52,7 +56,17 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<GltfDocument, Error> {
     }
     let document = caught(|| Document::from_json(root)).map_err(contradiction)?;
     let parsed = document.map_err(|e| invalid(&e.to_string()))?;
-    Ok(GltfDocument { parsed, declared: declared.into(), blob })
+    Ok(GltfDocument { parsed, declared: declared.into(), blob, reserved })
+}
+
+/// The memory that a document takes at most: twice as JSON, and once as the objects of glTF.
+fn bytes_of(json: &[u8]) -> u64 {
+    /// An object in bytes: a node of each map, and the largest object of glTF, a material.
+    const OBJECT: u64 = 2200;
+    /// A value of an array or a map, with room to grow, in bytes.
+    const VALUE: u64 = 128;
+    let count = |searched: u8| json.iter().filter(|byte| **byte == searched).count() as u64;
+    4 * json.len() as u64 + OBJECT * count(b'{') + VALUE * (count(b',') + count(b'['))
 }
 
 /// The array of this name in the document; empty where there is none.

@@ -24,11 +24,11 @@ use textures::GltfFile;
 /// Locates material number `exemplar` of the file `path`; without one the first that has a texture, else the first.
 ///
 /// # Errors
-/// [`Error::Unreadable`], [`Error::BadImage`], also of a material with a required extension that is not known,
+/// [`Error::Unreadable`], [`Error::Memory`], [`Error::BadImage`], also of a material with a required extension that is not known,
 /// [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, Error> {
     let bytes = NamedFile::by_user(path).bytes()?;
-    let GltfDocument { parsed, declared, blob } =
+    let GltfDocument { parsed, declared, blob, reserved: _reserved } =
         document::parse(path, bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))?;
     let file = GltfFile { path: path.to_owned(), document: parsed, declared, blob };
     let materials: Vec<_> = file.document.materials().collect();

@@ -6,23 +6,24 @@ use std::path::Path;
 
 use svbrdf_core::error::Error;
 
-use crate::lfs;
 use crate::open::NamedFile;
 use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::names::Label;
 use crate::read::options::{ReadOptions, Role};
 use crate::read::record::Subject;
+use crate::{lfs, memory};
 
 use statement::{Texture, entries};
 
 /// Locates material number `exemplar` of the file `path`.
 ///
 /// # Errors
-/// [`Error::Unreadable`], [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
+/// [`Error::Unreadable`], [`Error::Memory`], [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
 pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtl, Error> {
     let bytes = NamedFile::by_user(path).bytes()?;
     lfs::refuse_pointer(path, &bytes)?;
+    let _reserved = memory::reserve(bytes_of(&bytes), || format!("the statements of {}", path.display()))?;
     let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes));
     let mut all = entries(&text);
     let index = options.exemplar_of(all.len(), path)?;
@@ -45,6 +46,15 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtl, E
         entry,
         materials: (names, index),
     })
+}
+
+/// The memory that the statements of a file take at most.
+fn bytes_of(text: &[u8]) -> u64 {
+    /// Keyword and rest of a line, with room to grow, in bytes.
+    const LINE: u64 = 192;
+    // The text with its lines joined, and the texts of all statements.
+    let lines = text.iter().filter(|byte| **byte == b'\n').count() as u64 + 1;
+    4 * text.len() as u64 + LINE * lines
 }
 
 /// Whether `map_Ks` is occlusion, roughness and metallic, by its name or by the `bsdf` of nvdiffrec.

@@ -1,0 +1,69 @@
+//! Memory of lists, headers and documents: counted before it is taken, and refused.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::process::Command;
+
+use super::{fail, folder, succeed, text};
+
+#[test]
+fn a_list_of_too_many_methods_and_materials_is_refused() {
+    let folder = folder();
+    let mut list = "ground_truth,prediction,method,material\n".to_owned();
+    for i in 0..2000 {
+        let _ = writeln!(list, "gt{i}.png,p{i}.png,method{i},material{i}");
+    }
+    fs::write(folder.path().join("pairs.csv"), list).unwrap();
+    let error = fail(folder.path(), "rank --pairs pairs.csv --max-memory 64MiB", 1);
+    assert!(error.contains("2000 methods over 2000 materials") && error.contains("--max-memory"), "{error}");
+}
+
+#[test]
+fn a_long_list_of_few_methods_is_not_refused() {
+    let folder = folder();
+    let mut list = "ground_truth,prediction,method\ngt.png,a.png,first\ngt.png,b.png,second\n".to_owned();
+    for i in 0..20_000 {
+        let _ = writeln!(list, "gt.png,none{i}.png,first");
+    }
+    fs::write(folder.path().join("pairs.csv"), list).unwrap();
+    let ranked = succeed(folder.path(), "rank --pairs pairs.csv --max-memory 64MiB --target-error 30%");
+    assert!(ranked.contains("second"), "{ranked}");
+}
+
+/// Within a limit of the system, beyond which the program would abort.
+#[cfg(target_os = "linux")]
+#[test]
+fn the_header_of_an_hdr_ends() {
+    let folder = folder();
+    let path = folder.path().join("x.hdr");
+    fs::write(&path, "#?RADIANCE\n").unwrap();
+    fs::File::options().write(true).open(&path).unwrap().set_len(6 << 30).unwrap();
+    let mut command = Command::new("sh");
+    let info = format!("ulimit -v 3000000; exec {} info x.hdr", env!("CARGO_BIN_EXE_svbrdf"));
+    let output = command.args(["-c", &info]).current_dir(folder.path()).output().unwrap();
+    let stderr = text(&output.stderr);
+    assert!(output.status.code() == Some(1) && stderr.contains("header"), "{:?} {stderr}", output.status);
+}
+
+/// A material of two pictures.
+const MTL: &str = "newmtl a\nmap_Kd gray.png\nmap_Pr gray.png\n";
+
+#[test]
+fn documents_of_many_materials_are_counted() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    let gltf = |count: usize| {
+        let materials = vec!["{}"; count].join(",");
+        format!(r#"{{"asset":{{"version":"2.0"}},"materials":[{materials}]}}"#)
+    };
+    image::GrayImage::from_pixel(8, 8, image::Luma([90])).save(of("gray.png")).unwrap();
+    fs::write(of("many.gltf"), gltf(1_000_000)).unwrap();
+    fs::write(of("few.gltf"), gltf(1000)).unwrap();
+    fs::write(of("many.mtl"), MTL.to_owned() + &"a\n".repeat(2_000_000)).unwrap();
+    fs::write(of("few.mtl"), MTL.to_owned() + &"a\n".repeat(2000)).unwrap();
+    for kind in ["gltf", "mtl"] {
+        let error = fail(folder.path(), &format!("info many.{kind} --max-memory 256MiB"), 1);
+        assert!(error.contains(&format!("many.{kind} takes")) && error.contains("--max-memory"), "{error}");
+        succeed(folder.path(), &format!("info few.{kind} --max-memory 256MiB"));
+    }
+}
