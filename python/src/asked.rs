@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use svbrdf_core::loss::{Outcome, Question, Request, Sampling};
+use svbrdf_core::loss::{Outcome, Question, Request, SceneChoice};
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
@@ -55,18 +55,15 @@ impl Asked {
             Request::Accuracy { target, seed: *seed }
         } else if let Some(seconds) = self.time_budget {
             Request::Time { budget: Duration::from_secs_f64(seconds), seed: *seed }
-        } else if near.is_none() && distant.is_none() && sampler.is_none() && texels.is_none() {
-            return Ok(Question::of_seed(*seed));
         } else {
-            let default = Sampling::default();
-            let word = |word: &Option<String>| word.clone();
-            Request::Scenes(Sampling {
-                near: near.unwrap_or(default.near),
-                distant: distant.unwrap_or(default.distant),
-                seed: *seed,
-                sampler: word(sampler).map_or(Ok(default.sampler), |name| name.parse()).map_err(exception)?,
-                texels: word(texels).map_or(Ok(default.texels), |text| text.parse()).map_err(exception)?,
-            })
+            let (sampler, texels) = (sampler.as_ref(), texels.as_ref());
+            let choice = SceneChoice {
+                near: *near,
+                distant: *distant,
+                sampler: sampler.map(|name| name.parse()).transpose().map_err(exception)?,
+                texels: texels.map(|text| text.parse()).transpose().map_err(exception)?,
+            };
+            return choice.question(*seed).map_err(exception);
         };
         Ok(request.into())
     }

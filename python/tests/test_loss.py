@@ -229,4 +229,21 @@ def test_a_target_that_is_not_reached_is_a_warning_as_on_the_command_line() -> N
     assert report.target_reached is False
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert svbrdf.loss(ground_truth, prediction, target_error=0.3).target_reached
+        assert svbrdf.loss(ground_truth, prediction, target_error=0.1).target_reached
+
+
+def test_what_leaves_the_number_of_scenes_open_leaves_the_accuracy() -> None:
+    ground_truth, prediction, _ = svbrdf.built_in()
+    usual = svbrdf.loss(ground_truth, prediction).results[0].loss
+    assert svbrdf.loss(ground_truth, prediction, sampler="sobol", texels=128).results[0].loss == usual
+    with pytest.raises(svbrdf.Error, match="not with sampler random; specify the number"):
+        svbrdf.loss(ground_truth, prediction, sampler="random")
+    counts = [svbrdf.loss(ground_truth, prediction, **given) for given in ({"near": 6}, {"distant": 2})]
+    assert [(report.near, report.distant) for report in counts] == [(6, 3), (4, 2)]
+
+
+def test_a_target_error_that_could_be_percent_is_refused() -> None:
+    ground_truth, prediction, _ = svbrdf.built_in()
+    for function in (svbrdf.loss, svbrdf.blame, svbrdf.rank):
+        with pytest.raises(ValueError, match=r"found 0\.5, which is 50%; for 0\.5% give 0\.005"):
+            function(ground_truth, prediction, target_error=0.5)

@@ -34,13 +34,13 @@ def test_a_report_has_the_losses_the_call_and_the_readings(tmp_path: Path) -> No
     file = tmp_path / "p.png"
     svbrdf.write(prediction, file)
     path, read = tmp_path / "report.html", svbrdf.read(file, normal_y="up", albedo="linear")
-    svbrdf.report(ground_truth, read, path, target_error=0.2, seed=3, layout="wipe", exposure=1.5)
+    svbrdf.report(ground_truth, read, path, target_error=0.1, seed=3, layout="wipe", exposure=1.5)
     page = path.read_text()
-    loss = svbrdf.loss(ground_truth, read, target_error=0.2, seed=3).loss
+    loss = svbrdf.loss(ground_truth, read, target_error=0.1, seed=3).loss
     assert f"<td>{loss:.4f}</td>" in page or f"<td>{loss:.3f}</td>" in page
     text = html.unescape(page)
     assert f"svbrdf.report(<svbrdf.Material 'truth'>, [svbrdf.read({str(file)!r}, " in text
-    assert "target_error=0.2, seed=3, exposure=1.5, layout='wipe'" in text
+    assert "target_error=0.1, seed=3, exposure=1.5, layout='wipe'" in text
     assert "Assumptions in reading the files" in page
     start = data(page)["start"]
     assert (start["layout"], start["exposure"]) == ("wipe", 1.5)

@@ -70,7 +70,7 @@ pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
     given.check(&modes::INFO)?;
     let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading)?;
     if args.save {
-        let (path, options) = (&args.material.path, args.reading.of_one(&args.material)?);
+        let (path, options) = (&args.material.path, args.reading.of_one(&args.material.source())?);
         let saved = Sidecar::load(path)?.overridden_by(&options, &args.bindings);
         let place = stoppable(|progress| saved.save(path, progress))?;
         exit::tell(&format!("note: saved in {}", place.display()));

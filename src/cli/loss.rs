@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use svbrdf::backend::{self, Adapter};
 use svbrdf_core::error::Error;
-use svbrdf_core::loss::{Comparison, Compute, Precision, Question, Request, Sampling, Texels};
+use svbrdf_core::loss::{Comparison, Compute, Precision, Question, Request, Sampling, SceneChoice, Texels};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::report::{LossReport, Report as _};
 use svbrdf_files::scene_file;
@@ -13,7 +13,7 @@ use svbrdf_files::scene_file;
 use super::args::lights::LightsArgs;
 use super::args::values::{duration, percent, whole};
 use super::args::{ComparisonArgs, Given, modes};
-use super::job::ComparisonJob;
+use super::job::{ComparisonJob, SessionSettings};
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
 
@@ -21,17 +21,18 @@ use super::output::{CommandError, exit, target, watched};
 ///
 /// Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the mean over scenes,
 /// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
-/// texels; it is unknown with a single scene of a kind. Without options that choose scenes: the loss over all
-/// scenes to +-1%, and the loss over the 6 + 3 scenes of the papers; of a session, what its window asked for. A folder of training
+/// texels; it is unknown with a single scene of a kind. Without a number of scenes: the loss over all
+/// scenes to +-1%, in Sobol scenes with 128 random texels each, and the loss over the 6 + 3 scenes of the papers; of a session, what
+/// its window asked for. With --near or --distant: the loss over exactly these scenes. A folder of training
 /// steps, such as NAME_step000100.png or epoch_12/, stands for all its steps. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  svbrdf loss gt.png a.png b.png --target-error 0.5%")]
 pub struct LossArgs {
-    /// Number of near-field scenes [default: 6]
+    /// Number of near-field scenes, random and on all texels [default: as many as +-1% needs; with --distant two for each distant one]
     #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     near: Option<usize>,
 
-    /// Number of distant scenes [default: 3]
+    /// Number of distant scenes [default: as many as +-1% needs; with --near one for two near-field ones]
     #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     distant: Option<usize>,
 
@@ -39,12 +40,13 @@ pub struct LossArgs {
     #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
 
-    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: random]
+    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: sobol; with --near or --distant
+    /// random]
     #[arg(help_heading = "Scenes", long, value_name = "random|sobol")]
     sampler: Option<Sampler>,
 
     /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
-    /// [default: all]
+    /// [default: 128; with --near or --distant all]
     #[arg(
         help_heading = "Scenes",
         long,
@@ -132,17 +134,10 @@ impl LossJob {
     fn new(args: &LossArgs, given: &Given) -> Result<Self, CommandError> {
         let comparison = ComparisonJob::new(&args.comparison, given)?;
         comparison.materials.check_predictions()?;
-        let session = comparison.session.as_ref().filter(|_| !chooses_scenes(args));
-        let saved = session.and_then(|session| session.request(args.seed));
-        if let Some(Request::Listed(_)) = saved {
-            given.check(&modes::SESSION_SCENES)?;
-        }
-        let named = args.lights.scenes(given)?;
-        let question = match (saved, named) {
-            (Some(request), _) => request.into(),
-            (None, Some(scenes)) => Request::Listed(scenes).into(),
-            (None, None) if chooses_scenes(args) => request(args)?.into(),
-            (None, None) => Question::of_seed(args.seed.unwrap_or(0)),
+        let question = match (args.lights.scenes(given)?, request(args)?) {
+            (Some(scenes), _) => Request::Listed(scenes).into(),
+            (None, Some(request)) => request.into(),
+            (None, None) => sampled(args, comparison.session.as_ref(), given)?,
         };
         check_backend(args, &question)?;
         Ok(Self { comparison, question, device: args.backend })
@@ -192,11 +187,25 @@ fn on_backend<T: Compute>(comparison: Comparison<'_, T>, request: &Request) -> R
     Ok(LossReport::new(&comparison, request, outcome))
 }
 
-/// Whether an option chooses which scenes and texels are compared; a seed does not.
-fn chooses_scenes(args: &LossArgs) -> bool {
-    let LossArgs { near, distant, sampler, texels, target_error, time_budget, scenes, lights, .. } = args;
-    let counts = near.is_some() || distant.is_some() || sampler.is_some() || texels.is_some();
-    counts || target_error.is_some() || time_budget.is_some() || scenes.is_some() || lights.is_named()
+/// The question where neither an accuracy, a time nor a file decides the scenes: that of the session, unless options choose scenes.
+fn sampled(
+    args: &LossArgs,
+    session: Option<&SessionSettings>,
+    given: &Given,
+) -> Result<Question, CommandError> {
+    let LossArgs { near, distant, sampler, texels, .. } = *args;
+    let choice = SceneChoice { near, distant, sampler, texels };
+    let question = match session.and_then(|session| session.request(args.seed)) {
+        None => choice.question(args.seed.unwrap_or(0)),
+        Some(saved) if choice == SceneChoice::default() => {
+            if let Request::Listed(_) = saved {
+                given.check(&modes::SESSION_SCENES)?;
+            }
+            Ok(saved.into())
+        }
+        Some(saved) => choice.over(saved),
+    };
+    Ok(question?)
 }
 
 /// A graphics adapter compares all texels, in f32.
@@ -222,25 +231,13 @@ fn check_backend(args: &LossArgs, question: &Question) -> Result<(), CommandErro
     Err(CommandError::usage(problem))
 }
 
-/// The request that the options make.
-fn request(args: &LossArgs) -> Result<Request, Error> {
-    let LossArgs { near, distant, sampler, texels, .. } = *args;
+/// The request where an accuracy, a time or a file decides the scenes.
+fn request(args: &LossArgs) -> Result<Option<Request>, Error> {
     let seed = args.seed.unwrap_or(0);
-    let usual = Sampling::default();
-    let sampling = Sampling {
-        near: near.unwrap_or(usual.near),
-        distant: distant.unwrap_or(usual.distant),
-        seed,
-        sampler: sampler.unwrap_or(usual.sampler),
-        texels: texels.unwrap_or(usual.texels),
-    };
     Ok(match (args.target_error, args.time_budget, &args.scenes) {
-        (Some(target), ..) => Request::Accuracy { target, seed },
-        (None, Some(budget), _) => Request::Time { budget, seed },
-        (None, None, Some(path)) => Request::Listed(scene_file::read(path)?),
-        (None, None, None) => {
-            sampling.check()?;
-            Request::Scenes(sampling)
-        }
+        (Some(target), ..) => Some(Request::Accuracy { target, seed }),
+        (None, Some(budget), _) => Some(Request::Time { budget, seed }),
+        (None, None, Some(path)) => Some(Request::Listed(scene_file::read(path)?)),
+        (None, None, None) => None,
     })
 }

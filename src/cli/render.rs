@@ -108,6 +108,7 @@ impl RenderJob {
             let problem = "--difference compares predictions with a ground truth; give both";
             return Err(CommandError::usage(problem));
         }
+        check_difference(&content, destination.format(), given)?;
         let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
         Ok(Self { comparison, destination, scene, content, exposure_ev, on_adapter: args.gpu })
     }
@@ -123,6 +124,22 @@ impl RenderJob {
         };
         let images = materials.iter().map(one).collect::<Result<_, _>>()?;
         Ok((images, "CPU, f32".to_owned()))
+    }
+}
+
+/// Refuses the options that a difference does not use.
+fn check_difference(
+    content: &PictureContent,
+    format: PictureFormat,
+    given: &Given,
+) -> Result<(), CommandError> {
+    let Some(difference) = content.difference else { return Ok(()) };
+    if difference.kind != Difference::Flip {
+        given.check(&modes::RENDER_DIFFERENCE)?;
+    }
+    match format {
+        PictureFormat::Exr => given.check(&modes::RENDER_NUMBERS),
+        PictureFormat::Png => Ok(()),
     }
 }
 

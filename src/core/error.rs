@@ -156,6 +156,13 @@ pub enum Error {
     #[error("unknown {what} `{found}`; use one of: {known}")]
     UnknownName { what: &'static str, found: String, known: String },
 
+    /// A way of sampling scenes whose number is left open.
+    #[error(
+        "without a number of scenes the loss is known to +-1%, over Sobol scenes with 128 random texels each, not with {found}; \
+        specify the number of near-field or distant scenes, too"
+    )]
+    NoSceneCount { found: String },
+
     /// Two values of one option.
     #[error("{option} is specified twice; leave out one")]
     SpecifiedTwice { option: String },

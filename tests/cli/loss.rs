@@ -38,7 +38,7 @@ fn json_is_one_object_with_exactly_these_keys() {
     assert_eq!(keys(&json).join(" "), top);
     assert_eq!((&json["ground_truth"], &json["ground_truth_path"]), (&json!("gt"), &json!("gt.png")));
     assert_eq!((&json["precision"], &json["texels"]), (&json!("f32"), &json!("all")));
-    assert_eq!(losses_as_json(folder.path(), "gt.png a.png --texels 12")["texels"], json!(12));
+    assert_eq!(losses_as_json(folder.path(), "gt.png a.png --near 6 --texels 12")["texels"], json!(12));
     assert_eq!((&json["convention"], &json["epsilon"]), (&json!("multi-image-2019"), &json!(0.1)));
     assert_eq!((&json["size"], &json["seed"]), (&json!([8, 8]), &json!(5)));
     assert_eq!((&json["near"], &json["distant"]), (&json!(6), &json!(3)));
@@ -87,8 +87,8 @@ fn without_options_the_loss_is_over_all_scenes_in_every_format_and_few_scenes_ha
     let line = text.find("6 + 3 scenes: ").unwrap();
     assert!(text.find(&format!("{loss:.6}")).unwrap() < line, "{text}");
     assert!(text[line..].contains(&format!("{few_loss:.3} (95% ")), "{text}");
-    // An option that chooses scenes asks for these alone.
-    for options in ["--near 6", "--sampler random", "--texels all", "--time-budget 1ms"] {
+    // A number of scenes or a time asks for these alone.
+    for options in ["--near 60", "--near 6 --sampler sobol", "--distant 3 --texels 9", "--time-budget 1ms"] {
         let json = losses_as_json(folder.path(), &format!("gt.png a.png {options}"));
         assert_eq!(
             (&json["few_scenes"], &json["results"][0]["few_scenes_loss"]),
@@ -235,13 +235,13 @@ fn the_header_says_which_texels_are_compared() {
         table.lines().nth(2).unwrap().to_owned()
     };
     let drawn = "6 near-field and 3 distant scenes, seed 0";
-    assert_eq!(line("--texels 99999999999"), drawn);
-    assert_eq!(line("--texels 64"), drawn);
-    assert_eq!(line("--texels 63"), format!("{drawn}, 63 random texels per scene"));
-    assert_eq!(line("--texels 1 --backend cpu"), format!("{drawn}, 1 random texel per scene"));
-    line("--texels 9 --backend auto");
+    assert_eq!(line("--near 6 --texels 99999999999"), drawn);
+    assert_eq!(line("--near 6 --texels 64"), drawn);
+    assert_eq!(line("--near 6 --texels 63"), format!("{drawn}, 63 random texels per scene"));
+    assert_eq!(line("--near 6 --texels 1 --backend cpu"), format!("{drawn}, 1 random texel per scene"));
+    line("--near 6 --texels 9 --backend auto");
     line("--target-error 10% --backend cpu");
-    for chosen in ["--texels 9", "--target-error 1%", "--time-budget 1ms"] {
+    for chosen in ["--near 6 --texels 9", "--target-error 1%", "--time-budget 1ms"] {
         let stderr = fail(folder.path(), &format!("loss gt.png a.png {chosen} --backend gpu"), 64);
         assert!(stderr.contains("leave out --backend gpu"), "{stderr}");
     }
@@ -269,4 +269,33 @@ fn a_session_file_stands_for_its_materials() {
     let stderr = fail(folder.path(), &format!("loss {name} a.png"), 64);
     assert!(stderr.contains("names its predictions itself"), "{stderr}");
     assert!(succeed(folder.path(), &format!("blame {name} --format csv")).lines().count() > 2);
+}
+
+#[test]
+fn an_option_that_leaves_the_number_of_scenes_open_leaves_the_accuracy() {
+    let folder = folder();
+    let json = |args: &str| losses_as_json(folder.path(), &format!("gt.png a.png {args}"));
+    let usual = json("");
+    for same in ["--sampler sobol", "--texels 128", "--sampler sobol --texels 128", "--seed 0"] {
+        assert_eq!(json(same), usual, "{same}");
+    }
+    let counts = |args: &str| {
+        let json = json(args);
+        [json["near"].as_u64().unwrap(), json["distant"].as_u64().unwrap()]
+    };
+    assert_eq!(counts("--near 60"), [60, 30]);
+    assert_eq!(counts("--near 5"), [5, 3]);
+    assert_eq!(counts("--distant 4"), [8, 4]);
+    assert_eq!(counts("--near 7 --distant 0"), [7, 0]);
+    let scenes = |args: &str| {
+        succeed(folder.path(), &format!("scenes gt.png a.png --format csv {args}")).lines().count()
+    };
+    assert_eq!(scenes("--near 6"), 1 + 9);
+    let help = succeed(folder.path(), "loss --help");
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in
+        ["[default: sobol; with --near or --distant random]", "[default: 128; with --near or --distant all]"]
+    {
+        assert!(help.contains(said), "{said} is missing in {help}");
+    }
 }

@@ -384,6 +384,7 @@ impl Outcome {
             "cannot be used with",
             "required arguments were not provided",
             "give both",
+            "specify the number of near-field or distant scenes",
             "takes one CSV table",
             "only EXR has one",
             "cannot have that depth",

@@ -93,7 +93,7 @@ fn maps_can_be_kept_in_a_folder() {
         assert!(read.notes.iter().any(|n| n.to_string().contains(note)), "{opened}: {:?}", read.notes);
     }
     assert_eq!(Sidecar::path_for(&folder.path().join("normal.png")), folder.path().join("svbrdf.json"));
-    assert_eq!(Sidecar::path_for(&folder.path().join("other.png")), folder.path().join("other.svbrdf.json"));
+    assert_eq!(Sidecar::path_for(&folder.path().join("other.png")), folder.path().join("svbrdf.json"));
     let said = format!("roughness={}", folder.path().join("normal.png").display()).parse().unwrap();
     let read = read_bound::<f64>(folder.path(), &[said], &ReadOptions::AUTO, &Progress::default()).unwrap();
     assert!(
@@ -101,6 +101,34 @@ fn maps_can_be_kept_in_a_folder() {
         "{:?}",
         read.notes
     );
+}
+
+#[test]
+fn what_is_kept_in_a_folder_holds_for_each_of_its_files_without_a_sidecar_of_its_own() {
+    let folder = tempdir().unwrap();
+    let of = |name: &str| folder.path().join(name);
+    let (_other, path) = glossy();
+    // The one name is a word for a map; the folder is none of them.
+    let names = ["metal.png", "wood.png", "normal.png", "own.png"];
+    for name in names {
+        std::fs::copy(&path, of(name)).unwrap();
+    }
+    std::fs::write(of("svbrdf.json"), r#"{"albedo": "log0.01", "maps": {"roughness": "missing.png"}}"#)
+        .unwrap();
+    std::fs::write(of("own.svbrdf.json"), r#"{"albedo": "srgb"}"#).unwrap();
+    let loaded = names.map(|name| Sidecar::load(&of(name)).unwrap().options.albedo.unwrap().name());
+    assert_eq!(loaded, ["log0.01", "log0.01", "log0.01", "srgb"]);
+    let read = open(&of("wood.png"));
+    assert_eq!(why(&read, What::Albedo), "as saved in svbrdf.json");
+    assert!(
+        read.notes.iter().any(|note| note.to_string().contains("svbrdf.json specifies how")),
+        "{:?}",
+        read.notes
+    );
+    assert!(Sidecar::load(&of("wood.png")).unwrap().bindings.is_empty(), "maps are of the folder");
+    // What is saved for one of them is its own.
+    let saved = Sidecar::load(&of("wood.png")).unwrap().save(&of("wood.png")).unwrap();
+    assert_eq!(saved, of("wood.svbrdf.json"));
 }
 
 #[test]

@@ -144,9 +144,23 @@ def check_goals(**given: object) -> None:
         raise ValueError(f"{' and '.join(named)}: expected one of them; each decides the scenes")
     target_error, time_budget = given.get("target_error"), given.get("time_budget")
     if isinstance(target_error, int | float) and not 0 < target_error < 1:
-        raise ValueError(f"target_error: expected a number above 0 and below 1, such as 0.01, found {target_error}")
+        raise ValueError(f"target_error: expected a number above 0, such as 0.01, found {target_error}")
+    check_share("target_error", target_error)
     if isinstance(time_budget, int | float) and not 0 < time_budget <= 86_400:
         raise ValueError(f"time_budget: expected seconds above 0, at most a day, found {time_budget}")
+
+
+def check_share(name: str, value: object) -> None:
+    """Whether a target error is a share and not percent.
+
+    Raises:
+        ValueError: It could be either.
+    """
+    if isinstance(value, int | float) and 0.1 < value < 1:
+        raise ValueError(
+            f"{name}: expected a share of at most 0.1, such as 0.01 for 1%, found {value}, which is {value:.0%}; for {value}% give"
+            f" {value / 100:g}"
+        )
 
 
 def check_unused(deciding: str | None, **given: object) -> None:

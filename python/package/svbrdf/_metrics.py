@@ -67,8 +67,10 @@ def metrics(
     Args:
         ground_truth: A material, or the path of one.
         predictions: One or several materials of the same size, or paths.
-        near: The number of sampled near-field scenes; 128 where `scenes` are not given.
-        distant: The number of sampled distant scenes; 64 where `scenes` are not given.
+        near: The number of sampled near-field scenes; two for each distant one where only `distant` is
+            given, else 128.
+        distant: The number of sampled distant scenes; one for two near-field ones where only `near` is
+            given, else 64.
         seed: Names the sampled scenes; 0 where `scenes` are not given.
         sampler: "sobol", the default, or "random".
         scenes: These scenes, or those of a scene file, in place of sampled ones.

@@ -201,8 +201,10 @@ def scenes(
         ground_truth: A material, or the path of one.
         predictions: One or several materials of the same size, or paths.
         top: The number of scenes that are listed.
-        near: The number of sampled near-field scenes; 128 where `scenes` are not given.
-        distant: The number of sampled distant scenes; 64 where `scenes` are not given.
+        near: The number of sampled near-field scenes; two for each distant one where only `distant` is
+            given, else 128.
+        distant: The number of sampled distant scenes; one for two near-field ones where only `near` is
+            given, else 64.
         seed: Names the sampled scenes; 0 where `scenes` are not given.
         sampler: "sobol", the default, or "random".
         scenes: These scenes, or those of a scene file, in place of sampled ones.
@@ -255,8 +257,10 @@ def map(
         over: The axes of the map.
         fixed: The direction of the view of a map over lights, or of the light of a map over views; (0, 0, 1) there.
         side: Columns and rows of a map over lights or views, from 1 to 1024; 64 there.
-        near: The number of sampled near-field scenes of a map over texels; 128 where `scenes` are not given.
-        distant: The number of sampled distant scenes of a map over texels; 64 where `scenes` are not given.
+        near: The number of sampled near-field scenes of a map over texels; two for each distant one where only `distant` is
+            given, else 128.
+        distant: The number of sampled distant scenes of a map over texels; one for two near-field ones where only `near` is
+            given, else 64.
         seed: Names the sampled scenes of a map over texels; 0 where `scenes` are not given.
         sampler: "sobol", the default, or "random".
         scenes: These scenes, or those of a scene file, in place of sampled ones.
@@ -313,5 +317,6 @@ def scene_choice(*, scenes: Scenes | None, **sampling: Any) -> dict[str, Any]:
     if scenes is not None:
         check_unused("scenes", **sampling)
         return {"scenes": scenes}
-    default = {"near": 128, "distant": 64, "seed": 0, "sampler": "sobol"}
-    return {**default, **{name: value for name, value in sampling.items() if value is not None}}
+    near, distant = _core.scene_counts(sampling.get("near"), sampling.get("distant"), (128, 64))
+    given = {name: value for name, value in sampling.items() if value is not None}
+    return {"seed": 0, "sampler": "sobol", **given, "near": near, "distant": distant}

@@ -113,6 +113,12 @@ pub const RENDER_MAPS: Mode = Mode {
     reason: "a map has no light, no view, no exposure and no convention, and is not rendered",
     unused: &[ONE_SCENE, &["exposure", "convention", "gpu"]],
 };
+/// `render` of differences that are computed without an exposure.
+pub const RENDER_DIFFERENCE: Mode =
+    Mode { reason: "only --difference=flip compares exposed renderings", unused: &[&["exposure"]] };
+/// `render` of differences to an EXR.
+pub const RENDER_NUMBERS: Mode =
+    Mode { reason: "an EXR holds differences as numbers, without colours", unused: &[&["range"]] };
 /// `strip` without a rendering among its columns.
 pub const STRIP_MAPS: Mode = Mode {
     reason: "maps have no light, no view, no exposure and no convention, and no column is a rendering",

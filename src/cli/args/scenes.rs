@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::loss::{Request, Sampling, Texels};
+use svbrdf_core::loss::{Request, Sampling, SceneChoice, Texels};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
@@ -17,13 +17,13 @@ use crate::cli::output::CommandError;
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Scenes")]
 pub struct SceneArgs {
-    /// Number of near-field scenes
-    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true, default_value_t = 128)]
-    near: usize,
+    /// Number of near-field scenes [default: 128; with --distant two for each distant one]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
+    near: Option<usize>,
 
-    /// Number of distant scenes
-    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true, default_value_t = 64)]
-    distant: usize,
+    /// Number of distant scenes [default: 64; with --near one for two near-field ones]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
+    distant: Option<usize>,
 
     /// Seed of the sampled scenes
     #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true, default_value_t = 0)]
@@ -70,6 +70,8 @@ impl SceneArgs {
             return Ok(Request::Listed(scene_file::read(path)?));
         }
         let Self { near, distant, seed, sampler, .. } = *self;
+        let choice = SceneChoice { near, distant, ..SceneChoice::default() };
+        let [near, distant] = choice.counts([128, 64]);
         let sampling = Sampling { near, distant, seed, sampler, texels: Texels::All };
         sampling.check()?;
         Ok(Request::Scenes(sampling))
@@ -111,14 +113,14 @@ impl OneSceneArgs {
     /// The scene; `saved` is that of a session.
     ///
     /// # Errors
-    /// [`Error::UnusableScene`].
-    pub fn scene(&self, saved: Option<Scene>) -> Result<Scene, Error> {
+    /// [`CommandError::Usage`] where such a scene cannot be rendered.
+    pub fn scene(&self, saved: Option<Scene>) -> Result<Scene, CommandError> {
         let usual = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
         let usual = saved.unwrap_or(usual);
         let kind = if self.distant { Kind::Distant } else { usual.kind };
         let (view, light) = (self.view.unwrap_or(usual.view), self.light.unwrap_or(usual.light));
         let scene = Scene { kind, view, light };
-        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+        scene.check().map_err(|problem| CommandError::Usage(Error::UnusableScene { problem }.to_string()))?;
         Ok(scene)
     }
 }

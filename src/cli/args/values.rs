@@ -3,14 +3,21 @@
 use std::str::FromStr;
 use std::time::Duration;
 
-/// A share such as `1%` or `0.01`.
+/// Largest share that is understood without a percent sign.
+const LARGEST_SHARE: f64 = 0.1;
+
+/// A share such as `1%` or `0.01`. A larger number without a percent sign could be meant as percent.
 pub fn percent(text: &str) -> Result<f64, String> {
     let (number, scale) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
-    let share = number.trim().parse::<f64>().map(|number| number * scale);
-    share
-        .ok()
-        .filter(|s| *s > 0.0 && *s < 1.0)
-        .ok_or("expected more than 0% and less than 100%, as in 1%".to_owned())
+    let number = number.trim().parse::<f64>().ok();
+    match number.map(|number| number * scale).filter(|share| *share > 0.0 && *share < 1.0) {
+        Some(share) if scale < 1.0 || share <= LARGEST_SHARE => Ok(share),
+        Some(share) => Err(format!(
+            "expected a percent sign: {text}% or {:.0}%, which {text} could both mean",
+            100.0 * share
+        )),
+        None => Err("expected more than 0% and less than 100%, as in 1%".to_owned()),
+    }
 }
 
 /// A time such as `500ms`, `2s` or `0.5` (seconds).
@@ -42,10 +49,15 @@ pub fn loss(text: &str) -> Result<f64, &'static str> {
     loss.ok_or("expected a loss, a number of 0 or more, as in 0.25")
 }
 
-/// A number of stops.
+/// Greatest exposure either way, in stops, as in the window.
+const MOST_STOPS: f32 = 20.0;
+
+/// An exposure.
 pub fn stops(text: &str) -> Result<f32, String> {
-    let finite = text.parse().ok().filter(|stops: &f32| stops.is_finite());
-    finite.ok_or_else(|| format!("expected a number of stops like -1.5, found `{text}`"))
+    let stops = text.parse().ok().filter(|stops: &f32| stops.abs() <= MOST_STOPS);
+    stops.ok_or_else(|| {
+        format!("expected a number of stops from -{MOST_STOPS} to {MOST_STOPS} like -1.5, found `{text}`")
+    })
 }
 
 /// A position or direction.
@@ -58,10 +70,11 @@ pub fn pair(text: &str) -> Result<[f64; 2], String> {
     numbers(text).ok_or_else(|| format!("expected two numbers like 120,80.5, found `{text}`"))
 }
 
-/// `N` numbers with commas between them.
+/// `N` finite numbers with commas between them.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    numbers.ok().and_then(|numbers| numbers.try_into().ok())
+    let finite = |part: &str| part.trim().parse().ok().filter(|number: &f64| number.is_finite());
+    let numbers: Option<Vec<f64>> = text.split(',').map(finite).collect();
+    numbers.and_then(|numbers| numbers.try_into().ok())
 }
 
 /// A number of bytes such as `10MB`, `500kB` or `1000000`, in powers of 1000.
@@ -112,6 +125,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_share_that_could_be_percent_needs_its_sign() {
+        for (text, share) in
+            [("1%", 0.01), ("0.5%", 0.005), ("30%", 0.3), ("0.01", 0.01), ("0.1", 0.1), ("1e-3", 1e-3)]
+        {
+            assert!((percent(text).unwrap() - share).abs() < 1e-15, "{text}");
+        }
+        let message = percent("0.5").unwrap_err();
+        assert!(message.contains("0.5% or 50%"), "{message}");
+        for wrong in ["0", "-1%", "1", "100%", "nan", "inf", "", "%", "0.11"] {
+            assert!(percent(wrong).is_err_and(|message| message.contains("expected")), "{wrong}");
+        }
+    }
+
+    #[test]
     fn times_are_positive_and_have_units() {
         let times = ["100us", "500ms", "2s", "0.5", "1 s"].map(|text| duration(text).unwrap().as_micros());
         assert_eq!(times, [100, 500_000, 2_000_000, 500_000, 1_000_000]);
@@ -129,13 +156,13 @@ mod tests {
     #[test]
     fn stops_are_finite() {
         assert_eq!(stops("-1.5"), Ok(-1.5));
-        assert!(["nan", "inf", "", "x"].iter().all(|wrong| stops(wrong).is_err()));
+        assert!(["nan", "inf", "", "x", "1e20", "-20.5"].iter().all(|wrong| stops(wrong).is_err()));
     }
 
     #[test]
     fn a_triple_is_three_numbers() {
         assert_eq!(triple("1,-2, 3e-1"), Ok([1.0, -2.0, 0.3]));
-        for wrong in ["1,2", "1,2,3,4", "", "a,b,c", "1,,2"] {
+        for wrong in ["1,2", "1,2,3,4", "", "a,b,c", "1,,2", "0,0,nan", "0,inf,1"] {
             assert!(triple(wrong).is_err(), "{wrong}");
         }
     }

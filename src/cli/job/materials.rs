@@ -217,7 +217,7 @@ pub fn read_one<T: Real>(
 ) -> Result<Read<T>, CommandError> {
     let NamedPath { name, path } = material;
     note_pipe(path);
-    let options = args.of_one(material)?;
+    let options = args.of_one(&material.source())?;
     let read: Read<T> = watched(&format!("reading {}", path.display()), |progress| {
         read::read_bound(path, bindings, &options, progress)
     })?;

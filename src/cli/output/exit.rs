@@ -86,6 +86,7 @@ fn code_of(error: &CommandError) -> u8 {
         Error::NoWindow { .. } | Error::NoAdapter { .. } => NO_GRAPHICS,
         Error::SceneCount { .. }
         | Error::SeveralSceneFiles { .. }
+        | Error::NoSceneCount { .. }
         | Error::SpecifiedTwice { .. }
         | Error::UnknownName { .. }
         | Error::UnsupportedOutput { .. } => USAGE,

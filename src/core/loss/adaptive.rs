@@ -24,7 +24,7 @@ use crate::progress::Progress;
 /// little.
 pub const TEXELS: usize = 128;
 /// Near-field scenes for each distant one, as Algorithm 1 has 6 and 3: this is their share in the loss.
-const NEAR_PER_DISTANT: usize = 2;
+pub const NEAR_PER_DISTANT: usize = 2;
 /// Distant scenes of each scrambling in the pilot.
 const PILOT: usize = 8;
 /// Most distant scenes of each scrambling.

@@ -26,7 +26,7 @@ pub use comparison::{Backend, Comparison, Compute, check_same_size};
 pub use fused::Fused;
 pub use outcome::{IntervalSource, Loss, Outcome};
 pub use plain::Plain;
-pub use question::Question;
+pub use question::{Question, SceneChoice};
 pub use request::{Precision, Request, Sampling, Texels};
 pub use run::ALL_SCENES_TARGET;
 pub use settings::{Ask, FileScenes, LossSettings};

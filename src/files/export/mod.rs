@@ -52,6 +52,11 @@ impl Destination<PictureFormat> {
         Self::among(path, format, "extension of an output file", known)
     }
 
+    /// The format that its extension selects.
+    pub fn format(&self) -> PictureFormat {
+        self.format
+    }
+
     /// Writes `panes`, which are equally high, side by side, or in rows where one would be wider than 16,384 texels. The file
     /// appears when it is complete, or not at all.
     ///

@@ -8,8 +8,8 @@ use std::str::FromStr;
 
 use svbrdf_core::error::Error;
 use svbrdf_files::read::{Preset, ReadOptions};
+use svbrdf_files::source::MaterialSource;
 
-use crate::cli::args::NamedPath;
 use crate::cli::output::CommandError;
 pub use decision::{Reading, Side};
 use former::{FormerArgs, FormerSideArgs};
@@ -63,9 +63,9 @@ impl ReadingArgs {
     ///
     /// # Errors
     /// [`Error::SpecifiedTwice`]; [`CommandError::Usage`] for what is specified for other materials.
-    pub fn of_one(&self, material: &NamedPath) -> Result<ReadOptions, CommandError> {
+    pub fn of_one(&self, material: &MaterialSource) -> Result<ReadOptions, CommandError> {
         let reading = Reading::new(self.statements())?;
-        let names = if reading.has_names() { material.source().possible_names() } else { Vec::new() };
+        let names = if reading.has_names() { material.possible_names() } else { Vec::new() };
         let name = names.iter().find(|name| reading.check(Some(name), &[]).is_ok()).or(names.first());
         let name = name.map_or("", String::as_str);
         reading.check(Some(name), &[])?;

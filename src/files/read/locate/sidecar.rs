@@ -35,24 +35,11 @@ pub struct Sidecar {
 
 impl Sidecar {
     /// The sidecar file of the material `path`: `svbrdf.json` in a folder, `NAME.svbrdf.json` beside a file `NAME.png` or
-    /// the files of a prefix `NAME_`. For a file that is named after a map: that of its folder, where this exists and the
-    /// file has none of its own.
+    /// the files of a prefix `NAME_`. Where a file or prefix has none of its own, that of its folder, where this exists.
     pub fn path_for(path: &Path) -> PathBuf {
-        if is_sidecar(path) {
-            return path.to_owned();
-        }
-        if path.is_dir() {
-            return path.join(IN_FOLDER);
-        }
-        if !path.exists() {
-            let prefix = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let name = prefix.trim_end_matches(|c: char| !c.is_alphanumeric());
-            return path.with_file_name(format!("{name}{BESIDE}"));
-        }
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let is_map = Label::of(&name).is_some_and(|label| label.stem.is_empty() && !label.is_short());
-        let [own, common] = [name + BESIDE, IN_FOLDER.to_owned()].map(|name| path.with_file_name(name));
-        if is_map && !own.exists() && common.exists() { common } else { own }
+        let own = own_place(path);
+        let common = common_place(path);
+        common.filter(|common| !own.exists() && common.exists()).unwrap_or(own)
     }
 
     /// Whether `path` is named like a sidecar file.
@@ -97,6 +84,10 @@ impl Sidecar {
             serde_json::from_value::<ReadOptions>(one).map_err(|e| bad(format!("{key}: {e}")))?;
         }
         sidecar.options = serde_json::from_value(all.into()).map_err(|e| bad(e.to_string()))?;
+        if common_place(path).is_some_and(|common| common == place) && !is_named_after_map(path) {
+            // The maps of the folder are those of another material.
+            sidecar.bindings.clear();
+        }
         Ok(sidecar)
     }
 
@@ -129,7 +120,8 @@ impl Sidecar {
     /// # Errors
     /// [`Error::Unwritable`], also where it is a link; [`Error::Cancelled`].
     pub fn save(&self, path: &Path, progress: &Progress) -> Result<PathBuf, Error> {
-        let place = Self::path_for(path);
+        // What is saved for one file of a folder is not for the others; a map stands for its folder.
+        let place = if is_named_after_map(path) { Self::path_for(path) } else { own_place(path) };
         own::check(&place)?;
         let mut all = self.options.object();
         all.retain(|_, value| !value.is_null());
@@ -185,6 +177,31 @@ impl Sidecar {
         }
         notes.insert(0, Note::SidecarUsed { file: file.to_owned() });
     }
+}
+
+/// The place of the sidecar file of the material `path` alone.
+fn own_place(path: &Path) -> PathBuf {
+    if is_sidecar(path) {
+        return path.to_owned();
+    }
+    if path.is_dir() {
+        return path.join(IN_FOLDER);
+    }
+    let name = if path.exists() { path.file_stem() } else { path.file_name() };
+    let name = name.unwrap_or_default().to_string_lossy().into_owned();
+    let is_end = |c: char| !path.exists() && !c.is_alphanumeric();
+    path.with_file_name(format!("{}{BESIDE}", name.trim_end_matches(is_end)))
+}
+
+/// The place of the sidecar file of the folder that the file or prefix `path` is in.
+fn common_place(path: &Path) -> Option<PathBuf> {
+    (!is_sidecar(path) && !path.is_dir()).then(|| path.with_file_name(IN_FOLDER))
+}
+
+/// Whether the file `path` is named after a map alone: its folder is then a material.
+fn is_named_after_map(path: &Path) -> bool {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    path.is_file() && Label::of(&name).is_some_and(|label| label.stem.is_empty() && !label.is_short())
 }
 
 /// The keys that specify an assumption, the most specific first.

@@ -1,5 +1,8 @@
 //! Layers of options: those of the caller over those of a sidecar file, presets below each.
 
+use svbrdf_core::diagnose::Remedy;
+use svbrdf_core::error::Error;
+
 use super::preset::Preset;
 use super::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow};
 
@@ -83,5 +86,42 @@ impl ReadOptions {
             energy: self.energy.or(usual.energy),
             ..self
         }
+    }
+
+    /// These options with the one that corrects the reading.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] for a value that the option does not have.
+    pub fn with_remedy(self, remedy: Remedy) -> Result<Self, Error> {
+        Ok(remedy.to_string().parse::<Self>()?.over(self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_values_of_remedies_are_those_of_the_options() {
+        let remedies = [
+            (Remedy::NormalY("down"), ReadOptions { normal_y: Some(NormalY::Down), ..ReadOptions::AUTO }),
+            (Remedy::Albedo("linear"), ReadOptions { albedo: Some(Albedo::Linear), ..ReadOptions::AUTO }),
+            (
+                Remedy::SpecularAlbedo("srgb"),
+                ReadOptions { specular: Some(Albedo::Srgb), ..ReadOptions::AUTO },
+            ),
+            (
+                Remedy::Roughness("alpha"),
+                ReadOptions { roughness: Some(Roughness::Alpha), ..ReadOptions::AUTO },
+            ),
+        ];
+        for (remedy, expected) in remedies {
+            assert_eq!(ReadOptions::AUTO.with_remedy(remedy).unwrap(), expected, "{remedy}");
+        }
+        let others = [Remedy::NormalY("up"), Remedy::Roughness("gloss"), Remedy::Roughness("r")];
+        for remedy in others.into_iter().chain(["scaled", "unscaled"].map(Remedy::Energy)) {
+            ReadOptions::AUTO.with_remedy(remedy).unwrap();
+        }
+        assert!(ReadOptions::AUTO.with_remedy(Remedy::Energy("none")).is_err());
     }
 }

@@ -7,7 +7,6 @@ mod grid;
 mod layered;
 mod order;
 mod preset;
-mod remedy;
 mod role;
 pub(crate) mod transfer;
 mod words;

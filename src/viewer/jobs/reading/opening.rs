@@ -233,11 +233,11 @@ impl OpeningWork {
             match item {
                 Item::Loaded(loaded) => output.worker.report((Arrival::Loaded(loaded), None))?,
                 Item::Read(source) if index >= self.alone => {
-                    runs_of(source)
+                    runs_of(*source)
                         .into_iter()
                         .try_for_each(|one| self.read(one, index, &mut reader, output))?;
                 }
-                Item::Read(source) => self.read(source, index, &mut reader, output)?,
+                Item::Read(source) => self.read(*source, index, &mut reader, output)?,
             }
         }
         Ok(())

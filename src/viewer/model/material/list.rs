@@ -68,7 +68,7 @@ impl MaterialList {
         };
         let item = |source: &Source| match there.iter().position(|one| is(one, source)) {
             Some(index) => Item::Loaded(there.remove(index)),
-            None => Item::Read(source.clone()),
+            None => Item::Read(Box::new(source.clone())),
         };
         ReadRequest { items: sources.iter().map(item).collect(), target: Target::Everything }
     }

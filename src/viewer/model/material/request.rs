@@ -24,7 +24,7 @@ pub enum Target {
 #[derive(Clone, Debug)]
 pub enum Item {
     Loaded(LoadedMaterial),
-    Read(Source),
+    Read(Box<Source>),
 }
 
 /// Materials to be read one after the other, and where they go.
@@ -36,7 +36,7 @@ pub struct ReadRequest {
 
 impl ReadRequest {
     pub fn new(sources: Vec<Source>, target: Target) -> Self {
-        Self { items: sources.into_iter().map(Item::Read).collect(), target }
+        Self { items: sources.into_iter().map(Box::new).map(Item::Read).collect(), target }
     }
 
     /// The built-in materials, in the place of all others.

@@ -175,6 +175,7 @@ mod tests {
     #[test]
     fn a_comparison_is_named_by_its_files() {
         let material = |path: &str| SessionMaterial {
+            name: None,
             path: Some(path.into()),
             built_in: None,
             read: ReadOptions::AUTO,
