@@ -242,6 +242,16 @@ def test_what_leaves_the_number_of_scenes_open_leaves_the_accuracy() -> None:
     assert [(report.near, report.distant) for report in counts] == [(6, 3), (4, 2)]
 
 
+@pytest.mark.parametrize("given", ["1%", [0.01], True])
+def test_a_target_error_that_is_no_number_is_refused_by_its_name(given: Any) -> None:
+    material = svbrdf.Material(**maps(5, 4))
+    for call in (svbrdf.loss, svbrdf.rank, svbrdf.blame):
+        with pytest.raises(TypeError, match=r"^target_error: expected a number, such as 0.01, found"):
+            call(material, material, target_error=given)
+    with pytest.raises(TypeError, match=r"^target_error: expected a number"):
+        svbrdf.rank_dataset("gt", "ours", target_error=given)
+
+
 def test_a_target_error_that_could_be_percent_is_refused() -> None:
     ground_truth, prediction, _ = svbrdf.built_in()
     for function in (svbrdf.loss, svbrdf.blame, svbrdf.rank):

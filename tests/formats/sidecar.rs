@@ -127,7 +127,7 @@ fn what_is_kept_in_a_folder_holds_for_each_of_its_files_without_a_sidecar_of_its
     );
     assert!(Sidecar::load(&of("wood.png")).unwrap().bindings.is_empty(), "maps are of the folder");
     // What is saved for one of them is its own.
-    let saved = Sidecar::load(&of("wood.png")).unwrap().save(&of("wood.png")).unwrap();
+    let saved = Sidecar::load(&of("wood.png")).unwrap().save(&of("wood.png"), &Progress::default()).unwrap();
     assert_eq!(saved, of("wood.svbrdf.json"));
 }
 

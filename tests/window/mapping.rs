@@ -106,11 +106,8 @@ fn differs(a: &image::RgbaImage, b: &image::RgbaImage, [x, y]: [u32; 2], reach: 
 #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn readout_pin_and_rectangle_are_of_the_texels_that_the_screen_shows() {
     let folder = tempfile::tempdir().unwrap();
-    let options = ViewerOptions {
-        predictions: vec![folder.path().to_owned()],
-        prediction_read: numbered(folder.path()).ground_truth_read,
-        ..numbered(folder.path())
-    };
+    let numbered = numbered(folder.path());
+    let options = ViewerOptions { predictions: numbered.ground_truth.iter().cloned().collect(), ..numbered };
     let mut window = window(options);
     let mut random = ChaCha8Rng::seed_from_u64(46);
     let mut outlines = 0;

@@ -1,5 +1,6 @@
 """The arguments that the comparisons have in common."""
 
+import numbers
 import os
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -137,9 +138,13 @@ def check_goals(**given: object) -> None:
     """Whether at most one argument decides the scenes, and makes sense.
 
     Raises:
+        TypeError: One is no number.
         ValueError: Several are given, or one is out of its range.
     """
     named = [name for name, value in given.items() if value is not None]
+    for name in {"target_error", "time_budget"}.intersection(named):
+        if isinstance(given[name], bool) or not isinstance(given[name], numbers.Real):
+            raise TypeError(f"{name}: expected a number, such as 0.01, found {given[name]!r}")
     if len(named) > 1:
         raise ValueError(f"{' and '.join(named)}: expected one of them; each decides the scenes")
     target_error, time_budget = given.get("target_error"), given.get("time_budget")
