@@ -20,6 +20,7 @@ mod record;
 mod remarks;
 mod repetition;
 mod report;
+mod report_json;
 mod run;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};

@@ -1,0 +1,92 @@
+//! The losses of methods over a data set as JSON.
+
+use std::collections::BTreeMap;
+
+use serde::{Serialize, Serializer};
+
+use super::mark_summary::{MarkSummary, summarize_marks};
+use super::metric_summary::{MetricSummary, summarize_metrics};
+use super::record::{DatasetReading, DatasetSettings, MaterialResult};
+use super::remarks::ReadingSummary;
+use super::report::DatasetReport;
+use crate::atomic::SOFTWARE;
+
+#[derive(Serialize)]
+struct DatasetJson<'a> {
+    settings: &'a DatasetSettings,
+    /// How the files are read.
+    reading: &'a DatasetReading,
+    pick: String,
+    /// The program and its version.
+    software: &'static str,
+    /// The command that makes the results again.
+    command: String,
+    /// The names of the materials that the means of compared methods are over.
+    compared_materials: Vec<&'a str>,
+    /// How the ground truths were read.
+    ground_truths: ReadingSummary,
+    /// The compared ones first, best first.
+    methods: Vec<MethodEntry<'a>>,
+    results: &'a [MaterialResult],
+}
+
+#[derive(Serialize)]
+struct MethodEntry<'a> {
+    method: &'a str,
+    /// Whether it has a loss of as many materials as any other; if not, its mean is over other materials.
+    compared: bool,
+    materials: usize,
+    failures: usize,
+    mean: f64,
+    median: f64,
+    interval95_materials: Option<[f64; 2]>,
+    interval95_scenes: [f64; 2],
+    to_best: Option<f64>,
+    to_best_interval95_materials: Option<[f64; 2]>,
+    ties_with_best: bool,
+    /// How its predictions were read.
+    reading: Option<ReadingSummary>,
+    /// Of the maps, by name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    metrics: BTreeMap<String, MetricSummary>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    marks: Option<MarkSummary>,
+}
+
+impl Serialize for DatasetReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { settings, reading, pick, ranking, results } = self;
+        let mut readings = ReadingSummary::by_method(results);
+        let methods = ranking.methods.iter().map(|summary| MethodEntry {
+            method: &summary.method,
+            compared: summary.is_compared,
+            materials: summary.materials,
+            failures: summary.failures,
+            mean: summary.mean,
+            median: summary.median,
+            interval95_materials: summary.interval95_materials,
+            interval95_scenes: summary.interval95_scenes,
+            to_best: summary.to_best.map(|difference| difference.mean),
+            to_best_interval95_materials: summary
+                .to_best
+                .and_then(|difference| difference.interval95_materials),
+            ties_with_best: summary.ties_with_best(),
+            reading: readings.remove(summary.method.as_str()),
+            metrics: summarize_metrics(ranking, summary, results, *pick),
+            marks: summarize_marks(ranking, summary, results, *pick),
+        });
+        let is_common = |result: &&MaterialResult| ranking.common.contains(&result.index);
+        DatasetJson {
+            settings,
+            reading,
+            pick: pick.to_string(),
+            software: SOFTWARE,
+            command: self.command(),
+            compared_materials: results.iter().filter(is_common).map(|one| one.material.as_str()).collect(),
+            ground_truths: ReadingSummary::of_ground_truths(results),
+            methods: methods.collect(),
+            results,
+        }
+        .serialize(serializer)
+    }
+}
