@@ -6,9 +6,12 @@ use rand::{RngExt as _, SeedableRng as _};
 /// Resamples.
 const RESAMPLES: usize = 2000;
 
-/// The fewest values whose mean has an interval. Of three values 1 resample in 9 repeats one value, so that the ends are infinite; of
-/// four, the interval of exponential values is four times as wide as of five.
+/// The fewest values whose mean has an interval: of four exponential values it is four times as wide as of five.
 pub const FEWEST: usize = 5;
+
+/// The least error of a resample, as a share of that of the values. Resamples of few values may leave out the one that differs; their
+/// own error would say that the mean is known exactly.
+const LEAST: f64 = 0.1;
 
 /// The 95% interval of the mean of what `values` of any sign are a sample of, by the bootstrap-t (Efron 1981); `None` for fewer than
 /// [`FEWEST`] values, and where an end is not finite.
@@ -20,7 +23,8 @@ pub fn interval_of_mean(values: &[f64]) -> Option<[f64; 2]> {
     if error == 0.0 {
         return Some([mean; 2]);
     }
-    let [low, high] = quantiles(values, |resample| (resample.mean - mean) / resample.error);
+    let [low, high] =
+        quantiles(values, |resample| (resample.mean - mean) / resample.error.max(LEAST * error));
     finite([mean - high * error, mean - low * error])
 }
 
@@ -31,9 +35,12 @@ pub fn interval_of_positive_mean(values: &[f64]) -> Option<[f64; 2]> {
     if error == 0.0 {
         return Some([mean; 2]);
     }
-    let studentized = |resample: Moments| (resample.mean / mean).ln() * resample.mean / resample.error;
+    let relative = error / mean;
+    let studentized = |resample: Moments| {
+        (resample.mean / mean).ln() / (resample.error / resample.mean).max(LEAST * relative)
+    };
     let [low, high] = quantiles(values, studentized);
-    finite([high, low].map(|quantile| mean * (-quantile * error / mean).exp()))
+    finite([high, low].map(|quantile| mean * (-quantile * relative).exp()))
 }
 
 /// A mean and its standard error.
@@ -59,15 +66,13 @@ fn sample(values: &[f64]) -> Option<Moments> {
 
 /// The 2.5% and 97.5% quantiles of what `studentized` makes of resamples.
 fn quantiles(values: &[f64], studentized: impl Fn(Moments) -> f64) -> [f64; 2] {
-    let mean = Moments::of(values).mean;
     let mut generator = ChaCha8Rng::seed_from_u64(0);
     let mut resample = vec![0.0; values.len()];
     let one = |_| {
         resample.iter_mut().for_each(|value| *value = values[generator.random_range(0..values.len())]);
-        let moments = Moments::of(&resample);
-        // All values of the resample are the same: it is unbounded on the side where it is.
-        let unbounded = f64::INFINITY.copysign(moments.mean - mean);
-        Some(studentized(moments)).filter(|t| moments.error > 0.0 && !t.is_nan()).unwrap_or(unbounded)
+        let t = studentized(Moments::of(&resample));
+        // The logarithm of a mean of 0, over no error.
+        if t.is_nan() { f64::NEG_INFINITY } else { t }
     };
     let mut all: Vec<f64> = (0..RESAMPLES).map(one).collect();
     all.sort_by(f64::total_cmp);
