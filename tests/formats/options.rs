@@ -94,6 +94,8 @@ fn plain_diffuse_is_divided_by_what_specular_leaves() {
         }
     }
     assert_eq!(chosen(&read, What::Energy), "diffuse not scaled by (1 - specular): d / (1 - s) is used");
+    // What a diagnosis knows of the storage: it tries the other reading, and not this one again.
+    assert!(read.storage().unscaled && !open_as(&path, &ReadOptions::AUTO).storage().unscaled);
 }
 
 #[test]

@@ -93,7 +93,8 @@ fn codes_of_research_are_written_as_they_are_read() {
             Err(Error::UnsupportedOutput { .. })
         ));
     }
-    assert!(FileKind::new(Path::new("brick.v2"), &WriteOptions::default()).is_ok());
+    let kind = |path: &str| FileKind::new(Path::new(path), &WriteOptions::default());
+    assert!(kind("brick.v2/").is_ok() && kind("brick.v2").is_err(), "a folder ends with a slash");
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The losses of a prediction before and after changes, in the same scenes on the same texels.
 
+use rayon::prelude::*;
+
 use super::change::Change;
 use super::corrected::Corrected;
 use super::exposure;
@@ -10,7 +12,7 @@ use crate::loss::{Comparison, Compute as _, Request, Sampling, Texels};
 use crate::material::Material;
 use crate::model::convention::Convention;
 use crate::model::sampler::Sampler;
-use crate::model::scene::Scene;
+use crate::model::scene::{Kind, Scene};
 use crate::progress::Progress;
 
 /// Changed predictions are rendered together as far as their maps fit into this much memory.
@@ -97,18 +99,36 @@ impl<'a> Trials<'a> {
         corrected.iter().map(one).collect()
     }
 
-    /// On a part of the texels, of which at most as many are compared as of other trials.
+    /// On a part of the texels: in each scene on those of its subset that are among `texels`, which are in order. Trials of other parts
+    /// are compared on the same subset. A scene without any has a loss of 0.
     fn on_texels(&self, material: &Material<f32>, texels: &[usize]) -> Result<Paired, Error> {
         let materials = [self.prediction, material];
         let comparison = Comparison::new(self.ground_truth, &materials, *self.convention)?;
-        let count = texels.len().min(self.texels);
-        let some: Vec<usize> =
-            (0..count).map(|i| texels[(i as u128 * texels.len() as u128 / count as u128) as usize]).collect();
         let progress = self.progress.part();
-        let mut losses =
-            f32::cpu().scene_losses(&comparison, &self.scenes, Some(&some), &progress)?.into_iter();
-        let [before, after] = [losses.next(), losses.next()].map(Option::unwrap_or_default);
-        Ok(Paired { before, after })
+        let of_scenes = |scenes: &[Scene], some: &[usize]| match some {
+            [] => Ok(vec![vec![0.0; scenes.len()]; materials.len()]),
+            some => f32::cpu().scene_losses(&comparison, scenes, Some(some), &Progress::default()),
+        };
+        progress.begin(self.scenes.len() as u64);
+        let of_scene = |(number, scene): (usize, &Scene)| {
+            let subset = self.subset(number).into_iter().filter(|texel| texels.binary_search(texel).is_ok());
+            let losses = of_scenes(std::slice::from_ref(scene), &subset.collect::<Vec<_>>())?;
+            progress.step().map(|()| losses)
+        };
+        let losses = match self.sampling.texels.sampled(self.ground_truth.size()) {
+            None => vec![of_scenes(&self.scenes, texels)?],
+            Some(_) => self.scenes.par_iter().enumerate().map(of_scene).collect::<Result<Vec<_>, _>>()?,
+        };
+        let of = |place: usize| losses.iter().flat_map(|losses| losses[place].iter().copied()).collect();
+        Ok(Paired { before: of(0), after: of(1) })
+    }
+
+    /// The independent random subset of the texels that a scene is compared on.
+    fn subset(&self, number: usize) -> Vec<usize> {
+        let Sampling { near, seed, sampler, .. } = self.sampling;
+        let kind = self.scenes[number].kind;
+        let index = if kind == Kind::Near { number } else { number - near };
+        sampler.texels(seed, kind, index, self.texels, self.ground_truth.size())
     }
 
     /// Adds what an exposure changes on random texels of each scene.

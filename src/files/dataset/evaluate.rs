@@ -18,7 +18,7 @@ use svbrdf_core::rank::most_scenes;
 use super::record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
-use super::remarks::Remark;
+use super::remark::Remark;
 use crate::read::{self, Read, ReadOptions};
 
 /// The result of a material, and the files that it was computed from.

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use svbrdf_core::error::Error;
 use svbrdf_core::text::line;
 
-use super::record::{Candidate, Case, Method};
+use super::record::{Candidate, Case, Method, Source};
 use crate::open::NamedFile;
 use crate::{inputs, memory};
 
@@ -41,6 +41,19 @@ impl FromStr for Shard {
                 found: text.to_owned(),
                 known: "i/n with i from 1 to n, such as 1/4".to_owned(),
             }),
+        }
+    }
+}
+
+impl Source {
+    /// Its materials.
+    ///
+    /// # Errors
+    /// As [`cases_of_folders`] and [`cases_of_table`].
+    pub fn cases(&self) -> Result<Vec<Case>, Error> {
+        match self {
+            Self::Folders { ground_truths, methods } => cases_of_folders(ground_truths, methods),
+            Self::Table(path) => cases_of_table(path),
         }
     }
 }

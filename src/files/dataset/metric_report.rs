@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use svbrdf_core::report::{aligned, bold, escaped, latex};
 
 use super::metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
+use super::pick::Pick;
+use super::ranking::Ranking;
 use super::record::MaterialResult;
-use super::report::DatasetReport;
 
 /// The names of the metrics of the results.
 pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {
@@ -15,15 +16,14 @@ pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {
 }
 
 /// A table of the means over materials with their intervals, a column for each method; empty without metrics.
-pub(super) fn text(report: &DatasetReport) -> String {
-    let names = names(&report.results);
+pub(super) fn text(ranking: &Ranking, results: &[MaterialResult], pick: Pick) -> String {
+    let names = names(results);
     if names.is_empty() {
         return String::new();
     }
-    let columns = columns(report);
+    let columns = columns(ranking, results, pick);
     let mut heading = vec!["metric, mean over materials".to_owned()];
-    heading
-        .extend(report.ranking.methods.iter().flat_map(|summary| [summary.method.clone(), "95%".to_owned()]));
+    heading.extend(ranking.methods.iter().flat_map(|summary| [summary.method.clone(), "95%".to_owned()]));
     let row = |name: &str| {
         let cells = columns.iter().flat_map(|metrics| cells(metrics.get(name)));
         [name.to_owned()].into_iter().chain(cells).collect()
@@ -34,13 +34,13 @@ pub(super) fn text(report: &DatasetReport) -> String {
 
 /// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
 /// without metrics.
-pub(super) fn latex_table(report: &DatasetReport) -> String {
-    let methods = &report.ranking.methods;
-    let best = best_by_metric(&report.ranking, &report.results, report.pick);
+pub(super) fn latex_table(ranking: &Ranking, results: &[MaterialResult], pick: Pick) -> String {
+    let methods = &ranking.methods;
+    let best = best_by_metric(ranking, results, pick);
     if best.is_empty() {
         return String::new();
     }
-    let columns = columns(report);
+    let columns = columns(ranking, results, pick);
     let row = |(name, best): (&String, &Vec<bool>)| {
         let cell = |(metrics, &best): (&BTreeMap<String, MetricSummary>, &bool)| {
             metrics.get(name).map_or("--".to_owned(), |metric| bold(&number(metric.mean), best))
@@ -56,9 +56,12 @@ pub(super) fn latex_table(report: &DatasetReport) -> String {
 }
 
 /// The metrics of each method.
-fn columns(report: &DatasetReport) -> Vec<BTreeMap<String, MetricSummary>> {
-    let DatasetReport { ranking, results, pick, .. } = report;
-    ranking.methods.iter().map(|method| summarize_metrics(ranking, method, results, *pick)).collect()
+fn columns(
+    ranking: &Ranking,
+    results: &[MaterialResult],
+    pick: Pick,
+) -> Vec<BTreeMap<String, MetricSummary>> {
+    ranking.methods.iter().map(|method| summarize_metrics(ranking, method, results, pick)).collect()
 }
 
 /// A number in LaTeX.

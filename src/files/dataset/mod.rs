@@ -5,6 +5,7 @@
 //! joins the journals of parts of a run, and a [`Ranking`] compares the methods by them.
 
 mod bootstrap;
+mod doubts;
 mod evaluate;
 mod fingerprint;
 mod journal;
@@ -17,13 +18,14 @@ mod metric_summary;
 mod pick;
 mod ranking;
 mod record;
-mod remarks;
+mod remark;
 mod repetition;
 mod report;
 mod report_json;
 mod run;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
+pub use doubts::{DoubtCount, ReadingSummary};
 pub use journal::{Merged, Recomputed, merged};
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use mark_summary::{MarkSummary, summarize_marks};
@@ -34,6 +36,6 @@ pub use record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
     PredictionResult, Source,
 };
-pub use remarks::{DoubtCount, ReadingSummary, Remark};
+pub use remark::Remark;
 pub use report::DatasetReport;
 pub use run::{DatasetResults, run};

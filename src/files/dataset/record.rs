@@ -6,12 +6,10 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use svbrdf_core::diagnose::Finding;
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 
 use super::fingerprint::fnv1a;
-use super::list::{cases_of_folders, cases_of_table};
-use super::remarks::Remark;
+use super::remark::Remark;
 use crate::read::ReadOptions;
 
 /// A material: its ground truth, and the predictions of all methods.
@@ -63,19 +61,6 @@ pub struct Method {
 /// A path as it is printed: it may be no Unicode.
 fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&path.display())
-}
-
-impl Source {
-    /// Its materials.
-    ///
-    /// # Errors
-    /// As [`cases_of_folders`](super::cases_of_folders) and [`cases_of_table`](super::cases_of_table).
-    pub fn cases(&self) -> Result<Vec<Case>, Error> {
-        match self {
-            Self::Folders { ground_truths, methods } => cases_of_folders(ground_truths, methods),
-            Self::Table(path) => cases_of_table(path),
-        }
-    }
 }
 
 /// The settings that the results of all materials have in common: results of other settings cannot be joined with them.

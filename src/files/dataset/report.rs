@@ -4,12 +4,13 @@ use svbrdf_core::error::Error;
 use svbrdf_core::report::{Cell, Report, Table, aligned, bold, escaped, latex, missed};
 use svbrdf_core::text::line;
 
+use super::doubts::ReadingSummary;
 use super::mark_report;
 use super::metric_report;
 use super::pick::{Pick, counted};
 use super::ranking::{MethodSummary, Ranking};
 use super::record::{DatasetReading, DatasetSettings, Mark, MaterialResult, PredictionResult};
-use super::remarks::{ReadingSummary, Remark};
+use super::remark::Remark;
 use super::repetition;
 use crate::atomic::SOFTWARE;
 
@@ -125,7 +126,7 @@ impl DatasetReport {
         let comments = self.conditions().into_iter().chain([self.repetition()]);
         let comments: String = comments.map(|comment| format!("% {}\n", line(&comment))).collect();
         let losses = latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows);
-        comments + &losses + &metric_report::latex_table(self)
+        comments + &losses + &metric_report::latex_table(&self.ranking, &self.results, self.pick)
     }
 
     /// How to repeat the ranking: a line.
@@ -185,8 +186,8 @@ impl Report for DatasetReport {
             self.pick,
             self.losses(),
             lines(self.conditions()),
-            mark_report::text(self),
-            metric_report::text(self),
+            mark_report::text(&self.ranking, &self.results, self.pick),
+            metric_report::text(&self.ranking, &self.results, self.pick),
             self.repetition(),
         )
     }

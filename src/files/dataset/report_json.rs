@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Serialize, Serializer};
 
+use super::doubts::ReadingSummary;
 use super::mark_summary::{MarkSummary, summarize_marks};
 use super::metric_summary::{MetricSummary, summarize_metrics};
 use super::record::{DatasetReading, DatasetSettings, MaterialResult};
-use super::remarks::ReadingSummary;
 use super::report::DatasetReport;
 use crate::atomic::SOFTWARE;
 

@@ -124,7 +124,7 @@ fn metrics(report: &DatasetReport) -> String {
 
 /// The marks of diagnoses, where there are any.
 fn marks(report: &DatasetReport) -> String {
-    let rows = mark_report::rows(report);
+    let rows = mark_report::rows(&report.ranking, &report.results, report.pick);
     let Some((headings, rows)) = rows.split_first() else { return String::new() };
     let headings: String =
         headings.iter().map(|heading| format!(r#"<th scope="col">{}</th>"#, escaped(heading))).collect();

@@ -1,10 +1,13 @@
 //! Each error planted alone: it is found with its value, and the rest of the table stays unmarked.
 
-use super::super::shift::shifted;
+use super::super::shift::{interior, shifted};
 use super::super::{Diagnosis, Hypothesis, Reading, Storage, Symmetry, Transfer, Value, diagnose, sentence};
 use super::materials::{generated, unexplained, with};
+use crate::loss::{Comparison, Compute as _};
 use crate::material::Material;
+use crate::model::brdf::Texel;
 use crate::model::convention::PRINTED;
+use crate::model::sampler::Sampler;
 use crate::progress::Progress;
 
 const SIDE: usize = 48;
@@ -29,6 +32,46 @@ fn shifts() {
         assert_eq!(only(&found), (Hypothesis::Shift, Value::Displacement(shift.map(f64::from))));
         let finding = found.marked().next().unwrap();
         assert!(finding.loss.unwrap() < 1e-6 && finding.share.unwrap() > 0.999, "{finding:?}");
+    }
+}
+
+/// A regular subset of the texels of a shift would have been 16 columns of these maps.
+#[test]
+fn the_share_of_a_shift_is_that_of_all_texels() {
+    let side = 512;
+    let truth = generated(0, side);
+    let moved = with(&shifted(&truth, [2, 0]).unwrap(), |planes| {
+        let between_columns = |index: usize| (8..24).contains(&(index % side % 32));
+        let roughness = planes.roughness.iter_mut().enumerate().filter(|(index, _)| between_columns(*index));
+        roughness.for_each(|(_, roughness)| *roughness *= 0.8);
+    });
+    let found = found(&truth, &moved, &Storage::default());
+    let finding = found.findings.iter().find(|finding| finding.hypothesis == Hypothesis::Shift).unwrap();
+    assert_eq!(finding.value, Value::Displacement([2.0, 0.0]));
+
+    let back = shifted(&moved, [-2, 0]).unwrap();
+    let predictions = [&moved, &back];
+    let comparison = Comparison::new(&truth, &predictions, PRINTED).unwrap();
+    let scenes = Sampler::Sobol.scenes(1, 64, 32, &PRINTED);
+    let texels = interior([side; 2], [-2, 0]);
+    let losses = f32::cpu().scene_losses(&comparison, &scenes, Some(&texels), &Progress::default()).unwrap();
+    let [before, after] = [0, 1].map(|of: usize| losses[of].iter().sum::<f64>());
+    let (share, expected) = (finding.share.unwrap(), 1.0 - after / before);
+    assert!((share - expected).abs() < 0.005 && expected < 0.99, "{share}, of all texels {expected}");
+}
+
+#[test]
+fn maps_of_one_texel_on_a_side_are_diagnosed() {
+    for [width, height] in [[1, 1], [1, 5], [7, 1]] {
+        let uniform = |roughness| {
+            let texel = Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
+            Material::uniform("uniform", width, height, &texel).unwrap()
+        };
+        let found = found(&uniform(0.5), &uniform(0.6), &Storage::default());
+        assert!(
+            found.loss.mean > 0.0
+                && found.findings.iter().all(|one| one.hypothesis != Hypothesis::Shift || !one.marked)
+        );
     }
 }
 

@@ -3,7 +3,7 @@
 use svbrdf_core::diagnose::{Storage, Transfer};
 
 use super::read::Read;
-use crate::read::options::{Albedo, Energy, NormalY, Role, Roughness};
+use crate::read::options::{Albedo, NormalY, Role, Roughness};
 use crate::read::record::What;
 
 impl<T> Read<T> {
@@ -23,7 +23,8 @@ impl<T> Read<T> {
             base_colour: !has_specular,
             normal_down: chosen(What::NormalY) == Some(NormalY::Down.name()),
             roughness: chosen(What::Roughness).filter(|name| *name != Roughness::R.name()).map(str::to_owned),
-            unscaled: chosen(What::Energy) == Some(Energy::Unscaled.name()),
+            // Assumed only where diffuse is not scaled.
+            unscaled: self.assumptions.iter().any(|assumption| assumption.what == What::Energy),
             steps: [
                 step(&|role| role == Role::Normal),
                 step(&is_colour),
