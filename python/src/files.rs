@@ -10,7 +10,7 @@ use svbrdf_core::loss::Precision;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::inputs::check_output;
+use svbrdf_files::inputs::check_output_of;
 use svbrdf_files::read::{self as reading, Certainty, Read, ReadOptions};
 use svbrdf_files::samples;
 use svbrdf_files::write::{self as writing, WriteOptions};
@@ -121,7 +121,7 @@ pub fn write(
     let depth = depth.map(str::parse).transpose().map_err(exception)?;
     let like = preset.map(str::parse).transpose().map_err(exception)?;
     let kind = writing::FileKind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
-    check_output(&path, &files).map_err(exception)?;
+    check_output_of(&path, &files).map_err(exception)?;
     let material = material.single();
     let surface = work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))?;
     Ok(surface.map(|surface| surface.to_string()))
