@@ -53,9 +53,12 @@ def test_a_data_set_has_the_numbers_of_the_command_line(program: str, dataset: P
     assert got == found
     expected = [p["result"].get("Ok", {}).get("loss") for result in found["results"] for p in result["predictions"]]
     assert [result.loss for result in report.results] == expected
-    assert [summary.method for summary in report.methods] == ["good", "bad"]
+    # The good method lacks a material: it is not compared.
+    assert [(summary.method, summary.compared) for summary in report.methods] == [("bad", True), ("good", False)]
     assert repr(report) + "\n" == text_of_command_line(program, dataset, "--pick", pick)
-    assert report.methods[0].failures == 1
+    assert report.methods[1].failures == 1
+    assert len(report.compared_materials) == 8
+    assert "good has 7 of 8 materials: not compared" in repr(report)
     assert list(report.to_pandas()["loss"].dropna()) == [loss for loss in expected if loss is not None]
 
 
@@ -84,6 +87,21 @@ def test_a_broken_file_is_a_result_that_says_why(dataset: Path) -> None:
     assert seen[-1] == (8, 8)
 
 
+def test_doubts_in_reading_are_warned_of_by_method(tmp_path: Path) -> None:
+    for folder in ("gt", "ours"):
+        (tmp_path / folder).mkdir()
+        for index in range(2):
+            svbrdf.write(svbrdf.Material(**maps(12, 10, index)), f"{tmp_path / folder / f'm{index}'}/")
+    for normal in (tmp_path / "ours" / "m0").glob("*ormal*"):
+        normal.unlink()
+    with pytest.warns(UserWarning, match="ours: 1 of 2 without normal map"):
+        report = svbrdf.rank_dataset(tmp_path / "gt", tmp_path / "ours", target_error=0.1)
+    (summary,) = report.methods
+    assert summary.reading is not None
+    assert ("without normal map", 1) in [(doubt.doubt, doubt.materials) for doubt in summary.reading.doubts]
+    assert any(remark.startswith("missing: normal") for remark in report.results[0].reading)
+
+
 def test_read_options_reach_the_files_and_wrong_ones_are_refused(dataset: Path) -> None:
     def first(**options: Any) -> float | None:
         return svbrdf.rank_dataset(dataset / "gt", dataset / "bad", target_error=0.1, **options).results[0].loss
@@ -108,7 +126,7 @@ def test_metrics_are_those_of_the_command_line(program: str, dataset: Path, pick
     assert repr(report) + "\n" == text_of_command_line(program, dataset, "--pick", pick, "--metrics")
     expected = [prediction for result in found["results"] for prediction in result["predictions"]]
     assert [dict(result.metrics) for result in report.results] == [p.get("metrics", {}) for p in expected]
-    worse, better = (report.methods[i].metrics["rmse_roughness"] for i in (1, 0))
+    worse, better = (report.methods[i].metrics["rmse_roughness"] for i in (0, 1))
     assert worse.mean is not None
     assert better.mean is not None
     assert worse.mean > better.mean > 0

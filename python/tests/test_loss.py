@@ -71,9 +71,9 @@ def test_paths_and_arrays_give_the_same_bits_as_the_command_line(program: str, t
     assert [result.loss for result in from_paths.results] == expected
     assert [result.loss for result in from_arrays.results] == expected
     assert from_paths.results[0].path == str(paths[1])
-    # One number in the last bit of one texel is seen.
+    # A thousandth of the roughness of one texel is seen; its last bit is not on every processor.
     other = maps(33, 47, 1)
-    other["roughness"][0, 0] = np.nextafter(other["roughness"][0, 0], np.float32(2))
+    other["roughness"][0, 0] = np.float32(0.999) * other["roughness"][0, 0]
     assert svbrdf.loss(materials[0], svbrdf.Material(**other), near=4).loss != expected[0]
 
 
@@ -183,7 +183,7 @@ def test_arguments_are_checked_by_name() -> None:
     material = svbrdf.Material(**maps(4, 4))
     with pytest.raises(ValueError, match="predictions: expected at least one"):
         svbrdf.loss(material, [])
-    with pytest.raises(ValueError, match="target_error: expected a number above 0 and below 1"):
+    with pytest.raises(ValueError, match=r"target_error: expected a number above 0, such as 0\.01, found 1\.5"):
         svbrdf.loss(material, material, target_error=1.5)
     for whole in ("near", "distant", "seed"):
         for wrong, error in ((-1, ValueError), (1 << 64, ValueError), (1.5, TypeError), ("6", TypeError)):
@@ -238,7 +238,7 @@ def test_what_leaves_the_number_of_scenes_open_leaves_the_accuracy() -> None:
     assert svbrdf.loss(ground_truth, prediction, sampler="sobol", texels=128).results[0].loss == usual
     with pytest.raises(svbrdf.Error, match="not with sampler random; specify the number"):
         svbrdf.loss(ground_truth, prediction, sampler="random")
-    counts = [svbrdf.loss(ground_truth, prediction, **given) for given in ({"near": 6}, {"distant": 2})]
+    counts = [svbrdf.loss(ground_truth, prediction, near=6), svbrdf.loss(ground_truth, prediction, distant=2)]
     assert [(report.near, report.distant) for report in counts] == [(6, 3), (4, 2)]
 
 
@@ -246,7 +246,7 @@ def test_what_leaves_the_number_of_scenes_open_leaves_the_accuracy() -> None:
 def test_a_target_error_that_is_no_number_is_refused_by_its_name(given: Any) -> None:
     material = svbrdf.Material(**maps(5, 4))
     for call in (svbrdf.loss, svbrdf.rank, svbrdf.blame):
-        with pytest.raises(TypeError, match=r"^target_error: expected a number, such as 0.01, found"):
+        with pytest.raises(TypeError, match=r"^target_error: expected a number, such as 0\.01, found"):
             call(material, material, target_error=given)
     with pytest.raises(TypeError, match=r"^target_error: expected a number"):
         svbrdf.rank_dataset("gt", "ours", target_error=given)

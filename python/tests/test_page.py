@@ -73,7 +73,7 @@ def test_a_table_has_the_numbers_and_escaped_names() -> None:
     assert f"<td>{report.loss:.6g}</td>" in table
     assert "<script" not in table
     assert table.count("</table>") == 1
-    assert html.escape("</table><script>alert(1)</script>") + "\\u202e&amp;&quot;" in table
+    assert html.escape("</table><script>alert(1)</script>") + "\\u{202e}&amp;&quot;" in table
 
 
 def test_a_table_of_many_rows_says_how_many_are_hidden() -> None:

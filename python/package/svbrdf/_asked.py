@@ -163,8 +163,8 @@ def check_share(name: str, value: object) -> None:
     """
     if isinstance(value, int | float) and 0.1 < value < 1:
         raise ValueError(
-            f"{name}: expected a share of at most 0.1, such as 0.01 for 1%, found {value}, which is {value:.0%}; for {value}% give"
-            f" {value / 100:g}"
+            f"{name}: expected a share of at most 0.1, such as 0.01 for 1%, found {value}, which is {value:.0%};"
+            f" for {value}% give {value / 100:g}"
         )
 
 

@@ -180,8 +180,8 @@ def rank_dataset(
 
     Args:
         ground_truths: The folder of the ground truths.
-        methods: The folder of each method, or folders by the name of the method. A path with `{}` is a pattern, in which
-            `{}` stands for the name of a material: "out/{}_pred.png".
+        methods: The folder of each method, or folders by the name of the method. A path with `{}` is a pattern, in
+            which `{}` stands for the name of a material: "out/{}_pred.png".
         target_error: As many scenes for each material as this relative error of every loss needs at 95% confidence.
         seed: Names the sampled scenes, together with the name of the material.
         convention: A name of `svbrdf.CONVENTIONS`.
@@ -194,13 +194,13 @@ def rank_dataset(
             `svbrdf rank --dataset --journal`, which can continue it, too.
         read_ground_truth: Options of `svbrdf.read` for the ground truths, such as `{"albedo": "srgb"}`.
         read_predictions: The same for the predictions.
-        read_methods: The same for the predictions of some methods, by name: `{"ours": {"normal_y": "down"}}`. They replace
-            those of `read_predictions`.
+        read_methods: The same for the predictions of some methods, by name: `{"ours": {"normal_y": "down"}}`. They
+            replace those of `read_predictions`.
         progress: True for a bar of tqdm, or a function of (materials done, materials in all).
 
     Warns:
-        UserWarning: Files were read on an assumption that is in doubt: one warning for each method, and one for the ground
-            truths. `results` has every assumption.
+        UserWarning: Files were read on an assumption that is in doubt: one warning for each method, and one for the
+            ground truths. `results` has every assumption.
 
     Raises:
         OSError: A folder cannot be read, or the journal cannot be written.

@@ -166,8 +166,9 @@ def loss(
 ) -> LossReport:
     """The rendering loss of predictions against a ground truth of the same size.
 
-    Where neither `near` nor `distant` nor another argument decides the scenes, the answer is that of the command line: the loss over all scenes to +-1% and,
-    beside it as `few_scenes_loss`, the loss over the 6 + 3 random scenes of the papers.
+    Where neither `near` nor `distant` nor another argument decides the scenes, the answer is that of the command line:
+    the loss over all scenes to +-1% and, beside it as `few_scenes_loss`, the loss over the 6 + 3 random scenes of the
+    papers.
 
     >>> import svbrdf
     >>> ground_truth, *predictions = svbrdf.built_in()
@@ -184,15 +185,16 @@ def loss(
     Args:
         ground_truth: A material, or the path of one.
         predictions: One or several materials or paths.
-        target_error: As many scenes as this relative error needs at 95% confidence, as a share of at most 0.1: 0.01 is 1%.
+        target_error: As many scenes as this relative error needs at 95% confidence, as a share of at most 0.1: 0.01 is
+            1%.
         time_budget: As many scenes as fit into this time, in seconds.
         near: The number of sampled near-field scenes; two for each distant one where only `distant` is given.
         distant: The number of sampled distant scenes; one for two near-field ones where only `near` is given.
         seed: Names the sampled scenes.
-        sampler: "random", or "sobol", which gives less error with as many scenes. The default is "random" with `near` or
-            `distant`, else "sobol": an accuracy has no other.
-        texels: "all", or the number of random texels that are compared in each scene. The default is "all" with `near` or
-            `distant`, else 128: an accuracy has no other.
+        sampler: "random", or "sobol", which gives less error with as many scenes. The default is "random" with `near`
+            or `distant`, else "sobol": an accuracy has no other.
+        texels: "all", or the number of random texels that are compared in each scene. The default is "all" with `near`
+            or `distant`, else 128: an accuracy has no other.
         convention: A name of `svbrdf.CONVENTIONS`.
         scenes: These scenes, or those of a scene file, in place of sampled ones.
         precision: "f32", or "f64" for reference, which is many times slower.

@@ -257,10 +257,10 @@ def map(
         over: The axes of the map.
         fixed: The direction of the view of a map over lights, or of the light of a map over views; (0, 0, 1) there.
         side: Columns and rows of a map over lights or views, from 1 to 1024; 64 there.
-        near: The number of sampled near-field scenes of a map over texels; two for each distant one where only `distant` is
-            given, else 128.
-        distant: The number of sampled distant scenes of a map over texels; one for two near-field ones where only `near` is
-            given, else 64.
+        near: The number of sampled near-field scenes of a map over texels; two for each distant one where only
+            `distant` is given, else 128.
+        distant: The number of sampled distant scenes of a map over texels; one for two near-field ones where only
+            `near` is given, else 64.
         seed: Names the sampled scenes of a map over texels; 0 where `scenes` are not given.
         sampler: "sobol", the default, or "random".
         scenes: These scenes, or those of a scene file, in place of sampled ones.
