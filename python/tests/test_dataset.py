@@ -94,7 +94,7 @@ def test_doubts_in_reading_are_warned_of_by_method(tmp_path: Path) -> None:
             svbrdf.write(svbrdf.Material(**maps(12, 10, index)), f"{tmp_path / folder / f'm{index}'}/")
     for normal in (tmp_path / "ours" / "m0").glob("*ormal*"):
         normal.unlink()
-    with pytest.warns(UserWarning) as seen:
+    with pytest.warns(UserWarning, match="of 2 with") as seen:
         report = svbrdf.rank_dataset(tmp_path / "gt", tmp_path / "ours", target_error=0.1)
     (ours,) = [str(warning.message) for warning in seen if str(warning.message).startswith("ours: ")]
     assert "1 of 2 without normal map" in ours
