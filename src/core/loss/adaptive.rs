@@ -8,6 +8,11 @@
 //! this is rare, and none are ever dropped for their error. To go on favours draws that look quiet after all: it makes
 //! losses low by less than a twentieth of the accuracy (up to 0.11% at +-3%; at +-1% nothing is seen in 2,000 seeds).
 //!
+//! A run that stops because its error looks small has seen none of the scenes that make it large. The pilot, which has scenes of
+//! its own, tells of them: where it predicts a larger error, its prediction is a quarter of the variance of the interval. That
+//! takes no scene more. On ten unlike pairs, 1,000 seeds each, the intervals then hold the loss in 94.3 to 96.7% of the seeds,
+//! and without it in 93.6 to 96.0% (docs/statistics.md).
+//!
 //! The scenes that count are always the first ones of one draw: whoever asks for as many of its seed gets the same loss.
 
 use std::time::{Duration, Instant};
@@ -35,6 +40,8 @@ pub const MOST_SCENES: usize = MOST * REPLICATES * (1 + NEAR_PER_DISTANT);
 const RATE: f64 = 1.5;
 /// A run is planned for this share of the error that is asked for: its own error is only estimated.
 const MARGIN: f64 = 0.75;
+/// The share of the pilot's estimate in the variance of a run, where it is the larger of the two.
+const SHARE_OF_PILOT: f64 = 0.25;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,14 +76,18 @@ pub(super) fn run<T: Compute>(
         }
         Goal::Time(_) => (1, None),
     };
+    let pilot_errors = best.as_ref().map(relative_errors);
     loop {
         let step_start = Instant::now();
         // The pilot decides, and does not count.
         let known = best.as_ref().filter(|best| best.sampling.is_some_and(|s| s.seed == seed));
-        let outcome = match (step(comparison, seed, size, known, progress), best) {
+        let mut outcome = match (step(comparison, seed, size, known, progress), best) {
             (Err(Error::Cancelled), Some(best)) => return Ok(best),
             (outcome, _) => outcome?,
         };
+        if let Some(errors) = &pilot_errors {
+            widen(&mut outcome, errors, size);
+        }
         update(&outcome);
         let next = match goal {
             Goal::RelativeError(target) if outcome.relative_error95() <= target => None,
@@ -119,6 +130,23 @@ fn step<T: Compute>(
         *values = [old_near, near, old_distant, distant].concat();
     }
     Ok(comparison.outcome(Some(sampling), scenes, per_scene, None))
+}
+
+fn relative_errors(outcome: &Outcome) -> Vec<f64> {
+    outcome.losses.iter().map(|loss| loss.estimate.relative_error95()).collect()
+}
+
+/// Widens the intervals of a run of `size` by what its pilot, whose relative errors are `pilot`, predicts for it.
+fn widen(outcome: &mut Outcome, pilot: &[f64], size: usize) {
+    let fall = (PILOT as f64 / size as f64).min(1.0).powf(RATE);
+    for (loss, pilot) in outcome.losses.iter_mut().zip(pilot) {
+        let own = loss.estimate.relative_error95().powi(2);
+        let excess = (fall * pilot * pilot / own - 1.0).max(0.0);
+        // NaN where a loss or its error is 0.
+        if excess.is_finite() {
+            loss.estimate = loss.estimate.widened((1.0 + SHARE_OF_PILOT * excess).sqrt());
+        }
+    }
 }
 
 /// The size of a run that `target` needs, by the losses of a run of `size`.

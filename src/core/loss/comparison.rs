@@ -2,6 +2,8 @@
 
 use std::fmt::Debug;
 
+use rayon::prelude::*;
+
 use crate::error::Error;
 use crate::material::Material;
 use crate::math::real::Real;
@@ -64,6 +66,40 @@ pub trait Backend<T>: Debug + Sync {
         texels: Option<&[usize]>,
         progress: &Progress,
     ) -> Result<Vec<Vec<f64>>, Error>;
+
+    /// The same where the scene with index i is compared on texels of its own, `texels(i)`; 0 where there are none. A scene is one
+    /// step of `progress`.
+    ///
+    /// # Errors
+    /// As [`Backend::scene_losses`].
+    fn losses_on_own_texels(
+        &self,
+        comparison: &Comparison<'_, T>,
+        scenes: &[Scene],
+        texels: &(dyn Fn(usize) -> Vec<usize> + Sync),
+        progress: &Progress,
+    ) -> Result<Vec<Vec<f64>>, Error>
+    where
+        T: Sync,
+    {
+        let predictions = comparison.predictions().len();
+        progress.begin(scenes.len() as u64);
+        let of_scene = |(index, scene)| {
+            let (scene, unseen) = (std::slice::from_ref(scene), Progress::default());
+            let losses = match texels(index).as_slice() {
+                [] => vec![vec![0.0]; predictions],
+                texels => self.scene_losses(comparison, scene, Some(texels), &unseen)?,
+            };
+            progress.step().map(|()| losses.concat())
+        };
+        let losses = scenes.par_iter().enumerate().map(of_scene).collect::<Result<Vec<_>, _>>()?;
+        Ok(by_prediction(predictions, &losses))
+    }
+}
+
+/// For each prediction the losses of all scenes, from those of each scene.
+pub(super) fn by_prediction(predictions: usize, per_scene: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    (0..predictions).map(|p| per_scene.iter().map(|losses| losses[p]).collect()).collect()
 }
 
 /// A precision that has a backend on the processor.

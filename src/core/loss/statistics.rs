@@ -99,6 +99,12 @@ impl Estimate {
         Self { mean, standard_error: Some(standard_error), interval95 }
     }
 
+    /// The same with an interval that reaches `factor` times as far to either side, but not below 0.
+    pub(super) fn widened(self, factor: f64) -> Self {
+        let end = |end: f64| self.mean + factor * (end - self.mean);
+        Self { interval95: self.interval95.map(|[low, high]| [end(low).max(0.0), end(high)]), ..self }
+    }
+
     /// How far the 95% interval reaches from the mean, over the mean; infinite where it is unknown, 0 where it has no
     /// width.
     pub fn relative_error95(&self) -> f64 {

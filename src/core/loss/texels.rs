@@ -5,8 +5,6 @@
 //! error is part of how scenes or scramblings differ. The time does not depend on the size of the maps. Where fewer than
 //! half of the texels differ, subsets are taken of these: a subset of all would miss them in most scenes.
 
-use rayon::prelude::*;
-
 use super::comparison::{Comparison, Compute};
 use super::different_texels::DifferentTexels;
 use super::request::Sampling;
@@ -31,11 +29,12 @@ pub(super) fn scene_losses<T: Compute>(
     let Some(count) = sampling.texels.sampled(size) else {
         return backend.scene_losses(comparison, scenes, None, progress);
     };
-    progress.begin(scenes.len() as u64);
     let different = DifferentTexels::of(comparison);
     let share = different.as_ref().map_or(1.0, |different| different.share);
-    let subset = |kind, index| {
-        let texels = |size| sampling.sampler.texels(sampling.seed, kind, index, count, size);
+    let places: Vec<_> = scenes.iter().zip(indices(before, scenes)).collect();
+    let subset = |at: usize| {
+        let (scene, index) = places[at];
+        let texels = |size| sampling.sampler.texels(sampling.seed, scene.kind, index, count, size);
         match &different {
             None => texels(size),
             Some(DifferentTexels { texels: few, .. }) if few.len() <= count => few.clone(),
@@ -44,17 +43,9 @@ pub(super) fn scene_losses<T: Compute>(
             }
         }
     };
-    let of_scene = |(scene, index): (&Scene, usize)| {
-        let texels = subset(scene.kind, index);
-        let (scene, unseen) = (std::slice::from_ref(scene), Progress::default());
-        let losses = backend.scene_losses(comparison, scene, Some(&texels), &unseen)?;
-        progress.step()?;
-        Ok(losses.into_iter().map(|per_scene| share * per_scene[0]).collect())
-    };
-    let indexed: Vec<_> = scenes.iter().zip(indices(before, scenes)).collect();
-    let values = indexed.into_par_iter().map(of_scene).collect::<Result<Vec<Vec<f64>>, Error>>()?;
-    let of_prediction = |p: usize| values.iter().map(|of_scene| of_scene[p]).collect();
-    Ok((0..comparison.predictions().len()).map(of_prediction).collect())
+    let mut losses = backend.losses_on_own_texels(comparison, scenes, &subset, progress)?;
+    losses.iter_mut().flatten().for_each(|loss| *loss *= share);
+    Ok(losses)
 }
 
 /// The index of each scene within its kind, after `before` [near-field, distant] ones.

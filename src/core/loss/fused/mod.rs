@@ -15,12 +15,15 @@ mod pass;
 mod sums;
 mod texel_means;
 
-use super::comparison::{Backend, Comparison, Compute};
+use rayon::prelude::*;
+
+use super::comparison::{Backend, Comparison, Compute, by_prediction};
 use crate::error::Error;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::simd::Level;
 use inputs::LossInputs;
+use pass::LossTile;
 use sums::SCENES_PER_GROUP;
 
 /// The most sums held in memory at a time.
@@ -87,5 +90,25 @@ impl Backend<f32> for Fused {
             inputs.append_losses(level, batch, progress, &mut per_scene)?;
         }
         Ok(per_scene)
+    }
+
+    fn losses_on_own_texels(
+        &self,
+        comparison: &Comparison<'_, f32>,
+        scenes: &[Scene],
+        texels: &(dyn Fn(usize) -> Vec<usize> + Sync),
+        progress: &Progress,
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
+        let level = self.level.unwrap_or_else(Level::best);
+        progress.begin(scenes.len() as u64);
+        let of_scene = |tile: &mut LossTile, (index, scene)| {
+            let texels = texels(index);
+            let inputs = LossInputs::new(ground_truth, predictions, Some(&texels), comparison.convention());
+            progress.step().map(|()| inputs.losses_of_scene(level, tile, scene))
+        };
+        let tile = || LossTile::new(predictions.len());
+        let losses = scenes.par_iter().enumerate().map_init(tile, of_scene);
+        Ok(by_prediction(predictions.len(), &losses.collect::<Result<Vec<_>, _>>()?))
     }
 }

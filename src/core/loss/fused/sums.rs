@@ -53,6 +53,18 @@ impl LossInputs<'_> {
         Ok(())
     }
 
+    /// For each prediction the loss of one scene; 0 where there are no texels.
+    pub(super) fn losses_of_scene(&self, level: Level, tile: &mut LossTile, scene: &Scene) -> Vec<f64> {
+        let scenes = self.kernel_scenes(std::slice::from_ref(scene));
+        let mut losses = vec![0.0; self.predictions.len()];
+        for block in 0..self.blocks {
+            let sums = dispatch!(level, simd => self.block(simd, tile, &scenes, block));
+            losses.iter_mut().zip(sums).for_each(|(loss, sum)| *loss += sum);
+        }
+        losses.iter_mut().for_each(|loss| *loss /= (3.0 * self.texels as f64).max(1.0));
+        losses
+    }
+
     /// The scenes as the kernel takes them.
     pub(super) fn kernel_scenes(&self, scenes: &[Scene]) -> Vec<KernelScene> {
         let reach = self.ground_truth.grid().position::<DVec3>(0, 0).length();
