@@ -17,9 +17,6 @@ const GOLDEN: &str = "../shared/golden";
 /// What the tests of the report run.
 const BROWSERS: [&str; 2] = ["chromium", "chromium-browser"];
 
-/// What the test of the report in WebKit runs.
-const WEBKIT: [&str; 2] = ["WebKitWebDriver", "Xvfb"];
-
 /// What the test of the real window runs.
 const DESKTOP: [&str; 3] = ["Xvfb", "xdotool", "import"];
 
@@ -51,7 +48,6 @@ fn main() {
     let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());
     set("has_desktop", DESKTOP.iter().all(installed));
     set("has_browser", BROWSERS.iter().any(installed));
-    set("has_webkit", WEBKIT.iter().all(installed));
 
     let runs = |[program, option, script]: [&str; 3]| {
         let output = Command::new(program).args([option, script]).output();

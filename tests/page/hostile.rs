@@ -8,7 +8,7 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
-use svbrdf_files::page::{Findings, Labels, Repetition, Report, View};
+use svbrdf_files::page::{Findings, Repetition, Report, View};
 use svbrdf_files::session_window::Display;
 
 use super::browser::Page;
@@ -42,7 +42,6 @@ pub fn report_of(names: [&str; 2]) -> String {
         findings: Some(findings),
         readings: names.map(|name| vec![name.to_owned()]).to_vec(),
         repetition: Some(Repetition { command: names.concat(), session: Some(names.map(str::to_owned)) }),
-        labels: Labels::default(),
         max_bytes: 10_000_000,
     };
     report.page(&progress).unwrap().html

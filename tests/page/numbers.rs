@@ -18,13 +18,8 @@ use crate::support::tolerance::{PAGE_CAMERA, PAGE_NUMBERS, PAGE_PIXELS};
 
 /// Shows a scene in the flat view of the page, at an exposure.
 pub fn show(page: &mut Page, scene: &Scene, quantity: Quantity, exposure: f32) {
-    page.evaluate(&showing(scene, quantity, exposure));
-}
-
-/// The expression for [`show`].
-pub fn showing(scene: &Scene, quantity: Quantity, exposure: f32) -> String {
     let state = json!({ "scene": scene, "quantity": quantity.name(), "exposure": exposure });
-    format!("window.svbrdf.figure.set({state})")
+    page.evaluate(&format!("window.svbrdf.figure.set({state})"));
 }
 
 /// The 8-bit picture of a material in the page.
@@ -47,7 +42,7 @@ pub fn decoded(text: &Value) -> Vec<u8> {
 }
 
 /// The largest difference of two pictures, in steps of 8 bits.
-pub fn largest(page: &[u8], core: &[[u8; 3]]) -> u8 {
+fn largest(page: &[u8], core: &[[u8; 3]]) -> u8 {
     assert_eq!(page.len(), 3 * core.len());
     page.iter().zip(core.as_flattened()).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
 }
