@@ -17,6 +17,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 use svbrdf_files::samples;
 use svbrdf_gpu::Gpu;
+use svbrdf_needs::needs;
 
 use crate::support::compare::{Worst, compare_rgb_with};
 use crate::support::gpu::{bumpy, gpu, gpu_f32};
@@ -52,8 +53,8 @@ fn probe(gpu: &Gpu, convention: &Convention, points: &[Point]) -> Vec<[f32; 3]> 
     gpu.probe(&Model::from(convention), points).expect("the probe runs")
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_shader_agrees_with_f64_at_random_and_extreme_points() {
     let gpu = gpu();
     let points = points(SEED, COUNT);
@@ -91,8 +92,8 @@ fn the_bound_is_tight_at_ordinary_points() {
     assert!(median < 2e-5);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_comparison_with_f64_goes_red_on_planted_faults() {
     let gpu = gpu();
     let points = points(SEED, 2_000);
@@ -146,8 +147,8 @@ impl Row {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_shader_agrees_with_the_golden_points() {
     let gpu = gpu();
     let golden: Golden = serde_json::from_str(include_str!("points.json")).expect("golden points");
@@ -188,8 +189,8 @@ fn scenes(convention: &Convention) -> Vec<Scene> {
     scenes
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn renderings_agree_with_the_cpu_texel_by_texel() {
     let gpu = gpu_f32();
     let mut worst = 0.0_f64;
@@ -209,8 +210,8 @@ fn renderings_agree_with_the_cpu_texel_by_texel() {
     println!("worst share of the bound {worst:.3}");
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn renderings_of_the_built_in_materials_agree_with_the_cpu_texel_by_texel() {
     let gpu = gpu_f32();
     let built_in = samples::load::<f32>().expect("built in");
@@ -224,8 +225,8 @@ fn renderings_of_the_built_in_materials_agree_with_the_cpu_texel_by_texel() {
     }
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
     let gpu = gpu_f32();
     let material = bumpy(40, 30);
@@ -239,8 +240,8 @@ fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
     assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn a_rendering_larger_than_one_band_of_reading_back_is_whole() {
     let gpu = gpu_f32();
     let (width, height) = (1030, 1100);
@@ -251,8 +252,8 @@ fn a_rendering_larger_than_one_band_of_reading_back_is_whole() {
     against_f64(&PRINTED, &points, &image.pixels, RENDERING_ULPS).unwrap_or_else(|e| panic!("{e}"));
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn the_comparison_of_renderings_goes_red_on_a_flipped_or_transposed_grid() {
     let gpu = gpu_f32();
     let side = 24;

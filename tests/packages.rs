@@ -135,6 +135,18 @@ fn all_crates_and_packages_have_one_version() {
     );
 }
 
+/// The programs that a build script starts.
+fn started(script: &str) -> Vec<&str> {
+    let starts = script.split("Command::new(").skip(1);
+    starts.map(|rest| rest.split(')').next().unwrap_or_default()).collect()
+}
+
+#[test]
+fn the_build_of_users_starts_git_alone() {
+    assert_eq!(started(&read("build.rs")), ["\"git\""]);
+    assert_eq!(started("Command::new(program).args([option, script])"), ["program"]);
+}
+
 /// The workflows: file name and text.
 fn workflows() -> Vec<(String, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(".github/workflows");

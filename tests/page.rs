@@ -25,7 +25,10 @@ use svbrdf_files::source::MaterialSource;
 #[test]
 fn ci_has_a_browser() {
     let is_needed = std::env::var_os("CI").is_some();
-    assert!(cfg!(has_browser) || !is_needed, "CI must have Debian's chromium, which ./test installs");
+    assert!(
+        svbrdf_needs::has!(browser) || !is_needed,
+        "CI must have Debian's chromium, which ./test installs"
+    );
 }
 
 /// The built-in ground truth and predictions.

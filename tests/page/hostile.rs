@@ -10,6 +10,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
 use svbrdf_files::page::{Findings, Repetition, Report, View};
 use svbrdf_files::session_window::Display;
+use svbrdf_needs::needs;
 
 use super::browser::Page;
 use super::noise;
@@ -59,8 +60,8 @@ fn hostile_names_add_no_elements() {
     assert!(count("&lt;/script&gt;&lt;img src=x") > 3);
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn hostile_names_run_nothing_and_are_read_as_lines() {
     let mut page = Page::open(&report(), [900, 900]);
     assert_eq!(page.after_frame("window.hit === undefined"), json!(true));
