@@ -7,6 +7,7 @@ mod source;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use graph::{Arrow, Tree, circles};
 
@@ -77,11 +78,12 @@ fn source_files() -> Vec<(String, String)> {
     files
 }
 
-fn source_tree() -> Vec<Arrow> {
+/// The arrows of `src/`.
+static ARROWS: LazyLock<Vec<Arrow>> = LazyLock::new(|| {
     let arrows = Tree::new(source_files()).arrows();
     assert!(arrows.len() > 500, "only {} arrows were found", arrows.len());
     arrows
-}
+});
 
 /// The arrows between folders. A file at the root of a crate stands for itself.
 fn of_folders(arrows: &[Arrow]) -> Vec<Arrow> {
@@ -118,19 +120,18 @@ fn spread_types(files: &[(String, String)]) -> Vec<String> {
 
 #[test]
 fn no_file_uses_a_layer_above_its_own() {
-    assert_eq!(upward(&source_tree()), Vec::<String>::new());
+    assert_eq!(upward(&ARROWS), Vec::<String>::new());
 }
 
 #[test]
 fn no_files_use_one_another_in_a_circle() {
-    let arrows = source_tree();
-    let found: String = circles(&arrows).iter().map(|circle| told(circle, &arrows)).collect();
+    let found: String = circles(&ARROWS).iter().map(|circle| told(circle, &ARROWS)).collect();
     assert!(found.is_empty(), "circles:{found}");
 }
 
 #[test]
 fn no_folders_use_one_another_in_a_circle() {
-    let found = folder_circles(&source_tree());
+    let found = folder_circles(&ARROWS);
     assert!(found.is_empty(), "circles:{found}");
 }
 
