@@ -9,7 +9,7 @@ use std::process::Command;
 const OF_PACKAGE: &str = ".cargo_vcs_info.json";
 
 fn main() {
-    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=packaging/build.rs");
     for name in ["TARGET", "PROFILE"] {
         println!("cargo::rustc-env=SVBRDF_{name}={}", env::var(name).unwrap_or_default());
     }
