@@ -62,10 +62,14 @@ impl Browser {
             .spawn()
             .unwrap();
         let output = BufReader::new(child.stdout.take().unwrap());
-        thread::spawn(move || distribute(output));
+        let input = Mutex::new(child.stdin.take().unwrap());
+        thread::spawn(move || {
+            distribute(output);
+            drop(child.wait());
+        });
         let (sender, answers) = channel();
         Self {
-            input: Mutex::new(child.stdin.take().unwrap()),
+            input,
             sent: AtomicU64::new(0),
             sessions: Mutex::new(BTreeMap::from([(String::new(), sender)])),
             answers: Mutex::new(answers),

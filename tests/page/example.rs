@@ -66,6 +66,7 @@ fn write_the_picture_of_the_report() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
     let html = fs::read_to_string(docs.join("example-report.html")).unwrap();
     let mut page = Page::open(&html, [1366, 1180]);
+    page.send("Emulation.setScrollbarsHidden", json!({ "hidden": true }));
     // The status below the figure comes after a pause.
     page.evaluate("new Promise(done => setTimeout(done, 1000))");
     let picture = page.send("Page.captureScreenshot", json!({ "format": "jpeg", "quality": 80 }));

@@ -7,7 +7,7 @@ use svbrdf_gpu::{Display, DisplayParams, Gpu, Pane, PanePlace, Shaded};
 
 /// What to do where the tests and the build disagree on what is there.
 pub const STALE_BUILD: &str =
-    "this machine has changed since the build looked at it: touch tests/needs/build.rs";
+    "this machine has changed since the build looked at it: touch tests/needs/adapter.rs";
 
 /// The adapter, the same for every test, or why there is none.
 pub fn find_gpu() -> Result<&'static Gpu, &'static str> {

@@ -26,13 +26,9 @@ const GENERATED: [Generated; 11] = [
     Generated {
         name: "samples",
         files: "src/files/samples/*.png",
-        script: "cargo run --no-default-features --example make_samples",
+        script: "cargo run --example make_samples",
     },
-    Generated {
-        name: "icons",
-        files: "packaging/icons/*.png",
-        script: "cargo run --no-default-features --example make_icon",
-    },
+    Generated { name: "icons", files: "packaging/icons/*.png", script: "cargo run --example make_icon" },
     Generated {
         name: "shaders",
         files: "src/files/page/shaders.json",
