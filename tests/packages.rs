@@ -147,6 +147,15 @@ fn the_build_of_users_starts_git_alone() {
     assert_eq!(started("Command::new(program).args([option, script])"), ["program"]);
 }
 
+#[test]
+fn the_top_level_has_at_most_20_entries() {
+    let mut git = std::process::Command::new("git");
+    let listed = git.arg("ls-files").current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    let listed = String::from_utf8(listed.stdout).unwrap();
+    let entries: BTreeSet<_> = listed.lines().filter_map(|path| path.split('/').next()).collect();
+    assert!(entries.contains("Cargo.toml") && entries.len() <= 20, "{} entries: {entries:?}", entries.len());
+}
+
 /// The workflows: file name and text.
 fn workflows() -> Vec<(String, String)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(".github/workflows");
