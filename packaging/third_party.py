@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints the licences of all crates and fonts that are part of the program or of the Python wheel.
 
-    packaging/third_party.py > THIRD-PARTY
+    packaging/third_party.py > packaging/THIRD-PARTY
 
 Reads the licence files in Cargo's copy of each crate (`cargo fetch` brings them), of all platforms. Of licences that are
 joined by OR, it takes the first of `PREFERRED`. Identical texts are printed once, with the copyright notices of their crates.
@@ -18,7 +18,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORKSPACES = {ROOT: {"svbrdf"}, ROOT / "python": {"svbrdf-python"}}
 
-# The licences that `deny.toml` allows, the preferred ones first; each with words that only its text has.
+# The licences that `.cargo/deny.toml` allows, the preferred ones first; each with words that only its text has.
 PREFERRED = {
     "MIT": "Permission is hereby granted, free of charge, to any person obtaining a copy of this software",
     "Apache-2.0": "Apache License Version 2.0",

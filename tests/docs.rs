@@ -8,7 +8,8 @@ use std::process::{Command, Output};
 fn pages() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let in_docs = fs::read_dir(root.join("docs")).unwrap().map(|entry| entry.unwrap().path());
-    let others = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "python/README.md"];
+    let others =
+        ["README.md", "CHANGELOG.md", ".github/CONTRIBUTING.md", ".github/SECURITY.md", "python/README.md"];
     let paths = in_docs.chain(others.map(|name| root.join(name)));
     let markdown = paths.filter(|path| path.extension().is_some_and(|extension| extension == "md"));
     markdown.map(|path| (path.clone(), fs::read_to_string(&path).unwrap())).collect()
@@ -110,7 +111,7 @@ fn every_link_of_the_pages_leads_to_a_file_and_its_heading() {
 #[test]
 fn the_pages_are_short_to_load_and_the_readme_is_short_to_read() {
     const LARGEST: u64 = 250_000;
-    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/assets");
     for picture in fs::read_dir(assets).unwrap() {
         let picture = picture.unwrap();
         let bytes = picture.metadata().unwrap().len();

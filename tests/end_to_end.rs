@@ -11,6 +11,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use image::RgbImage;
+use svbrdf_needs::{has, needs};
 
 use crate::support::desktop::{Desktop, Running};
 use crate::support::gpu::STALE_BUILD;
@@ -121,15 +122,12 @@ fn one_changed_pixel_is_counted_and_rounding_is_not() {
 #[test]
 fn the_build_knows_whether_the_window_can_be_tested() {
     let there = ["Xvfb", "xdotool", "import"].iter().all(|program| installed(program));
-    assert_eq!(cfg!(has_desktop), there, "{STALE_BUILD}");
+    assert_eq!(has!(desktop), there, "{STALE_BUILD}");
     assert!(there || std::env::var_os("CI").is_none(), "CI must have Xvfb, xdotool and import");
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn the_window_opens_follows_the_mouse_and_obeys_a_key() {
     let desktop = Desktop::start();
     let log = std::fs::File::create(desktop.folder.path().join("log")).unwrap();

@@ -13,6 +13,7 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render;
 use svbrdf_files::read::{ReadOptions, read};
+use svbrdf_needs::needs;
 
 use crate::support::losses::losses;
 use crate::support::tolerance::{GOLDEN_LOSS_F32, GOLDEN_LOSS_F64, GOLDEN_PROBE_F32, GOLDEN_PROBE_F64};
@@ -36,16 +37,16 @@ const CASES: usize = 7;
 /// Texels that must be compared.
 const TEXELS: usize = 210;
 
+#[needs(shared)]
 #[test]
-#[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
 fn losses_and_renderings_in_f64_are_the_golden_ones() {
     let worst = check_all::<f64>();
     assert!(worst.loss <= GOLDEN_LOSS_F64, "loss off by {:e}, at most {GOLDEN_LOSS_F64:e}", worst.loss);
     assert!(worst.probe <= GOLDEN_PROBE_F64, "texel off by {:e}, at most {GOLDEN_PROBE_F64:e}", worst.probe);
 }
 
+#[needs(shared)]
 #[test]
-#[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
 fn losses_and_renderings_in_f32_are_close_to_the_golden_ones() {
     let worst = check_all::<f32>();
     assert!(worst.loss <= GOLDEN_LOSS_F32, "loss off by {:e}, at most {GOLDEN_LOSS_F32:e}", worst.loss);

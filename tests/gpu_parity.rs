@@ -6,6 +6,8 @@ mod display;
 mod drafts;
 mod loss;
 
+use std::sync::LazyLock;
+
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
 
@@ -17,6 +19,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 use svbrdf_files::samples;
 use svbrdf_gpu::Gpu;
+use svbrdf_needs::needs;
 
 use crate::support::compare::{Worst, compare_rgb_with};
 use crate::support::gpu::{bumpy, gpu, gpu_f32};
@@ -26,52 +29,61 @@ use crate::support::tolerance::{GOLDEN_POINTS, GOLDEN_POINTS_F32_KAPPA, POINT_UL
 const SEED: u64 = 1;
 const COUNT: usize = 200_000;
 
-/// Compares radiances at `points` with f64 under the bounds of `ulps`.
-fn against_f64(
-    convention: &Convention,
-    points: &[Point],
-    got: &[[f32; 3]],
-    ulps: f64,
-) -> Result<Worst, String> {
-    let model = Model::from(convention);
-    let in_f64 = |p: &Point| {
-        let (texel, w_l, w_v) = exact(p);
-        brdf::render(&model, &texel, w_l, w_v)
-    };
-    let bound_of = |p: &Point| {
-        let (texel, w_l, w_v) = exact(p);
-        error_bound(&model, &texel, w_l, w_v, ulps)
-    };
-    let expected: Vec<[f64; 3]> = points.iter().map(in_f64).collect();
-    let bounds: Vec<[f64; 3]> = points.iter().map(bound_of).collect();
-    compare_rgb_with(got, &expected, |index, channel, _| bounds[index][channel])
-        .map_err(|e| format!("{}: {e}", convention.name))
+/// The radiances of points in f64, and their bounds.
+struct InF64 {
+    convention: Convention,
+    expected: Vec<[f64; 3]>,
+    bounds: Vec<[f64; 3]>,
 }
+
+impl InF64 {
+    /// Bounds are those of `ulps`.
+    fn new(convention: Convention, points: &[Point], ulps: f64) -> Self {
+        let model = Model::from(&convention);
+        let of = |(texel, w_l, w_v): (Texel<f64>, DVec3, DVec3)| {
+            (brdf::render(&model, &texel, w_l, w_v), error_bound(&model, &texel, w_l, w_v, ulps))
+        };
+        let (expected, bounds) = points.iter().map(exact).map(of).unzip();
+        Self { convention, expected, bounds }
+    }
+
+    fn compare(&self, got: &[[f32; 3]]) -> Result<Worst, String> {
+        compare_rgb_with(got, &self.expected, |index, channel, _| self.bounds[index][channel])
+            .map_err(|e| format!("{}: {e}", self.convention.name))
+    }
+}
+
+/// The points of both comparisons, with their radiances in each convention.
+static POINTS: LazyLock<(Vec<Point>, [InF64; 4])> = LazyLock::new(|| {
+    let points = points(SEED, COUNT);
+    let columns = convention::ALL.map(|convention| InF64::new(convention, &points, POINT_ULPS));
+    (points, columns)
+});
 
 fn probe(gpu: &Gpu, convention: &Convention, points: &[Point]) -> Vec<[f32; 3]> {
     gpu.probe(&Model::from(convention), points).expect("the probe runs")
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_shader_agrees_with_f64_at_random_and_extreme_points() {
     let gpu = gpu();
-    let points = points(SEED, COUNT);
-    for convention in convention::ALL {
-        let got = probe(gpu, &convention, &points);
-        let worst = against_f64(&convention, &points, &got, POINT_ULPS).unwrap_or_else(|e| panic!("{e}"));
-        println!("{}: worst share of the bound {:.3}", convention.name, worst.share);
+    let (points, columns) = &*POINTS;
+    for column in columns {
+        let got = probe(gpu, &column.convention, points);
+        let worst = column.compare(&got).unwrap_or_else(|e| panic!("{e}"));
+        println!("{}: worst share of the bound {:.3}", column.convention.name, worst.share);
     }
 }
 
 #[test]
 fn f32_on_the_cpu_agrees_with_f64_at_the_same_points() {
-    let points = points(SEED, COUNT);
-    for convention in convention::ALL {
-        let model = Model::from(&convention);
+    let (points, columns) = &*POINTS;
+    for column in columns {
+        let model = Model::from(&column.convention);
         let in_f32 = |(t, l, v): &Point| brdf::render(&model, t, Vec3::from(*l), Vec3::from(*v));
         let got: Vec<[f32; 3]> = points.iter().map(in_f32).collect();
-        against_f64(&convention, &points, &got, POINT_ULPS).unwrap_or_else(|e| panic!("{e}"));
+        column.compare(&got).unwrap_or_else(|e| panic!("{e}"));
     }
 }
 
@@ -91,16 +103,16 @@ fn the_bound_is_tight_at_ordinary_points() {
     assert!(median < 2e-5);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_comparison_with_f64_goes_red_on_planted_faults() {
     let gpu = gpu();
     let points = points(SEED, 2_000);
+    let in_f64 = InF64::new(PRINTED, &points, POINT_ULPS);
     let faulty = |change: fn(&mut Point)| {
         let mut changed = points.clone();
         changed.iter_mut().for_each(change);
-        let got = probe(gpu, &PRINTED, &changed);
-        against_f64(&PRINTED, &points, &got, POINT_ULPS)
+        in_f64.compare(&probe(gpu, &PRINTED, &changed))
     };
     faulty(|_| ()).expect("no fault");
     faulty(|(_, l, v)| std::mem::swap(l, v)).expect_err("light and view swapped");
@@ -111,7 +123,7 @@ fn the_comparison_with_f64_goes_red_on_planted_faults() {
     faulty(|(t, _, _)| t.diffuse[1] *= 1.0001).expect_err("a diffuse albedo slightly off");
     faulty(|(_, _, v)| v[0] += 0.001).expect_err("a view slightly off");
     let got = probe(gpu, &convention::GUIDED_2020, &points);
-    against_f64(&PRINTED, &points, &got, POINT_ULPS).expect_err("another convention");
+    in_f64.compare(&got).expect_err("another convention");
 }
 
 #[derive(Deserialize)]
@@ -146,8 +158,8 @@ impl Row {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_shader_agrees_with_the_golden_points() {
     let gpu = gpu();
     let golden: Golden = serde_json::from_str(include_str!("points.json")).expect("golden points");
@@ -188,8 +200,8 @@ fn scenes(convention: &Convention) -> Vec<Scene> {
     scenes
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn renderings_agree_with_the_cpu_texel_by_texel() {
     let gpu = gpu_f32();
     let mut worst = 0.0_f64;
@@ -200,7 +212,8 @@ fn renderings_agree_with_the_cpu_texel_by_texel() {
                 let image = gpu.render(&material, &scene, &convention).expect("rendered");
                 assert_eq!([image.width, image.height], [width, height]);
                 let points = points_of(&material, &scene);
-                let held = against_f64(&convention, &points, &image.pixels, RENDERING_ULPS)
+                let held = InF64::new(convention, &points, RENDERING_ULPS)
+                    .compare(&image.pixels)
                     .unwrap_or_else(|e| panic!("{width} x {height}, {scene:?}: {e}"));
                 worst = worst.max(held.share);
             }
@@ -209,8 +222,8 @@ fn renderings_agree_with_the_cpu_texel_by_texel() {
     println!("worst share of the bound {worst:.3}");
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn renderings_of_the_built_in_materials_agree_with_the_cpu_texel_by_texel() {
     let gpu = gpu_f32();
     let built_in = samples::load::<f32>().expect("built in");
@@ -218,14 +231,15 @@ fn renderings_of_the_built_in_materials_agree_with_the_cpu_texel_by_texel() {
         for scene in scene::sample(SEED, 1, 1, &PRINTED) {
             let image = gpu.render(&read.material, &scene, &PRINTED).expect("rendered");
             let points = points_of(&read.material, &scene);
-            against_f64(&PRINTED, &points, &image.pixels, RENDERING_ULPS)
+            InF64::new(PRINTED, &points, RENDERING_ULPS)
+                .compare(&image.pixels)
                 .unwrap_or_else(|e| panic!("{}, {scene:?}: {e}", read.material.name()));
         }
     }
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
     let gpu = gpu_f32();
     let material = bumpy(40, 30);
@@ -239,8 +253,8 @@ fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
     assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn a_rendering_larger_than_one_band_of_reading_back_is_whole() {
     let gpu = gpu_f32();
     let (width, height) = (1030, 1100);
@@ -248,11 +262,11 @@ fn a_rendering_larger_than_one_band_of_reading_back_is_whole() {
     let material = bumpy(width, height);
     let image = gpu.render(&material, &scene, &PRINTED).expect("rendered");
     let points = points_of(&material, &scene);
-    against_f64(&PRINTED, &points, &image.pixels, RENDERING_ULPS).unwrap_or_else(|e| panic!("{e}"));
+    InF64::new(PRINTED, &points, RENDERING_ULPS).compare(&image.pixels).unwrap_or_else(|e| panic!("{e}"));
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn the_comparison_of_renderings_goes_red_on_a_flipped_or_transposed_grid() {
     let gpu = gpu_f32();
     let side = 24;
@@ -262,7 +276,7 @@ fn the_comparison_of_renderings_goes_red_on_a_flipped_or_transposed_grid() {
     let planted = |from: fn(usize, usize, usize) -> usize| {
         let pixels: Vec<[f32; 3]> =
             (0..side * side).map(|i| image.pixels[from(i % side, i / side, side)]).collect();
-        against_f64(&PRINTED, &points, &pixels, RENDERING_ULPS)
+        InF64::new(PRINTED, &points, RENDERING_ULPS).compare(&pixels)
     };
     planted(|column, row, side| row * side + column).expect("no fault");
     planted(|column, row, side| (side - 1 - row) * side + column).expect_err("rows flipped");

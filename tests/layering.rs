@@ -7,6 +7,7 @@ mod source;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use graph::{Arrow, Tree, circles};
 
@@ -77,11 +78,12 @@ fn source_files() -> Vec<(String, String)> {
     files
 }
 
-fn source_tree() -> Vec<Arrow> {
+/// The arrows of `src/`.
+static ARROWS: LazyLock<Vec<Arrow>> = LazyLock::new(|| {
     let arrows = Tree::new(source_files()).arrows();
     assert!(arrows.len() > 500, "only {} arrows were found", arrows.len());
     arrows
-}
+});
 
 /// The arrows between folders. A file at the root of a crate stands for itself.
 fn of_folders(arrows: &[Arrow]) -> Vec<Arrow> {
@@ -108,7 +110,7 @@ fn spread_types(files: &[(String, String)]) -> Vec<String> {
     let mut files_of: BTreeMap<(String, String), BTreeSet<&str>> = BTreeMap::new();
     for (file, text) in files {
         let part = file.split('/').next().unwrap_or_default();
-        for name in source::inherent_types(text) {
+        for name in source::Source::new(text).inherent_types {
             files_of.entry((part.to_owned(), name)).or_default().insert(file);
         }
     }
@@ -118,25 +120,70 @@ fn spread_types(files: &[(String, String)]) -> Vec<String> {
 
 #[test]
 fn no_file_uses_a_layer_above_its_own() {
-    assert_eq!(upward(&source_tree()), Vec::<String>::new());
+    assert_eq!(upward(&ARROWS), Vec::<String>::new());
 }
 
 #[test]
 fn no_files_use_one_another_in_a_circle() {
-    let arrows = source_tree();
-    let found: String = circles(&arrows).iter().map(|circle| told(circle, &arrows)).collect();
+    let found: String = circles(&ARROWS).iter().map(|circle| told(circle, &ARROWS)).collect();
     assert!(found.is_empty(), "circles:{found}");
 }
 
 #[test]
 fn no_folders_use_one_another_in_a_circle() {
-    let found = folder_circles(&source_tree());
+    let found = folder_circles(&ARROWS);
     assert!(found.is_empty(), "circles:{found}");
 }
 
 #[test]
 fn no_type_has_inherent_methods_in_more_than_three_files() {
     assert_eq!(spread_types(&source_files()), Vec::<String>::new());
+}
+
+/// The arrows between the planted files.
+fn planted<const N: usize>(files: [(&str, &str); N]) -> Vec<Arrow> {
+    Tree::new(files).arrows()
+}
+
+#[test]
+fn a_planted_arrow_upward_is_found() {
+    let arrows = |user| {
+        planted([
+            ("core/loss/mod.rs", "mod sums; pub use sums::Loss; pub use crate::math::Real as Number;"),
+            ("core/loss/sums.rs", "pub struct Loss;"),
+            ("core/math/mod.rs", "pub trait Real {}"),
+            ("core/material/mod.rs", user),
+        ])
+    };
+    for user in [
+        "use crate::{math::Real, loss::{self as other, Loss}};",
+        "fn f() { let _ = crate::loss::Loss; }",
+        "fn f() { println!(\"{:?}\", crate::loss::Loss) }",
+        "use crate::loss; fn f(_: &'static loss::Loss) {}",
+        "use svbrdf_core::loss::Loss;",
+    ] {
+        assert_eq!(upward(&arrows(user)), ["core/material/mod.rs uses core/loss/sums.rs"], "{user}");
+    }
+    for user in [
+        "use crate::loss::Number;",
+        "use other::loss::Loss;",
+        "#[cfg(test)] mod tests { use crate::loss::Loss; }",
+        "#[cfg(test)] fn f() { crate::loss::Loss; }",
+    ] {
+        assert_eq!(upward(&arrows(user)), Vec::<String>::new(), "{user}");
+    }
+}
+
+#[test]
+fn planted_circles_are_found() {
+    let arrows = planted([
+        ("core/model/mod.rs", "pub mod a; mod b; pub use b::B; pub struct Parent;"),
+        ("core/model/a.rs", "use super::{Parent, b::B}; pub struct A;"),
+        ("core/model/b.rs", "pub struct B; fn f() { super::c::C; }"),
+        ("core/model/c.rs", "use crate::model::a; pub struct C(a::A);"),
+    ]);
+    // A parent that only declares and re-exports its children is in no circle.
+    assert_eq!(circles(&arrows), [["core/model/a.rs", "core/model/b.rs", "core/model/c.rs"]]);
 }
 
 #[test]
@@ -160,111 +207,4 @@ fn a_planted_type_of_many_files_is_found() {
     assert_eq!(spread_types(&files[..3]), Vec::<String>::new());
     let found = spread_types(&files);
     assert!(found.len() == 2 && found[0].starts_with("App of viewer"), "{found:?}");
-}
-
-#[test]
-fn arrows_between_crates_are_found() {
-    let files = [
-        ("core/lib.rs", "pub mod loss;"),
-        ("core/loss/mod.rs", "pub struct Loss;"),
-        ("files/lib.rs", "mod read; use svbrdf_core::loss;"),
-        ("files/read/mod.rs", "use crate::loss::Loss; use svbrdf_core::loss::Loss as Same;"),
-        ("lib.rs", "pub use svbrdf_core::loss::Loss;"),
-        ("main.rs", "mod cli;"),
-        ("cli/mod.rs", "use svbrdf::Loss;"),
-    ];
-    let arrows = planted(files);
-    let to = |from| arrows.iter().filter(move |a| a.from == from).map(|a| a.to.as_str()).collect::<Vec<_>>();
-    assert_eq!([to("files/read/mod.rs"), to("cli/mod.rs")], [["core/loss/mod.rs"], ["core/loss/mod.rs"]]);
-}
-
-/// The arrows between the planted files.
-fn planted<const N: usize>(files: [(&str, &str); N]) -> Vec<Arrow> {
-    Tree::new(files).arrows()
-}
-
-#[test]
-fn a_planted_arrow_upward_is_found_in_a_use_line_and_in_an_inline_path() {
-    let loss = ("core/loss/mod.rs", "pub struct Loss;");
-    for user in [
-        "use crate::loss::Loss;",
-        "use crate::{error::Error, loss::{self as other, Loss}};",
-        "pub(crate) use super::loss::Loss as Renamed;",
-        "fn f() { let _ = crate::loss::Loss; }",
-        "use crate::loss; fn f(_: &'static loss::Loss) {}",
-        "use crate::loss::*;",
-    ] {
-        let arrows = planted([loss, ("core/material/mod.rs", user), ("core/error.rs", "pub struct Error;")]);
-        assert_eq!(upward(&arrows), ["core/material/mod.rs uses core/loss/mod.rs"], "{user}");
-    }
-}
-
-#[test]
-fn what_is_no_code_of_the_program_is_no_arrow() {
-    let loss = ("core/loss/mod.rs", "pub struct Loss;");
-    for user in [
-        "// use crate::loss::Loss;\n/* use crate::loss::Loss; */",
-        "const TEXT: &str = \"\\\" use crate::loss::Loss;\"; const QUOTE: char = '\"';",
-        "const TEXT: &str = r#\"\"use crate::loss::Loss;\"#;",
-        "#[cfg(test)] mod tests { use crate::loss::Loss; fn f() { {} } }",
-        "#[cfg(test)] use crate::loss::Loss;",
-        "use other::loss::Loss; fn f() { other::loss::Loss; }",
-    ] {
-        assert_eq!(planted([loss, ("core/material/mod.rs", user)]), [], "{user}");
-    }
-}
-
-#[test]
-fn an_item_belongs_to_the_file_that_defines_it_not_to_the_one_that_re_exports_it() {
-    let files = [
-        ("core/loss/mod.rs", "mod sums; pub use sums::Sum; pub use crate::math::real::Real as Number;"),
-        ("core/loss/sums.rs", "pub struct Sum;"),
-        ("core/math/real.rs", "pub trait Real {}"),
-        ("core/render/mod.rs", "use crate::loss::Number;"),
-        ("viewer/mod.rs", "use svbrdf_core::loss::{Number, Sum};"),
-    ];
-    let arrows = planted(files);
-    let from = |file| arrows.iter().filter(move |arrow| arrow.from == file).map(|arrow| arrow.to.as_str());
-    assert_eq!(from("viewer/mod.rs").collect::<Vec<_>>(), ["core/loss/sums.rs", "core/math/real.rs"]);
-    assert_eq!(upward(&arrows), Vec::<String>::new());
-}
-
-#[test]
-fn planted_circles_are_found() {
-    let pair = [
-        ("core/model/a.rs", "use super::b::B; pub struct A;"),
-        ("core/model/b.rs", "use super::a::A; pub struct B;"),
-    ];
-    assert_eq!(circles(&planted(pair)), [["core/model/a.rs", "core/model/b.rs"]]);
-
-    let three = [
-        ("core/model/a.rs", "use super::b::B; pub struct A;"),
-        ("core/model/b.rs", "pub struct B; fn f() { super::c::C; }"),
-        ("core/model/c.rs", "use crate::model::a; pub struct C(a::A);"),
-    ];
-    assert_eq!(circles(&planted(three)), [["core/model/a.rs", "core/model/b.rs", "core/model/c.rs"]]);
-
-    let parent = [
-        ("core/model/mod.rs", "mod a; use a::A; pub struct Parent(A);"),
-        ("core/model/a.rs", "use super::Parent; pub struct A;"),
-    ];
-    assert_eq!(circles(&planted(parent)), [["core/model/a.rs", "core/model/mod.rs"]]);
-    let inline = [
-        ("core/model/mod.rs", "mod a; pub struct Parent; fn f() { a::f() }"),
-        ("core/model/a.rs", "use super::Parent; pub fn f() {}"),
-    ];
-    assert_eq!(circles(&planted(inline)), [["core/model/a.rs", "core/model/mod.rs"]]);
-    let program =
-        [("cli/mod.rs", "mod a; fn f() { a::f() } pub fn g() {}"), ("cli/a.rs", "pub fn f() { super::g() }")];
-    assert_eq!(circles(&planted(program)), [["cli/a.rs", "cli/mod.rs"]]);
-}
-
-#[test]
-fn a_parent_that_only_declares_and_re_exports_its_children_is_in_no_circle() {
-    let files = [
-        ("core/model/mod.rs", "pub mod a; mod b; pub use b::B; pub struct Parent;"),
-        ("core/model/a.rs", "use super::{Parent, b::B}; pub struct A;"),
-        ("core/model/b.rs", "use super::Parent; pub struct B;"),
-    ];
-    assert_eq!(circles(&planted(files)), Vec::<Vec<String>>::new());
 }

@@ -1,4 +1,4 @@
-//! Manifests: licences in `THIRD-PARTY`, the reason of each direct dependency, one version everywhere. Workflows: pinned actions,
+//! Manifests: licences in `packaging/THIRD-PARTY`, the reason of each direct dependency, one version everywhere. Workflows: pinned actions,
 //! least permissions.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -77,7 +77,7 @@ fn built_from(lock: &str, roots: BTreeSet<String>) -> BTreeSet<String> {
     of_others
 }
 
-/// The crates that `THIRD-PARTY` lists.
+/// The crates that `packaging/THIRD-PARTY` lists.
 fn listed(third_party: &str) -> BTreeSet<String> {
     let table = third_party.lines().skip_while(|line| !line.is_empty()).skip(1);
     let lines = table.take_while(|line| !line.is_empty());
@@ -89,12 +89,12 @@ fn the_licences_of_all_crates_are_listed() {
     let direct = MANIFESTS.iter().flat_map(|file| names(&read(file), "dependencies")).collect();
     let mut needed = built_from(&read("Cargo.lock"), direct);
     needed.extend(built_from(&read("python/Cargo.lock"), names(&read("python/Cargo.toml"), "dependencies")));
-    let listed = listed(&read("THIRD-PARTY"));
+    let listed = listed(&read("packaging/THIRD-PARTY"));
     let missing: Vec<_> = needed.difference(&listed).collect();
     let too_many: Vec<_> = listed.difference(&needed).collect();
     assert!(
         missing.is_empty() && too_many.is_empty(),
-        "run packaging/third_party.py > THIRD-PARTY: it lacks {missing:?} and has {too_many:?} too many"
+        "run packaging/third_party.py > packaging/THIRD-PARTY: it lacks {missing:?} and has {too_many:?} too many"
     );
 }
 
@@ -133,6 +133,27 @@ fn all_crates_and_packages_have_one_version() {
         newest(&read("packaging/io.github.OWNER.svbrdf.metainfo.xml"), "<release version=\""),
         version
     );
+}
+
+/// The programs that a build script starts.
+fn started(script: &str) -> Vec<&str> {
+    let starts = script.split("Command::new(").skip(1);
+    starts.map(|rest| rest.split(')').next().unwrap_or_default()).collect()
+}
+
+#[test]
+fn the_build_of_users_starts_git_alone() {
+    assert_eq!(started(&read("packaging/build.rs")), ["\"git\""]);
+    assert_eq!(started("Command::new(program).args([option, script])"), ["program"]);
+}
+
+#[test]
+fn the_top_level_has_at_most_20_entries() {
+    let mut git = std::process::Command::new("git");
+    let listed = git.arg("ls-files").current_dir(env!("CARGO_MANIFEST_DIR")).output().unwrap();
+    let listed = String::from_utf8(listed.stdout).unwrap();
+    let entries: BTreeSet<_> = listed.lines().filter_map(|path| path.split('/').next()).collect();
+    assert!(entries.contains("Cargo.toml") && entries.len() <= 20, "{} entries: {entries:?}", entries.len());
 }
 
 /// The workflows: file name and text.
@@ -186,10 +207,10 @@ fn every_action_is_pinned_by_its_commit() {
         assert!(!is_pinned(loose), "{loose}");
     }
     // dist writes release.yml with the commits of its own file.
-    let dist = read("dist-workspace.toml");
+    let dist = read("Cargo.toml");
     for (_, action) in all.iter().filter(|(name, _)| *name == "release.yml") {
         let (name, commit) = action.split_once('@').unwrap();
-        assert!(dist.contains(&format!("\"{name}\" = \"{commit}\"")), "dist-workspace.toml: {action}");
+        assert!(dist.contains(&format!("\"{name}\" = \"{commit}\"")), "workspace.metadata.dist: {action}");
     }
 }
 

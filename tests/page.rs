@@ -5,20 +5,18 @@ mod controls;
 mod example;
 mod framing;
 mod hostile;
-mod language;
 mod numbers;
 mod pixels;
 mod ranking;
 mod readable;
 #[cfg(feature = "gpu")]
 mod shaders;
-mod webkit;
 
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_files::page::{Labels, Report, View};
+use svbrdf_files::page::{Report, View};
 use svbrdf_files::read::Read;
 use svbrdf_files::session_window::Display;
 use svbrdf_files::source::MaterialSource;
@@ -27,7 +25,10 @@ use svbrdf_files::source::MaterialSource;
 #[test]
 fn ci_has_a_browser() {
     let is_needed = std::env::var_os("CI").is_some();
-    assert!(cfg!(has_browser) || !is_needed, "CI must have Debian's chromium, which ./test installs");
+    assert!(
+        svbrdf_needs::has!(browser) || !is_needed,
+        "CI must have Debian's chromium, which ./test installs"
+    );
 }
 
 /// The built-in ground truth and predictions.
@@ -56,13 +57,7 @@ fn noise(seed: u32) -> Material<f32> {
 
 /// The page with the figure of these materials alone.
 fn figure(materials: &[Material<f32>], convention: Convention) -> String {
-    labelled(materials, convention, Labels::default())
-}
-
-/// [`figure`] with these labels.
-fn labelled(materials: &[Material<f32>], convention: Convention, labels: Labels) -> String {
-    let materials: Vec<&Material<f32>> = materials.iter().collect();
-    html(&Report { labels, ..report(&materials, convention) })
+    html(&report(&materials.iter().collect::<Vec<_>>(), convention))
 }
 
 fn html(report: &Report<'_>) -> String {
@@ -82,7 +77,6 @@ fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report
         findings: None,
         readings: Vec::new(),
         repetition: None,
-        labels: Labels::default(),
         max_bytes: 10_000_000,
     }
 }

@@ -9,6 +9,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{Binding, Certainty, Read, ReadOptions, read_bound};
+use svbrdf_needs::needs;
 
 fn real() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/real")
@@ -85,8 +86,8 @@ fn problems(case: &Value, result: Result<Read<f32>, Error>) -> Vec<String> {
     }
 }
 
+#[needs(shared)]
 #[test]
-#[cfg_attr(not(has_shared), ignore = "../shared is not there")]
 fn real_files_are_read_as_their_formats_specify() {
     let cases: Value = serde_json::from_slice(&fs::read(real().join("expected.json")).unwrap()).unwrap();
     let cases = cases.as_object().unwrap();

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{Albedo, Read, ReadOptions, What, read};
+use svbrdf_needs::needs;
 
 fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data")
@@ -80,8 +81,8 @@ const TABLE: [Row; 24] = [
     ("pitfalls_png_derived/svbrdf.npz", ["layers", "linear", "r", "up"], true),
 ];
 
+#[needs(shared)]
 #[test]
-#[cfg_attr(not(has_shared), ignore = "../shared is not there")]
 fn every_layout_of_one_material_is_the_same_material() {
     let reference = open(REFERENCE, &ReadOptions::AUTO);
     for (name, ..) in TABLE.into_iter().filter(|(name, _, same)| *same && *name != REFERENCE) {
@@ -98,8 +99,8 @@ fn every_layout_of_one_material_is_the_same_material() {
     }
 }
 
+#[needs(shared)]
 #[test]
-#[cfg_attr(not(has_shared), ignore = "../shared is not there")]
 fn what_is_detected_in_all_of_the_data() {
     let (mut right, mut asked, mut wrong) = (0, 0, Vec::new());
     for (name, known, _) in TABLE {
@@ -120,8 +121,8 @@ fn what_is_detected_in_all_of_the_data() {
     assert_eq!(wrong, [UNTOLD]);
 }
 
+#[needs(shared)]
 #[test]
-#[cfg_attr(not(has_shared), ignore = "../shared is not there")]
 fn every_single_file_opens_or_is_refused_by_its_name() {
     let (mut opened, mut refused, mut folders) = (0, 0, vec![data()]);
     while let Some(folder) = folders.pop() {

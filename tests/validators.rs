@@ -8,6 +8,7 @@ use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 
 use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
+use svbrdf_needs::needs;
 
 use crate::support::surfaces::cases;
 
@@ -86,8 +87,8 @@ fn changed(path: &Path, from: &str, to: &str) {
     fs::write(path, [&bytes[..at], to.as_bytes(), &bytes[at + from.len()..]].concat()).unwrap();
 }
 
+#[needs(gltf_validator)]
 #[test]
-#[cfg_attr(not(has_gltf_validator), ignore = "needs node and gltf-validator, which are not installed")]
 fn the_validator_of_khronos_finds_nothing_in_a_glb_and_sees_planted_faults() {
     let (_folder, files) = written("glb", &[Depth::Eight, Depth::Sixteen]);
     for (path, issues) in files.iter().zip(found("node", "-e", KHRONOS, &files)) {
@@ -109,8 +110,8 @@ fn the_validator_of_khronos_finds_nothing_in_a_glb_and_sees_planted_faults() {
     }
 }
 
+#[needs(materialx)]
 #[test]
-#[cfg_attr(not(has_materialx), ignore = "needs python3 and MaterialX, which are not installed")]
 fn materialx_finds_its_documents_valid_and_sees_planted_faults() {
     let depths = [Depth::Eight, Depth::Sixteen, Depth::Half, Depth::Float];
     let (_folder, files) = written("mtlx", &depths);

@@ -26,7 +26,6 @@ pub struct PageAsked {
     /// In stops; `None`: automatic.
     exposure: Option<f32>,
     layout: String,
-    language: String,
     max_bytes: usize,
     /// Of each material the assumptions and notes of reading it.
     readings: Vec<Vec<String>>,
@@ -103,7 +102,6 @@ impl PageAsked {
             findings,
             readings: self.readings,
             repetition: self.call.map(|command| Repetition { command, session: None }),
-            labels: self.language.parse()?,
             max_bytes: self.max_bytes,
         };
         let page = report.page(progress)?;

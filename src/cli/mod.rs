@@ -34,7 +34,7 @@ use output::CommandError;
 use output::exit::{exit_code, explain, put, tell};
 
 /// The licences of the crates and fonts in this program.
-const THIRD_PARTY: &str = include_str!("../../THIRD-PARTY");
+const THIRD_PARTY: &str = include_str!("../../packaging/THIRD-PARTY");
 
 const EXAMPLES: &str = "\
 Examples:

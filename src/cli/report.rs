@@ -9,7 +9,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::report::Report as _;
 use svbrdf_files::atomic::write_text;
 use svbrdf_files::inputs::check_output;
-use svbrdf_files::page::{Findings, Labels, Page, Repetition, Report, View, check_destination, exposure};
+use svbrdf_files::page::{Findings, Page, Repetition, Report, View, check_destination, exposure};
 use svbrdf_files::session_window::Layout;
 
 use super::args::scenes::OneSceneArgs;
@@ -37,10 +37,6 @@ pub struct ReportArgs {
     /// Writes the figure alone, without findings, to be embedded with an <iframe>
     #[arg(long)]
     figure: bool,
-
-    /// Language of the labels of the figure: en, de or fr
-    #[arg(long, value_name = "LANGUAGE", default_value = "en")]
-    language: Labels,
 
     /// Layout that the figure begins with: side-by-side, wipe or single [default: side-by-side, or as in the session]
     #[arg(long, value_name = "LAYOUT")]
@@ -95,7 +91,6 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
         findings,
         readings: if whole { opened.readings.clone() } else { Vec::new() },
         repetition: whole.then(|| Repetition { command: command_line(), session: None }),
-        labels: args.language.clone(),
         max_bytes: args.max_size,
     };
     let page = watched("writing", |progress| report.page(progress))?;
@@ -107,7 +102,9 @@ pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
 
 /// Refuses the options that the mode does not use.
 fn check_options(args: &ReportArgs, job: &ComparisonJob, given: &Given) -> Result<(), CommandError> {
-    given.check(if args.figure { &modes::REPORT_FIGURE } else { &modes::REPORT_WHOLE })?;
+    if args.figure {
+        given.check(&modes::REPORT_FIGURE)?;
+    }
     if job.materials.predictions() == 0 {
         given.check(&modes::REPORT_ALONE)?;
     }

@@ -2,9 +2,8 @@
 
 use std::process::{Command, Output};
 
-use serde_json::Value;
-
 use super::{svbrdf, text};
+use serde_json::Value;
 
 /// Takes a while on the CPU: 1500 scenes of the built-in materials.
 const LONG_JOB: &str = "--near 1000 --distant 500";
@@ -65,8 +64,8 @@ fn without_an_adapter_the_gpu_is_refused_and_auto_takes_the_cpu() {
 }
 
 #[cfg(feature = "gpu")]
+#[svbrdf_needs::needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_gpu_computes_what_the_cpu_computes() {
     let (on_gpu, _) = report(&loss("--near 6 --backend gpu").output().unwrap());
     let (on_cpu, _) = report(&loss("--near 6").output().unwrap());
@@ -79,8 +78,8 @@ fn the_gpu_computes_what_the_cpu_computes() {
 }
 
 #[cfg(feature = "gpu")]
+#[svbrdf_needs::needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn auto_measures_a_long_job_and_prints_the_number_of_what_it_takes() {
     let gpu = crate::support::gpu::gpu();
     let (auto, stderr) = report(&loss(&format!("--backend auto {LONG_JOB}")).output().unwrap());

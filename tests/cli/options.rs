@@ -128,7 +128,7 @@ const MODES: [(&str, Shows); 49] = [
 ];
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there. Options without a value are flags.
-const VALUES: [(&str, &str); 58] = [
+const VALUES: [(&str, &str); 57] = [
     ("preset", "gao"),
     ("resize-to", "6"),
     ("convention", "guided-2020"),
@@ -137,7 +137,6 @@ const VALUES: [(&str, &str); 58] = [
     ("strip distant", ""),
     ("report distant", ""),
     ("max-size", "1kB"),
-    ("language", "de"),
     ("layout", "wipe"),
     ("distant", "5"),
     ("seed", "5"),

@@ -1,5 +1,7 @@
 //! A graphics device that is lost: the window of the system is opened again on another device.
 
+use svbrdf_needs::needs;
+
 use super::*;
 
 /// When the device is lost; see the window's own code.
@@ -17,11 +19,8 @@ fn log(desktop: &Desktop) -> String {
     std::fs::read_to_string(desktop.folder.path().join("log")).unwrap()
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn the_window_comes_back_after_each_loss_and_the_light_stays_where_it_was_dragged() {
     let desktop = Desktop::start();
     let mut program = start(&desktop, "drag");
@@ -43,11 +42,8 @@ fn the_window_comes_back_after_each_loss_and_the_light_stays_where_it_was_dragge
     assert_eq!(log(&desktop), "");
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn where_devices_are_lost_again_and_again_the_program_ends_and_tells_what_to_do() {
     let desktop = Desktop::start();
     let mut program = start(&desktop, "always");

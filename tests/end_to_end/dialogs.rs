@@ -1,5 +1,7 @@
 //! The dialogs that open and save.
 
+use svbrdf_needs::needs;
+
 use super::*;
 
 /// How many pixels have the colour of errors.
@@ -18,11 +20,8 @@ fn temporary(folder: &Path) -> Vec<String> {
         .collect()
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
     let desktop = Desktop::start();
     let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples/worn_tiles.png");
@@ -43,11 +42,8 @@ fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
     drop(program);
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn a_signal_while_a_picture_is_saved_leaves_no_temporary_file() {
     const SIDE: u32 = 1024;
     let desktop = Desktop::start();

@@ -1,5 +1,7 @@
 //! Sessions that the window saves and the command line reads.
 
+use svbrdf_needs::needs;
+
 use super::*;
 
 /// The kinds of the save dialog, as steps back from the path field.
@@ -33,11 +35,8 @@ fn pixels(desktop: &Desktop, name: &str) -> RgbImage {
     image::open(desktop.folder.path().join(name)).unwrap().to_rgb8()
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn a_session_gives_the_pixels_and_the_numbers_of_its_window() {
     let desktop = Desktop::start();
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples");

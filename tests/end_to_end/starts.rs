@@ -1,5 +1,7 @@
 //! Starts of the window on settings and displays that other programs, crashes and hands have left.
 
+use svbrdf_needs::needs;
+
 use super::*;
 
 /// The folder of the settings, with this file of them.
@@ -10,11 +12,8 @@ fn settings(desktop: &Desktop, text: &str) -> std::path::PathBuf {
     folder
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn a_window_opens_with_damaged_settings() {
     let window = |side: &str| {
         format!(
@@ -36,11 +35,8 @@ fn a_window_opens_with_damaged_settings() {
     }
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn settings_that_are_a_pipe_are_moved_aside() {
     let desktop = Desktop::start();
     let folder = settings(&desktop, "");
@@ -51,11 +47,8 @@ fn settings_that_are_a_pipe_are_moved_aside() {
     assert!(program.0.try_wait().unwrap().is_none(), "the program still runs");
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn ctrl_and_plus_leave_a_window_that_starts_again() {
     let desktop = Desktop::start();
     for _ in 0..2 {
@@ -65,11 +58,8 @@ fn ctrl_and_plus_leave_a_window_that_starts_again() {
     }
 }
 
+#[needs(f32_adapter, desktop)]
 #[test]
-#[cfg_attr(
-    not(all(has_f32_adapter, has_desktop)),
-    ignore = "no graphics adapter, or no Xvfb, xdotool and import"
-)]
 fn a_stale_wayland_display_beside_an_x11_one_is_passed_over() {
     let desktop = Desktop::start();
     let log = std::fs::File::create(desktop.folder.path().join("log")).unwrap();

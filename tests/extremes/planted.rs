@@ -2,15 +2,14 @@
 
 use glam::DVec3;
 
-use svbrdf_core::material::Material;
-use svbrdf_core::model::brdf::Texel;
-use svbrdf_core::model::convention::{GUIDED_2020, PRINTED};
-use svbrdf_core::render::simd::Level;
-
 use super::cases::{self, Batch, row, turned};
 use super::regions::{Region, Truth};
 use super::rungs::{self, Rgb, Rung};
 use super::survey::Survey;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::brdf::Texel;
+use svbrdf_core::model::convention::{GUIDED_2020, PRINTED};
+use svbrdf_core::render::simd::Level;
 
 /// Random batches that the fused kernel accepts.
 fn batches() -> Vec<Batch> {
@@ -122,8 +121,8 @@ fn defects_of_the_fused_kernel_are_seen() {
 }
 
 #[cfg(feature = "gpu")]
+#[svbrdf_needs::needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn defects_of_the_gpu_are_seen() {
     use exr::prelude::f16;
     use glam::Vec3;

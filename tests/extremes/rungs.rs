@@ -80,11 +80,11 @@ pub fn fused(level: Level, batch: &Batch) -> Option<Vec<Rgb>> {
 }
 
 /// The shader, for each batch; `None` where there is no adapter.
-#[cfg(all(feature = "gpu", has_adapter))]
+#[cfg(feature = "gpu")]
 pub fn on_gpu(batches: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
     use svbrdf_core::model::convention;
 
-    let gpu = crate::support::gpu::gpu();
+    let gpu = crate::support::gpu::find_gpu().ok()?;
     let mut values: Vec<_> = batches.iter().map(|_| Vec::new()).collect();
     for convention in &convention::ALL {
         let of_convention = || batches.iter().enumerate().filter(|(_, b)| b.convention == *convention);
@@ -102,7 +102,7 @@ pub fn on_gpu(batches: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
     Some(values)
 }
 
-#[cfg(not(all(feature = "gpu", has_adapter)))]
+#[cfg(not(feature = "gpu"))]
 pub fn on_gpu(_: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
     None
 }

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use svbrdf_needs::needs;
+
 use super::*;
 use crate::golden_loss;
 
@@ -25,8 +27,8 @@ fn strip(folder: &Path, case: &serde_json::Value) -> Material<f32> {
     Material::new("golden", width as usize, height as usize, planes).unwrap()
 }
 
+#[needs(shared)]
 #[test]
-#[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
 fn losses_are_the_golden_ones() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden");
     for case in golden_loss::cases() {

@@ -12,11 +12,12 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shading};
+use svbrdf_needs::{has, needs};
 
 use crate::support::gpu::{STALE_BUILD, bumpy, find_gpu, gpu, picture};
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_report_is_one_line_that_says_what_is_used_and_why() {
     let gpu = gpu();
     let line = gpu.report.to_string();
@@ -28,20 +29,19 @@ fn the_report_is_one_line_that_says_what_is_used_and_why() {
 }
 
 #[test]
-#[expect(clippy::assertions_on_constants, reason = "what the build found is a constant of it")]
 fn the_build_knows_whether_there_is_an_adapter() {
     let required = std::env::var_os("CI").is_some();
     match find_gpu() {
         Ok(gpu) if gpu.report.shading_format == wgpu::TextureFormat::Rgba32Float => {
-            assert!(cfg!(has_f32_adapter), "{}: {STALE_BUILD}", gpu.report);
+            assert!(has!(f32_adapter), "{}: {STALE_BUILD}", gpu.report);
         }
         // Used where nothing else is, and tested only on request: `WGPU_BACKEND=gl`.
         Ok(opengl) => {
-            assert!(!cfg!(has_f32_adapter), "{}: {STALE_BUILD}", opengl.report);
+            assert!(!has!(f32_adapter), "{}: {STALE_BUILD}", opengl.report);
             assert!(!required, "no 32-bit renderings in CI: {}", opengl.report);
         }
         Err(problem) => {
-            assert!(!cfg!(has_adapter), "{problem}: {STALE_BUILD}");
+            assert!(!has!(adapter), "{problem}: {STALE_BUILD}");
             assert!(!required, "no graphics adapter in CI: {problem}");
         }
     }
@@ -69,13 +69,13 @@ fn a_missing_adapter_fails_the_tests_that_need_one_and_ci() {
 
     let knows = "the_build_knows_whether_there_is_an_adapter";
     let (passed, text) = without_driver(knows, &[]);
-    assert_eq!(passed, !cfg!(has_adapter), "{text}");
+    assert_eq!(passed, !has!(adapter), "{text}");
     let (passed, text) = without_driver(knows, &[("CI", "true")]);
     assert!(!passed && (text.contains("in CI") || text.contains(STALE_BUILD)), "{text}");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_material_beyond_the_limits_is_refused_with_both_sizes() {
     let gpu = gpu();
     let mut small = gpu.clone();
@@ -90,8 +90,8 @@ fn a_material_beyond_the_limits_is_refused_with_both_sizes() {
     MaterialTextures::upload(&small, &bumpy(8, 4)).expect("just within the limit");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu() {
     let gpu = gpu();
     let mut half = gpu.clone();
@@ -138,8 +138,8 @@ fn mirror() -> Material<f32> {
     Material::uniform("mirror", 2, 2, &texel).expect("valid")
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_failure_that_no_function_can_return_waits_to_be_taken() {
     // A device of its own: other tests take faults too.
     let gpu = Gpu::headless().expect("an adapter");

@@ -11,6 +11,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
+use svbrdf_needs::needs;
 
 use crate::support::gpu::{Picture, bumpy, gpu, gpu_f32, picture};
 use crate::support::tolerance::SCREEN_LEVELS;
@@ -94,8 +95,8 @@ fn gray(value: f32) -> Material<f32> {
     Material::uniform("gray", 4, 4, &texel).expect("valid")
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn known_values_are_encoded_as_the_standard_says() {
     let gpu = gpu();
     let known = [(0.0, 0, 0), (0.002, 7, 1), (0.2, 124, 51), (0.5, 188, 128), (1.0, 255, 255)];
@@ -108,8 +109,8 @@ fn known_values_are_encoded_as_the_standard_says() {
     }
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn radiance_is_exposed_before_it_is_encoded() {
     let gpu = gpu_f32();
     let material = gray(0.3);
@@ -123,8 +124,8 @@ fn radiance_is_exposed_before_it_is_encoded() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_texel_is_crisp_and_in_its_place_when_magnified() {
     let gpu = gpu();
     for size in [[5, 3], [4, 4], [1, 1], [1, 3], [3, 1], [16, 9]] {
@@ -142,8 +143,8 @@ fn every_texel_is_crisp_and_in_its_place_when_magnified() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_comparison_of_pictures_goes_red_on_planted_faults() {
     let gpu = gpu();
     let material = bumpy(6, 6);
@@ -160,8 +161,8 @@ fn the_comparison_of_pictures_goes_red_on_planted_faults() {
     assert_eq!(planted(|column, row| if (column, row) == (2, 3) { (0, 0) } else { (column, row) }).len(), 1);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_perspective_view_shows_what_the_camera_says() {
     let gpu = gpu();
     let camera = Camera {
@@ -215,8 +216,8 @@ fn box_average(material: &Material<f32>, pane: [usize; 2], column: usize, row: u
     mean
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
     let gpu = gpu();
     for (size, pane) in
@@ -231,8 +232,8 @@ fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_very_large_map_is_averaged_with_a_stride() {
     let gpu = gpu();
     let material = bumpy(400, 400);
@@ -246,8 +247,8 @@ fn a_very_large_map_is_averaged_with_a_stride() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_wipe_shows_the_reference_on_the_left() {
     let gpu = gpu();
     let white = shaded(gpu, &gray(1.0), Quantity::Diffuse);
@@ -260,8 +261,8 @@ fn a_wipe_shows_the_reference_on_the_left() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn clipped_pixels_are_striped_on_demand() {
     let gpu = gpu();
     let striped = |value: f32, exposure_ev: f32, show_clipping: bool| {
@@ -276,8 +277,8 @@ fn clipped_pixels_are_striped_on_demand() {
     assert_eq!(striped(0.9, 9.0, true), 128);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_draft_shows_the_nearest_texel_where_a_pixel_covers_several() {
     let gpu = gpu();
     let size = [15, 9];

@@ -4,13 +4,14 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{MaterialTextures, ShadeParams, Shading};
+use svbrdf_needs::needs;
 
 use crate::support::gpu::{bumpy, gpu};
 
 /// A draft shades the texels in the middle of squares, each as it is shaded in full: from the whole material, from its reduced
 /// textures, which are all that is read while a light moves, and from those that are sent before the rest.
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_draft_shades_every_nth_texel_as_it_is_shaded_in_full() {
     let gpu = gpu();
     let [width, height] = [23, 14];

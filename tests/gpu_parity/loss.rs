@@ -10,6 +10,7 @@ use svbrdf_core::model::scene::{self, Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::samples;
 use svbrdf_gpu::GpuLosses;
+use svbrdf_needs::needs;
 
 use crate::golden_loss;
 use crate::support::gpu::{bumpy, gpu};
@@ -87,8 +88,8 @@ fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0].max(b[0]), a[1].max(b[1])]
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
     let computer = Computer::get();
     let samples = samples::load::<f32>().expect("built in");
@@ -109,9 +110,8 @@ fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
     println!("worst relative errors: loss {:e}, scene {:e}", worst[0], worst[1]);
 }
 
+#[needs(adapter, shared)]
 #[test]
-#[cfg_attr(not(has_shared), ignore = "needs ../shared, which is absent")]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn losses_are_the_golden_ones() {
     let computer = Computer::get();
     let mut worst = [0.0; 2];
@@ -139,8 +139,8 @@ fn changed(width: usize, height: usize) -> Material<f32> {
     Material::new("changed", width, height, planes).expect("valid")
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn odd_sizes_are_summed_to_the_last_texel() {
     let computer = Computer::get();
     // The last two are one texel more than a block, and more than a band.
@@ -154,8 +154,8 @@ fn odd_sizes_are_summed_to_the_last_texel() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn equal_materials_have_no_loss_at_all() {
     let computer = Computer::get();
     for convention in convention::ALL {
@@ -167,8 +167,8 @@ fn equal_materials_have_no_loss_at_all() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn mirrors_and_grazing_lights_have_finite_losses() {
     let computer = Computer::get();
     let uniform = |roughness, specular| {
@@ -193,8 +193,8 @@ fn mirrors_and_grazing_lights_have_finite_losses() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_same_bits_come_out_every_time() {
     let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(200, 100), changed(200, 100));
@@ -204,8 +204,8 @@ fn the_same_bits_come_out_every_time() {
     assert!((0..5).all(|_| once() == first));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn several_predictions_have_the_losses_that_each_has_alone() {
     let computer = Computer::get();
     let (ground_truth, other, scenes) = (bumpy(90, 70), changed(90, 70), scenes(3, 2, &PRINTED));
@@ -220,8 +220,8 @@ fn several_predictions_have_the_losses_that_each_has_alone() {
     assert!(computer.losses(&ground_truth, &[], &scenes, &PRINTED).is_empty());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn many_scenes_have_the_losses_that_each_has_alone() {
     let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(5, 4), changed(5, 4));
@@ -234,8 +234,8 @@ fn many_scenes_have_the_losses_that_each_has_alone() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_cancelled_loss_ends_at_its_next_step() {
     let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(8, 8), changed(8, 8));
@@ -252,8 +252,8 @@ fn a_cancelled_loss_ends_at_its_next_step() {
     assert_eq!(progress.counts().0, 1);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
     let computer = Computer::get();
     let (material, other) = (bumpy(8, 8), bumpy(8, 9));
@@ -267,8 +267,8 @@ fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
     assert!(matches!(refused(&material, &[]), Error::SceneCount { .. }));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_comparison_of_losses_goes_red_on_planted_faults() {
     let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(64, 48), changed(64, 48));

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::source::{self, Import, Module};
+use super::source::{Import, Module, Source};
 
 type Path = Vec<String>;
 
@@ -28,7 +28,7 @@ impl Tree {
         let mut modules = BTreeMap::new();
         for (file, text) in files {
             let (file, text) = (file.as_ref(), text.as_ref());
-            for module in source::modules(text) {
+            for module in Source::new(text).modules {
                 let path = module_of(file).into_iter().chain(module.inside.iter().cloned()).collect();
                 modules.insert(path, (file.to_owned(), module));
             }

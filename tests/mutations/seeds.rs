@@ -1,4 +1,4 @@
-//! Seeds of the fuzz targets in `fuzz/`, and the inputs that these have found, which stay tests.
+//! Seeds of the fuzz targets in `tests/fuzz/`, and the inputs that these have found, which stay tests.
 
 use exr::prelude::Compression;
 use svbrdf_core::model::scene::SceneFile;
@@ -161,9 +161,9 @@ fn every_seed_is_opened_by_its_target() {
 }
 
 #[test]
-#[ignore = "writes fuzz/seeds"]
+#[ignore = "writes tests/fuzz/seeds"]
 fn the_seeds_of_the_fuzz_targets() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/seeds");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/seeds");
     for (target, inputs) in seeds() {
         let folder = root.join(target);
         std::fs::create_dir_all(&folder).unwrap();

@@ -1,9 +1,12 @@
-//! Chromium without a window, driven by its own protocol through two pipes.
+//! Chromium without a window, driven by its own protocol through two pipes: one browser, and a tab for each page.
 
+use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, channel};
+use std::process::{ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{LazyLock, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -12,7 +15,7 @@ use tempfile::TempDir;
 
 /// The longest that the browser takes to answer, and a page to start.
 const PATIENCE: Duration = Duration::from_secs(180);
-const ARGUMENTS: [&str; 12] = [
+const ARGUMENTS: [&str; 14] = [
     "--headless",
     "--no-sandbox",
     "--disable-gpu",
@@ -24,16 +27,113 @@ const ARGUMENTS: [&str; 12] = [
     "--disable-component-update",
     "--disable-sync",
     "--disable-dev-shm-usage",
+    "--disable-renderer-backgrounding",
+    "--disable-backgrounding-occluded-windows",
     "--remote-debugging-pipe",
 ];
 
-/// A page in a browser of its own.
+/// The browser of all tests. It ends with the program of the tests, which closes its pipes.
+static BROWSER: LazyLock<Browser> = LazyLock::new(Browser::start);
+
+struct Browser {
+    input: Mutex<ChildStdin>,
+    sent: AtomicU64,
+    /// Where the messages of each session go; those of the browser have the empty name.
+    sessions: Mutex<BTreeMap<String, Sender<Value>>>,
+    /// The answers of the browser; one page at a time asks it.
+    answers: Mutex<Receiver<Value>>,
+}
+
+impl Browser {
+    fn start() -> Self {
+        let profile = tempfile::tempdir().unwrap().keep();
+        let names = ["chromium", "chromium-browser"];
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let found = |name: &&str| std::env::split_paths(&path).any(|folder| folder.join(name).is_file());
+        let program = names.into_iter().find(found).expect("CI must have Debian's chromium");
+        // The protocol is spoken on descriptors 3 and 4. The shell outlives the browser, and removes its profile.
+        let script = r#"p=$1; shift; "$0" "$@" --user-data-dir="$p" 3<&0 4>&1 0</dev/null 1>/dev/null 2>/dev/null; rm -rf "$p""#;
+        let mut child = Command::new("sh")
+            .args(["-c", script, program])
+            .arg(profile)
+            .args(ARGUMENTS)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let output = BufReader::new(child.stdout.take().unwrap());
+        let input = Mutex::new(child.stdin.take().unwrap());
+        thread::spawn(move || {
+            distribute(output);
+            drop(child.wait());
+        });
+        let (sender, answers) = channel();
+        Self {
+            input,
+            sent: AtomicU64::new(0),
+            sessions: Mutex::new(BTreeMap::from([(String::new(), sender)])),
+            answers: Mutex::new(answers),
+        }
+    }
+
+    /// Sends a command to a session, or to the browser; its number.
+    fn send(&self, session: &str, method: &str, params: &Value) -> u64 {
+        let id = self.sent.fetch_add(1, Ordering::Relaxed);
+        let mut message = json!({ "id": id, "method": method, "params": params });
+        if !session.is_empty() {
+            message["sessionId"] = json!(session);
+        }
+        self.input.lock().unwrap().write_all(format!("{message}\0").as_bytes()).unwrap();
+        id
+    }
+
+    /// The session of a new tab, with its messages.
+    fn open(&self) -> (String, Receiver<Value>) {
+        let answers = self.answers.lock().unwrap();
+        let ask = |method: &str, params: Value| {
+            let id = self.send("", method, &params);
+            answer(method, id, &answers, &mut Vec::new())
+        };
+        let target = ask("Target.createTarget", json!({ "url": "about:blank", "newWindow": true }));
+        let attached =
+            ask("Target.attachToTarget", json!({ "targetId": target["targetId"], "flatten": true }));
+        let session = attached["sessionId"].as_str().unwrap().to_owned();
+        let (sender, messages) = channel();
+        self.sessions.lock().unwrap().insert(session.clone(), sender);
+        (session, messages)
+    }
+}
+
+/// Hands each message of the browser to its session. Those of pages that are closed go nowhere.
+fn distribute(mut output: BufReader<ChildStdout>) {
+    let mut bytes = Vec::new();
+    while output.read_until(0, &mut bytes).is_ok_and(|count| count > 0) {
+        bytes.pop();
+        let message: Value = serde_json::from_slice(&bytes).unwrap_or_default();
+        let session = message["sessionId"].as_str().unwrap_or_default();
+        if let Some(sender) = BROWSER.sessions.lock().unwrap().get(session) {
+            drop(sender.send(message));
+        }
+        bytes.clear();
+    }
+}
+
+/// The answer to command `id`; what comes before it is an event.
+fn answer(method: &str, id: u64, messages: &Receiver<Value>, events: &mut Vec<Value>) -> Value {
+    loop {
+        let answer = messages.recv_timeout(PATIENCE).expect("the browser answers");
+        if answer["id"] == json!(id) {
+            assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
+            return answer["result"].clone();
+        }
+        events.push(answer);
+    }
+}
+
+/// A page in a tab of its own.
 pub struct Page {
-    child: Child,
-    input: ChildStdin,
+    session: String,
     messages: Receiver<Value>,
-    session: Value,
-    sent: u64,
     /// Events of the page so far.
     pub events: Vec<Value>,
     folder: TempDir,
@@ -51,11 +151,8 @@ impl Page {
 
     /// Opens `html` as a file, and waits until an expression of JavaScript is true.
     pub fn open_until(html: &str, [width, height]: [u32; 2], ready: &str) -> Self {
-        let mut page = Self::start();
-        let target = page.send("Target.createTarget", json!({ "url": "about:blank" }));
-        let attached =
-            page.send("Target.attachToTarget", json!({ "targetId": target["targetId"], "flatten": true }));
-        page.session = attached["sessionId"].clone();
+        let (session, messages) = BROWSER.open();
+        let mut page = Self { session, messages, events: Vec::new(), folder: tempfile::tempdir().unwrap() };
         for domain in ["Network", "Runtime", "Log", "Page"] {
             page.send(&format!("{domain}.enable"), json!({}));
         }
@@ -64,6 +161,7 @@ impl Page {
             json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false }),
         );
         page.scheme("light");
+        page.send("Emulation.setFocusEmulationEnabled", json!({ "enabled": true }));
         page.send("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
         let file = page.folder.path().join("report.html");
         std::fs::write(&file, html).unwrap();
@@ -74,37 +172,6 @@ impl Page {
             thread::sleep(Duration::from_millis(50));
         }
         page
-    }
-
-    fn start() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let names = ["chromium", "chromium-browser"];
-        let path = std::env::var_os("PATH").unwrap_or_default();
-        let found = |name: &&str| std::env::split_paths(&path).any(|folder| folder.join(name).is_file());
-        let program = names.into_iter().find(found).expect("CI must have Debian's chromium");
-        // The protocol is spoken on descriptors 3 and 4.
-        let mut child = Command::new("sh")
-            .args(["-c", r#"exec "$0" "$@" 3<&0 4>&1 0</dev/null 1>/dev/null 2>/dev/null"#, program])
-            .args(ARGUMENTS)
-            .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let input = child.stdin.take().unwrap();
-        let mut output = BufReader::new(child.stdout.take().unwrap());
-        let (sender, messages) = channel();
-        thread::spawn(move || {
-            let mut bytes = Vec::new();
-            while output.read_until(0, &mut bytes).is_ok_and(|count| count > 0) {
-                bytes.pop();
-                if sender.send(serde_json::from_slice(&bytes).unwrap_or_default()).is_err() {
-                    break;
-                }
-                bytes.clear();
-            }
-        });
-        Self { child, input, messages, session: Value::Null, sent: 0, events: Vec::new(), folder }
     }
 
     /// Colours that are `light` or `dark`, as a reader sets them.
@@ -119,20 +186,8 @@ impl Page {
 
     /// The result of a command of the protocol.
     pub fn send(&mut self, method: &str, params: Value) -> Value {
-        self.sent += 1;
-        let mut message = json!({ "id": self.sent, "method": method, "params": params });
-        if !self.session.is_null() {
-            message["sessionId"] = self.session.clone();
-        }
-        self.input.write_all(format!("{message}\0").as_bytes()).unwrap();
-        loop {
-            let answer = self.messages.recv_timeout(PATIENCE).expect("the browser answers");
-            if answer["id"] == json!(self.sent) {
-                assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
-                return answer["result"].clone();
-            }
-            self.events.push(answer);
-        }
+        let id = BROWSER.send(&self.session, method, &params);
+        answer(method, id, &self.messages, &mut self.events)
     }
 
     /// The value of an expression of JavaScript in the page, awaited where it is a promise.
@@ -227,8 +282,11 @@ fn url(file: &Path) -> String {
 }
 
 impl Drop for Page {
+    /// Closes the tab.
     fn drop(&mut self) {
-        drop(self.child.kill());
-        drop(self.child.wait());
+        if !thread::panicking() {
+            BROWSER.send(&self.session, "Page.close", &json!({}));
+        }
+        drop(BROWSER.sessions.lock().map(|mut sessions| sessions.remove(&self.session)));
     }
 }

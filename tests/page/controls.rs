@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use svbrdf_core::model::convention::PRINTED;
+use svbrdf_needs::needs;
 
 use super::browser::Page;
 use super::{figure, noise};
@@ -34,8 +35,8 @@ fn pane(page: &mut Page) -> ([f64; 2], f64) {
     ([at(0), at(1)], at(2))
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn the_mouse_moves_light_view_picture_and_wipe() {
     let mut page = open();
     let ([x, y], unit) = pane(&mut page);
@@ -67,8 +68,8 @@ fn the_mouse_moves_light_view_picture_and_wipe() {
     assert_eq!(state(&mut page, "scene.light"), json!([0.4, 0.5, 1.2]));
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn fingers_move_light_and_view_and_zoom() {
     let mut page = open();
     let ([x, y], unit) = pane(&mut page);
@@ -88,8 +89,8 @@ fn fingers_move_light_and_view_and_zoom() {
     );
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn a_pen_moves_the_light_and_a_finger_holds_the_ground_truth() {
     let mut page = open();
     let ([x, y], unit) = pane(&mut page);
@@ -112,8 +113,8 @@ fn a_pen_moves_the_light_and_a_finger_holds_the_ground_truth() {
     assert_eq!(page.after_frame(shown), json!([0, 1, 2]));
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn keys_do_what_they_do_in_the_window() {
     let mut page = open();
     let cases = [
@@ -151,8 +152,8 @@ fn keys_do_what_they_do_in_the_window() {
     );
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn every_control_is_reached_by_tab_has_a_name_and_changes_the_figure() {
     let mut page = open();
     page.evaluate("document.body.focus(); document.activeElement.blur()");
@@ -209,8 +210,8 @@ fn every_control_is_reached_by_tab_has_a_name_and_changes_the_figure() {
     assert_eq!(state(&mut page, "quantity"), json!("rendering"));
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn a_readout_is_in_every_pane() {
     let mut page = open();
     let ([x, y], _) = pane(&mut page);
@@ -222,8 +223,8 @@ fn a_readout_is_in_every_pane() {
     }
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn the_page_requests_nothing_and_its_policy_admits_nothing() {
     let mut page = open();
     let (requests, complaints) = page.traffic();
@@ -244,8 +245,8 @@ fn the_page_requests_nothing_and_its_policy_admits_nothing() {
     assert_eq!(page.evaluate("window.hit === undefined"), json!(true));
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn a_window_without_room_for_all_predictions_has_the_chosen_one_beside_the_ground_truth() {
     let materials: Vec<_> = (1..=16).map(noise).collect();
     let mut page = Page::open(&figure(&materials, PRINTED), [360, 640]);

@@ -4,7 +4,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use serde_json::Value;
+use base64::Engine as _;
+use serde_json::{Value, json};
+
+use super::browser::Page;
 
 /// The command of docs/report.md.
 const COMMAND: &str = "report -o docs/example-report.html --max-size 2MB";
@@ -37,7 +40,7 @@ fn the_example_is_what_its_command_writes() {
         .map(|folder| fs::read_to_string(folder.join("docs/example-report.html")).unwrap());
     for (start, end) in [("<head>", "</head>"), (r#"<script type="module">"#, "</script>")] {
         let is_same = between(&kept, start, end) == between(&made, start, end);
-        assert!(is_same, "{start} has changed: run svbrdf {COMMAND}");
+        assert!(is_same, "{start} has changed: cargo xtask bless report");
     }
     let data = |page: &str| {
         let mut data: Value = serde_json::from_str(between(page, r#"id="data">"#, "</script>")).unwrap();
@@ -45,11 +48,28 @@ fn the_example_is_what_its_command_writes() {
         data["scenes"].take();
         data
     };
-    assert!(data(&kept) == data(&made), "the figure has changed: run svbrdf {COMMAND}");
+    assert!(data(&kept) == data(&made), "the figure has changed: cargo xtask bless report");
     let ((kept, kept_numbers), (made, made_numbers)) = (text(&kept), text(&made));
-    assert_eq!(kept, made, "run svbrdf {COMMAND}");
+    assert_eq!(kept, made, "cargo xtask bless report");
     assert!(kept_numbers.len() > 150 && kept_numbers.len() == made_numbers.len());
     for (kept, made) in kept_numbers.iter().zip(made_numbers) {
-        assert!((kept - made).abs() <= 2e-3 * made.max(0.1), "{kept} is {made} now: run svbrdf {COMMAND}");
+        assert!(
+            (kept - made).abs() <= 2e-3 * made.max(0.1),
+            "{kept} is {made} now: cargo xtask bless report"
+        );
     }
+}
+
+#[test]
+#[ignore = "writes docs/assets/report.jpg: cargo xtask bless report-picture"]
+fn write_the_picture_of_the_report() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let html = fs::read_to_string(docs.join("example-report.html")).unwrap();
+    let mut page = Page::open(&html, [1366, 1180]);
+    page.send("Emulation.setScrollbarsHidden", json!({ "hidden": true }));
+    // The status below the figure comes after a pause.
+    page.evaluate("new Promise(done => setTimeout(done, 1000))");
+    let picture = page.send("Page.captureScreenshot", json!({ "format": "jpeg", "quality": 80 }));
+    let bytes = base64::prelude::BASE64_STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
+    fs::write(docs.join("assets/report.jpg"), bytes).unwrap();
 }

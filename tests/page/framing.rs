@@ -7,6 +7,7 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_files::page::{MOST_BYTES, Report};
 use svbrdf_files::session_window::{Display, Framing, Layout, Projection};
+use svbrdf_needs::needs;
 
 use super::browser::Page;
 use super::{html, noise, report};
@@ -49,8 +50,8 @@ fn near(found: [f32; 2], expected: [f32; 2]) -> bool {
     found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-3)
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn the_figure_begins_with_the_texels_of_the_session_and_resets_to_them() {
     for projection in [Projection::Flat, Projection::Perspective] {
         let mut page = open(FRAMING, projection, MOST_BYTES);
@@ -74,8 +75,8 @@ fn the_figure_begins_with_the_texels_of_the_session_and_resets_to_them() {
     }
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn halved_maps_begin_with_the_same_part_of_the_material() {
     let mut page = open(FRAMING, Projection::Flat, 1);
     assert_eq!(page.evaluate("window.svbrdf.figure.grid.width"), json!(24));
@@ -87,8 +88,8 @@ fn halved_maps_begin_with_the_same_part_of_the_material() {
     assert!((pixels / (2.0 * FRAMING.pixels_per_texel) - 1.0).abs() < 1e-4, "{pixels}");
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn a_framing_out_of_range_leaves_some_of_the_material_visible() {
     for (pixels_per_texel, centre) in [(0.0, [1e30, -1e30]), (-1.0, [0.0; 2]), (3e38, [f32::MAX; 2])] {
         let mut page = open(Framing { pixels_per_texel, centre }, Projection::Flat, MOST_BYTES);

@@ -8,8 +8,9 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
-use svbrdf_files::page::{Findings, Labels, Repetition, Report, View};
+use svbrdf_files::page::{Findings, Repetition, Report, View};
 use svbrdf_files::session_window::Display;
+use svbrdf_needs::needs;
 
 use super::browser::Page;
 use super::noise;
@@ -42,7 +43,6 @@ pub fn report_of(names: [&str; 2]) -> String {
         findings: Some(findings),
         readings: names.map(|name| vec![name.to_owned()]).to_vec(),
         repetition: Some(Repetition { command: names.concat(), session: Some(names.map(str::to_owned)) }),
-        labels: Labels::default(),
         max_bytes: 10_000_000,
     };
     report.page(&progress).unwrap().html
@@ -60,8 +60,8 @@ fn hostile_names_add_no_elements() {
     assert!(count("&lt;/script&gt;&lt;img src=x") > 3);
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn hostile_names_run_nothing_and_are_read_as_lines() {
     let mut page = Page::open(&report(), [900, 900]);
     assert_eq!(page.after_frame("window.hit === undefined"), json!(true));

@@ -11,6 +11,7 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
+use svbrdf_needs::needs;
 
 use super::browser::Page;
 use super::{built_in, figure, noise};
@@ -18,13 +19,8 @@ use crate::support::tolerance::{PAGE_CAMERA, PAGE_NUMBERS, PAGE_PIXELS};
 
 /// Shows a scene in the flat view of the page, at an exposure.
 pub fn show(page: &mut Page, scene: &Scene, quantity: Quantity, exposure: f32) {
-    page.evaluate(&showing(scene, quantity, exposure));
-}
-
-/// The expression for [`show`].
-pub fn showing(scene: &Scene, quantity: Quantity, exposure: f32) -> String {
     let state = json!({ "scene": scene, "quantity": quantity.name(), "exposure": exposure });
-    format!("window.svbrdf.figure.set({state})")
+    page.evaluate(&format!("window.svbrdf.figure.set({state})"));
 }
 
 /// The 8-bit picture of a material in the page.
@@ -47,7 +43,7 @@ pub fn decoded(text: &Value) -> Vec<u8> {
 }
 
 /// The largest difference of two pictures, in steps of 8 bits.
-pub fn largest(page: &[u8], core: &[[u8; 3]]) -> u8 {
+fn largest(page: &[u8], core: &[[u8; 3]]) -> u8 {
     assert_eq!(page.len(), 3 * core.len());
     page.iter().zip(core.as_flattened()).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
 }
@@ -67,8 +63,8 @@ pub fn rendered(
     pictures.images.iter().map(colours).collect()
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn maps_and_coloured_differences_are_those_of_render() {
     let materials = built_in();
     let refs: Vec<&Material<f32>> = materials.iter().collect();
@@ -96,8 +92,8 @@ fn maps_and_coloured_differences_are_those_of_render() {
     }
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn readouts_are_those_of_the_core() {
     let materials = [noise(1), noise(2)];
     let mut page = Page::open(&figure(&materials, PRINTED), [800, 600]);
@@ -133,8 +129,8 @@ fn readouts_are_those_of_the_core() {
     println!("largest deviation of a readout: {worst:e}");
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn cameras_are_those_of_the_core() {
     let materials = [noise(1)];
     let mut page = Page::open(&figure(&materials, PRINTED), [800, 600]);
@@ -170,8 +166,8 @@ fn cameras_are_those_of_the_core() {
     println!("largest deviation of a camera: {worst:e}");
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn a_fault_planted_in_the_shader_is_seen() {
     let materials = [noise(1)];
     let html = figure(&materials, PRINTED);
@@ -188,8 +184,8 @@ fn a_fault_planted_in_the_shader_is_seen() {
     assert!(off(&html.replace(right, wrong)) > PAGE_PIXELS);
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn without_webgl_the_still_picture_stays_with_the_reason() {
     let html = figure(&[noise(1)], PRINTED).replace("#version 300 es", "#version 999");
     let mut page = Page::open(&html, [800, 600]);

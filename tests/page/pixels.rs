@@ -10,6 +10,7 @@ use svbrdf_core::model::scene::{Scene, sample};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_needs::needs;
 
 use super::browser::Page;
 use super::numbers::{decoded, pictured, rendered, show};
@@ -103,8 +104,8 @@ fn perspective(
     agreement
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn pixels_are_those_of_render_in_every_convention() {
     let (built_in, noises) = (built_in(), [noise(1), noise(2)]);
     let mut table = BTreeMap::new();

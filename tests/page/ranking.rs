@@ -9,6 +9,7 @@ use svbrdf_files::dataset::{
     PredictionResult, Remark, Source,
 };
 use svbrdf_files::page::ranking;
+use svbrdf_needs::needs;
 
 use super::browser::Page;
 
@@ -80,8 +81,8 @@ fn names_add_no_elements_to_a_ranking() {
     assert!(html.contains("not compared") && !html.contains("<td>worse</td>"));
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn a_click_on_a_heading_sorts_and_the_next_one_turns_it_around() {
     let mut page = Page::open_until(&page(), [1000, 900], READY);
     let names = |page: &mut Page| {

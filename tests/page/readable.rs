@@ -1,6 +1,7 @@
 //! Contrast of texts and names for screen readers, of reports and rankings, in light and dark colours.
 
 use serde_json::{Value, json};
+use svbrdf_needs::needs;
 
 use super::browser::Page;
 use super::{hostile, ranking};
@@ -70,8 +71,8 @@ fn pages() -> [Page; 2] {
     ]
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn texts_have_contrast_in_light_and_dark() {
     for mut page in pages() {
         page.evaluate("document.querySelectorAll('details').forEach(e => { e.open = true; })");
@@ -90,8 +91,8 @@ fn texts_have_contrast_in_light_and_dark() {
     }
 }
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn everything_that_is_used_has_a_name() {
     for mut page in pages() {
         let (unnamed, all) = unnamed(&mut page);
@@ -111,8 +112,8 @@ const MISPLACED: &str = "(() => { const found = []; const width = document.docum
       if (Math.min(width, height) < 24) found.push(`${e.id || e.textContent}: ${width} x ${height}`); } \
     return found; })()";
 
+#[needs(browser)]
 #[test]
-#[cfg_attr(not(has_browser), ignore = "needs chromium, which is not installed")]
 fn long_names_fit_a_phone_and_every_target_a_fingertip() {
     let long = "a_long_name".repeat(11);
     let report = hostile::report_of([&long, &long]);

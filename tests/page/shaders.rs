@@ -88,13 +88,20 @@ fn members(
     *span
 }
 
+/// The programs of the page, as JSON.
+fn programs() -> Value {
+    json!(PAGE.iter().map(|shader| (name(shader), program(shader))).collect::<BTreeMap<_, _>>())
+}
+
 #[test]
 fn the_shaders_of_the_page_are_those_of_the_window() {
-    let programs: BTreeMap<_, _> = PAGE.iter().map(|shader| (name(shader), program(shader))).collect();
-    let (programs, committed) = (json!(programs), std::fs::read_to_string(COMMITTED).unwrap_or_default());
-    if serde_json::from_str::<Value>(&committed).ok() != Some(programs.clone()) {
-        let made = concat!(env!("CARGO_TARGET_TMPDIR"), "/shaders.json");
-        std::fs::write(made, format!("{programs:#}\n")).unwrap();
-        panic!("the WGSL has changed: cp {made} {COMMITTED}");
-    }
+    let committed = std::fs::read_to_string(COMMITTED).unwrap_or_default();
+    let committed = serde_json::from_str::<Value>(&committed).ok();
+    assert!(committed == Some(programs()), "the WGSL has changed: cargo xtask bless shaders");
+}
+
+#[test]
+#[ignore = "writes src/files/page/shaders.json: cargo xtask bless shaders"]
+fn write_shaders() {
+    std::fs::write(COMMITTED, format!("{:#}\n", programs())).unwrap();
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::support::tolerance::{NORMALIZATION_F32, NORMALIZATION_F64, NORMALIZATION_FUSED};
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::{Real, Vec3, Vector as _};
 use svbrdf_core::model::brdf::{self, Model, Texel};
@@ -9,8 +10,6 @@ use svbrdf_core::model::convention::{Convention, GUIDED_2020, PRINTED};
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::simd::{Level, render_at};
-
-use crate::support::tolerance::{NORMALIZATION_F32, NORMALIZATION_F64, NORMALIZATION_FUSED};
 
 /// From the roughest surface to the floor of `printed`.
 pub const ROUGHNESS: [f64; 9] = [1.0, 0.7, 0.5, 0.2, 0.1, 0.03, 0.01, 1e-3, 1e-4];
@@ -97,8 +96,8 @@ fn the_distribution_integrates_to_1_in_the_fused_kernel() {
 }
 
 #[cfg(feature = "gpu")]
+#[svbrdf_needs::needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_distribution_integrates_to_1_on_the_gpu() {
     use crate::support::tolerance::NORMALIZATION_GPU;
 

@@ -6,7 +6,8 @@ use svbrdf_core::material::{Material, Planes};
 use svbrdf_gpu::{Display, DisplayParams, Gpu, Pane, PanePlace, Shaded};
 
 /// What to do where the tests and the build disagree on what is there.
-pub const STALE_BUILD: &str = "this machine has changed since the build looked at it: touch build.rs";
+pub const STALE_BUILD: &str =
+    "this machine has changed since the build looked at it: touch tests/needs/adapter.rs";
 
 /// The adapter, the same for every test, or why there is none.
 pub fn find_gpu() -> Result<&'static Gpu, &'static str> {
@@ -14,7 +15,7 @@ pub fn find_gpu() -> Result<&'static Gpu, &'static str> {
     GPU.get_or_init(|| Gpu::headless().map_err(|e| e.to_string())).as_ref().map_err(String::as_str)
 }
 
-/// The adapter. A test that calls this is ignored where the build found no driver (`has_adapter`, see build.rs).
+/// The adapter. A test that calls this needs `adapter` (tests/needs), and is ignored where the build found no driver.
 ///
 /// # Panics
 /// If there is no adapter.
@@ -24,7 +25,7 @@ pub fn gpu() -> &'static Gpu {
     })
 }
 
-/// As [`gpu`], but it renders to 32-bit floats. A test that calls this is ignored without `has_f32_adapter`.
+/// As [`gpu`], but it renders to 32-bit floats. A test that calls this needs `f32_adapter`.
 ///
 /// # Panics
 /// If there is no adapter, or it renders to fewer bits, as OpenGL does.

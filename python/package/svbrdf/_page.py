@@ -45,7 +45,6 @@ def figure(
     scene: Scene = HEADLIGHT,
     exposure: float | None = None,
     layout: Layout = "side-by-side",
-    language: str = "en",
     convention: str = "printed",
     height: int = 720,
     max_size: int = 2_000_000,
@@ -65,7 +64,6 @@ def figure(
         scene: The light and the view that it begins with.
         exposure: In stops, from -16 to 16; None: the brightest 1% of the ground truth just clip.
         layout: The layout that it begins with.
-        language: The language of its labels: "en", "de" or "fr".
         convention: A name of `svbrdf.CONVENTIONS`.
         height: Its height in a notebook, in CSS pixels.
         max_size: Most bytes: its maps are halved until it has as many, with a warning.
@@ -79,7 +77,7 @@ def figure(
     if not 50 <= height <= 10_000:
         raise ValueError(f"height: expected CSS pixels from 50 to 10000, found {height}")
     asked = Asked(ground_truth, predictions, convention=convention, alone=True)
-    options = _options(scene, exposure, max_size, layout=layout, language=language)
+    options = _options(scene, exposure, max_size, layout=layout)
     return Figure(_page(asked, options, progress), height)
 
 
@@ -122,14 +120,14 @@ def report(
     materials = [asked.ground_truth, *asked.predictions]
     named = f"{target_error=}, {seed=}, {exposure=}, {layout=}, {convention=}, {max_size=}, scene=svbrdf.{scene!r}"
     texts = [_call(material) for material in materials]
-    options = _options(scene, exposure, max_size, layout=layout, language="en")
+    options = _options(scene, exposure, max_size, layout=layout)
     options["call"] = f"svbrdf.report({texts[0]}, [{', '.join(texts[1:])}], {os.fspath(path)!r}, {named})"
     options["readings"] = [_reading(material) for material in materials]
     options["path"] = Path(path)
     _page(asked, options, progress)
 
 
-def _options(scene: Scene, exposure: float | None, max_size: int, *, layout: str, language: str) -> dict[str, Any]:
+def _options(scene: Scene, exposure: float | None, max_size: int, *, layout: str) -> dict[str, Any]:
     if exposure is not None and not -16 <= exposure <= 16:
         raise ValueError(f"exposure: expected stops from -16 to 16, found {exposure}")
     if max_size <= 0:
@@ -138,7 +136,6 @@ def _options(scene: Scene, exposure: float | None, max_size: int, *, layout: str
         "scene": (scene.kind, scene.view, scene.light),
         "exposure": exposure,
         "layout": layout,
-        "language": language,
         "max_bytes": max_size,
         "readings": [],
         "call": None,

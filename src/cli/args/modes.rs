@@ -46,11 +46,6 @@ pub const SESSION_SCENES: Mode =
 pub const REPORT_FIGURE: Mode =
     Mode { reason: "the figure alone has no loss", unused: &[&["target-error", "seed"]] };
 
-/// `report` with its findings.
-pub const REPORT_WHOLE: Mode = Mode {
-    reason: "findings are in English; the figure alone has other languages",
-    unused: &[&["language"]],
-};
 /// `report` of a ground truth alone.
 pub const REPORT_ALONE: Mode =
     Mode { reason: "there is no prediction, and no loss", unused: &[&["target-error", "seed", "layout"]] };

@@ -9,7 +9,6 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::report::LossReport;
 use svbrdf_core::why::{Attribution, Hemisphere, attribute, hemisphere};
 
-use super::labels::Labels;
 use crate::session_window::Display;
 
 /// Columns of the map over directions of the light, and the view of that map.
@@ -79,8 +78,6 @@ pub struct Report<'a> {
     pub readings: Vec<Vec<String>>,
     /// `None`: not written.
     pub repetition: Option<Repetition>,
-    /// The labels of the figure.
-    pub labels: Labels,
     /// Most bytes of the file: maps are halved until it fits.
     pub max_bytes: usize,
 }

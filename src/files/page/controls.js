@@ -9,7 +9,7 @@ function bindControls(figure, element, reset) {
   const fill = (list, options) => list.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
   const capital = (/** @type {string} */ text) => text[0].toUpperCase() + text.slice(1);
 
-  fill(select("quantity"), QUANTITIES.map((quantity) => [quantity, capital(label(quantity))]));
+  fill(select("quantity"), QUANTITIES.map((quantity) => [quantity, capital(quantity)]));
   fill(select("prediction"), materials.slice(1).map(({ name }, i) => [String(i), name]));
   for (const id of ["difference", "kind", "layout"]) element(id).closest("label")?.toggleAttribute("hidden", materials.length < 2);
   element("peek").hidden = materials.length < 2;
@@ -52,7 +52,7 @@ function bindControls(figure, element, reset) {
   let kinds = "";
   figure.watchers.push(() => {
     const all = data.kinds[state.quantity];
-    if (kinds !== state.quantity) fill(select("kind"), all.map(({ key, name }) => [key, capital(label(name))]));
+    if (kinds !== state.quantity) fill(select("kind"), all.map(({ key, name }) => [key, capital(name)]));
     kinds = state.quantity;
     const values = {
       quantity: state.quantity, kind: figure.kind().key, layout: state.layout, prediction: String(state.prediction),
@@ -62,7 +62,7 @@ function bindControls(figure, element, reset) {
     input("difference").checked = state.difference;
     select("kind").disabled = !state.difference || all.length < 2;
     input("exposure").value = String(state.exposure);
-    element("exposure-text").textContent = `${state.exposure > 0 ? "+" : state.exposure < 0 ? "\u2212" : ""}${Number(Math.abs(state.exposure).toFixed(2))} ${label("EV")}`;
+    element("exposure-text").textContent = `${state.exposure > 0 ? "+" : state.exposure < 0 ? "\u2212" : ""}${Number(Math.abs(state.exposure).toFixed(2))} EV`;
     peek.setAttribute("aria-pressed", String(state.peek));
     for (const which of /** @type {Endpoint[]} */ (["light", "view"])) {
       state.scene[which].forEach((number, i) => {
@@ -83,8 +83,8 @@ function announce(figure, status) {
     clearTimeout(timer);
     timer = setTimeout(() => {
       const { kind, light, view } = figure.state.scene;
-      const few = figure.state.layout === "side-by-side" && !figure.hasRoom() ? ` ${label("There is room for one prediction.")}` : "";
-      const text = `${label(kind === "near" ? "Near-field light" : "Distant light")} ${place(light)}, ${label("view")} ${place(view)}.${few}`;
+      const few = figure.state.layout === "side-by-side" && !figure.hasRoom() ? " There is room for one prediction." : "";
+      const text = `${kind === "near" ? "Near-field light" : "Distant light"} ${place(light)}, view ${place(view)}.${few}`;
       if (status.textContent !== text) status.textContent = text;
     }, 250);
   });

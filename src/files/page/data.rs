@@ -39,7 +39,6 @@ struct Data<'a> {
     colours: BTreeMap<&'a str, Vec<String>>,
     start: Start<'a>,
     scenes: &'a [LinkedScene],
-    labels: &'a BTreeMap<String, String>,
     shaders: Value,
 }
 
@@ -88,7 +87,7 @@ pub(super) fn json(
     report: &Report<'_>,
     scenes: &[LinkedScene],
 ) -> Result<String, Error> {
-    let Report { convention, labels, .. } = report;
+    let Report { convention, .. } = report;
     let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
     let shaders: Value = serde_json::from_str(SHADERS).map_err(failed)?;
     let data = Data {
@@ -100,7 +99,6 @@ pub(super) fn json(
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
         start: start(report, materials),
         scenes,
-        labels: labels.table(),
         shaders,
     };
     serde_json::to_string(&data).map_err(failed)

@@ -9,7 +9,7 @@
  *   ranges: Record<string, number>, layout: string, prediction: number, projection: string, zoom: number,
  *   pan: [number, number], framing: Framing | null, wipe: number, drag: string, peek: boolean, tiled: boolean, falseColour: boolean, clipping: boolean}} State
  * @typedef {{materials: StoredMaterial[], model: Record<string, number>, epsilon: number, convention: string,
- *   labels: Record<string, string>, kinds: Record<string, Kind[]>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
+ *   kinds: Record<string, Kind[]>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
  *   start: Partial<State>, scenes: {scene: Scene, exposure: number}[]}} Data
  */
 

@@ -90,7 +90,7 @@ class Legend {
       const at = (/** @type {number} */ share) => sorted[Math.floor(share * (sorted.length - 1))];
       return tableRow(name, [mean, at(0.5), at(0.95), at(1)].map(digits), "td");
     });
-    this.statistics.replaceChildren(tableRow(label(formula), [label("mean"), label("median"), "95%", label("largest")], "th"), ...rows);
+    this.statistics.replaceChildren(tableRow(formula, ["mean", "median", "95%", "largest"], "th"), ...rows);
   }
 
   /** @param {number[]} counts @param {string[]} colours */

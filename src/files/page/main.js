@@ -10,7 +10,6 @@ function element(id) {
 async function start() {
   /** @type {Data} */
   const data = JSON.parse(element("data").textContent ?? "");
-  translate(element("figure"), data.labels);
   if (!("DecompressionStream" in window)) throw new Error("this browser inflates no data");
   const materials = await Promise.all(data.materials.map(decodeMaterial));
   const canvas = /** @type {HTMLCanvasElement} */ (element("canvas"));
@@ -37,7 +36,7 @@ async function start() {
   addEventListener("beforeprint", () => {
     figure.draw();
     still.src = canvas.toDataURL("image/png");
-    element("caption").textContent = `${label("In reading order:")} ${figure.panes().map((pane) => overlay.title(pane)).join("; ")}`;
+    element("caption").textContent = `In reading order: ${figure.panes().map((pane) => overlay.title(pane)).join("; ")}`;
     for (const details of document.querySelectorAll("section:not(#figure) details")) details.setAttribute("open", "");
   });
   canvas.addEventListener("webglcontextlost", (event) => {
@@ -52,7 +51,7 @@ async function start() {
 /** @param {string} reason */
 function problem(reason) {
   const note = element("problem");
-  note.textContent = `${label("This is a still picture:")} ${label(reason)}.`;
+  note.textContent = `This is a still picture: ${reason}.`;
   note.hidden = false;
 }
 

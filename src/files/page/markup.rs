@@ -14,8 +14,6 @@ pub(super) const MOST_NAMES: usize = 4;
 
 /// A page that needs no other file.
 pub(super) struct Document<'a> {
-    /// Of its labels, BCP 47.
-    pub language: &'a str,
     /// As HTML.
     pub title: &'a str,
     pub style: &'a str,
@@ -30,7 +28,6 @@ impl Document<'_> {
         filled(
             FRAME,
             &[
-                ("language", self.language),
                 ("title", self.title),
                 ("software", SOFTWARE),
                 ("script-hash", &policy_source(self.script)),

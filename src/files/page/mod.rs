@@ -8,7 +8,6 @@ mod data;
 mod encode;
 mod exposure;
 mod findings;
-mod labels;
 mod markup;
 mod pictures;
 mod plots;
@@ -27,7 +26,6 @@ use crate::atomic::check_place;
 pub use content::{Findings, Repetition, Report, View};
 use encode::EncodedMaterial;
 pub use exposure::exposure;
-pub use labels::Labels;
 use markup::{Document, MOST_NAMES, escaped, filled};
 use pictures::Rows;
 pub use ranking::{MaterialView, ranking};
@@ -37,7 +35,6 @@ const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// The script: one module, whose parts share their names.
 const SCRIPT: &str = concat!(
-    include_str!("labels.js"),
     include_str!("codec.js"),
     include_str!("camera.js"),
     include_str!("endpoint.js"),
@@ -113,8 +110,7 @@ impl Report<'_> {
                 ("data", &markup::embedded(&data)),
             ],
         );
-        let (language, title) = (self.labels.language(), &self.title());
-        let html = Document { language, title, style: STYLE, script: SCRIPT, body: &body }.html();
+        let html = Document { title: &self.title(), style: STYLE, script: SCRIPT, body: &body }.html();
         Ok(Page { html, reduced_to })
     }
 

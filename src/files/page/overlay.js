@@ -10,7 +10,7 @@ function child(name, parent) {
 
 /** A number in four digits. @param {number} x */
 function digits(x) {
-  if (!Number.isFinite(x)) return label("not finite");
+  if (!Number.isFinite(x)) return "not finite";
   const size = Math.abs(x);
   if (size === 0) return "0";
   return size >= 1e5 || size > 0 && size < 1e-4 ? x.toExponential(2) : x.toFixed(size >= 100 ? 1 : size >= 10 ? 2 : size >= 1 ? 3 : 4);
@@ -58,16 +58,16 @@ class Overlay {
   title({ material, difference, wipe }) {
     const { materials, state } = this.figure;
     const name = materials[material].name;
-    if (wipe !== null) return `${materials[0].name} | ${name}${difference ? `, ${label(this.figure.kind().name)}` : ""}`;
-    if (difference) return `${name}, ${label(this.figure.kind().name)}`;
-    return material === 0 && materials.length > 1 ? `${name} ${label("(ground truth)")}` : `${name}${state.quantity === "rendering" ? "" : `, ${label(state.quantity)}`}`;
+    if (wipe !== null) return `${materials[0].name} | ${name}${difference ? `, ${this.figure.kind().name}` : ""}`;
+    if (difference) return `${name}, ${this.figure.kind().name}`;
+    return material === 0 && materials.length > 1 ? `${name} (ground truth)` : `${name}${state.quantity === "rendering" ? "" : `, ${state.quantity}`}`;
   }
 
   /** @param {Pane} pane @param {[number, number]} texel */
   readout({ material, difference }, texel) {
     const value = this.figure.value(material, texel);
     const numbers = (this.figure.state.quantity === "roughness" ? value.slice(0, 1) : value).map(digits).join("  ");
-    const off = difference ? `\n${label(this.figure.kind().unit)} = ${digits(this.figure.difference(material, texel))}` : "";
+    const off = difference ? `\n${this.figure.kind().unit} = ${digits(this.figure.difference(material, texel))}` : "";
     return `(${texel.join(", ")})  ${numbers}${off}`;
   }
 

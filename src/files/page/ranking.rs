@@ -31,7 +31,7 @@ pub fn ranking(report: &DatasetReport, views: &[MaterialView]) -> String {
         format!("Rendering loss over {} of {} materials", report.results.len(), settings.materials.len());
     let sections = methods(report) + &metrics(report) + &marks(report) + &materials(report, views);
     let body = filled(PAGE, &[("title", &title), ("settings", &heading(report)), ("sections", &sections)]);
-    Document { language: "en", title: &title, style: STYLE, script: SCRIPT, body: &body }.html()
+    Document { title: &title, style: STYLE, script: SCRIPT, body: &body }.html()
 }
 
 /// Everything that the numbers depend on.

@@ -16,7 +16,6 @@ use svbrdf_core::progress::Progress;
 
 use super::content::{Report, View};
 use super::exposure::exposure;
-use super::labels::Labels;
 use super::pictures;
 use super::ranking::MaterialView;
 use crate::atomic::replace_own;
@@ -163,7 +162,6 @@ fn view(
             findings: None,
             readings: Vec::new(),
             repetition: None,
-            labels: Labels::default(),
             max_bytes: FIGURE,
         };
         let page = report.page(&progress.part())?;

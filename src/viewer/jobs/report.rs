@@ -11,7 +11,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::quoted;
 use svbrdf_files::atomic::write_text;
-use svbrdf_files::page::{Findings, Labels, MOST_BYTES, Repetition, Report, View, check_destination};
+use svbrdf_files::page::{Findings, MOST_BYTES, Repetition, Report, View, check_destination};
 use svbrdf_files::session::Session;
 
 use super::displayed::Displayed;
@@ -76,7 +76,6 @@ impl ReportInputs {
             findings,
             readings: self.materials.iter().map(|(read, _)| reading(read)).collect(),
             repetition: Some(repetition(path, &self.session)?),
-            labels: Labels::default(),
             max_bytes: MOST_BYTES,
         };
         Ok(report.page(progress)?.html)

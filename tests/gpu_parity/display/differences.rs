@@ -10,6 +10,7 @@ use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 use svbrdf_gpu::{DisplayParams, DisplayedDifference, Shaded};
+use svbrdf_needs::needs;
 
 use super::{ABOVE, faults, levels, params, shaded, whole};
 use crate::support::gpu::{bumpy, gpu_f32, picture};
@@ -32,8 +33,8 @@ fn colours_of(values: &[f32], DisplayedDifference { kind, range, .. }: Displayed
     values.iter().map(|value| levels(map(value / range).map(f64::from))).collect()
 }
 
+#[needs(f32_adapter)]
 #[test]
-#[cfg_attr(not(has_f32_adapter), ignore = "no graphics adapter that renders to 32-bit floats")]
 fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
     let gpu = gpu_f32();
     let up = Texel {

@@ -265,11 +265,13 @@ impl OpeningWork {
 
 #[cfg(test)]
 mod tests {
+    use svbrdf_needs::needs;
+
     use super::*;
     use svbrdf_files::samples;
 
+    #[needs(adapter)]
     #[test]
-    #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
     fn a_material_that_is_displayed_becomes_whole_though_the_rest_of_its_opening_is_cancelled() {
         let gpu = Gpu::headless().unwrap();
         let mut read = samples::load::<f32>().unwrap().ground_truth;

@@ -173,11 +173,13 @@ impl Uploads {
 
 #[cfg(test)]
 mod tests {
+    use svbrdf_needs::needs;
+
     use super::*;
     use svbrdf_files::samples;
 
+    #[needs(adapter)]
     #[test]
-    #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
     fn only_of_a_large_material_and_only_on_the_cpu_a_draft_is_there_first() {
         let gpu = Gpu::headless().unwrap();
         let small: Material<f32> = samples::load().unwrap().ground_truth.material;
@@ -192,8 +194,8 @@ mod tests {
         assert!(Uploaded::all(&gpu, &large).draft().is_none());
     }
 
+    #[needs(adapter)]
     #[test]
-    #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
     fn where_all_texels_do_not_fit_as_many_as_fit_are_there() {
         let gpu = Gpu::headless().unwrap();
         let material: Material<f32> = samples::load().unwrap().ground_truth.material;

@@ -188,6 +188,8 @@ fn with_stride<'a>(
 
 #[cfg(test)]
 mod tests {
+    use svbrdf_needs::needs;
+
     use super::*;
     use crate::viewer::jobs::reading::upload::BAND;
     use crate::viewer::model::view::state::ViewState;
@@ -236,8 +238,8 @@ mod tests {
         ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering }
     }
 
+    #[needs(adapter)]
     #[test]
-    #[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
     fn what_sharpens_in_bands_is_what_is_shaded_at_once_also_where_the_light_moves_in_between() {
         let mut bench = Bench::new();
         let mut at_once = ShadedMaterial::default();

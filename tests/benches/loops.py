@@ -2,7 +2,7 @@
 """Counts the operations of the kernel's compiled loops, and what they take at least on Zen 4 and Zen 5.
 
     cargo bench --no-default-features --bench loss --no-run
-    benches/loops.py target/release/deps/loss-HASH [llvm-mca]
+    tests/benches/loops.py target/release/deps/loss-HASH [llvm-mca]
 
 Needs objdump and llvm-mca 19 or later (Debian: llvm-19; `llvm-mca-19` unless another name is given), and no AVX-512. All numbers are
 for 16 texels, one vector: the instructions of the AVX-512 loops that a default loss runs (fast path, no clamps), by the execution

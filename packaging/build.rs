@@ -1,4 +1,4 @@
-//! The commit that the program is built from, for `svbrdf --version --verbose`.
+//! Tells the program its target, its profile and the commit that it is built from, for `svbrdf --version --verbose`.
 
 use std::env;
 use std::fs;
@@ -8,8 +8,12 @@ use std::process::Command;
 /// The commit that `cargo package` has written down.
 const OF_PACKAGE: &str = ".cargo_vcs_info.json";
 
-/// Sets `SVBRDF_COMMIT` in release builds, where the commit is known. Debug builds would be built anew after every commit.
-pub fn tell_cargo() {
+fn main() {
+    println!("cargo::rerun-if-changed=packaging/build.rs");
+    for name in ["TARGET", "PROFILE"] {
+        println!("cargo::rustc-env=SVBRDF_{name}={}", env::var(name).unwrap_or_default());
+    }
+    // Debug builds would be built anew after every commit.
     if env::var("PROFILE").is_ok_and(|profile| profile == "release")
         && let Some(commit) = of_package().or_else(of_checkout)
     {

@@ -15,34 +15,31 @@ const VARIABLES: [&str; 8] = [
     "XDG_DATA_DIRS",
 ];
 
-/// Sets `has_adapter` where there is an adapter and `has_f32_adapter` where it renders to 32-bit floats: on Linux with
-/// a Vulkan driver, on macOS and Windows always. OpenGL renders to 16 bits, and counts if `WGPU_BACKEND` asks for it.
-pub fn tell_cargo() {
-    let backends = env::var("WGPU_BACKEND").unwrap_or_default().to_lowercase();
-    let opengl = backends.contains("gl");
-    let linux = cfg!(target_os = "linux");
-    let native = !linux || (!manifests().is_empty() && has_loader());
-    let allowed =
-        backends.is_empty() || ["vulkan", "vk", "metal", "dx12"].iter().any(|b| backends.contains(b));
-    let f32 = native && allowed;
-    set("has_f32_adapter", f32);
-    set("has_adapter", f32 || opengl);
-
+/// Tells cargo what the answers depend on.
+pub fn watch() {
     for variable in VARIABLES {
         println!("cargo::rerun-if-env-changed={variable}");
     }
-    // A missing path would rebuild the crate on every run.
-    for folder in folders().iter().filter(|folder| linux && folder.is_dir()) {
+    // A missing path would rebuild the tests on every run.
+    for folder in folders().iter().filter(|folder| cfg!(target_os = "linux") && folder.is_dir()) {
         println!("cargo::rerun-if-changed={}", folder.display());
     }
 }
 
-/// Declares a `cfg` of the tests and sets it where `holds`.
-pub fn set(name: &str, holds: bool) {
-    println!("cargo::rustc-check-cfg=cfg({name})");
-    if holds {
-        println!("cargo::rustc-cfg={name}");
-    }
+/// Whether there is an adapter. OpenGL renders to 16 bits, and counts if `WGPU_BACKEND` asks for it.
+pub fn is_there() -> bool {
+    renders_to_f32() || backends().contains("gl")
+}
+
+/// Whether it renders to 32-bit floats: on Linux with a Vulkan driver, on macOS and Windows always.
+pub fn renders_to_f32() -> bool {
+    let native = !cfg!(target_os = "linux") || (!manifests().is_empty() && has_loader());
+    let backends = backends();
+    native && (backends.is_empty() || ["vulkan", "vk", "metal", "dx12"].iter().any(|b| backends.contains(b)))
+}
+
+fn backends() -> String {
+    env::var("WGPU_BACKEND").unwrap_or_default().to_lowercase()
 }
 
 /// The driver manifests that Vulkan's loader reads

@@ -2,7 +2,7 @@
 """Measures the frames of the real window: the times between frames that arrived on the screen.
 
     cargo build --release
-    benches/frames.py target/release/svbrdf [GT PRED...] [--only-latency]
+    tests/benches/frames.py target/release/svbrdf [GT PRED...] [--only-latency]
 
 Needs Xvfb and xdotool, and a machine that does nothing else. The window has 1360 x 860 points. The pointer hovers over a pane, then
 drags the light; then both again with magnified materials, and with differences. The screen is read from the memory of Xvfb every

@@ -1,4 +1,4 @@
-//! Makes the sample materials anew: `cargo run --example make_samples` writes them into `src/files/samples/`.
+//! Makes the sample materials anew: `cargo xtask bless samples` writes them into `src/files/samples/`.
 
 use std::error::Error;
 use std::fs::File;

@@ -1,4 +1,4 @@
-//! Makes the icons anew: `cargo run --no-default-features --example make_icon` writes them into `packaging/icons/`.
+//! Makes the icons anew: `cargo xtask bless icons` writes them into `packaging/icons/`.
 //!
 //! Above the diagonal stands the built-in ground truth, below it the log difference of a prediction from it.
 

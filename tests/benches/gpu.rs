@@ -5,7 +5,7 @@
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark may panic")]
 
 #[allow(dead_code, reason = "benchmarks use a part of what the tests share")]
-#[path = "../tests/support/gpu.rs"]
+#[path = "../support/gpu.rs"]
 mod support;
 
 use divan::counter::ItemsCount;

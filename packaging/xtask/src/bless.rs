@@ -1,0 +1,89 @@
+//! Renews the files that are generated.
+
+use crate::{command, finish};
+
+/// Generated files: a name, the files, and the lines of a shell that write them.
+struct Generated {
+    name: &'static str,
+    files: &'static str,
+    script: &'static str,
+}
+
+/// What others are made of comes first.
+const GENERATED: [Generated; 11] = [
+    Generated {
+        name: "locks",
+        files: "Cargo.lock, python/Cargo.lock, tests/fuzz/Cargo.lock",
+        script: "for folder in . python tests/fuzz; do
+            cargo metadata --format-version 1 --manifest-path $folder/Cargo.toml >/dev/null
+        done",
+    },
+    Generated {
+        name: "licences",
+        files: "packaging/THIRD-PARTY",
+        script: "made=$(packaging/third_party.py) && printf '%s\\n' \"$made\" >packaging/THIRD-PARTY",
+    },
+    Generated {
+        name: "samples",
+        files: "src/files/samples/*.png",
+        script: "cargo run --example make_samples",
+    },
+    Generated { name: "icons", files: "packaging/icons/*.png", script: "cargo run --example make_icon" },
+    Generated {
+        name: "shaders",
+        files: "src/files/page/shaders.json",
+        script: "cargo test --test main write_shaders -- --ignored",
+    },
+    Generated {
+        name: "report",
+        files: "docs/example-report.html",
+        script: "cargo run -- report -o docs/example-report.html --max-size 2MB",
+    },
+    Generated {
+        name: "report-picture",
+        files: "docs/assets/report.jpg",
+        script: "cargo test --test main write_the_picture_of_the_report -- --ignored",
+    },
+    Generated {
+        name: "pictures",
+        files: "docs/assets/{window,why,where,diagnosis,training,photograph}.jpg",
+        script: "cargo test --package window-tests screenshots -- --ignored",
+    },
+    Generated {
+        name: "albedo",
+        files: "docs/albedo.svg",
+        script: "cargo test --test main write_albedo -- --ignored",
+    },
+    Generated {
+        name: "extremes",
+        files: "docs/extremes.md, docs/extremes.svg",
+        script: "SVBRDF_EXTREMES=10000000 cargo test --test main write_extremes -- --ignored",
+    },
+    Generated {
+        name: "study",
+        files: "docs/study.csv, docs/study.svg (times of this machine)",
+        script: "cargo run --release -- study -o docs/study.csv --plot docs/study.svg",
+    },
+];
+
+/// Renews the files of these names; of all but `study` where there are none.
+pub fn run(names: &[String]) -> Result<(), String> {
+    let find = |name: &String| GENERATED.iter().find(|one| one.name == *name);
+    if let Some(unknown) = names.iter().find(|name| find(name).is_none()) {
+        return Err(format!("nothing generated is called {unknown}\n{}", help()));
+    }
+    let chosen = |one: &&Generated| match names {
+        [] => one.name != "study",
+        names => names.iter().any(|name| name == one.name),
+    };
+    for one in GENERATED.iter().filter(chosen) {
+        eprintln!("== {}: {}", one.name, one.files);
+        finish(command("bash").args(["-euo", "pipefail", "-c", one.script]))?;
+    }
+    Ok(())
+}
+
+pub fn help() -> String {
+    let line = |one: &Generated| format!("  {:<15} {}\n", one.name, one.files);
+    format!("bless renews, by default all but study:\n{}", GENERATED.iter().map(line).collect::<String>())
+}
