@@ -7,14 +7,15 @@ use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
 
 use super::*;
+use crate::support::surroundings::command;
 
 /// Width and height of the material: compressing it takes far longer than reading it.
 const LARGE: usize = 640;
 
 fn convert(folder: &Path, from: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_svbrdf"));
+    let mut command = command(env!("CARGO_BIN_EXE_svbrdf"));
     command.args(["convert", from, "out.exr", "--depth", "float"]).current_dir(folder);
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.stdout(Stdio::null()).stderr(Stdio::null());
     command
 }
 
