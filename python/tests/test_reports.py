@@ -99,7 +99,7 @@ def test_maps_of_8_bits_have_the_floor_of_the_command_line(program: str, tmp_pat
 
 
 def test_a_material_of_one_texel_is_diagnosed() -> None:
-    truth, prediction = (svbrdf.Material(**maps(1, 1, seed)) for seed in range(2))
+    truth, prediction = (svbrdf.Material(**maps(1, 1, seed), normal_encoding="signed") for seed in range(2))
     report = svbrdf.diagnose(truth, prediction)
     assert report.predictions[0].loss.mean > 0
     assert len(report.predictions[0].findings) == 13
