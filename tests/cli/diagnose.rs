@@ -65,9 +65,9 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
         // A spreadsheet takes no text of the program as a formula: only names may begin with a guard.
         let csv = succeed(folder.path(), &format!("diagnose truth.png {name}.png {READ} --format csv"));
         let mut reader = csv::Reader::from_reader(csv.as_bytes());
-        assert_eq!(reader.headers().unwrap().iter().last(), Some("remedy"));
+        assert_eq!(reader.headers().unwrap().iter().next_back(), Some("remedy"));
         let remedies: Vec<String> =
-            reader.records().map(|row| row.unwrap().iter().last().unwrap().to_owned()).collect();
+            reader.records().map(|row| row.unwrap().iter().next_back().unwrap().to_owned()).collect();
         let in_json = findings.iter().map(|finding| finding["remedy"].as_str().unwrap_or_default());
         assert!(remedies.iter().eq(in_json), "{csv}");
     }

@@ -60,14 +60,19 @@ fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
     not(all(has_f32_adapter, has_desktop)),
     ignore = "no graphics adapter, or no Xvfb, xdotool and import"
 )]
-fn with_zenity_browse_opens_the_file_that_it_prints() {
+fn with_zenity_browse_takes_the_path_that_it_prints() {
     let desktop = Desktop::start();
     let zenity = desktop.bin().join("zenity");
     std::fs::create_dir(desktop.bin()).unwrap();
     let path = desktop.folder.path().join("tiles.png");
-    std::fs::write(&zenity, format!("#!/bin/sh\necho '{}'\n", path.display())).unwrap();
+    let script = format!("#!/bin/sh\necho '{0}'\n: > '{0}.chosen'\n", path.display());
+    std::fs::write(&zenity, script).unwrap();
     std::fs::set_permissions(&zenity, std::fs::Permissions::from_mode(0o755)).unwrap();
     let (program, _) = browsed(&desktop);
+    desktop.wait("zenity to end", |_| path.with_extension("png.chosen").exists());
+    desktop.wait_until_still();
+    // Back to the path field.
+    desktop.keys(&["shift+Tab", "ctrl+Return"]);
     wait_for_tiles(&desktop);
     drop(program);
 }
