@@ -34,19 +34,16 @@ mod why;
 mod written;
 
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
 use image::{Rgb, RgbImage};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use crate::support::surroundings::command;
+
 fn svbrdf() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_svbrdf"));
-    command.stdin(Stdio::null());
-    for display in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
-        command.env_remove(display);
-    }
-    command
+    command(env!("CARGO_BIN_EXE_svbrdf"))
 }
 
 /// Runs in `folder` with arguments that are separated by spaces.

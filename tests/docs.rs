@@ -2,7 +2,9 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
+
+use crate::support::surroundings::command;
 
 /// The README and the pages, each with its text.
 fn pages() -> Vec<(PathBuf, String)> {
@@ -36,10 +38,9 @@ fn run(line: &str) -> Output {
     }
     let program = Path::new(env!("CARGO_BIN_EXE_svbrdf")).parent().unwrap();
     let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap_or_default());
-    let mut command = Command::new("sh");
+    let mut command = command("sh");
     command.args(["-c", line]).current_dir(folder.path()).env("PATH", path);
-    command.env("SLURM_ARRAY_TASK_ID", "1").env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-    command.output().unwrap()
+    command.env("SLURM_ARRAY_TASK_ID", "1").output().unwrap()
 }
 
 /// What a page shows and the program does not print.

@@ -19,11 +19,9 @@ use crate::support::gpu::STALE_BUILD;
 impl Desktop {
     /// Starts `svbrdf` on these arguments in the folder, and waits for the materials to be drawn.
     fn open(&self, arguments: &[&str]) -> Running {
-        // Signals that the tests' own parent ignores are not ignored.
-        let mut command = self.command("env");
+        let mut command = self.svbrdf();
         let log = std::fs::File::create(self.folder.path().join("log")).unwrap();
-        command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_svbrdf")]).args(arguments);
-        command.current_dir(self.folder.path()).stdout(Stdio::null()).stderr(log);
+        command.args(arguments).current_dir(self.folder.path()).stdout(Stdio::null()).stderr(log);
         let program = command.spawn().map(Running).unwrap();
         // An empty screen has one colour, the window without materials a few hundred.
         self.wait("the materials to be drawn", |p| colours(p) > 3000);
@@ -131,13 +129,7 @@ fn the_build_knows_whether_the_window_can_be_tested() {
 fn the_window_opens_follows_the_mouse_and_obeys_a_key() {
     let desktop = Desktop::start();
     let log = std::fs::File::create(desktop.folder.path().join("log")).unwrap();
-    let program = desktop
-        .command(env!("CARGO_BIN_EXE_svbrdf"))
-        .stdout(Stdio::null())
-        .stderr(log)
-        .spawn()
-        .map(Running)
-        .unwrap();
+    let program = desktop.svbrdf().stdout(Stdio::null()).stderr(log).spawn().map(Running).unwrap();
     // An empty screen has one colour, the window without materials a few hundred.
     desktop.wait("the built-in pair to be drawn", |p| colours(p) > 3000);
     let before = desktop.wait_until_still();

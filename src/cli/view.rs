@@ -44,9 +44,10 @@ pub struct ViewArgs {
 /// [`Error::NoWindow`] without a display, [`Error::NoAdapter`] without a graphics adapter.
 pub fn run(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
     given.check(&modes::VIEW)?;
-    let first = args.materials.paths().find(|path| !scene_file::is_named(path));
-    if first.is_some_and(|path| Session::is_named(path)) {
-        given.check(&modes::SESSION)?;
+    match args.materials.paths().find(|path| !scene_file::is_named(path)) {
+        None => given.check(&modes::BUILT_IN)?,
+        Some(path) if Session::is_named(path) => given.check(&modes::SESSION)?,
+        Some(_) => (),
     }
     if args.photo.as_deref().is_some_and(Capture::is_named) {
         given.check(&modes::VIEW_CAPTURE)?;

@@ -38,8 +38,8 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
     write(&of("directx.png"), |tile, [r, g, b]| if tile == 0 { [r, 255 - g, b] } else { [r, g, b] });
     write(&of("gloss.png"), |tile, texel| if tile == 2 { texel.map(|v| 255 - v) } else { texel });
     for (name, hypothesis, value, option) in [
-        ("directx", "normal_y", "flipped", "--read directx:normal-y=down"),
-        ("gloss", "roughness", "gloss", "--read gloss:roughness=gloss"),
+        ("directx", "normal_y", "flipped", "directx:normal-y=down"),
+        ("gloss", "roughness", "gloss", "gloss:roughness=gloss"),
     ] {
         let printed =
             json(&succeed(folder.path(), &format!("diagnose truth.png {name}.png {READ} --format json")));
@@ -56,12 +56,20 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
                 succeed(folder.path(), &format!("loss truth.png {name}.png {READ} {options} {scenes}"));
             json(&printed)["results"][0]["loss"].as_f64().unwrap()
         };
-        let expected = [loss(""), loss(option)];
+        let expected = [loss(""), loss(&format!("--read {option}"))];
         let found = [&prediction["loss"]["mean"], &marked[0]["loss"]].map(|value| value.as_f64().unwrap());
         for (found, expected) in found.into_iter().zip(expected) {
             assert!((found - expected).abs() < 1e-3 * loss(""), "{found} {expected}");
         }
         assert!(prediction["sentence"].as_str().unwrap().contains("would lower the loss by"), "{prediction}");
+        // A spreadsheet takes no text of the program as a formula: only names may begin with a guard.
+        let csv = succeed(folder.path(), &format!("diagnose truth.png {name}.png {READ} --format csv"));
+        let mut reader = csv::Reader::from_reader(csv.as_bytes());
+        assert_eq!(reader.headers().unwrap().iter().next_back(), Some("remedy"));
+        let remedies: Vec<String> =
+            reader.records().map(|row| row.unwrap().iter().next_back().unwrap().to_owned()).collect();
+        let in_json = findings.iter().map(|finding| finding["remedy"].as_str().unwrap_or_default());
+        assert!(remedies.iter().eq(in_json), "{csv}");
     }
 }
 
@@ -226,4 +234,27 @@ fn a_data_set_counts_the_materials_of_each_method_by_their_marks() {
     assert_eq!(rank("--diagnose --journal run.jsonl"), text);
     assert_eq!(succeed(folder.path(), "rank --merge run.jsonl"), text);
     assert!(!rank("").contains("number of materials"));
+}
+
+#[test]
+fn a_material_of_one_texel_is_diagnosed_beside_others_of_a_data_set() {
+    let folder = folder();
+    for (method, roughness) in [("gt", 90), ("ours", 140)] {
+        let at = folder.path().join(method);
+        std::fs::create_dir(&at).unwrap();
+        write_tiles(&at.join("one.png"), 1, |x, _| {
+            [[128, 128, 255], [90; 3], [roughness; 3], [12; 3]][x as usize]
+        });
+        write(
+            &at.join("many.png"),
+            |tile, texel| if tile == 2 { texel.map(|v| v / 2 + roughness / 2) } else { texel },
+        );
+    }
+    let args =
+        format!("rank --dataset gt ours {READ} --read grid=4x1 --target-error 20% --diagnose --format json");
+    let found = json(&succeed(folder.path(), &args));
+    assert_eq!(found["methods"][0]["marks"]["materials"], 2, "{found}");
+    let args = format!("diagnose gt/one.png ours/one.png {READ} --read grid=4x1 --format json");
+    let loss = json(&succeed(folder.path(), &args))["predictions"][0]["loss"]["mean"].as_f64().unwrap();
+    assert!(loss > 0.0, "{loss}");
 }

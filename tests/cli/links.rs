@@ -8,7 +8,7 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::{fail, folder, run_in, succeed, text, write_material};
+use super::{command, fail, folder, run_in, succeed, text, write_material};
 
 const RANK: &str = "rank --dataset gt ours --target-error 30%";
 
@@ -26,7 +26,7 @@ fn data_set() -> TempDir {
 
 /// The code and stderr of a run that must end soon.
 fn soon(folder: &Path, args: &str) -> (Option<i32>, String) {
-    let mut command = Command::new("timeout");
+    let mut command = command("timeout");
     command.args(["30", env!("CARGO_BIN_EXE_svbrdf")]).args(args.split(' ')).current_dir(folder);
     let output = command.output().unwrap();
     (output.status.code(), text(&output.stderr).to_owned())

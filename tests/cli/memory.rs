@@ -2,9 +2,8 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::process::Command;
 
-use super::{fail, folder, succeed, text};
+use super::{command, fail, folder, succeed, text};
 
 #[test]
 fn a_list_of_too_many_methods_and_materials_is_refused() {
@@ -38,7 +37,7 @@ fn the_header_of_an_hdr_ends() {
     let path = folder.path().join("x.hdr");
     fs::write(&path, "#?RADIANCE\n").unwrap();
     fs::File::options().write(true).open(&path).unwrap().set_len(6 << 30).unwrap();
-    let mut command = Command::new("sh");
+    let mut command = command("sh");
     let info = format!("ulimit -v 3000000; exec {} info x.hdr", env!("CARGO_BIN_EXE_svbrdf"));
     let output = command.args(["-c", &info]).current_dir(folder.path()).output().unwrap();
     let stderr = text(&output.stderr);

@@ -59,7 +59,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 49] = [
+const MODES: [(&str, Shows); 50] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -97,6 +97,7 @@ const MODES: [(&str, Shows); 49] = [
     ("metrics gt.png tilted.png --protocol matfusion", Shows::Everything),
     ("photo photo.png gt.png a.png --scene one.json", Shows::Everything),
     ("photo photo.png gt.png --flash --fov 45 -o x.png", Shows::Everything),
+    ("photo --capture cap gt.png", Shows::Everything),
     ("photo --capture cap gt.png a.png", Shows::Everything),
     ("info gt.png", Shows::Everything),
     ("convert gt.png x.png", Shows::Everything),

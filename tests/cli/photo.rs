@@ -196,6 +196,24 @@ fn a_capture_has_one_exposure_and_names_the_photograph_that_is_off() {
 }
 
 #[test]
+fn one_material_of_a_capture_is_read_with_every_option() {
+    let folder = captured();
+    let at = folder.path();
+    let two = json(at, "--capture cap gt.png a.png --read gt:albedo=srgb");
+    let read = json(at, "--capture cap gt.png --read albedo=srgb");
+    assert_eq!(
+        read["results"][0],
+        two["results"].as_array().unwrap().iter().find(|r| r["material"] == "gt").unwrap().clone()
+    );
+    assert_ne!(read["results"], json(at, "--capture cap gt.png")["results"]);
+    let sure = "--read order=ndrs,albedo=linear,specular-albedo=linear,roughness=r,normal-y=up --strict";
+    for option in ["--albedo srgb", "--preset gao", "--resize-to 8", sure] {
+        succeed(at, &format!("photo --capture cap gt.png {option}"));
+    }
+    assert!(fail(at, "photo --capture cap gt.png --strict", 1).contains("gt.png is ambiguous"));
+}
+
+#[test]
 fn a_capture_that_cannot_be_used_is_refused_with_what_to_do() {
     let folder = captured();
     let at = folder.path();

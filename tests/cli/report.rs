@@ -13,11 +13,16 @@ fn data(page: &str) -> Value {
     serde_json::from_str(&page[start..end]).unwrap()
 }
 
-/// A number in a table of the page.
-fn cell(value: &Value) -> String {
+/// A number of the page.
+fn number(value: &Value) -> String {
     let x = value.as_f64().unwrap();
     let decimals = if x == 0.0 { 3 } else { (3.0 - x.abs().log10().floor()).clamp(0.0, 8.0) as usize };
-    format!("<td>{x:.decimals$}</td>").replace('-', "\u{2212}")
+    format!("{x:.decimals$}").replace('-', "\u{2212}")
+}
+
+/// A number in a table of the page.
+fn cell(value: &Value) -> String {
+    format!("<td>{}</td>", number(value))
 }
 
 #[test]
@@ -113,6 +118,32 @@ fn a_figure_begins_with_the_layout_and_the_light_of_the_options() {
     let start = &data(&fs::read_to_string(folder.path().join("r.html")).unwrap())["start"];
     assert_eq!([&start["layout"], &start["scene"]["light"]], [&json!("wipe"), &json!([0.1, 0.2, 1.0])]);
     fail(folder.path(), "report gt.png -o r.html --figure --layout wipe", 64);
+}
+
+#[test]
+fn worst_scenes_are_ordered_by_their_losses_on_all_texels() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    for (name, roughness) in [("truth.png", 60), ("rough.png", 140)] {
+        write_tiles(&of(name), 32, |x, y| match x / 32 {
+            0 => [(90 + 5 * (x % 16)) as u8, (100 + 7 * (y % 8)) as u8, 230],
+            1 => [(7 * x) as u8, (5 * y) as u8, 90],
+            2 => [(roughness + x * y % 97) as u8; 3],
+            _ => [(20 + 3 * y) as u8; 3],
+        });
+    }
+    succeed(folder.path(), "report truth.png rough.png -o r.html --target-error 10%");
+    let page = fs::read_to_string(of("r.html")).unwrap();
+    let scenes: Vec<Value> =
+        data(&page)["scenes"].as_array().unwrap().iter().map(|linked| linked["scene"].clone()).collect();
+    fs::write(of("worst.json"), json!({"scenes": scenes}).to_string()).unwrap();
+    let all = succeed(folder.path(), "scenes truth.png rough.png --scenes worst.json --format json");
+    let all: Value = serde_json::from_str(&all).unwrap();
+    assert_eq!(all["scenes"], json!(scenes));
+    for loss in all["results"][0]["losses"].as_array().unwrap() {
+        let loss = format!("Loss: rough {}<", number(loss));
+        assert!(page.contains(&loss), "{loss}");
+    }
 }
 
 #[test]

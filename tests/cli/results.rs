@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{fail, files, run_in, succeed, text, write_material};
+use super::{command, fail, files, run_in, succeed, text, write_material};
 
 const RANK: &str = "rank --dataset gt ours --target-error 20%";
 
@@ -96,7 +96,7 @@ fn a_signal_leaves_no_lock_and_no_temporary_file() {
         }
     }
     for signal in ["TERM", "INT", "HUP"] {
-        let mut command = Command::new("env");
+        let mut command = command("env");
         command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_svbrdf")]);
         command.args("rank --dataset gt ours --target-error 1% --journal run.jsonl".split(' '));
         command.current_dir(folder.path()).env("RAYON_NUM_THREADS", "1");

@@ -89,6 +89,7 @@ fn every_command_refuses_loss_settings_out_of_range_and_names_the_field() {
         (r#""ask": "Accuracy", "target_percent": -1"#, "window.loss.target_percent", "found -1"),
         (r#""ask": "Accuracy", "target_percent": 0"#, "window.loss.target_percent", "found 0"),
         (r#""ask": "Accuracy", "target_percent": 1e9"#, "window.loss.target_percent", "found 1000000000"),
+        (r#""ask": "Scenes", "near": 4, "texels": {"sampled": 0}"#, "window.loss.texels", "found 0"),
         (no_scenes, "window.loss.file.scenes", "found none"),
         (below, "window.loss.file.scenes", "scene 0"),
     ] {

@@ -7,14 +7,14 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use super::{files, folder, succeed, write_material};
+use super::{command, files, folder, succeed, svbrdf, write_material};
 
 /// Width and height of the material: writing it takes a while.
 const LARGE: u32 = 640;
 
 /// Starts a conversion in `folder`. Signals that the tests' own parent ignores are not ignored.
 fn convert(folder: &Path, out: &str) -> Child {
-    let mut command = Command::new("env");
+    let mut command = command("env");
     command.args([
         "--default-signal=INT,TERM,HUP,QUIT,USR1,USR2,ALRM,XCPU",
         env!("CARGO_BIN_EXE_svbrdf"),
@@ -123,7 +123,7 @@ fn every_signal_that_ends_the_program_leaves_nothing() {
 fn a_signal_while_options_are_saved_leaves_nothing() {
     let folder = folder();
     for delay in (0..600).step_by(20) {
-        let mut command = Command::new("env");
+        let mut command = command("env");
         command.args(["--default-signal=TERM", env!("CARGO_BIN_EXE_svbrdf"), "info", "gt.png", "--save"]);
         command.current_dir(folder.path()).stdout(Stdio::null()).stderr(Stdio::null());
         let mut child = command.spawn().unwrap();
@@ -144,7 +144,7 @@ fn a_signal_is_handled_though_another_one_is_ignored() {
     write_material(&folder.path().join("large.png"), LARGE, 90);
     let before = files(folder.path());
     for (signal, ignored) in [("TERM", "INT"), ("HUP", "INT"), ("TERM", "HUP"), ("INT", "HUP")] {
-        let mut command = Command::new("env");
+        let mut command = command("env");
         command.args(["--default-signal=INT,TERM,HUP", &format!("--ignore-signal={ignored}")]);
         command.args([env!("CARGO_BIN_EXE_svbrdf"), "convert", "large.png", "out.exr", "--depth", "float"]);
         command.current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
@@ -161,7 +161,7 @@ fn a_signal_is_handled_though_another_one_is_ignored() {
         assert_eq!(files(folder.path()), before, "{signal}: something is left");
     }
     // The one that is ignored does not end it.
-    let mut command = Command::new("env");
+    let mut command = command("env");
     command.args(["--ignore-signal=INT", env!("CARGO_BIN_EXE_svbrdf"), "convert", "large.png", "out.exr"]);
     let mut child = command.current_dir(folder.path()).spawn().unwrap();
     assert!(writing(folder.path(), &mut child));
@@ -178,7 +178,7 @@ fn a_limit_of_the_size_of_files_is_an_error_that_leaves_nothing() {
         "ulimit -f 100; exec {} convert large.png out.exr --depth float",
         env!("CARGO_BIN_EXE_svbrdf")
     );
-    let output = Command::new("sh").args(["-c", &limited]).current_dir(folder.path()).output().unwrap();
+    let output = command("sh").args(["-c", &limited]).current_dir(folder.path()).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("cannot write out.exr"), "{said}");
@@ -205,7 +205,7 @@ const RANK: &str = "rank --dataset gt ours theirs --target-error 3% --metrics";
 fn a_data_set_run_that_is_killed_and_continued_prints_the_bytes_of_a_whole_one() {
     let folder = data_set();
     let journal = folder.path().join("run.jsonl");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_svbrdf"))
+    let mut child = svbrdf()
         .args(RANK.split(' ').chain(["--journal", "run.jsonl"]))
         .current_dir(folder.path())
         // One material after the other: many cores would be done with all at once.

@@ -1,12 +1,12 @@
 //! Files that are given to the window as arguments, and refused or accepted before it opens.
 
 use super::*;
+use crate::support::surroundings::command;
 
 /// Runs the program on a folder without a display: its exit code, and what it printed as errors.
 fn run(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_svbrdf"));
-    command.args(arguments).current_dir(folder).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY");
-    let output = command.output().unwrap();
+    let mut command = command(env!("CARGO_BIN_EXE_svbrdf"));
+    let output = command.args(arguments).current_dir(folder).output().unwrap();
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 

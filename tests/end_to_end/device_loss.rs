@@ -10,7 +10,7 @@ const LOSE: &str = "SVBRDF_TEST_LOSE_DEVICE";
 /// The program with devices that are lost.
 fn start(desktop: &Desktop, when: &str) -> Running {
     let log = std::fs::File::create(desktop.folder.path().join("log")).unwrap();
-    let mut command = desktop.command(env!("CARGO_BIN_EXE_svbrdf"));
+    let mut command = desktop.svbrdf();
     command.env(LOSE, when).stdout(Stdio::null()).stderr(log);
     command.spawn().map(Running).unwrap()
 }

@@ -1,5 +1,7 @@
 //! The dialogs that open and save.
 
+use std::os::unix::fs::PermissionsExt as _;
+
 use svbrdf_needs::needs;
 
 use super::*;
@@ -20,10 +22,8 @@ fn temporary(folder: &Path) -> Vec<String> {
         .collect()
 }
 
-#[needs(f32_adapter, desktop)]
-#[test]
-fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
-    let desktop = Desktop::start();
+/// The window after *Browse* in its dialog *Open*, and the screen before.
+fn browsed(desktop: &Desktop) -> (Running, RgbImage) {
     let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples/worn_tiles.png");
     std::fs::copy(built_in, desktop.folder.path().join("tiles.png")).unwrap();
     let program = desktop.open(&[]);
@@ -31,14 +31,45 @@ fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
     let before = desktop.wait_until_still();
     // The next control after the path field.
     desktop.keys(&["Tab", "space"]);
-    let unfocused = problem_pixels(&before);
-    desktop.wait("the error", |picture| problem_pixels(picture) > unfocused + 200);
-    desktop.xdotool("type tiles.png");
-    desktop.keys(&["ctrl+Return"]);
+    (program, before)
+}
+
+fn wait_for_tiles(desktop: &Desktop) {
     let stored = desktop.folder.path().join(".local/share/svbrdf/app.ron");
     desktop.wait("the material to be opened", |_| {
         std::fs::read_to_string(&stored).is_ok_and(|text| text.contains("tiles.png"))
     });
+}
+
+#[needs(f32_adapter, desktop)]
+#[test]
+fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
+    let desktop = Desktop::start();
+    let (program, before) = browsed(&desktop);
+    let unfocused = problem_pixels(&before);
+    desktop.wait("the error", |picture| problem_pixels(picture) > unfocused + 200);
+    desktop.xdotool("type tiles.png");
+    desktop.keys(&["ctrl+Return"]);
+    wait_for_tiles(&desktop);
+    drop(program);
+}
+
+#[needs(f32_adapter, desktop)]
+#[test]
+fn with_zenity_browse_takes_the_path_that_it_prints() {
+    let desktop = Desktop::start();
+    let zenity = desktop.bin().join("zenity");
+    std::fs::create_dir(desktop.bin()).unwrap();
+    let path = desktop.folder.path().join("tiles.png");
+    let script = format!("#!/bin/sh\necho '{0}'\n: > '{0}.chosen'\n", path.display());
+    std::fs::write(&zenity, script).unwrap();
+    std::fs::set_permissions(&zenity, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let (program, _) = browsed(&desktop);
+    desktop.wait("zenity to end", |_| path.with_extension("png.chosen").exists());
+    desktop.wait_until_still();
+    // Back to the path field.
+    desktop.keys(&["shift+Tab", "ctrl+Return"]);
+    wait_for_tiles(&desktop);
     drop(program);
 }
 

@@ -21,12 +21,8 @@ fn save(desktop: &Desktop, kind: usize, name: &str) {
 
 /// Runs the program on the folder of the desktop; its output.
 fn run(desktop: &Desktop, arguments: &str) -> String {
-    let output = desktop
-        .command(env!("CARGO_BIN_EXE_svbrdf"))
-        .args(arguments.split(' '))
-        .current_dir(desktop.folder.path())
-        .output()
-        .unwrap();
+    let output =
+        desktop.svbrdf().args(arguments.split(' ')).current_dir(desktop.folder.path()).output().unwrap();
     assert!(output.status.success(), "{arguments}: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }

@@ -63,7 +63,7 @@ fn ctrl_and_plus_leave_a_window_that_starts_again() {
 fn a_stale_wayland_display_beside_an_x11_one_is_passed_over() {
     let desktop = Desktop::start();
     let log = std::fs::File::create(desktop.folder.path().join("log")).unwrap();
-    let mut command = desktop.command(env!("CARGO_BIN_EXE_svbrdf"));
+    let mut command = desktop.svbrdf();
     // A socket that nobody listens at any more.
     drop(std::os::unix::net::UnixListener::bind(desktop.folder.path().join("wayland-7")).unwrap());
     command.env("WAYLAND_DISPLAY", "wayland-7").stdout(Stdio::null()).stderr(log);

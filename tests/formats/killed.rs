@@ -4,6 +4,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::*;
+use crate::support::surroundings::command;
 
 /// Width and height of the material: compressing it takes far longer than reading it.
 const LARGE: usize = 640;
@@ -11,9 +12,9 @@ const LARGE: usize = 640;
 const KILLS: usize = 12;
 
 fn convert(folder: &Path, from: &str) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_svbrdf"));
+    let mut command = command(env!("CARGO_BIN_EXE_svbrdf"));
     command.args(["convert", from, "out.exr", "--depth", "float"]).current_dir(folder);
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.stdout(Stdio::null()).stderr(Stdio::null());
     command
 }
 

@@ -2,12 +2,13 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use base64::Engine as _;
 use serde_json::{Value, json};
 
 use super::browser::Page;
+
+use crate::support::surroundings::command;
 
 /// The command of docs/report.md.
 const COMMAND: &str = "report -o docs/example-report.html --max-size 2MB";
@@ -34,7 +35,7 @@ fn the_example_is_what_its_command_writes() {
     assert!(fs::read_to_string(root.join("docs/report.md")).unwrap().contains(&format!("svbrdf {COMMAND}")));
     let folder = tempfile::tempdir().unwrap();
     fs::create_dir(folder.path().join("docs")).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_svbrdf"));
+    let mut command = command(env!("CARGO_BIN_EXE_svbrdf"));
     assert!(command.args(COMMAND.split(' ')).current_dir(folder.path()).status().unwrap().success());
     let [kept, made] = [root, folder.path()]
         .map(|folder| fs::read_to_string(folder.join("docs/example-report.html")).unwrap());

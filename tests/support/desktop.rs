@@ -1,7 +1,10 @@
 //! A display without a screen, and programs on it.
 
 use std::io::{BufRead as _, BufReader};
+use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
+
+use super::surroundings::command;
 
 /// Stops the program when the test ends, however it ends.
 pub struct Running(pub Child);
@@ -34,16 +37,25 @@ impl Desktop {
         Self { display, folder: tempfile::tempdir().unwrap(), _server: Running(server) }
     }
 
-    /// A program on the display, with the folder as its home.
+    /// A program on the display, with the folder as its home. There is no session bus, and so no portal.
     pub fn command(&self, program: impl AsRef<std::ffi::OsStr>) -> Command {
-        let mut command = Command::new(program);
+        let mut command = command(program);
+        command.env("DISPLAY", &self.display);
+        command.env("HOME", self.folder.path()).env("XDG_RUNTIME_DIR", self.folder.path());
         command
-            .env("DISPLAY", &self.display)
-            .env_remove("WAYLAND_DISPLAY")
-            .env("HOME", self.folder.path())
-            .env("XDG_RUNTIME_DIR", self.folder.path())
-            .env_remove("XDG_DATA_HOME")
-            .stdin(Stdio::null());
+    }
+
+    /// `svbrdf` on the display, which finds the programs of the folder `bin` alone: without any there, no file dialog. Signals that the
+    /// tests' own parent ignores are not ignored.
+    pub fn svbrdf(&self) -> Command {
+        let mut command = self.command("env");
+        command.arg("--default-signal=INT,TERM,HUP").arg(format!("PATH={}", self.bin().display()));
+        command.arg(env!("CARGO_BIN_EXE_svbrdf"));
         command
+    }
+
+    /// The folder of the programs that `svbrdf` finds.
+    pub fn bin(&self) -> PathBuf {
+        self.folder.path().join("bin")
     }
 }

@@ -11,5 +11,6 @@ pub mod pictures;
 pub mod png;
 pub mod points;
 pub mod surfaces;
+pub mod surroundings;
 pub mod textures;
 pub mod tolerance;

@@ -98,7 +98,7 @@ fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
             }
         }
     }
-    let output = std::process::Command::new(program())
+    let output = crate::surroundings::command(program())
         .args(["loss", "--near", "6", "--distant", "3"])
         .output()
         .unwrap();

@@ -45,6 +45,8 @@ mod gpu;
 #[path = "../support/pictures.rs"]
 #[allow(dead_code, reason = "the tests of the core use the rest")]
 mod pictures;
+#[path = "../support/surroundings.rs"]
+mod surroundings;
 
 use eframe::egui::{self, Pos2, Vec2, vec2};
 use egui_kittest::Harness;

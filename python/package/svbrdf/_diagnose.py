@@ -33,7 +33,7 @@ class Finding:
     marked: bool
     """Whether the loss falls significantly and by at least 10%."""
     remedy: str | None
-    """The option of the command line that corrects the reading."""
+    """What `--read` of the command line takes to correct the reading: NAME:KEY=VALUE."""
 
 
 @dataclass(frozen=True)

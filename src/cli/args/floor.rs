@@ -6,6 +6,6 @@ use std::path::PathBuf;
 pub struct FloorArgs {
     /// Another capture of the ground truth, read as it is; may be given several times. The floor is the mean loss between all captures
     /// [default: the loss that rounding leaves]
-    #[arg(long = "repeat", value_name = "PATH", requires = "ground_truth")]
+    #[arg(long = "repeat", value_name = "PATH")]
     pub repeats: Vec<PathBuf>,
 }

@@ -29,6 +29,12 @@ const ONE_SCENE: &[&str] = &["view", "light", "distant"];
 pub const SESSION: Mode =
     Mode { reason: "a session specifies how its materials are read", unused: &[READING] };
 
+/// Any command without materials: it takes the built-in ones.
+pub const BUILT_IN: Mode = Mode {
+    reason: "the built-in materials are not read from files",
+    unused: &[READING, &["strict", "repeat"]],
+};
+
 /// Any command with a fixed set of scenes.
 pub const NAMED_SCENES: Mode = Mode {
     reason: "the scenes of this name are a fixed list",

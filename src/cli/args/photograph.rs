@@ -59,8 +59,8 @@ pub struct PhotoReadingArgs {
     #[arg(requires = "photo")]
     clip: Option<f64>,
 
-    /// Divides the photograph by the falloff of a point light, which Algorithm 3 does not model: use it for photographs with a
-    /// flash or lamp near the material
+    /// Divides the photograph by the falloff of a point light, (l.z / d)^3 at the distance d, which Algorithm 3 does not model: use it
+    /// for photographs with a flash or lamp near the material
     #[arg(long, requires = "photo")]
     pub falloff: bool,
 }

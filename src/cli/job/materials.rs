@@ -51,7 +51,10 @@ impl MaterialJob {
                 session.materials.iter().map(MaterialSource::of_session).collect()
             }
             (None, Some(_)) => args.sources()?,
-            (None, None) => (0..samples::COUNT).map(MaterialSource::built_in).collect::<Vec<_>>(),
+            (None, None) => {
+                given.check(&modes::BUILT_IN)?;
+                (0..samples::COUNT).map(MaterialSource::built_in).collect()
+            }
         };
         let PairReadingArgs { resize_to, both: ReadingArgs { strict, verbose, .. }, .. } = args.reading;
         Ok(Self { sources, paths: args.paths().cloned().collect(), resize_to, strict, verbose })

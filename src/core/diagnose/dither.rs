@@ -5,9 +5,10 @@ use rand::{RngExt as _, SeedableRng as _};
 
 use super::storage::{Storage, Transfer};
 use crate::error::Error;
-use crate::material::{Material, Planes};
+use crate::material::{Map, Material, Planes};
 
-/// The material with every stored value moved by up to half a step of its map, uniformly; normals are normalized again.
+/// The material with every stored value moved by up to half a step of its map, uniformly; normals are normalized again. A map without
+/// steps stays as it is, to the bit.
 ///
 /// Roughness moves as the value that its map stores: r, 1 - r, r^2 for alpha, r^(1 / 2.2). The two values of an anisotropic map, which
 /// are not known any more, count as r^2 each.
@@ -43,7 +44,9 @@ pub fn dithered(material: &Material<f32>, storage: &Storage, seed: u64) -> Resul
         _ => roughness_as((&|r| r, &|c| c)),
     };
     let planes = Planes { normal, diffuse, specular, roughness };
-    Material::new(material.name(), material.width(), material.height(), planes)
+    let moved = Material::new(material.name(), material.width(), material.height(), planes)?;
+    let has_steps = |map| Map::ALL.iter().zip(storage.steps).any(|(of, step)| *of == map && step > 0.0);
+    material.with_maps_of(&moved, has_steps)
 }
 
 /// The stored value of a value in [0, 1], and the inverse.
@@ -60,6 +63,24 @@ mod tests {
         let storage = Storage { roughness: name.map(str::to_owned), ..Storage::default() };
         let moved = dithered(&material, &storage, 1).unwrap();
         moved.planes().roughness.iter().map(|r| (r - roughness).abs()).fold(0.0, f32::max)
+    }
+
+    #[test]
+    fn maps_without_steps_do_not_move() {
+        let material = generated(1, 32);
+        for roughness in [None, Some("alpha"), Some("axay"), Some("gamma2.2")] {
+            let storage = Storage {
+                colours: Transfer::Srgb,
+                roughness: roughness.map(str::to_owned),
+                ..Storage::exact()
+            };
+            assert_eq!(dithered(&material, &storage, 1).unwrap(), material, "{roughness:?}");
+            let storage = Storage { steps: [0.0, 1.0 / 255.0, 0.0, 0.0], ..storage };
+            let moved = dithered(&material, &storage, 1).unwrap();
+            assert_ne!(moved.planes().diffuse, material.planes().diffuse);
+            let only_diffuse = moved.with_maps_of(&material, |map| map == Map::Diffuse).unwrap();
+            assert_eq!(only_diffuse, material, "{roughness:?}");
+        }
     }
 
     #[test]

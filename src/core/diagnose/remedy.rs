@@ -39,9 +39,14 @@ impl Remedy {
         }
     }
 
+    /// What `--read` takes for the material `name`: `run 2:normal-y=down`.
+    pub fn statement(self, name: &str) -> String {
+        format!("{name}:{self}")
+    }
+
     /// The option of the command line for the material `name`, quoted for a shell: `--read 'run 2:normal-y=down'`.
     pub fn command_option(self, name: &str) -> String {
-        format!("--read {}", quoted(&format!("{name}:{self}")))
+        format!("--read {}", quoted(&self.statement(name)))
     }
 
     /// The name of the value.

@@ -51,14 +51,14 @@ pub trait Backend<T>: Debug + Sync {
     /// For each prediction of `comparison` the loss of each of `scenes`: the mean over texels and RGB of
     /// `|ln(R_gt + epsilon) - ln(R_pred + epsilon)|`.
     ///
-    /// `texels` are the compared ones, given as row * width + column; one that is given twice counts twice. `None`: all.
+    /// `texels` are the compared ones, at least one, given as row * width + column; one that is given twice counts twice. `None`: all.
     /// `scenes` are usable, at least one. The result does not depend on the number of threads.
     ///
     /// # Errors
     /// [`Error::Cancelled`], and [`Error::Gpu`] where a graphics adapter fails or is asked for a part of the texels.
     ///
     /// # Panics
-    /// Where there is no such texel, as indexing a slice does.
+    /// Where there is no such texel, or none, as indexing a slice does.
     fn scene_losses(
         &self,
         comparison: &Comparison<'_, T>,

@@ -123,7 +123,7 @@ impl Sampling {
 pub enum Texels {
     #[default]
     All,
-    /// An independent random subset of this many texels per scene; all where the maps have no more.
+    /// An independent random subset of this many texels per scene, at least one; all where the maps have no more.
     Sampled(usize),
 }
 

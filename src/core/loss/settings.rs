@@ -142,6 +142,9 @@ impl LossSettings {
                 "target_percent: expected a percentage above 0 and at most 100, found {target}"
             ));
         }
+        if self.texels == Texels::Sampled(0) {
+            return Err("texels: expected \"all\" or at least one sampled texel, found 0".to_owned());
+        }
         self.file.as_ref().map_or(Ok(()), FileScenes::check)
     }
 

@@ -159,7 +159,7 @@ impl Report for DiagnoseReport {
                 share_high,
                 finding.p.into(),
                 finding.marked.into(),
-                finding.remedy.map(|remedy| remedy.command_option(&diagnosis.prediction)).into(),
+                finding.remedy.map(|remedy| remedy.statement(&diagnosis.prediction)).into(),
             ]
         };
         let all = self.diagnoses.iter();
@@ -207,7 +207,7 @@ impl Serialize for DiagnoseReport {
     }
 }
 
-/// A finding, and the option of the command line that corrects the reading.
+/// A finding, and what `--read` takes to correct the reading: `name:normal-y=down`.
 #[derive(Serialize)]
 struct FindingEntry<'a> {
     #[serde(flatten)]
@@ -217,6 +217,6 @@ struct FindingEntry<'a> {
 
 impl<'a> FindingEntry<'a> {
     fn new(finding: &'a Finding, prediction: &str) -> Self {
-        Self { finding, remedy: finding.remedy.map(|remedy| remedy.command_option(prediction)) }
+        Self { finding, remedy: finding.remedy.map(|remedy| remedy.statement(prediction)) }
     }
 }

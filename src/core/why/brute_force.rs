@@ -101,6 +101,31 @@ fn the_search_is_at_least_as_good_as_some_brute_force() {
     }
 }
 
+/// The largest loss of 7,200 distant scenes with light and view as low as they are sampled, in mirror directions of each other.
+fn worst_grazing(truth: &Material<f32>, prediction: &Material<f32>) -> f64 {
+    let scene = |i: usize| {
+        let azimuth = i as f64 / 7200.0;
+        Scene::distant_from_point([1.0, azimuth, 1.0, (azimuth + 0.5).rem_euclid(1.0)], &PRINTED)
+    };
+    let comparison = Comparison::new(truth, &[prediction], PRINTED).unwrap();
+    let scenes: Vec<Scene> = (0..7200).map(scene).collect();
+    let losses = f32::cpu().scene_losses(&comparison, &scenes, None, &Progress::default()).unwrap().remove(0);
+    losses.into_iter().fold(0.0, f64::max)
+}
+
+/// Highlights of smooth materials are narrower there than the gaps between sampled scenes.
+#[test]
+fn the_search_finds_narrow_highlights_at_grazing_angles() {
+    let smooth =
+        |seed| with(&generated(seed, SIDE), |planes| planes.roughness.iter_mut().for_each(|r| *r *= 0.4));
+    for [truth, prediction] in [[0, 6], [3, 6], [0, 8], [1, 8], [3, 8], [5, 10]] {
+        let (truth, prediction) = (smooth(truth), smooth(prediction));
+        let found = worst(&truth, &prediction, &PRINTED, 0, TAIL, &Progress::default()).unwrap();
+        let ratio = found.loss / worst_grazing(&truth, &prediction);
+        assert!(ratio > 0.99, "{}: {ratio}", truth.name());
+    }
+}
+
 #[test]
 #[ignore = "takes minutes; docs/verification.md has its command and its result"]
 fn the_search_is_within_1_percent_of_200_000_scenes() {

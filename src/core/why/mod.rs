@@ -31,5 +31,5 @@ mod worst;
 pub use attribution::{Attribution, MOST_SCENES, MapShare, attribute};
 pub use error_map::{error_maps, mean};
 pub use hemisphere::{Hemisphere, hemisphere};
-pub use scene_losses::{Distribution, RankedScene, worst_first};
+pub use scene_losses::{Distribution, RankedScene, worst_first, worst_on_all_texels};
 pub use worst::{TAIL, Worst, worst};

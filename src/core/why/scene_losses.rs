@@ -1,8 +1,13 @@
 //! Scenes of a loss, worst first, and the distribution of their losses.
 
-use crate::loss::Outcome;
+use crate::error::Error;
+use crate::loss::{Comparison, Compute, Outcome};
 use crate::model::scene::Scene;
+use crate::progress::Progress;
 use crate::statistics::{median, quantile};
+
+/// Scenes that [`worst_on_all_texels`] recomputes at a time.
+const BATCH: usize = 64;
 
 /// A scene and its losses.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,9 +31,61 @@ pub fn worst_first(outcome: &Outcome) -> Vec<RankedScene> {
         let losses = outcome.losses.iter().map(|loss| loss.per_scene[index]).collect();
         RankedScene { index, scene: *scene, losses }
     };
-    let mut ranked: Vec<_> = outcome.scenes.iter().enumerate().map(one).collect();
-    ranked.sort_by(|a, b| b.total().total_cmp(&a.total()));
-    ranked
+    sorted(outcome.scenes.iter().enumerate().map(one).collect())
+}
+
+/// The `count` worst scenes of `outcome`, worst first, with their losses on all texels.
+///
+/// Where the losses of `outcome` are of a random subset of the texels, a scene may lead by its subset. So the scenes are
+/// recomputed on all texels, 64 at a time in the order of their sampled losses, until 64 of them change nothing in the list.
+///
+/// # Errors
+/// Those of the backend.
+pub fn worst_on_all_texels<T: Compute>(
+    comparison: &Comparison<'_, T>,
+    outcome: &Outcome,
+    count: usize,
+    progress: &Progress,
+) -> Result<Vec<RankedScene>, Error> {
+    let mut candidates = worst_first(outcome);
+    let sampled =
+        outcome.sampling.and_then(|sampling| sampling.texels.sampled(comparison.ground_truth().size()));
+    if sampled.is_none() {
+        candidates.truncate(count);
+        return Ok(candidates);
+    }
+    let mut worst = Vec::new();
+    for batch in candidates.chunks(BATCH) {
+        let mut grown = [worst.clone(), on_all_texels(comparison, batch, progress)?].concat();
+        grown = sorted(grown);
+        grown.truncate(count);
+        if grown == worst {
+            break;
+        }
+        worst = grown;
+    }
+    Ok(worst)
+}
+
+/// `scenes` with their losses on all texels.
+fn on_all_texels<T: Compute>(
+    comparison: &Comparison<'_, T>,
+    scenes: &[RankedScene],
+    progress: &Progress,
+) -> Result<Vec<RankedScene>, Error> {
+    let rendered: Vec<Scene> = scenes.iter().map(|ranked| ranked.scene).collect();
+    let losses = comparison.backend().scene_losses(comparison, &rendered, None, progress)?;
+    let of_scene = |k: usize| losses.iter().map(|of_prediction| of_prediction[k]).collect();
+    Ok(scenes
+        .iter()
+        .enumerate()
+        .map(|(k, ranked)| RankedScene { losses: of_scene(k), ..ranked.clone() })
+        .collect())
+}
+
+fn sorted(mut scenes: Vec<RankedScene>) -> Vec<RankedScene> {
+    scenes.sort_by(|a, b| b.total().total_cmp(&a.total()));
+    scenes
 }
 
 /// How the losses of the scenes of one prediction are distributed.
@@ -64,6 +121,31 @@ impl Distribution {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::tests::materials::{generated, unexplained};
+    use crate::loss::Request;
+    use crate::model::convention::PRINTED;
+
+    /// The six worst scenes of a loss: by their sampled losses, as they are listed, and by the losses of all scenes on all texels.
+    fn worst_six(seed: u64) -> [Vec<RankedScene>; 3] {
+        let (truth, progress) = (generated(seed, 64), Progress::default());
+        let prediction = unexplained(&truth, seed);
+        let comparison = Comparison::new(&truth, &[&prediction], PRINTED).unwrap();
+        let outcome = comparison.run(&Request::Accuracy { target: 0.02, seed }, &progress).unwrap();
+        let all = comparison.run(&Request::Listed(outcome.scenes.clone()), &progress).unwrap();
+        let first_six = |ranked: Vec<RankedScene>| ranked.into_iter().take(6).collect();
+        let listed = worst_on_all_texels(&comparison, &outcome, 6, &progress).unwrap();
+        [first_six(worst_first(&outcome)), listed, first_six(worst_first(&all))]
+    }
+
+    #[test]
+    fn the_worst_scenes_are_those_with_the_largest_losses_on_all_texels() {
+        for seed in 0..12 {
+            let [sampled, listed, of_all] = worst_six(seed);
+            let order = |scenes: &[RankedScene]| scenes.iter().map(|ranked| ranked.index).collect::<Vec<_>>();
+            assert_ne!(order(&sampled), order(&of_all), "pair {seed}");
+            assert_eq!(listed, of_all, "pair {seed}");
+        }
+    }
 
     #[test]
     fn the_distribution_of_known_losses() {

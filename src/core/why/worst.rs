@@ -1,7 +1,7 @@
 //! The scene with the largest loss: global sampling, then local refinement.
 //!
 //! A scene is a point of the unit cube, and the search moves in this cube: 6 numbers of a near-field scene, 4 of a distant one, with
-//! distances in equal steps of their logarithm. The stages compare more and more texels, the same in all scenes; the last one all of
+//! distances in equal steps of their logarithm. All stages but the last compare 1,024 texels, the same in all scenes; the last one all of
 //! them, up to 65,536.
 
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -17,18 +17,22 @@ use crate::progress::Progress;
 
 /// Sampled scenes: near-field, distant.
 const SAMPLED: [usize; 2] = [8192, 4096];
-/// Scenes that are compared on more texels; the best of these, other than neighbours, are refined.
-const COMPARED: usize = 256;
-const CANDIDATES: usize = 16;
+/// Distant scenes with light and view as low as they are sampled, in mirror directions of each other: highlights are the strongest
+/// there, and narrower than the gaps between sampled scenes.
+const GRAZING: usize = 1024;
+/// Scenes whose variants are compared, and candidates among these for refinement, other than neighbours: of the sampled scenes, and of
+/// the grazing ones.
+const COMPARED: [usize; 2] = [256, 64];
+const CANDIDATES: [usize; 2] = [16, 8];
 /// Scenes around each candidate in a round of refinement, and how many of them the next round is around.
 const AROUND: usize = 24;
 const ELITE: usize = 6;
 const ROUNDS: usize = 24;
 /// Candidates that are refined on all texels, and rounds of this.
-const LAST_CANDIDATES: usize = 2;
+const LAST_CANDIDATES: usize = 4;
 const LAST_ROUNDS: usize = 6;
-/// Standard deviation of the first round, and of the last ones, in each dimension of the unit cube.
-const REACH: f64 = 0.06;
+/// Standard deviation of the first round, around sampled and grazing scenes, and of the last ones, in each dimension of the unit cube.
+const REACH: [f64; 2] = [0.06, 0.01];
 const LAST_REACH: f64 = 0.004;
 /// Candidates are at least this far apart in some dimension.
 const APART: f64 = 0.08;
@@ -36,9 +40,8 @@ const APART: f64 = 0.08;
 const DISTANCES: [f64; 3] = [0.0, 0.5, 1.0];
 /// Distances are within the central 99% of their distributions, which have no end, unless another share is requested.
 pub const TAIL: f64 = 0.005;
-/// Subsets of texels, and the texels of each: while sampling, and while refining.
-const COARSE: [usize; 2] = [1, 256];
-const FINE: [usize; 2] = [1, 1024];
+/// Subsets of texels, and the texels of each: while sampling and refining.
+const FEW: [usize; 2] = [1, 1024];
 /// Texels in the last rounds, up to which all are compared.
 const LAST: [usize; 2] = [1, 1 << 16];
 /// Scenes between two steps of progress.
@@ -97,9 +100,10 @@ pub fn worst<T: Compute>(
 /// Scenes whose losses are computed.
 const EVALUATIONS: usize = SAMPLED[0]
     + SAMPLED[1]
-    + COMPARED * VARIANTS
-    + CANDIDATES * ROUNDS * AROUND
-    + LAST_CANDIDATES * (LAST_ROUNDS * AROUND + 1);
+    + GRAZING
+    + (COMPARED[0] + COMPARED[1]) * VARIANTS
+    + (CANDIDATES[0] + CANDIDATES[1]) * (1 + ROUNDS * AROUND)
+    + LAST_CANDIDATES * (1 + LAST_ROUNDS * AROUND + 1);
 /// A scene and its changes that are compared, too.
 const VARIANTS: usize = 1 + DISTANCES.len() * DISTANCES.len();
 
@@ -113,13 +117,13 @@ struct Search<'a, T> {
 
 impl<T: Compute> Search<'_, T> {
     fn worst(&self) -> Result<(Scene, f64), Error> {
-        let texels = |subsets| SharedTexels::new(&self.comparison, subsets, 0);
-        let [coarse, fine, last] = [COARSE, FINE, LAST].map(texels);
-        let sampled = self.ranked(&coarse, self.sampled())?;
-        let variants = sampled.into_iter().take(COMPARED).flat_map(|(point, _)| point.variants());
-        let candidates = apart(self.ranked(&fine, variants.collect())?);
-        let refined = self.refined(&fine, candidates, ROUNDS, REACH)?;
-        let best = refined.into_iter().take(LAST_CANDIDATES).collect();
+        let [few, last] = [FEW, LAST].map(|subsets| SharedTexels::new(&self.comparison, subsets, 0));
+        let sampled = self.candidates(&few, self.sampled(), COMPARED[0], CANDIDATES[0])?;
+        let grazing = self.candidates(&few, grazing(), COMPARED[1], CANDIDATES[1])?;
+        let mut refined = self.refined(&few, sampled, ROUNDS, REACH[0])?;
+        refined.extend(self.refined(&few, grazing, ROUNDS, REACH[1])?);
+        refined.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let best = refined.into_iter().take(LAST_CANDIDATES).map(|(point, _)| point).collect();
         let found = self.refined(&last, best, LAST_ROUNDS, LAST_REACH)?;
         let scenes: Vec<Scene> = found.iter().map(|(point, _)| self.scene(point)).collect();
         let losses = T::cpu().scene_losses(&self.comparison, &scenes, None, &self.progress.part())?.remove(0);
@@ -145,6 +149,19 @@ impl<T: Compute> Search<'_, T> {
         kinds.into_iter().flat_map(spread).collect()
     }
 
+    /// The `count` worst variants of the `compared` worst `points`, apart from each other.
+    fn candidates(
+        &self,
+        texels: &SharedTexels,
+        points: Vec<CubePoint>,
+        compared: usize,
+        count: usize,
+    ) -> Result<Vec<CubePoint>, Error> {
+        let worst = self.ranked(texels, points)?.into_iter().take(compared);
+        let variants = worst.flat_map(|(point, _)| point.variants()).collect();
+        Ok(apart(self.ranked(texels, variants)?, count))
+    }
+
     /// Points with their losses, worst first.
     fn ranked(&self, texels: &SharedTexels, points: Vec<CubePoint>) -> Result<Vec<(CubePoint, f64)>, Error> {
         let losses = self.losses(texels, &points)?;
@@ -157,15 +174,16 @@ impl<T: Compute> Search<'_, T> {
     fn refined(
         &self,
         texels: &SharedTexels,
-        candidates: Vec<(CubePoint, f64)>,
+        candidates: Vec<CubePoint>,
         rounds: usize,
         reach: f64,
     ) -> Result<Vec<(CubePoint, f64)>, Error> {
-        let mut best = candidates;
+        let mut best = self.ranked(texels, candidates)?;
+        let count = best.len();
         let mut clouds: Vec<Cloud> = best.iter().map(|(point, _)| Cloud::new(point.at, reach)).collect();
         for round in 0..rounds {
             let around = |(number, cloud): (usize, &Cloud)| -> Vec<CubePoint> {
-                let turn = 1 + (round * CANDIDATES + number) as u32;
+                let turn = 1 + (round * count + number) as u32;
                 let point = |i| CubePoint { kind: best[number].0.kind, at: cloud.point(self.sobol(i, turn)) };
                 (0..AROUND).map(|i| point(i).bounded()).collect()
             };
@@ -173,10 +191,7 @@ impl<T: Compute> Search<'_, T> {
             let losses = self.losses(texels, &points)?;
             for (number, (points, losses)) in points.chunks(AROUND).zip(losses.chunks(AROUND)).enumerate() {
                 let mut ranked: Vec<_> = points.iter().copied().zip(losses.iter().copied()).collect();
-                // A candidate from fewer texels has another loss; from the second round on they are the same ones.
-                if round > 0 {
-                    ranked.push(best[number]);
-                }
+                ranked.push(best[number]);
                 ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
                 best[number] = ranked[0];
                 let elite: Vec<[f64; 6]> = ranked.iter().take(ELITE).map(|(point, _)| point.at).collect();
@@ -216,11 +231,20 @@ impl<T: Compute> Search<'_, T> {
     }
 }
 
-/// The worst points that are apart from each other, worst first.
-fn apart(ranked: Vec<(CubePoint, f64)>) -> Vec<(CubePoint, f64)> {
-    let mut chosen: Vec<(CubePoint, f64)> = Vec::new();
-    for candidate in ranked {
-        if chosen.len() < CANDIDATES && chosen.iter().all(|(other, _)| other.is_apart(&candidate.0)) {
+/// Grazing scenes all around.
+fn grazing() -> Vec<CubePoint> {
+    let point = |i: usize| {
+        let azimuth = (i as f64 + 0.5) / GRAZING as f64;
+        CubePoint { kind: Kind::Distant, at: [1.0, azimuth, 1.0, azimuth + 0.5, 0.5, 0.5] }.bounded()
+    };
+    (0..GRAZING).map(point).collect()
+}
+
+/// The `count` worst points that are apart from each other, worst first.
+fn apart(ranked: Vec<(CubePoint, f64)>, count: usize) -> Vec<CubePoint> {
+    let mut chosen: Vec<CubePoint> = Vec::new();
+    for (candidate, _) in ranked {
+        if chosen.len() < count && chosen.iter().all(|other| other.is_apart(&candidate)) {
             chosen.push(candidate);
         }
     }

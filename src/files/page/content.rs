@@ -7,10 +7,12 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Endpoint, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::LossReport;
-use svbrdf_core::why::{Attribution, Hemisphere, attribute, hemisphere};
+use svbrdf_core::why::{Attribution, Hemisphere, RankedScene, attribute, hemisphere, worst_on_all_texels};
 
 use crate::session_window::Display;
 
+/// Worst scenes of the page.
+const SCENES: usize = 6;
 /// Columns of the map over directions of the light, and the view of that map.
 const SIDE: usize = 24;
 const ALONG_NORMAL: [f64; 3] = [0.0, 0.0, 1.0];
@@ -30,6 +32,8 @@ pub struct Findings {
     pub loss: LossReport,
     /// One per prediction.
     pub attributions: Vec<Attribution>,
+    /// The worst scenes of the loss, worst first, with their losses on all texels.
+    pub worst: Vec<RankedScene>,
     /// The loss over the directions of the light, under a view along the normal.
     pub lights: Hemisphere,
 }
@@ -47,12 +51,14 @@ impl Findings {
         progress: &Progress,
     ) -> Result<Self, Error> {
         let comparison = Comparison::new(ground_truth, predictions, convention)?;
-        let loss = LossReport::new(&comparison, request, comparison.run(request, progress)?);
+        let outcome = comparison.run(request, progress)?;
+        let worst = worst_on_all_texels(&comparison, &outcome, SCENES, progress)?;
+        let loss = LossReport::new(&comparison, request, outcome);
         let one =
             |prediction: &&Material<f32>| attribute(ground_truth, prediction, &convention, request, progress);
         let attributions = predictions.iter().map(one).collect::<Result<_, _>>()?;
         let lights = hemisphere(&comparison, Endpoint::Light, ALONG_NORMAL, SIDE, progress, |_| {})?;
-        Ok(Self { loss, attributions, lights })
+        Ok(Self { loss, attributions, worst, lights })
     }
 }
 

@@ -8,7 +8,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::scenes_line;
-use svbrdf_core::why::{Attribution, Hemisphere, worst_first};
+use svbrdf_core::why::{Attribution, Hemisphere};
 
 use super::content::{Findings, Repetition, Report};
 use super::data::LinkedScene;
@@ -18,8 +18,6 @@ use super::pictures::Rows;
 use super::{pictures, plots};
 use crate::atomic::SOFTWARE;
 
-/// Worst scenes of the page.
-const SCENES: usize = 6;
 /// Thumbnails of the materials in a scene.
 const THUMBNAILS: Rows = Rows { width: 128, columns: 5 };
 
@@ -157,7 +155,7 @@ fn worst_scenes(
     let mut items = String::new();
     let mut linked = Vec::new();
     let outcome = &findings.loss.outcome;
-    for ranked in worst_first(outcome).into_iter().take(SCENES) {
+    for ranked in &findings.worst {
         let scene = ranked.scene;
         let exposure = exposure(report.materials[0], &scene, &report.convention);
         let picture = pictures::thumbnail(small, &scene, &report.convention, exposure, THUMBNAILS, progress)?;
@@ -178,7 +176,7 @@ fn worst_scenes(
         linked.push(LinkedScene { scene, exposure });
     }
     let html = format!(
-        r#"<section aria-labelledby="worst"><h2 id="worst">Worst scenes</h2><p>The scenes of the loss with the largest mean loss of all predictions; the ground truth first, each exposed to its brightest 1%. A click puts light and view of the figure there.</p><ol class="scenes">{items}</ol></section>"#
+        r#"<section aria-labelledby="worst"><h2 id="worst">Worst scenes</h2><p>The scenes of the loss with the largest mean loss of all predictions, on all texels; the ground truth first, each exposed to its brightest 1%. A click puts light and view of the figure there.</p><ol class="scenes">{items}</ol></section>"#
     );
     Ok((html, linked))
 }

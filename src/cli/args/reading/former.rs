@@ -80,7 +80,7 @@ fn argument(option: &'static str, key: &'static str) -> Arg {
         let options: ReadOptions = format!("{key}={value}").parse()?;
         Ok(Statement { whose: whose.clone(), options })
     };
-    let argument = Arg::new(option).long(option).hide(true).requires("ground_truth").value_parser(parse);
+    let argument = Arg::new(option).long(option).hide(true).value_parser(parse);
     match option {
         "flip-v" => argument.num_args(0..=1).require_equals(true).default_missing_value("true"),
         "normal-encoding" => argument.alias("normal-code"),

@@ -25,7 +25,7 @@ pub struct PairReadingArgs {
     former: FormerSideArgs,
 
     /// Resizes all materials: to the size of the ground truth, of the first prediction, or to a width of N texels
-    #[arg(long, value_name = "gt|pred|N", allow_negative_numbers = true, requires = "ground_truth")]
+    #[arg(long, value_name = "gt|pred|N", allow_negative_numbers = true)]
     pub resize_to: Option<ResizeTo>,
 }
 
@@ -35,18 +35,18 @@ pub struct PairReadingArgs {
 pub struct ReadingArgs {
     /// How files are read, such as albedo=srgb,normal-y=down; after gt:, pred: or NAME: for these materials only. May be given
     /// several times
-    #[arg(long, value_name = "[WHOSE:]KEY=VALUE,...", requires = "ground_truth", long_help = read_help())]
+    #[arg(long, value_name = "[WHOSE:]KEY=VALUE,...", long_help = read_help())]
     read: Vec<Statement>,
 
     /// Conventions of a source of materials, for the options that are left out; after gt:, pred: or NAME: as in --read
-    #[arg(long, value_name = "[WHOSE:]PRESET", requires = "ground_truth", value_parser = Statement::of_preset, long_help = preset_help())]
+    #[arg(long, value_name = "[WHOSE:]PRESET", value_parser = Statement::of_preset, long_help = preset_help())]
     preset: Vec<Statement>,
 
     #[command(flatten)]
     former: FormerArgs,
 
     /// Fails where something in the files can only be guessed, or where an accuracy is not reached
-    #[arg(long, requires = "ground_truth")]
+    #[arg(long)]
     pub strict: bool,
 
     /// Reports everything noticed and assumed in reading, not only what is unsure or was changed

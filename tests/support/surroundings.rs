@@ -1,0 +1,45 @@
+//! Surroundings of the programs that tests start: their own variables, so that a desktop, a locale or a shell changes no result.
+
+use std::ffi::OsStr;
+use std::process::{Command, Stdio};
+
+/// Variables of the machine that programs keep: where programs, libraries and temporary files are, the graphics driver, and the
+/// coverage of the build.
+const KEPT: [&str; 10] = [
+    "PATH",
+    "LD_LIBRARY_PATH",
+    "TMPDIR",
+    "SystemRoot",
+    "TEMP",
+    "LLVM_PROFILE_FILE",
+    "WGPU_BACKEND",
+    "WGPU_ADAPTER_NAME",
+    "VK_ICD_FILENAMES",
+    "VK_DRIVER_FILES",
+];
+/// Variables that programs get: a home without settings, no bus of a desktop, one language and time zone.
+const MADE: [(&str, &str); 4] = [
+    ("HOME", env!("CARGO_TARGET_TMPDIR")),
+    ("XDG_RUNTIME_DIR", env!("CARGO_TARGET_TMPDIR")),
+    ("LANG", "C.UTF-8"),
+    ("TZ", "UTC"),
+];
+
+/// A program in these surroundings, without input.
+pub fn command(program: impl AsRef<OsStr>) -> Command {
+    let kept = KEPT.iter().filter_map(|name| Some((*name, std::env::var_os(name)?)));
+    let mut command = Command::new(program);
+    command.env_clear().envs(kept).envs(MADE).stdin(Stdio::null());
+    command
+}
+
+#[cfg(unix)]
+#[test]
+fn a_program_has_no_variable_of_the_desktop_or_the_shell() {
+    let output = command("env").output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let names: Vec<&str> = text.lines().filter_map(|line| Some(line.split_once('=')?.0)).collect();
+    assert!(names.contains(&"PATH") && text.contains("LANG=C.UTF-8"), "{text}");
+    let is_known = |name: &&str| KEPT.contains(name) || MADE.iter().any(|(made, _)| made == name);
+    assert_eq!(names.iter().find(|name| !is_known(name)), None, "{text}");
+}
