@@ -93,9 +93,10 @@ pub fn diagnose(
     let each = Each::new(ground_truth, &predictions, &asked)?;
     let (floor, captures) = floor_of(py, (ground_truth, &repeats), &each.convention, asked.seed, progress)?;
     let storages: Vec<_> = predictions.iter().map(|prediction| &prediction.storage).collect();
+    let of_truth = &ground_truth.storage;
     let found = each.answers(py, progress, |index, prediction, progress| {
-        let (truth, storage) = (each.ground_truth(), storages[index]);
-        diagnosis::diagnose(truth, prediction, storage, &each.convention, asked.seed, progress)
+        let (pair, storages) = ([each.ground_truth(), prediction], [of_truth, storages[index]]);
+        diagnosis::diagnose(pair, storages, &each.convention, floor.mean, asked.seed, progress)
     })?;
     let diagnoses = found.into_iter().map(|(prediction, found)| Diagnosis { prediction, ..found }).collect();
     let seams = diagnosis::seams(each.ground_truth());

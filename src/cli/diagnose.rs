@@ -14,7 +14,8 @@ use super::output::{CommandError, exit, watched};
 /// Prints what an exposure, a shift, a symmetry or another reading of the files would lower the loss to
 ///
 /// Each hypothesis is fitted in the scenes of a pilot and evaluated in 192 others. A star marks those that lower the loss
-/// significantly and by at least 10%; the last column has the option that corrects the reading. Below: the loss that the
+/// significantly and by at least 10% beside the other marked ones; the last column has the option that corrects the reading. Nothing is
+/// marked where the loss is below the floor. Below: the loss that the
 /// ground truth cannot resolve (floor), and the loss between averages over larger and larger blocks (ladder). docs/diagnose.md describes each
 /// line. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
@@ -45,11 +46,12 @@ pub fn run(args: &DiagnoseArgs, given: &Given) -> Result<(), CommandError> {
     let (truth, convention) = (&opened.ground_truth, &job.convention);
     let seed = args.seed.seed;
     let (floor, captures) = floor_of(&args.floor, &job, &opened, seed)?;
+    let (of_truth, storages) = (&opened.storages[0], &opened.storages[1..]);
     let one = |(prediction, storage): (&Material<f32>, &Storage)| {
-        watched("diagnosing", |progress| diagnose(truth, prediction, storage, convention, seed, progress))
+        let (pair, storages) = ([truth, prediction], [of_truth, storage]);
+        watched("diagnosing", |progress| diagnose(pair, storages, convention, floor.mean, seed, progress))
     };
-    let diagnoses =
-        opened.predictions.iter().zip(&opened.storages[1..]).map(one).collect::<Result<Vec<_>, _>>()?;
+    let diagnoses = opened.predictions.iter().zip(storages).map(one).collect::<Result<Vec<_>, _>>()?;
     let compared = Compared::new(truth, convention);
     let report = DiagnoseReport { compared, seed, floor, captures, seams: seams(truth), diagnoses };
     Ok(exit::put(&args.format.write(&report)?)?)

@@ -73,6 +73,36 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
     }
 }
 
+/// The advice replaces the options of this material: with `albedo` alone specular would be read as its specified option says, or not.
+#[test]
+fn the_option_of_an_advice_gives_the_loss_that_was_computed() {
+    let folder = folder();
+    let of = |name: &str| folder.path().join(name);
+    write(&of("truth.png"), |_, texel| texel);
+    write(&of("encoded.png"), |tile, texel| match tile {
+        1 | 3 => texel.map(|v| (255.0 * (f32::from(v) / 255.0).powf(1.0 / 2.2)).round() as u8),
+        _ => texel,
+    });
+    write(&of("swapped.png"), |tile, [r, g, b]| if tile == 1 { [b, g, r] } else { [r, g, b] });
+    let read = format!("{READ} --read encoded:specular-albedo=linear");
+    let printed =
+        json(&succeed(folder.path(), &format!("diagnose truth.png encoded.png {read} --format json")));
+    let findings = printed["predictions"][0]["findings"].as_array().unwrap();
+    let scenes = "--near 128 --distant 64 --sampler sobol --format json";
+    for name in ["albedo_encoding", "diffuse_encoding", "specular_encoding"] {
+        let finding = findings.iter().find(|finding| finding["hypothesis"] == name).unwrap();
+        let option = finding["remedy"].as_str().unwrap();
+        let loss = succeed(folder.path(), &format!("loss truth.png encoded.png {READ} --read {option} {scenes}"));
+        let found = json(&loss)["results"][0]["loss"].as_f64().unwrap();
+        let expected = finding["loss"].as_f64().unwrap();
+        assert!((found - expected).abs() < 1e-4 * expected + 1e-6, "{name} {option}: {found} {expected}");
+    }
+    // Of red and blue there is no option.
+    let text = succeed(folder.path(), &format!("diagnose truth.png swapped.png {READ}"));
+    assert!(text.lines().any(|line| line.starts_with('*') && line.ends_with("none")), "{text}");
+    assert!(text.contains("No option corrects this reading"), "{text}");
+}
+
 #[test]
 fn every_format_has_every_line_and_rounding_is_below_the_floor() {
     let folder = folder();
@@ -84,8 +114,9 @@ fn every_format_has_every_line_and_rounding_is_below_the_floor() {
         assert!(text.contains(part), "{part}: {text}");
     }
     assert!(text.contains("The loss is not resolvable with this ground truth"), "{text}");
+    assert!(!text.lines().any(|line| line.starts_with('*')), "a mark below the floor: {text}");
     let csv = succeed(folder.path(), &format!("diagnose truth.png near.png {READ} --format csv"));
-    assert_eq!(csv.lines().count(), 14);
+    assert_eq!(csv.lines().count(), 16);
     assert!(csv.starts_with("prediction,hypothesis,value,unit,loss,"), "{csv}");
     let printed = json(&succeed(folder.path(), &format!("diagnose truth.png near.png {READ} --format json")));
     let resolvable = |prediction: &Value| prediction["resolvable"].as_bool().unwrap();

@@ -17,7 +17,7 @@ class Finding:
 
     hypothesis: str
     """"exposure", "exposure_rgb", "shift", "subtexel", "symmetry", "resampling", "normal_y", "normal_x",
-    "albedo_encoding", "specular_encoding", "roughness", "channels" or "energy"."""
+    "albedo_encoding", "diffuse_encoding", "specular_encoding", "roughness", "channels", "energy" or "ground_truth"."""
     value: float | str | list[float]
     """The value with the least loss in a pilot."""
     unit: str | None
@@ -31,7 +31,8 @@ class Finding:
     p: float | None
     """The probability of such a fall where there is none, corrected for the number of hypotheses; None: not tested."""
     marked: bool
-    """Whether the loss falls significantly and by at least 10%."""
+    """Whether the loss falls significantly and by at least 10% beside the corrections of the other marked findings; never
+    where the loss is below the floor."""
     remedy: str | None
     """What `--read` of the command line takes to correct the reading: NAME:KEY=VALUE."""
 
@@ -46,6 +47,8 @@ class Diagnosis:
     loss: Estimate
     resolvable: bool
     """Whether the loss is above the floor."""
+    explained: float | None
+    """The part of the loss that disappears under all marked findings together; None without marks."""
     findings: tuple[Finding, ...]
     ladder: list[dict[str, Any]]
     """The loss between averages over blocks of `side` x `side` texels, and the filtered roughness of both materials."""

@@ -22,13 +22,16 @@ pub enum Change {
     Shift([i32; 2]),
     Symmetry(Symmetry),
     Reading(Reading),
+    /// The ground truth in another reading; the prediction stays as it is.
+    GroundTruth(Reading),
 }
 
 impl Change {
-    /// Whether maps of this size (width, height) show it: an exposure changes no map, and only square maps are transposed.
+    /// Whether maps of a prediction of this size (width, height) show it: an exposure changes no map, and only square maps are
+    /// transposed.
     pub fn fits(self, size: [usize; 2]) -> bool {
         match self {
-            Self::Exposure(_) => false,
+            Self::Exposure(_) | Self::GroundTruth(_) => false,
             Self::Symmetry(symmetry) => Symmetry::of(size).any(|of_size| of_size == symmetry),
             Self::Shift(_) | Self::Reading(_) => true,
         }
@@ -42,7 +45,7 @@ impl Change {
     pub fn applied(self, prediction: &Material<f32>, storage: &Storage) -> Result<Material<f32>, Error> {
         match self {
             _ if !self.fits(prediction.size()) => Ok(prediction.clone()),
-            Self::Exposure(_) => Ok(prediction.clone()),
+            Self::Exposure(_) | Self::GroundTruth(_) => Ok(prediction.clone()),
             Self::Shift(by) => shifted(prediction, by.map(i32::saturating_neg)),
             Self::Symmetry(symmetry) => symmetry.applied(prediction),
             Self::Reading(reading) => reading.applied(prediction, storage),
@@ -63,6 +66,7 @@ impl fmt::Display for Change {
             Self::Shift(by) => write!(f, "moved {}", displacement(by.map(|by| -f64::from(by)))),
             Self::Symmetry(symmetry) => f.write_str(symmetry.words()),
             Self::Reading(reading) => f.write_str(reading.words()),
+            Self::GroundTruth(reading) => write!(f, "ground truth with {}", reading.words()),
         }
     }
 }

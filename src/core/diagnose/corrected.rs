@@ -1,15 +1,18 @@
-//! Predictions with changes applied.
+//! Pairs with changes applied.
 
 use super::change::Change;
+use super::reading::Reading;
 use super::shift::interior;
-use super::storage::Storage;
+use super::trials::Pair;
 use crate::error::Error;
 use crate::material::Material;
 
-/// A prediction with changes applied.
+/// A prediction with changes applied, and its ground truth where that is changed.
 #[derive(Clone, Debug)]
 pub(super) struct Corrected {
     pub(super) material: Material<f32>,
+    /// `None`: the ground truth as it was read.
+    pub(super) ground_truth: Option<Material<f32>>,
     /// The texels that did not leave the map; `None`: all.
     pub(super) texels: Option<Vec<usize>>,
     /// Factors on its radiance, in stops; `None`: 1.
@@ -18,27 +21,35 @@ pub(super) struct Corrected {
 
 impl Corrected {
     /// Applies readings, then symmetries, then shifts; exposures apply to renderings.
-    pub(super) fn new(
-        prediction: &Material<f32>,
-        changes: &[Change],
-        storage: &Storage,
-    ) -> Result<Self, Error> {
-        let mut corrected = Self { material: prediction.clone(), texels: None, stops: None };
+    pub(super) fn new(pair: &Pair<'_>, changes: &[Change]) -> Result<Self, Error> {
+        let mut corrected =
+            Self { material: pair.prediction.clone(), ground_truth: None, texels: None, stops: None };
         let mut changes = changes.to_vec();
-        changes.sort_by_key(|change| match change {
-            Change::Reading(_) => 0,
-            Change::Symmetry(_) => 1,
-            Change::Shift(_) => 2,
-            Change::Exposure(_) => 3,
-        });
+        changes.sort_by_key(order);
         for change in changes {
             match change {
                 Change::Exposure(stops) => corrected.stops = Some(stops),
-                Change::Shift(by) => corrected.texels = Some(interior(prediction.size(), by.map(|by| -by))),
+                Change::GroundTruth(reading) => {
+                    corrected.ground_truth = Some(reading.applied(pair.ground_truth, pair.storages[0])?);
+                }
+                Change::Shift(by) => {
+                    corrected.texels = Some(interior(pair.prediction.size(), by.map(|by| -by)));
+                }
                 Change::Symmetry(_) | Change::Reading(_) => {}
             }
-            corrected.material = change.applied(&corrected.material, storage)?;
+            corrected.material = change.applied(&corrected.material, pair.storages[1])?;
         }
         Ok(corrected)
+    }
+}
+
+/// Diffuse is scaled by specular as that is decoded.
+fn order(change: &Change) -> usize {
+    match change {
+        Change::Reading(Reading::Unscaled | Reading::Scaled) => 1,
+        Change::Reading(_) | Change::GroundTruth(_) => 0,
+        Change::Symmetry(_) => 2,
+        Change::Shift(_) => 3,
+        Change::Exposure(_) => 4,
     }
 }

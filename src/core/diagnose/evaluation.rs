@@ -2,7 +2,6 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::change::Change;
 use super::finding::Finding;
 use super::holm::holm;
 use super::proposals::Proposal;
@@ -12,16 +11,14 @@ use crate::loss::Estimate;
 use crate::model::sampler::{REPLICATES, Sampler};
 use crate::model::scene::Scene;
 
-/// The loss in the scenes of `evaluation`, and the finding of each proposal, not yet marked.
+/// The finding of each proposal in the scenes of `evaluation`, not yet marked. `unchanged`: the losses without changes.
 pub(super) fn findings(
     evaluation: &Trials<'_>,
     proposals: &[Proposal],
-) -> Result<(Estimate, Vec<Finding>), Error> {
-    // The first trial changes nothing.
+    unchanged: &Paired,
+) -> Result<Vec<Finding>, Error> {
     let changed = proposals.iter().filter_map(|proposal| Some(vec![proposal.change?]));
-    let trials: Vec<Vec<Change>> = std::iter::once(Vec::new()).chain(changed).collect();
-    let mut losses = evaluation.losses(&trials)?.into_iter();
-    let unchanged = losses.next().ok_or_else(|| Error::Internal("a trial has no loss".to_owned()))?;
+    let mut losses = evaluation.losses(&changed.collect::<Vec<_>>())?.into_iter();
     let scenes = &evaluation.scenes;
     let finding = |proposal: &Proposal| {
         let paired = proposal.change.and_then(|_| losses.next()).unwrap_or_else(|| unchanged.clone());
@@ -30,7 +27,7 @@ pub(super) fn findings(
     let mut findings: Vec<Finding> = proposals.iter().map(finding).collect();
     let p = holm(&findings.iter().map(|finding| finding.p.unwrap_or(1.0)).collect::<Vec<_>>());
     findings.iter_mut().zip(p).for_each(|(finding, p)| finding.p = Some(p));
-    Ok((Estimate::of_sampled(Sampler::Sobol, scenes, &unchanged.before), findings))
+    Ok(findings)
 }
 
 fn finding(proposal: &Proposal, paired: &Paired, scenes: &[Scene]) -> Finding {
@@ -48,6 +45,8 @@ fn finding(proposal: &Proposal, paired: &Paired, scenes: &[Scene]) -> Finding {
         share_interval95: share_interval(paired, scenes),
         p: Some(one_sided(&fall)),
         marked: false,
+        certain: false,
+        alternative: None,
         remedy: proposal.remedy,
         change: proposal.change,
     }

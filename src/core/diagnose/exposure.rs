@@ -1,6 +1,6 @@
 //! The exposure of a prediction: the factor on its radiance under which its loss is least.
 
-use super::radiances::Pair;
+use super::radiances::Radiances;
 
 /// Most stops of an exposure.
 const MOST_STOPS: f64 = 16.0;
@@ -41,20 +41,20 @@ pub fn best_stops(pairs: &[[f32; 2]], epsilon: f64) -> f64 {
 }
 
 /// The best stops of all scenes, of each channel or of all together.
-pub(super) fn best_exposure(scenes: &[Vec<Pair>], epsilon: f64, per_channel: bool) -> [f64; 3] {
+pub(super) fn best_exposure(scenes: &[Vec<Radiances>], epsilon: f64, per_channel: bool) -> [f64; 3] {
     let of = |channels: &[usize]| {
         let pairs = scenes.iter().flatten();
-        let values = |[g, p]: &Pair| channels.iter().map(|&c| [g[c], p[c]]).collect::<Vec<_>>();
+        let values = |[g, p]: &Radiances| channels.iter().map(|&c| [g[c], p[c]]).collect::<Vec<_>>();
         best_stops(&pairs.flat_map(values).collect::<Vec<_>>(), epsilon)
     };
     if per_channel { [of(&[0]), of(&[1]), of(&[2])] } else { [of(&[0, 1, 2]); 3] }
 }
 
 /// The mean of `|ln(2^t p + epsilon) - ln(g + epsilon)|` in one scene, at the `stops` of each channel.
-pub(super) fn loss(pairs: &[Pair], stops: [f64; 3], epsilon: f64) -> f64 {
+pub(super) fn loss(pairs: &[Radiances], stops: [f64; 3], epsilon: f64) -> f64 {
     let factors = stops.map(|stops| stops.exp2() as f32);
     let epsilon = epsilon as f32;
-    let of_pair = |[g, p]: &Pair| {
+    let of_pair = |[g, p]: &Radiances| {
         (0..3).map(|c| f64::from(((factors[c] * p[c] + epsilon) / (g[c] + epsilon)).ln().abs())).sum::<f64>()
     };
     pairs.iter().map(of_pair).sum::<f64>() / (3 * pairs.len().max(1)) as f64
@@ -70,7 +70,8 @@ mod tests {
         let planted: Vec<_> = (0..600).map(|i| [radiance(i), 0.7 * radiance(i)]).collect();
         assert!((best_stops(&planted, 0.01) + 0.7_f64.log2()).abs() < 1e-5);
         let noise = |i: usize| 0.4 + 1.3 * (i * 71 % 97) as f32 / 97.0;
-        let noisy: Vec<Pair> = (0..600).map(|i| [[radiance(i); 3], [noise(i) * radiance(i); 3]]).collect();
+        let noisy: Vec<Radiances> =
+            (0..600).map(|i| [[radiance(i); 3], [noise(i) * radiance(i); 3]]).collect();
         let found = best_exposure(std::slice::from_ref(&noisy), 0.01, false)[0];
         let grid = (0..4000).map(|i| f64::from(i) / 1000.0 - 2.0);
         let least =

@@ -29,15 +29,18 @@ pub enum Hypothesis {
     NormalY,
     NormalX,
     AlbedoEncoding,
+    DiffuseEncoding,
     SpecularEncoding,
     Roughness,
     Channels,
     Energy,
+    /// Another reading of the ground truth.
+    GroundTruth,
 }
 
 impl Hypothesis {
     /// In the order of the lines.
-    const ALL: [Self; 13] = [
+    const ALL: [Self; 15] = [
         Self::Exposure,
         Self::ExposureRgb,
         Self::Shift,
@@ -47,16 +50,25 @@ impl Hypothesis {
         Self::NormalY,
         Self::NormalX,
         Self::AlbedoEncoding,
+        Self::DiffuseEncoding,
         Self::SpecularEncoding,
         Self::Roughness,
         Self::Channels,
         Self::Energy,
+        Self::GroundTruth,
     ];
 
-    /// The lines of a prediction that is stored so.
+    /// The lines of a prediction that is stored so: maps without an encoding that is known to be another one have no line for it.
     pub fn of(storage: &Storage) -> impl Iterator<Item = Self> {
+        let [colours, specular] =
+            [storage.colours, storage.specular].map(|transfer| !Storage::encodings(transfer).is_empty());
         let has_specular = !storage.base_colour;
-        Self::ALL.into_iter().filter(move |hypothesis| has_specular || *hypothesis != Self::SpecularEncoding)
+        Self::ALL.into_iter().filter(move |hypothesis| match hypothesis {
+            Self::AlbedoEncoding => colours && (specular || !has_specular),
+            Self::DiffuseEncoding => colours && has_specular,
+            Self::SpecularEncoding => specular && has_specular,
+            _ => true,
+        })
     }
 
     /// The name in reports.
@@ -71,10 +83,12 @@ impl Hypothesis {
             Self::NormalY => "normal_y",
             Self::NormalX => "normal_x",
             Self::AlbedoEncoding => "albedo_encoding",
+            Self::DiffuseEncoding => "diffuse_encoding",
             Self::SpecularEncoding => "specular_encoding",
             Self::Roughness => "roughness",
             Self::Channels => "channels",
             Self::Energy => "energy",
+            Self::GroundTruth => "ground_truth",
         }
     }
 
@@ -144,8 +158,15 @@ pub struct Finding {
     pub share_interval95: Option<[f64; 2]>,
     /// The probability of such a fall where there is none, corrected for the number of hypotheses (Holm); `None`: not tested.
     pub p: Option<f64>,
-    /// Whether the loss falls significantly and by at least 10%, also after the corrections of the marked findings with larger shares.
+    /// Whether the loss falls significantly and by at least 10% beside the corrections of the other marked findings. Never where
+    /// the loss is below the floor.
     pub marked: bool,
+    /// Whether the marked findings explain the whole loss, and no other change in place of this one does.
+    #[serde(skip)]
+    pub certain: bool,
+    /// Another change in place of this one that explains as much.
+    #[serde(skip)]
+    pub alternative: Option<Change>,
     /// The option of reading that corrects it; a report writes it as an option of the command line.
     #[serde(skip)]
     pub remedy: Option<Remedy>,
@@ -161,12 +182,36 @@ pub struct Diagnosis {
     pub prediction: String,
     /// Its loss over the scenes of the evaluation.
     pub loss: Estimate,
+    /// The part of the loss that disappears under all marked findings together; `None` without marks.
+    pub explained: Option<f64>,
     /// In the order of [`Hypothesis`].
     pub findings: Vec<Finding>,
     /// From single texels to the largest blocks.
     pub ladder: Vec<Rung>,
     /// Those of the prediction.
     pub seams: Vec<Seam>,
+}
+
+impl Finding {
+    /// The option that corrects the reading of the prediction.
+    pub fn remedy_of_prediction(&self) -> Option<Remedy> {
+        self.remedy.filter(|_| self.hypothesis != Hypothesis::GroundTruth)
+    }
+
+    /// What `--read` takes to correct the reading of the ground truth or of the prediction with these names.
+    pub fn statement(&self, names: [&str; 2]) -> Option<String> {
+        self.remedy.map(|remedy| remedy.statement(self.corrected(names)))
+    }
+
+    /// The same as an option of the command line.
+    pub fn command_option(&self, names: [&str; 2]) -> Option<String> {
+        self.remedy.map(|remedy| remedy.command_option(self.corrected(names)))
+    }
+
+    /// Which of the two is read otherwise.
+    fn corrected<'a>(&self, [ground_truth, prediction]: [&'a str; 2]) -> &'a str {
+        if self.hypothesis == Hypothesis::GroundTruth { ground_truth } else { prediction }
+    }
 }
 
 impl Diagnosis {

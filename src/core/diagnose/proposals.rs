@@ -4,16 +4,14 @@ use super::change::Change;
 use super::finding::{Hypothesis, Value};
 use super::reading::Reading;
 use super::remedy::Remedy;
-use super::shift::{candidates, interior};
-use super::storage::Storage;
+use super::shift::{Fit, candidates, interior};
+use super::storage::{Storage, Transfer};
 use super::symmetry::Symmetry;
 use super::trials::{Paired, Trials, mean};
 use crate::error::Error;
 
-/// Shifts that are confirmed by the loss.
-const SHIFTS: usize = 3;
-
 /// A hypothesis with the value that was fitted.
+#[derive(Clone, Debug)]
 pub(super) struct Proposal {
     pub(super) hypothesis: Hypothesis,
     pub(super) value: Value,
@@ -28,49 +26,76 @@ impl Proposal {
     }
 
     /// All hypotheses in the order of their lines, with the values that have the least loss in `pilot`; and the displacement by parts
-    /// of a texel.
-    pub(super) fn all(pilot: &Trials<'_>) -> Result<(Vec<Self>, Value), Error> {
-        let (shift, subtexel) = shift(pilot)?;
-        let first = [exposure(pilot, false)?, exposure(pilot, true)?, shift, symmetry(pilot)?];
-        let readings = readings(pilot.storage).into_iter();
-        let readings = readings.map(|(hypothesis, readings)| reading(pilot, hypothesis, &readings));
-        let all = first.into_iter().map(Ok).chain(readings).collect::<Result<_, Error>>()?;
+    /// of a texel. `fits` are those of the pair of `pilot`.
+    pub(super) fn all(pilot: &Trials<'_>, fits: &[Fit]) -> Result<(Vec<Self>, Value), Error> {
+        let (shift, subtexel) = shift(pilot, fits)?;
+        let fitted = |hypothesis| -> Result<Self, Error> {
+            Ok(Self::exposure(pilot.best_exposure(&[], hypothesis == Hypothesis::ExposureRgb)?, hypothesis))
+        };
+        let first =
+            [fitted(Hypothesis::Exposure)?, fitted(Hypothesis::ExposureRgb)?, shift, symmetry(pilot)?];
+        let mut all = first.to_vec();
+        for mut readings in Self::readings(pilot.pair.storages).into_iter().filter(|some| !some.is_empty()) {
+            let best = best(pilot, readings.iter().filter_map(|reading| reading.change))?;
+            all.push(readings.swap_remove(best));
+        }
         Ok((all, subtexel))
+    }
+
+    pub(super) fn exposure(stops: [f64; 3], hypothesis: Hypothesis) -> Self {
+        let value = match hypothesis {
+            Hypothesis::ExposureRgb => Value::Numbers(stops),
+            _ => Value::Number(stops[0]),
+        };
+        Self::new(hypothesis, value, Change::Exposure(stops))
+    }
+
+    pub(super) fn shift(shift: [i32; 2]) -> Self {
+        let value = Value::Displacement(shift.map(f64::from));
+        let change = (shift != [0, 0]).then_some(Change::Shift(shift));
+        Self { hypothesis: Hypothesis::Shift, value, change, remedy: None }
+    }
+
+    pub(super) fn symmetry(symmetry: Symmetry) -> Self {
+        Self::new(Hypothesis::Symmetry, Value::Name(symmetry.name()), Change::Symmetry(symmetry))
+    }
+
+    /// All readings by hypothesis, those of the ground truth last.
+    pub(super) fn readings([of_truth, of_prediction]: [&Storage; 2]) -> Vec<Vec<Self>> {
+        let one = |hypothesis: Hypothesis, reading: Reading| Self {
+            remedy: Remedy::of(of_prediction, reading),
+            ..Self::new(hypothesis, Value::Name(reading.name()), Change::Reading(reading))
+        };
+        let truth = |reading: Reading| Self {
+            remedy: Remedy::of(of_truth, reading),
+            ..Self::new(Hypothesis::GroundTruth, Value::Name(reading.words()), Change::GroundTruth(reading))
+        };
+        let prediction = readings(of_prediction)
+            .into_iter()
+            .map(|(hypothesis, readings)| readings.into_iter().map(|r| one(hypothesis, r)).collect());
+        let truths = readings(of_truth).into_iter().flat_map(|(_, readings)| readings).map(truth).collect();
+        prediction.chain([truths]).collect()
     }
 }
 
-fn exposure(pilot: &Trials<'_>, per_channel: bool) -> Result<Proposal, Error> {
-    let stops = pilot.best_exposure(&[], per_channel)?;
-    let (hypothesis, value) = match per_channel {
-        true => (Hypothesis::ExposureRgb, Value::Numbers(stops)),
-        false => (Hypothesis::Exposure, Value::Number(stops[0])),
-    };
-    Ok(Proposal::new(hypothesis, value, Change::Exposure(stops)))
-}
-
 fn symmetry(pilot: &Trials<'_>) -> Result<Proposal, Error> {
-    let mut symmetries: Vec<Symmetry> = Symmetry::of(pilot.ground_truth.size()).collect();
+    let mut symmetries: Vec<Symmetry> = Symmetry::of(pilot.pair.ground_truth.size()).collect();
     let best = best(pilot, symmetries.iter().map(|&symmetry| Change::Symmetry(symmetry)))?;
-    let symmetry = symmetries.swap_remove(best);
-    Ok(Proposal::new(Hypothesis::Symmetry, Value::Name(symmetry.name()), Change::Symmetry(symmetry)))
-}
-
-fn reading(pilot: &Trials<'_>, hypothesis: Hypothesis, readings: &[Reading]) -> Result<Proposal, Error> {
-    let reading = readings[best(pilot, readings.iter().map(|&reading| Change::Reading(reading)))?];
-    let proposal = Proposal::new(hypothesis, Value::Name(reading.name()), Change::Reading(reading));
-    Ok(Proposal { remedy: Remedy::of(pilot.storage, reading), ..proposal })
+    Ok(Proposal::symmetry(symmetries.swap_remove(best)))
 }
 
 /// The readings that are tried, by hypothesis.
 fn readings(storage: &Storage) -> Vec<(Hypothesis, Vec<Reading>)> {
-    let colours = Storage::encodings(storage.colours).iter().map(|&to| Reading::Colours(to));
-    let specular = Storage::encodings(storage.specular).iter().map(|&to| Reading::Specular(to));
+    let encodings = |of: Transfer, reading: fn(Transfer) -> Reading| {
+        Storage::encodings(of).iter().map(|&to| reading(to)).collect::<Vec<_>>()
+    };
     let energy = if storage.unscaled { Reading::Scaled } else { Reading::Unscaled };
     let all = vec![
         (Hypothesis::NormalY, vec![Reading::NormalY]),
         (Hypothesis::NormalX, vec![Reading::NormalX]),
-        (Hypothesis::AlbedoEncoding, colours.collect()),
-        (Hypothesis::SpecularEncoding, specular.collect()),
+        (Hypothesis::AlbedoEncoding, encodings(storage.colours, Reading::Colours)),
+        (Hypothesis::DiffuseEncoding, encodings(storage.colours, Reading::Diffuse)),
+        (Hypothesis::SpecularEncoding, encodings(storage.specular, Reading::Specular)),
         (Hypothesis::Roughness, vec![Reading::Gloss, Reading::RootOfRoughness, Reading::SquaredRoughness]),
         (Hypothesis::Channels, vec![Reading::RedBlue]),
         (Hypothesis::Energy, vec![energy]),
@@ -90,16 +115,16 @@ fn best(pilot: &Trials<'_>, changes: impl Iterator<Item = Change>) -> Result<usi
     Ok(least.map_or(0, |(index, _)| index))
 }
 
-/// The displacement of the prediction by whole texels, and that by parts of a texel.
-fn shift(pilot: &Trials<'_>) -> Result<(Proposal, Value), Error> {
-    let candidates = candidates(pilot.ground_truth, pilot.prediction, SHIFTS);
-    let fits = ratios(pilot, &candidates)?;
-    let least = candidates.into_iter().zip(fits).min_by(|a, b| a.1.total_cmp(&b.1));
+/// The displacement of the prediction by whole texels with the least loss, and that by parts of a texel.
+pub(super) fn shift(pilot: &Trials<'_>, fits: &[Fit]) -> Result<(Proposal, Value), Error> {
+    let candidates = candidates(fits);
+    let ratios = ratios(pilot, &candidates)?;
+    let least = candidates.into_iter().zip(ratios).min_by(|a, b| a.1.total_cmp(&b.1));
     let (shift, ratio) = least.filter(|(_, ratio)| *ratio < 1.0).unwrap_or(([0, 0], 1.0));
-    let value = Value::Displacement(shift.map(f64::from));
-    let change = (shift != [0, 0]).then_some(Change::Shift(shift));
-    let subtexel = subtexel(pilot, shift, ratio)?.map_or_else(|| value.clone(), Value::Displacement);
-    Ok((Proposal { hypothesis: Hypothesis::Shift, value, change, remedy: None }, subtexel))
+    let proposal = Proposal::shift(shift);
+    let subtexel = subtexel(pilot, shift, ratio)?;
+    let subtexel = subtexel.map_or_else(|| proposal.value.clone(), Value::Displacement);
+    Ok((proposal, subtexel))
 }
 
 /// The losses after shifts by the losses before, on the texels that both have.
@@ -120,6 +145,6 @@ fn subtexel(pilot: &Trials<'_>, [x, y]: [i32; 2], centre: f64) -> Result<Option<
         let curvature = before - 2.0 * centre + after;
         if curvature > 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
     };
-    let has_room = !interior(pilot.ground_truth.size(), [x.abs() + 1, y.abs() + 1]).is_empty();
+    let has_room = !interior(pilot.pair.ground_truth.size(), [x.abs() + 1, y.abs() + 1]).is_empty();
     Ok(has_room.then(|| [f64::from(x) + vertex(left, right), f64::from(y) + vertex(above, below)]))
 }

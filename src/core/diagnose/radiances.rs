@@ -13,7 +13,7 @@ use crate::progress::Progress;
 use crate::render::render_texel;
 
 /// Radiances of the ground truth and of the prediction, RGB each.
-pub(super) type Pair = [[f32; 3]; 2];
+pub(super) type Radiances = [[f32; 3]; 2];
 
 /// For each of the `scenes` of `sampling` the radiances on `count` random texels; on all where there are no more.
 pub(super) fn radiances(
@@ -24,7 +24,7 @@ pub(super) fn radiances(
     count: usize,
     convention: &Convention,
     progress: &Progress,
-) -> Result<Vec<Vec<Pair>>, Error> {
+) -> Result<Vec<Vec<Radiances>>, Error> {
     let [width, height] = ground_truth.size();
     let model = Model::from(convention);
     let available = corrected.texels.as_ref().map_or(width * height, Vec::len);

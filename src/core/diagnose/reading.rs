@@ -21,7 +21,9 @@ pub enum Reading {
     NormalX,
     /// Diffuse and specular in this encoding instead.
     Colours(Transfer),
-    /// Specular in this encoding instead.
+    /// Diffuse alone in this encoding instead.
+    Diffuse(Transfer),
+    /// Specular alone in this encoding instead.
     Specular(Transfer),
     /// r = 1 - c.
     Gloss,
@@ -42,8 +44,7 @@ impl Reading {
     pub fn name(self) -> &'static str {
         match self {
             Self::NormalY | Self::NormalX => "flipped",
-            Self::Colours(Transfer::Linear) | Self::Specular(Transfer::Linear) => "linear",
-            Self::Colours(_) | Self::Specular(_) => "srgb",
+            Self::Colours(to) | Self::Diffuse(to) | Self::Specular(to) => to.name(),
             Self::Gloss => "gloss",
             Self::RootOfRoughness => "root",
             Self::SquaredRoughness => "square",
@@ -59,8 +60,13 @@ impl Reading {
             Self::NormalY => "Y of normals flipped",
             Self::NormalX => "X of normals flipped",
             Self::Colours(Transfer::Linear) => "colours read as linear",
+            Self::Colours(Transfer::Gamma22) => "colours read as gamma 2.2",
             Self::Colours(_) => "colours read as sRGB",
+            Self::Diffuse(Transfer::Linear) => "diffuse read as linear",
+            Self::Diffuse(Transfer::Gamma22) => "diffuse read as gamma 2.2",
+            Self::Diffuse(_) => "diffuse read as sRGB",
             Self::Specular(Transfer::Linear) => "specular read as linear",
+            Self::Specular(Transfer::Gamma22) => "specular read as gamma 2.2",
             Self::Specular(_) => "specular read as sRGB",
             Self::Gloss => "1 - roughness",
             Self::RootOfRoughness => "root of roughness",
@@ -76,6 +82,11 @@ impl Reading {
     /// # Errors
     /// Those of [`Material::new`], which values of a material do not give.
     pub fn applied(self, material: &Material<f32>, storage: &Storage) -> Result<Material<f32>, Error> {
+        if storage.unscaled && matches!(self, Self::Colours(_) | Self::Diffuse(_) | Self::Specular(_)) {
+            let stored = Self::Scaled.applied(material, storage)?;
+            let read = self.applied(&stored, &Storage { unscaled: false, ..storage.clone() })?;
+            return Self::Unscaled.applied(&read, storage);
+        }
         let mut planes = material.planes().clone();
         match self {
             Self::NormalY => negate(&mut planes.normal[1]),
@@ -84,6 +95,9 @@ impl Reading {
             Self::Colours(to) => {
                 planes.diffuse.iter_mut().for_each(|plane| reencode(plane, storage.colours, to));
                 planes.specular.iter_mut().for_each(|plane| reencode(plane, storage.specular, to));
+            }
+            Self::Diffuse(to) => {
+                planes.diffuse.iter_mut().for_each(|plane| reencode(plane, storage.colours, to));
             }
             Self::Specular(to) => {
                 planes.specular.iter_mut().for_each(|plane| reencode(plane, storage.specular, to));
@@ -95,7 +109,7 @@ impl Reading {
                 planes.diffuse.swap(0, 2);
                 planes.specular.swap(0, 2);
             }
-            Self::Unscaled => scale(&mut planes, |d, s| if s < 1.0 { (d / (1.0 - s)).min(1.0) } else { 0.0 }),
+            Self::Unscaled => scale(&mut planes, |d, s| if d < 1.0 - s { d / (1.0 - s) } else { d.signum() }),
             Self::Scaled => scale(&mut planes, |d, s| d * (1.0 - s)),
         }
         Material::new(material.name(), material.width(), material.height(), planes)

@@ -1,4 +1,4 @@
-//! The options of reading that correct how a prediction is read.
+//! The options of reading that correct how a material is read.
 
 use std::fmt;
 
@@ -6,25 +6,29 @@ use super::reading::Reading;
 use super::storage::{Storage, Transfer};
 use crate::text::quoted;
 
-/// An option of reading with the name of the value that corrects a prediction.
+/// An option of reading with the name of the value that corrects a material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
     NormalY(&'static str),
-    Albedo(&'static str),
+    /// Of diffuse or base colour, and of specular where it has a map: `albedo` alone would change specular, too, unless an option or
+    /// a sidecar file specifies `specular-albedo`.
+    Albedo(&'static str, Option<&'static str>),
     SpecularAlbedo(&'static str),
     Roughness(&'static str),
     Energy(&'static str),
 }
 
 impl Remedy {
-    /// The option that reads a prediction, which was read from `storage`, in this reading; `None`: there is none.
+    /// The option that reads a material, which was read from `storage`, in this reading; `None`: there is none.
     pub(super) fn of(storage: &Storage, reading: Reading) -> Option<Self> {
         let present = storage.roughness.as_deref().unwrap_or("r");
-        let encoding = |transfer| if transfer == Transfer::Linear { "linear" } else { "srgb" };
+        let specular = |to: Transfer| (!storage.base_colour).then_some(to.name());
         match reading {
             Reading::NormalY => Some(Self::NormalY(if storage.normal_down { "up" } else { "down" })),
-            Reading::Colours(to) => Some(Self::Albedo(encoding(to))),
-            Reading::Specular(to) => Some(Self::SpecularAlbedo(encoding(to))),
+            Reading::Colours(to) => Some(Self::Albedo(to.name(), specular(to))),
+            Reading::Diffuse(_) if storage.specular == Transfer::Unknown => None,
+            Reading::Diffuse(to) => Some(Self::Albedo(to.name(), specular(storage.specular))),
+            Reading::Specular(to) => Some(Self::SpecularAlbedo(to.name())),
             Reading::Gloss if present == "gloss" => Some(Self::Roughness("r")),
             Reading::Gloss if present == "r" => Some(Self::Roughness("gloss")),
             Reading::RootOfRoughness if present == "r" => Some(Self::Roughness("alpha")),
@@ -48,33 +52,18 @@ impl Remedy {
     pub fn command_option(self, name: &str) -> String {
         format!("--read {}", quoted(&self.statement(name)))
     }
-
-    /// The name of the value.
-    pub fn value(self) -> &'static str {
-        match self {
-            Self::NormalY(value)
-            | Self::Albedo(value)
-            | Self::SpecularAlbedo(value)
-            | Self::Roughness(value)
-            | Self::Energy(value) => value,
-        }
-    }
-
-    /// The name of the option.
-    pub fn option(self) -> &'static str {
-        match self {
-            Self::NormalY(_) => "normal-y",
-            Self::Albedo(_) => "albedo",
-            Self::SpecularAlbedo(_) => "specular-albedo",
-            Self::Roughness(_) => "roughness",
-            Self::Energy(_) => "energy",
-        }
-    }
 }
 
-/// The option and its value, as `--read` and a sidecar file have them: `normal-y=down`.
+/// The options and their values, as `--read` has them: `normal-y=down`, `albedo=srgb,specular-albedo=linear`.
 impl fmt::Display for Remedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}={}", self.option(), self.value())
+        match self {
+            Self::NormalY(value) => write!(f, "normal-y={value}"),
+            Self::Albedo(value, None) => write!(f, "albedo={value}"),
+            Self::Albedo(value, Some(specular)) => write!(f, "albedo={value},specular-albedo={specular}"),
+            Self::SpecularAlbedo(value) => write!(f, "specular-albedo={value}"),
+            Self::Roughness(value) => write!(f, "roughness={value}"),
+            Self::Energy(value) => write!(f, "energy={value}"),
+        }
     }
 }

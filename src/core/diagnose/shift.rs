@@ -1,5 +1,7 @@
 //! Shifts by whole texels: the candidates by correlation of the maps.
 
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
 
 use crate::error::Error;
@@ -8,8 +10,9 @@ use crate::render::simd::tile::planes;
 
 /// Most texels of a shift in either direction.
 pub const MOST_SHIFT: usize = 8;
-/// Most rows that maps are correlated on.
-const ROWS: usize = 64;
+/// Most runs of texels that maps are correlated on, and texels of each.
+const RUNS: usize = 1024;
+const LENGTH: usize = 32;
 
 /// The material moved by (right, down) texels; what leaves on one side enters on the other.
 ///
@@ -41,71 +44,97 @@ pub(super) fn interior([width, height]: [usize; 2], [right, down]: [i32; 2]) -> 
     range(down, height).flat_map(|row| columns.clone().map(move |column| row * width + column)).collect()
 }
 
-/// The `count` displacements (right, down) of `prediction` from `ground_truth`, other than none, under which their maps correlate
-/// best: candidates.
-///
-/// The sum over all planes of Pearson's correlation coefficient on the texels that every shift leaves inside.
-pub(super) fn candidates(
-    ground_truth: &Material<f32>,
-    prediction: &Material<f32>,
-    count: usize,
-) -> Vec<[i32; 2]> {
-    let [width, height] = ground_truth.size();
-    let reach = |side: usize| MOST_SHIFT.min(side / 4);
-    let [reach_x, reach_y] = [reach(width), reach(height)];
-    let inside = height - 2 * reach_y;
-    let rows: Vec<usize> = (0..inside.min(ROWS)).map(|i| reach_y + i * inside / inside.min(ROWS)).collect();
-    let span = |by: usize| -> Vec<i32> { (-(by as i32)..=by as i32).collect() };
-    let all: Vec<[i32; 2]> = span(reach_y)
-        .into_iter()
-        .flat_map(|down| span(reach_x).into_iter().map(move |right| [right, down]))
-        .collect();
-    let columns = [reach_x, width - reach_x];
-    let pairs: Vec<_> = planes(ground_truth.planes()).zip(planes(prediction.planes())).collect();
-    let fit = |&[right, down]: &[i32; 2]| {
-        let one = |&(a, b): &(&[f32], &[f32])| correlation(a, b, width, &rows, columns, [right, down]);
-        pairs.iter().map(one).sum::<f64>()
-    };
-    let mut fits: Vec<(f64, [i32; 2])> =
-        all.par_iter().filter(|shift| **shift != [0, 0]).map(|shift| (fit(shift), *shift)).collect();
-    fits.sort_by(|a, b| b.0.total_cmp(&a.0));
-    fits.into_iter().take(count).map(|(_, shift)| shift).collect()
+/// How well the maps of a prediction correlate with those of a ground truth after a displacement (right, down).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fit {
+    pub(super) shift: [i32; 2],
+    /// The sum over all planes of the mean product of their values, normalized to mean 0 and standard deviation 1.
+    signed: f64,
+    /// The sum of its absolute value, which a reading that turns values over does not change.
+    pub(super) absolute: f64,
 }
 
-/// Pearson's coefficient of `a` with `b` moved back by `shift`; 0 where one of them is constant.
-fn correlation(
-    a: &[f32],
-    b: &[f32],
-    width: usize,
-    rows: &[usize],
-    [first, end]: [usize; 2],
-    [right, down]: [i32; 2],
-) -> f64 {
-    let (mut sums, mut count) = ([0.0_f64; 5], 0.0);
-    for &row in rows {
-        let moved =
-            ((row as i64 + i64::from(down)) * width as i64 + first as i64 + i64::from(right)) as usize;
-        let (a, b) = (&a[row * width + first..row * width + end], &b[moved..moved + end - first]);
-        let mut of_row = [[0.0_f32; 8]; 5];
-        let add = |sums: &mut [[f32; 8]; 5], lane: usize, x: f32, y: f32| {
-            for (sum, value) in sums.iter_mut().zip([x, y, x * x, y * y, x * y]) {
-                sum[lane] += value;
-            }
-        };
-        for (a, b) in a.chunks(8).zip(b.chunks(8)) {
-            for (lane, (&x, &y)) in a.iter().zip(b).enumerate() {
-                add(&mut of_row, lane, x, y);
-            }
-        }
-        for (sum, lanes) in sums.iter_mut().zip(of_row) {
-            *sum += lanes.iter().map(|&value| f64::from(value)).sum::<f64>();
-        }
-        count += a.len() as f64;
+/// The fits of all displacements within [`MOST_SHIFT`], on texels that each of them leaves inside: all, or random runs of them that
+/// `seed` names, the same for all displacements.
+pub(super) fn fits(ground_truth: &Material<f32>, prediction: &Material<f32>, seed: u64) -> Vec<Fit> {
+    let size = ground_truth.size();
+    let reach = size.map(|side| MOST_SHIFT.min(side / 4));
+    let runs = runs(size, reach, seed);
+    let span = |by: usize| -(by as i32)..=by as i32;
+    let all: Vec<[i32; 2]> =
+        span(reach[1]).flat_map(|down| span(reach[0]).map(move |right| [right, down])).collect();
+    let pairs = planes(ground_truth.planes()).zip(planes(prediction.planes()));
+    let pairs: Vec<_> = pairs.filter_map(|(a, b)| normalized(a).zip(normalized(b))).collect();
+    let fit = |&shift: &[i32; 2]| {
+        let by = i64::from(shift[1]) * size[0] as i64 + i64::from(shift[0]);
+        let of_planes: Vec<f64> = pairs.iter().map(|(a, b)| correlation(a, b, &runs, by)).collect();
+        let absolute = of_planes.iter().map(|fit| fit.abs()).sum();
+        Fit { shift, signed: of_planes.iter().sum(), absolute }
+    };
+    all.par_iter().map(fit).collect()
+}
+
+/// The two displacements other than none with the best fits, and the two with the best fits by absolute values.
+pub(super) fn candidates(fits: &[Fit]) -> Vec<[i32; 2]> {
+    let best = |of: fn(&Fit) -> f64| {
+        let mut moved: Vec<&Fit> = fits.iter().filter(|fit| fit.shift != [0, 0]).collect();
+        moved.sort_by(|a, b| of(b).total_cmp(&of(a)));
+        moved.into_iter().take(2).map(|fit| fit.shift).collect::<Vec<_>>()
+    };
+    let mut all = [best(|fit| fit.signed), best(|fit| fit.absolute)].concat();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// Runs of texels, as their first one and the one after their last one, that displacements within `reach` leave inside: whole rows
+/// where these are few.
+fn runs([width, height]: [usize; 2], reach: [usize; 2], seed: u64) -> Vec<[usize; 2]> {
+    let [columns, rows] = [width - 2 * reach[0], height - 2 * reach[1]];
+    let run = |column: usize, row: usize, length: usize| {
+        let first = (row + reach[1]) * width + reach[0] + column;
+        [first, first + length]
+    };
+    if columns * rows <= RUNS * LENGTH {
+        return (0..rows).map(|row| run(0, row, columns)).collect();
     }
-    let [x, y, xx, yy, xy] = sums.map(|sum| sum / count);
-    let variances = (xx - x * x) * (yy - y * y);
+    let mut generator = ChaCha8Rng::seed_from_u64(seed);
+    let length = LENGTH.min(columns);
+    let random =
+        |_| run(generator.random_range(0..=columns - length), generator.random_range(0..rows), length);
+    (0..RUNS).map(random).collect()
+}
+
+/// The plane with mean 0 and standard deviation 1; `None` where it is constant.
+fn normalized(plane: &[f32]) -> Option<Vec<f32>> {
+    let count = plane.len() as f64;
+    let mean = plane.iter().map(|&x| f64::from(x)).sum::<f64>() / count;
+    let variance = plane.iter().map(|&x| (f64::from(x) - mean).powi(2)).sum::<f64>() / count;
     // Below this, the difference is rounding.
-    if variances > 1e-14 { (xy - x * y) / variances.sqrt() } else { 0.0 }
+    (variance > 1e-9)
+        .then(|| plane.iter().map(|&x| ((f64::from(x) - mean) / variance.sqrt()) as f32).collect())
+}
+
+/// The mean over `runs` of the product of `a` with `b` moved back by `by` texels.
+fn correlation(a: &[f32], b: &[f32], runs: &[[usize; 2]], by: i64) -> f64 {
+    let of_run = |&[first, end]: &[usize; 2]| {
+        let moved = (first as i64 + by) as usize;
+        f64::from(product(&a[first..end], &b[moved..moved + end - first]))
+    };
+    let count: usize = runs.iter().map(|[first, end]| end - first).sum();
+    runs.iter().map(of_run).sum::<f64>() / count.max(1) as f64
+}
+
+/// The scalar product.
+fn product(a: &[f32], b: &[f32]) -> f32 {
+    let ((a, rest_a), (b, rest_b)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    let mut lanes = [0.0_f32; 8];
+    for (a, b) in a.iter().zip(b) {
+        for lane in 0..8 {
+            lanes[lane] += a[lane] * b[lane];
+        }
+    }
+    lanes.iter().sum::<f32>() + rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum::<f32>()
 }
 
 #[cfg(test)]

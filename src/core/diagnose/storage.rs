@@ -20,6 +20,16 @@ pub enum Transfer {
 }
 
 impl Transfer {
+    /// Its name as a value of an option of reading.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Gamma22 => "gamma2.2",
+            Self::Srgb | Self::Unknown => "srgb",
+            Self::Other => "log",
+        }
+    }
+
     /// The stored value of a linear one, both in [0, 1]; unknown encodings count as linear.
     pub(super) fn encode(self, value: f32) -> f32 {
         match self {
@@ -86,12 +96,14 @@ impl Default for Storage {
 }
 
 impl Storage {
-    /// The other readings of colours; those of one encoding only where the present one is known.
+    /// The other encodings in which colours may be stored; none where values of the present one cannot be encoded again.
     pub(super) fn encodings(transfer: Transfer) -> &'static [Transfer] {
         match transfer {
             Transfer::Unknown => &[Transfer::Linear, Transfer::Srgb],
-            Transfer::Linear => &[Transfer::Srgb],
-            Transfer::Srgb | Transfer::Gamma22 | Transfer::Other => &[Transfer::Linear],
+            Transfer::Linear => &[Transfer::Srgb, Transfer::Gamma22],
+            Transfer::Srgb => &[Transfer::Linear, Transfer::Gamma22],
+            Transfer::Gamma22 => &[Transfer::Linear, Transfer::Srgb],
+            Transfer::Other => &[],
         }
     }
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::change::Change;
 use super::corrected::Corrected;
 use super::exposure;
-use super::radiances::{Pair, radiances};
+use super::radiances::{Radiances, radiances};
 use super::storage::Storage;
 use crate::error::Error;
 use crate::loss::{Comparison, Compute as _, Request, Sampling, Texels};
@@ -20,11 +20,18 @@ const MOST_BYTES: usize = 1 << 30;
 /// Texels of a scene whose radiances are compared one by one, for exposures.
 const RADIANCES: usize = 1024;
 
-/// A prediction, and the scenes that changes of it are tried in.
-pub(super) struct Trials<'a> {
+/// A ground truth and a prediction, and how each is stored.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair<'a> {
     pub(super) ground_truth: &'a Material<f32>,
     pub(super) prediction: &'a Material<f32>,
-    pub(super) storage: &'a Storage,
+    /// Of the ground truth and of the prediction.
+    pub(super) storages: [&'a Storage; 2],
+}
+
+/// A pair, and the scenes that changes of it are tried in.
+pub(super) struct Trials<'a> {
+    pub(super) pair: Pair<'a>,
     pub(super) convention: &'a Convention,
     pub(super) sampling: Sampling,
     /// Most texels of a scene.
@@ -47,25 +54,25 @@ pub(super) fn mean(values: &[f64]) -> f64 {
 
 impl<'a> Trials<'a> {
     pub(super) fn new(
-        [ground_truth, prediction]: [&'a Material<f32>; 2],
-        storage: &'a Storage,
+        pair: Pair<'a>,
         convention: &'a Convention,
         [near, distant, texels]: [usize; 3],
         seed: u64,
         progress: &'a Progress,
     ) -> Result<Self, Error> {
         // Texels that are listed take far longer than whole maps.
-        let is_whole = ground_truth.width() * ground_truth.height() <= texels;
+        let is_whole = pair.ground_truth.width() * pair.ground_truth.height() <= texels;
         let texels = if is_whole { texels } else { texels / 8 };
         let sampling =
             Sampling { near, distant, seed, sampler: Sampler::Sobol, texels: Texels::Sampled(texels) };
         let scenes = sampling.scenes(convention)?;
-        Ok(Self { ground_truth, prediction, storage, convention, sampling, texels, scenes, progress })
+        Ok(Self { pair, convention, sampling, texels, scenes, progress })
     }
 
     /// The losses under each of `trials`.
     pub(super) fn losses(&self, trials: &[Vec<Change>]) -> Result<Vec<Paired>, Error> {
-        let bytes = 10 * size_of::<f32>() * self.ground_truth.width() * self.ground_truth.height();
+        let [width, height] = self.pair.ground_truth.size();
+        let bytes = 10 * size_of::<f32>() * width * height;
         let mut losses = Vec::new();
         for trials in trials.chunks((MOST_BYTES / bytes.max(1)).max(1)) {
             let corrected = trials.iter().map(|changes| self.corrected(changes));
@@ -74,22 +81,28 @@ impl<'a> Trials<'a> {
         Ok(losses)
     }
 
+    /// The losses without changes.
+    pub(super) fn unchanged(&self) -> Result<Paired, Error> {
+        let mut losses = self.on_all_texels(self.pair.ground_truth, &[self.pair.prediction])?;
+        let losses = losses.pop().unwrap_or_default();
+        Ok(Paired { before: losses.clone(), after: losses })
+    }
+
     fn corrected(&self, changes: &[Change]) -> Result<Corrected, Error> {
-        Corrected::new(self.prediction, changes, self.storage)
+        Corrected::new(&self.pair, changes)
     }
 
     fn of_corrected(&self, corrected: &[Corrected]) -> Result<Vec<Paired>, Error> {
-        let whole: Vec<&Material<f32>> =
-            corrected.iter().filter(|one| one.texels.is_none()).map(|one| &one.material).collect();
-        let materials: Vec<_> = std::iter::once(self.prediction).chain(whole).collect();
-        let comparison = Comparison::new(self.ground_truth, &materials, *self.convention)?.without_pilot();
-        let outcome = comparison.run(&Request::Scenes(self.sampling), &self.progress.part())?;
-        let mut losses = outcome.losses.into_iter().map(|loss| loss.per_scene);
+        let is_whole = |one: &&Corrected| one.texels.is_none() && one.ground_truth.is_none();
+        let whole = corrected.iter().filter(is_whole).map(|one| &one.material);
+        let materials: Vec<_> = std::iter::once(self.pair.prediction).chain(whole).collect();
+        let mut losses = self.on_all_texels(self.pair.ground_truth, &materials)?.into_iter();
         let before = losses.next().unwrap_or_default();
         let one = |corrected: &Corrected| {
-            let paired = match &corrected.texels {
-                Some(texels) => self.on_texels(&corrected.material, texels)?,
-                None => Paired { before: before.clone(), after: losses.next().unwrap_or_default() },
+            let whole = if is_whole(&corrected) { losses.next() } else { None };
+            let paired = match whole {
+                Some(after) => Paired { before: before.clone(), after },
+                None => self.alone(corrected, &before)?,
             };
             match corrected.stops {
                 Some(stops) => self.exposed(paired, corrected, stops),
@@ -99,14 +112,51 @@ impl<'a> Trials<'a> {
         corrected.iter().map(one).collect()
     }
 
-    /// On a part of the texels: in each scene on those of its subset that are among `texels`, which are in order. Trials of other parts
-    /// are compared on the same subset. A scene without any has a loss of 0.
-    fn on_texels(&self, material: &Material<f32>, texels: &[usize]) -> Result<Paired, Error> {
-        let materials = [self.prediction, material];
-        let comparison = Comparison::new(self.ground_truth, &materials, *self.convention)?;
+    /// On a part of the texels, or against another ground truth.
+    fn alone(&self, corrected: &Corrected, before: &[f64]) -> Result<Paired, Error> {
+        let Pair { ground_truth, prediction, .. } = self.pair;
+        let changed = corrected.ground_truth.as_ref().unwrap_or(ground_truth);
+        let losses = match &corrected.texels {
+            None => {
+                let after = self.on_all_texels(changed, &[&corrected.material])?;
+                [vec![before.to_vec()], after].concat()
+            }
+            Some(texels) if corrected.ground_truth.is_none() => {
+                self.on_texels(changed, &[prediction, &corrected.material], texels)?
+            }
+            Some(texels) => [
+                self.on_texels(ground_truth, &[prediction], texels)?,
+                self.on_texels(changed, &[&corrected.material], texels)?,
+            ]
+            .concat(),
+        };
+        let mut losses = losses.into_iter();
+        Ok(Paired { before: losses.next().unwrap_or_default(), after: losses.next().unwrap_or_default() })
+    }
+
+    /// The losses of each scene, of each prediction.
+    fn on_all_texels(
+        &self,
+        ground_truth: &Material<f32>,
+        predictions: &[&Material<f32>],
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let comparison = Comparison::new(ground_truth, predictions, *self.convention)?.without_pilot();
+        let outcome = comparison.run(&Request::Scenes(self.sampling), &self.progress.part())?;
+        Ok(outcome.losses.into_iter().map(|loss| loss.per_scene).collect())
+    }
+
+    /// The same on a part of the texels: in each scene on those of its subset that are among `texels`, which are in order. Trials of
+    /// other parts are compared on the same subset. A scene without any has a loss of 0.
+    fn on_texels(
+        &self,
+        ground_truth: &Material<f32>,
+        predictions: &[&Material<f32>],
+        texels: &[usize],
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let comparison = Comparison::new(ground_truth, predictions, *self.convention)?;
         let progress = self.progress.part();
         let of_scenes = |scenes: &[Scene], some: &[usize]| match some {
-            [] => Ok(vec![vec![0.0; scenes.len()]; materials.len()]),
+            [] => Ok(vec![vec![0.0; scenes.len()]; predictions.len()]),
             some => f32::cpu().scene_losses(&comparison, scenes, Some(some), &Progress::default()),
         };
         progress.begin(self.scenes.len() as u64);
@@ -115,12 +165,12 @@ impl<'a> Trials<'a> {
             let losses = of_scenes(std::slice::from_ref(scene), &subset.collect::<Vec<_>>())?;
             progress.step().map(|()| losses)
         };
-        let losses = match self.sampling.texels.sampled(self.ground_truth.size()) {
+        let losses = match self.sampling.texels.sampled(ground_truth.size()) {
             None => vec![of_scenes(&self.scenes, texels)?],
             Some(_) => self.scenes.par_iter().enumerate().map(of_scene).collect::<Result<Vec<_>, _>>()?,
         };
         let of = |place: usize| losses.iter().flat_map(|losses| losses[place].iter().copied()).collect();
-        Ok(Paired { before: of(0), after: of(1) })
+        Ok((0..predictions.len()).map(of).collect())
     }
 
     /// The independent random subset of the texels that a scene is compared on.
@@ -128,13 +178,13 @@ impl<'a> Trials<'a> {
         let Sampling { near, seed, sampler, .. } = self.sampling;
         let kind = self.scenes[number].kind;
         let index = if kind == Kind::Near { number } else { number - near };
-        sampler.texels(seed, kind, index, self.texels, self.ground_truth.size())
+        sampler.texels(seed, kind, index, self.texels, self.pair.ground_truth.size())
     }
 
     /// Adds what an exposure changes on random texels of each scene.
     fn exposed(&self, paired: Paired, corrected: &Corrected, stops: [f64; 3]) -> Result<Paired, Error> {
         let epsilon = self.convention.epsilon;
-        let change = |pairs: &Vec<Pair>| {
+        let change = |pairs: &Vec<Radiances>| {
             exposure::loss(pairs, stops, epsilon) - exposure::loss(pairs, [0.0; 3], epsilon)
         };
         let changes = self.radiances(corrected)?;
@@ -142,14 +192,14 @@ impl<'a> Trials<'a> {
         Ok(Paired { after, ..paired })
     }
 
-    fn radiances(&self, corrected: &Corrected) -> Result<Vec<Vec<Pair>>, Error> {
+    fn radiances(&self, corrected: &Corrected) -> Result<Vec<Vec<Radiances>>, Error> {
         let progress = self.progress.part();
         radiances(
-            self.ground_truth,
+            corrected.ground_truth.as_ref().unwrap_or(self.pair.ground_truth),
             corrected,
             &self.sampling,
             &self.scenes,
-            RADIANCES,
+            RADIANCES.min(self.texels),
             self.convention,
             &progress,
         )

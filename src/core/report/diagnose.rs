@@ -49,7 +49,7 @@ impl DiagnoseReport {
     fn text_of(&self, diagnosis: &Diagnosis) -> String {
         let [mean, _, interval] = diagnosis.loss.texts();
         let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(diagnosis.findings.iter().map(|finding| row(finding, &diagnosis.prediction)));
+        rows.extend(diagnosis.findings.iter().map(|finding| row(finding, self.names(diagnosis))));
         let mut rungs = vec![RUNGS.map(str::to_owned).to_vec()];
         rungs.extend(diagnosis.ladder.iter().map(|rung: &Rung| {
             let [truth, prediction] = rung.roughness.map(|roughness| format!("{roughness:.4}"));
@@ -65,14 +65,21 @@ impl DiagnoseReport {
         )
     }
 
+    /// The names of the ground truth and of the prediction.
+    fn names<'a>(&'a self, diagnosis: &'a Diagnosis) -> [&'a str; 2] {
+        [&self.compared.ground_truth, &diagnosis.prediction]
+    }
+
     fn entry<'a>(&self, diagnosis: &'a Diagnosis) -> DiagnosisEntry<'a> {
-        let Diagnosis { prediction, loss, findings, ladder, seams } = diagnosis;
+        let Diagnosis { prediction, loss, explained, findings, ladder, seams } = diagnosis;
+        let names = self.names(diagnosis);
         DiagnosisEntry {
             prediction,
             sentence: sentence(diagnosis, Some(&self.floor)),
             loss: *loss,
             resolvable: loss.mean > self.floor.mean,
-            findings: findings.iter().map(|finding| FindingEntry::new(finding, prediction)).collect(),
+            explained: *explained,
+            findings: findings.iter().map(|finding| FindingEntry::new(finding, names)).collect(),
             ladder,
             seams,
         }
@@ -107,8 +114,8 @@ fn cell(value: &Value) -> Cell {
     }
 }
 
-/// A line of the table of `prediction`.
-fn row(finding: &Finding, prediction: &str) -> Vec<String> {
+/// A line of the table of the ground truth and the prediction with these names.
+fn row(finding: &Finding, names: [&str; 2]) -> Vec<String> {
     let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6}"));
     let interval =
         finding.interval95.map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
@@ -120,11 +127,10 @@ fn row(finding: &Finding, prediction: &str) -> Vec<String> {
         number(finding.loss),
         interval,
         finding.share.map_or_else(|| "-".to_owned(), |share| format!("{:.1}%", 100.0 * share)),
-        finding
-            .remedy
-            .filter(|_| finding.marked)
-            .map(|remedy| remedy.command_option(prediction))
-            .unwrap_or_default(),
+        match finding.marked {
+            true => finding.command_option(names).unwrap_or_else(|| "none".to_owned()),
+            false => String::new(),
+        },
     ]
 }
 
@@ -159,7 +165,7 @@ impl Report for DiagnoseReport {
                 share_high,
                 finding.p.into(),
                 finding.marked.into(),
-                finding.remedy.map(|remedy| remedy.statement(&diagnosis.prediction)).into(),
+                finding.statement(self.names(diagnosis)).into(),
             ]
         };
         let all = self.diagnoses.iter();
@@ -188,6 +194,7 @@ struct DiagnosisEntry<'a> {
     loss: Estimate,
     /// Whether the loss is above the floor.
     resolvable: bool,
+    explained: Option<f64>,
     findings: Vec<FindingEntry<'a>>,
     ladder: &'a [Rung],
     seams: &'a [Seam],
@@ -216,7 +223,7 @@ struct FindingEntry<'a> {
 }
 
 impl<'a> FindingEntry<'a> {
-    fn new(finding: &'a Finding, prediction: &str) -> Self {
-        Self { finding, remedy: finding.remedy.map(|remedy| remedy.statement(prediction)) }
+    fn new(finding: &'a Finding, names: [&str; 2]) -> Self {
+        Self { finding, remedy: finding.statement(names) }
     }
 }

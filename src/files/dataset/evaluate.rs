@@ -74,7 +74,7 @@ impl Run<'_> {
         for candidate in &case.candidates {
             let opened = self.open(candidate, &truth);
             read.push((candidate.path.clone(), opened.files.clone()));
-            predictions.push(self.prediction(candidate, &truth, opened, seed)?);
+            predictions.push(self.prediction(candidate, &truth, opened, floor.unwrap_or(0.0), seed)?);
         }
         let (index, material) = (case.index, case.material.clone());
         let result = MaterialResult { index, material, seed, reading: truth.remarks, floor, predictions };
@@ -97,18 +97,19 @@ impl Run<'_> {
         Opened { found, ..opened }
     }
 
-    /// The result of a prediction.
+    /// The result of a prediction; `floor` is that of the ground truth.
     fn prediction(
         &self,
         candidate: &Candidate,
         truth: &Opened,
         opened: Opened,
+        floor: f64,
         seed: u64,
     ) -> Result<PredictionResult, Error> {
         let pair = truth.found.as_ref().ok().zip(opened.found.as_ref().ok());
         let metrics = pair.filter(|_| self.settings.metrics).map(metrics).unwrap_or_default();
         let marks = pair.filter(|_| self.settings.diagnose);
-        let marks = marks.map(|pair| self.marks(pair, seed)).transpose()?;
+        let marks = marks.map(|pair| self.marks(pair, floor, seed)).transpose()?;
         let loss = pair.map(|pair| self.loss(pair, seed)).transpose()?;
         let result = match (loss, opened.found) {
             (Some(loss), _) => Ok(loss),
@@ -151,11 +152,11 @@ impl Run<'_> {
         Ok(truth.map(of).transpose()?.map(|floor| floor.mean))
     }
 
-    /// The marks of the diagnosis of a prediction.
-    fn marks(&self, (truth, prediction): Pair<'_>, seed: u64) -> Result<Vec<Mark>, Error> {
-        let OpenedMaterial { material, storage } = prediction;
-        let progress = self.progress.part();
-        let found = diagnose(&truth.material, material, storage, &self.convention, seed, &progress)?;
+    /// The marks of the diagnosis of a prediction; none where its loss is below `floor`.
+    fn marks(&self, (truth, prediction): Pair<'_>, floor: f64, seed: u64) -> Result<Vec<Mark>, Error> {
+        let pair = [&truth.material, &prediction.material];
+        let storages = [&truth.storage, &prediction.storage];
+        let found = diagnose(pair, storages, &self.convention, floor, seed, &self.progress.part())?;
         Ok(found.marked().map(Mark::from).collect())
     }
 }

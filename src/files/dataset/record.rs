@@ -204,7 +204,8 @@ pub struct Mark {
     pub value: serde_json::Value,
     /// The part of the loss that disappears under the hypothesis.
     pub share: f64,
-    /// The option that corrects the reading, as `--read` has it after the name of the method: `normal-y=down`.
+    /// The options that correct the reading, as `--read` has them after the name of the method: `normal-y=down`; after that of the ground
+    /// truths where `hypothesis` is "ground_truth".
     pub remedy: Option<String>,
 }
 

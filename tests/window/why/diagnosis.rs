@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use svbrdf::viewer::model::command::WhyCommand;
 use svbrdf::viewer::model::settings::why::WhySection;
-use svbrdf_core::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose};
+use svbrdf_core::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
 use svbrdf_files::read::{NormalY, Order, ReadOptions};
 use svbrdf_files::samples::generate;
 
@@ -93,9 +93,11 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_predictio
     let (_folder, mut window) = on_files();
     let found = wait_for_diagnosis(&mut window);
     let materials: Vec<Material<f32>> = window.state().materials().cloned().collect();
-    let storage = window.state().parts.model.materials.all[1].read.storage.clone();
-    let expected =
-        diagnose(&materials[0], &materials[1], &storage, &PRINTED, 0, &Progress::default()).unwrap();
+    let storages =
+        [0, 1].map(|index: usize| window.state().parts.model.materials.all[index].read.storage.clone());
+    let floor = floor(&materials[0], &storages[0], &PRINTED, 0, &Progress::default()).unwrap().mean;
+    let pair = [&materials[0], &materials[1]];
+    let expected = diagnose(pair, storages.each_ref(), &PRINTED, floor, 0, &Progress::default()).unwrap();
     assert_eq!(found, expected);
     let marked: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
     assert_eq!(marked, [Hypothesis::NormalY]);

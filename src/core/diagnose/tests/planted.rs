@@ -1,6 +1,6 @@
 //! Each error planted alone: it is found with its value, and the rest of the table stays unmarked.
 
-use super::super::shift::{interior, shifted};
+use super::super::shift::{candidates, fits, interior, shifted};
 use super::super::{Diagnosis, Hypothesis, Reading, Storage, Symmetry, Transfer, Value, diagnose, sentence};
 use super::materials::{generated, unexplained, with};
 use crate::loss::{Comparison, Compute as _};
@@ -13,7 +13,7 @@ use crate::progress::Progress;
 const SIDE: usize = 48;
 
 fn found(truth: &Material<f32>, prediction: &Material<f32>, storage: &Storage) -> Diagnosis {
-    diagnose(truth, prediction, storage, &PRINTED, 1, &Progress::default()).unwrap()
+    diagnose([truth, prediction], [storage; 2], &PRINTED, 0.0, 1, &Progress::default()).unwrap()
 }
 
 /// The only marked finding.
@@ -133,7 +133,7 @@ fn encodings_of_colours() {
             let found = found(&truth, &wrong, read_as);
             assert_eq!(only(&found), (Hypothesis::AlbedoEncoding, Value::Name(name)), "material {seed}");
             let remedy = found.marked().next().unwrap().remedy.map(|remedy| remedy.to_string());
-            assert_eq!(remedy, Some(format!("albedo={name}")));
+            assert_eq!(remedy, Some(format!("albedo={name},specular-albedo={name}")));
         }
     }
 }
@@ -164,7 +164,7 @@ fn nothing_is_marked_without_an_error_or_with_others() {
     assert!(same.marked().next().is_none() && same.loss.mean == 0.0);
     assert_eq!(sentence(&same, None), "The prediction equals the ground truth.");
     for storage in [Storage::default(), Storage { base_colour: true, ..Storage::default() }] {
-        let found = diagnose(&truth, &truth, &storage, &PRINTED, 1, &Progress::default()).unwrap();
+        let found = found(&truth, &truth, &storage);
         let lines: Vec<_> = found.findings.iter().map(|finding| finding.hypothesis).collect();
         assert_eq!(lines, Hypothesis::of(&storage).collect::<Vec<_>>());
     }
@@ -186,4 +186,89 @@ fn two_errors_are_found_at_once() {
     let found = found(&truth, &both, &read_as_linear);
     let marked: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
     assert_eq!(marked, [Hypothesis::AlbedoEncoding, Hypothesis::NormalY]);
+}
+
+/// A quarter of the rows, every fourth one, is displaced otherwise: a regular subset of 64 rows of these maps would have been this quarter.
+#[test]
+fn a_shift_is_that_of_most_rows() {
+    let (side, columns) = (272, 272);
+    let truth = generated(0, side);
+    let [mut moved, other] = [[2, 0], [5, 0]].map(|shift| shifted(&truth, shift).unwrap());
+    moved = with(&moved, |planes| {
+        let from = other.planes();
+        let maps = [&mut planes.normal, &mut planes.diffuse, &mut planes.specular];
+        let others = [&from.normal, &from.diffuse, &from.specular];
+        let planes = maps.into_iter().flatten().chain([&mut planes.roughness]);
+        let others = others.into_iter().flatten().chain([&from.roughness]);
+        for (plane, other) in planes.zip(others) {
+            let rows = plane.chunks_mut(columns).zip(other.chunks(columns)).step_by(4);
+            rows.for_each(|(row, other)| row.copy_from_slice(other));
+        }
+    });
+    let found = candidates(&fits(&truth, &moved, 1));
+    assert!(found.contains(&[2, 0]), "{found:?}");
+}
+
+/// Diffuse and specular are stored in sRGB; one of them, or one of those of the ground truth, is read as linear.
+#[test]
+fn a_map_in_another_encoding_is_found_alone_and_on_either_side() {
+    let encoded = Storage { colours: Transfer::Srgb, specular: Transfer::Srgb, ..Storage::default() };
+    let [diffuse, specular] = [Reading::Diffuse(Transfer::Linear), Reading::Specular(Transfer::Linear)];
+    let wrong_diffuse = Storage { colours: Transfer::Linear, ..encoded.clone() };
+    let wrong_specular = Storage { specular: Transfer::Linear, ..encoded.clone() };
+    for (seed, error, read_as, hypothesis, remedy) in [
+        (0, diffuse, &wrong_diffuse, Hypothesis::DiffuseEncoding, "albedo=srgb,specular-albedo=srgb"),
+        (2, diffuse, &wrong_diffuse, Hypothesis::DiffuseEncoding, "albedo=srgb,specular-albedo=srgb"),
+        (1, specular, &wrong_specular, Hypothesis::SpecularEncoding, "specular-albedo=srgb"),
+    ] {
+        let truth = generated(seed, SIDE);
+        let wrong = error.applied(&truth, &encoded).unwrap();
+        let of_prediction = found(&truth, &wrong, read_as);
+        assert_eq!(only(&of_prediction), (hypothesis, Value::Name("srgb")), "material {seed}");
+        // The ground truth is read wrongly, and noise tells that the prediction is not.
+        let pair = [&wrong, &truth];
+        let of_truth = diagnose(pair, [read_as, &encoded], &PRINTED, 0.0, 1, &Progress::default()).unwrap();
+        let marked: Vec<_> = of_truth.marked().collect();
+        assert!(marked.len() == 1 && marked[0].share.unwrap() > 0.99, "{marked:#?}");
+        let option = marked[0].command_option(["gt", "ours"]);
+        let text = sentence(&of_truth, None);
+        let names_truth = option.as_ref().is_some_and(|option| *option == format!("--read gt:{remedy}"));
+        assert!(
+            names_truth || text.contains("probably") && text.contains("ground truth"),
+            "{text} {option:?}"
+        );
+    }
+}
+
+#[test]
+fn nothing_is_marked_below_the_floor() {
+    let truth = generated(0, SIDE);
+    let flipped = Reading::NormalY.applied(&truth, &Storage::default()).unwrap();
+    let marks = |floor: f64| {
+        let found =
+            diagnose([&truth, &flipped], [&Storage::default(); 2], &PRINTED, floor, 1, &Progress::default());
+        let found = found.unwrap();
+        (found.marked().count(), found.loss.mean)
+    };
+    let (count, loss) = marks(0.0);
+    assert_eq!(count, 1);
+    assert_eq!([marks(0.5 * loss).0, marks(1.1 * loss).0], [1, 0]);
+}
+
+/// What is left is noise: no exposure is named without "probably", and a cause that either side may have is not, either.
+#[test]
+fn a_cause_is_certain_only_where_nothing_else_explains_as_much() {
+    let truth = generated(0, SIDE);
+    let linear = Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
+    let text =
+        |error: Reading| sentence(&found(&truth, &error.applied(&truth, &linear).unwrap(), &linear), None);
+    let gloss = text(Reading::Gloss);
+    assert!(
+        gloss.contains("the file probably holds glossiness. Another change that explains as much"),
+        "{gloss}"
+    );
+    let x = text(Reading::NormalX);
+    assert!(x.contains("No option corrects this reading"), "{x}");
+    let swapped = text(Reading::RedBlue);
+    assert!(swapped.contains("No option corrects this reading"), "{swapped}");
 }

@@ -1,6 +1,6 @@
 //! False marks and the coverage of intervals: long, so ignored unless asked for.
 
-use super::super::trials::{Trials, mean};
+use super::super::trials::{Pair, Trials, mean};
 use super::super::{Change, Diagnosis, Finding, Hypothesis, Storage, Value, diagnose, shifted};
 use super::materials::{generated, unexplained, with};
 use crate::loss::{Comparison, Request, Sampling};
@@ -18,8 +18,15 @@ fn at_most_5_percent_of_unexplained_pairs_have_a_mark() {
     let mark = |seed: u64| {
         let truth = generated(seed, SIDE);
         let prediction = unexplained(&truth, seed / 3);
-        let found =
-            diagnose(&truth, &prediction, &Storage::default(), &PRINTED, seed, &Progress::default()).unwrap();
+        let found = diagnose(
+            [&truth, &prediction],
+            [&Storage::default(); 2],
+            &PRINTED,
+            0.0,
+            seed,
+            &Progress::default(),
+        )
+        .unwrap();
         let marked = found.marked().next();
         if let Some(finding) = marked {
             println!(
@@ -53,10 +60,10 @@ fn intervals_after_the_search_cover_95_percent() {
         let expected = expected(&truth, &darker);
         for seed in 0..SEEDS {
             let found = diagnose(
-                &truth,
-                &darker,
-                &Storage::default(),
+                [&truth, &darker],
+                [&Storage::default(); 2],
                 &PRINTED,
+                0.0,
                 1000 * material + seed,
                 &Progress::default(),
             )
@@ -102,9 +109,10 @@ fn misplaced(truth: &Material<f32>) -> Material<f32> {
 }
 
 /// The loss and the share of each change over very many scenes.
-fn expected_of(pair: [&Material<f32>; 2], changes: &[Change]) -> Vec<[f64; 2]> {
+fn expected_of([ground_truth, prediction]: [&Material<f32>; 2], changes: &[Change]) -> Vec<[f64; 2]> {
     let (storage, progress) = (Storage::default(), Progress::default());
-    let trials = Trials::new(pair, &storage, &PRINTED, [1 << 13, 1 << 12, 1 << 16], 77, &progress).unwrap();
+    let pair = Pair { ground_truth, prediction, storages: [&storage; 2] };
+    let trials = Trials::new(pair, &PRINTED, [1 << 13, 1 << 12, 1 << 16], 77, &progress).unwrap();
     let all: Vec<Vec<Change>> = changes.iter().map(|&change| vec![change]).collect();
     let losses = trials.losses(&all).unwrap();
     losses
@@ -128,7 +136,8 @@ fn intervals_of_fitted_values_cover_95_percent() {
         let prediction = misplaced(&truth);
         let of_seed = |seed: u64| {
             let (storage, progress) = (Storage::default(), Progress::default());
-            diagnose(&truth, &prediction, &storage, &PRINTED, 1000 * material + seed, &progress).unwrap()
+            diagnose([&truth, &prediction], [&storage; 2], &PRINTED, 0.0, 1000 * material + seed, &progress)
+                .unwrap()
         };
         let found: Vec<Diagnosis> = (0..SEEDS).map(of_seed).collect();
         let finding = |diagnosis: &Diagnosis, hypothesis| -> Finding {

@@ -105,7 +105,18 @@ mod tests {
     fn the_values_of_remedies_are_those_of_the_options() {
         let remedies = [
             (Remedy::NormalY("down"), ReadOptions { normal_y: Some(NormalY::Down), ..ReadOptions::AUTO }),
-            (Remedy::Albedo("linear"), ReadOptions { albedo: Some(Albedo::Linear), ..ReadOptions::AUTO }),
+            (
+                Remedy::Albedo("linear", None),
+                ReadOptions { albedo: Some(Albedo::Linear), ..ReadOptions::AUTO },
+            ),
+            (
+                Remedy::Albedo("linear", Some("gamma2.2")),
+                ReadOptions {
+                    albedo: Some(Albedo::Linear),
+                    specular: Some(Albedo::Gamma22),
+                    ..ReadOptions::AUTO
+                },
+            ),
             (
                 Remedy::SpecularAlbedo("srgb"),
                 ReadOptions { specular: Some(Albedo::Srgb), ..ReadOptions::AUTO },

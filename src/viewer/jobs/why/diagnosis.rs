@@ -38,7 +38,7 @@ impl DiagnosisJob {
     ) -> Option<Error> {
         let Some(first) = pairs.first().filter(|_| displayed) else {
             self.floor.pause();
-            return self.diagnoses.follow(waker, false, (pairs, chosen), seed, diagnosed);
+            return self.diagnoses.follow(waker, false, (pairs, chosen), seed, diagnosed(0.0));
         };
         let error = self.floor.follow_only((first.ground_truth_key(), seed), |_| {
             let pair = first.clone();
@@ -46,8 +46,9 @@ impl DiagnosisJob {
                 floor(pair.ground_truth(), pair.ground_truth_storage(), &pair.convention, seed, progress)
             })
         });
+        let floor = self.floor(first, seed).map_or(0.0, |floor| floor.mean);
         let is_next = self.floor.running().is_none();
-        error.or(self.diagnoses.follow(waker, is_next, (pairs, chosen), seed, diagnosed))
+        error.or(self.diagnoses.follow(waker, is_next, (pairs, chosen), seed, diagnosed(floor)))
     }
 
     /// The diagnosis of this pair.
@@ -68,10 +69,15 @@ impl DiagnosisJob {
     }
 }
 
-fn diagnosed(pair: &ComparedPair, seed: u64, progress: &Progress) -> Result<Diagnosed, Error> {
-    let start = Instant::now();
-    let (ground_truth, prediction) = (pair.ground_truth(), pair.prediction());
-    let diagnosis =
-        diagnose(ground_truth, prediction, pair.prediction_storage(), &pair.convention, seed, progress)?;
-    Ok(Diagnosed { diagnosis, elapsed: start.elapsed() })
+/// The diagnosis of a pair, whose ground truth does not resolve losses below `floor`.
+fn diagnosed(
+    floor: f64,
+) -> impl Fn(&ComparedPair, u64, &Progress) -> Result<Diagnosed, Error> + Send + 'static {
+    move |pair, seed, progress| {
+        let start = Instant::now();
+        let materials = [pair.ground_truth(), pair.prediction()];
+        let storages = [pair.ground_truth_storage(), pair.prediction_storage()];
+        let diagnosis = diagnose(materials, storages, &pair.convention, floor, seed, progress)?;
+        Ok(Diagnosed { diagnosis, elapsed: start.elapsed() })
+    }
 }

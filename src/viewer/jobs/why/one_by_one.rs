@@ -40,7 +40,7 @@ impl<R: Clone + Send + 'static> OneByOne<R> {
         displayed: bool,
         (pairs, chosen): (&[ComparedPair], usize),
         seed: u64,
-        compute: fn(&ComparedPair, u64, &Progress) -> Result<R, Error>,
+        compute: impl Fn(&ComparedPair, u64, &Progress) -> Result<R, Error> + Send + 'static,
     ) -> Option<Error> {
         if !displayed {
             self.latest.pause();

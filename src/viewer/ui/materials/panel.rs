@@ -136,7 +136,7 @@ fn finding_line(
     material: &LoadedMaterial,
     finding: &Finding,
 ) -> Vec<Command> {
-    let Some(remedy) = finding.remedy.filter(|remedy| is_offered(material, *remedy)) else {
+    let Some(remedy) = finding.remedy_of_prediction().filter(|remedy| is_offered(material, *remedy)) else {
         return Vec::new();
     };
     ui.label(RichText::new(sentence_of(finding)).small().color(ui.visuals().warn_fg_color));

@@ -3,7 +3,7 @@
 use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, FontId, RichText, pos2, vec2};
 
-use svbrdf_core::diagnose::{Diagnosis, sentence};
+use svbrdf_core::diagnose::{Diagnosis, Finding, sentence};
 use svbrdf_core::loss::LossSettings;
 
 use crate::viewer::jobs::why::{ComparedPair, Diagnosed, WhyJobs};
@@ -127,7 +127,8 @@ impl DiagnosisSection<'_> {
         ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
             ui.set_min_height(height);
             let marked = diagnosed.into_iter().flat_map(|diagnosed| diagnosed.diagnosis.marked());
-            let remedy = marked.filter_map(|finding| finding.remedy).find(|one| is_offered(prediction, *one));
+            let mut remedies = marked.filter_map(Finding::remedy_of_prediction);
+            let remedy = remedies.find(|one| is_offered(prediction, *one));
             if let Some(remedy) = remedy {
                 let index = self.state.display.prediction + 1;
                 commands.extend(remedy_button(ui, index, prediction, remedy));

@@ -66,11 +66,11 @@ impl HypothesisLines<'_> {
     fn finding(&self, ui: &mut egui::Ui, finding: &Finding, commands: &mut Vec<Command>) {
         let change = shown_change(finding, self.pair);
         let is_shown = change.is_some() && change == self.corrected;
+        let names = [self.pair.ground_truth().name(), self.pair.prediction().name()];
         let response = line(ui, finding.hypothesis, Some(finding), is_shown);
         let response = response.on_hover_ui(|ui| {
             details(ui, finding, change, is_shown);
-            if let Some(remedy) = finding.remedy {
-                let option = remedy.command_option(self.pair.prediction().name());
+            if let Some(option) = finding.command_option(names) {
                 ui.label(format!("Option of the command line: {option}"));
             }
         });
@@ -116,7 +116,7 @@ fn line(
     let is_marked = finding.is_some_and(|finding| finding.marked);
     let mark = if is_marked { ", marked" } else { "" };
     let row = Row { label: format!("{name} {value}: {share} of the loss{mark}"), selected: is_shown };
-    let is_button = finding.is_some_and(|finding| finding.change.is_some_and(|one| !is_exposure(one)));
+    let is_button = finding.is_some_and(|finding| finding.change.is_some_and(has_maps));
     let (response, area) = row.ui(ui, is_button);
     let ink = if is_marked || is_shown { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
     let (middle, painter) = (area.center().y, ui.painter());
@@ -140,8 +140,9 @@ fn line(
     response
 }
 
-fn is_exposure(change: Change) -> bool {
-    matches!(change, Change::Exposure(_))
+/// Whether the maps of the prediction change.
+fn has_maps(change: Change) -> bool {
+    !matches!(change, Change::Exposure(_) | Change::GroundTruth(_))
 }
 
 /// All numbers of a finding, and what a click does.
@@ -165,6 +166,7 @@ fn details(ui: &mut egui::Ui, finding: &Finding, change: Option<Change>, is_show
             ui.label(format!("Click to show the prediction itself, not {change}"))
         }
         (_, Some(change)) => ui.label(format!("Click to show the prediction {change}")),
+        (Some(Change::GroundTruth(_)), None) => ui.label("It changes the ground truth, not the prediction"),
         (Some(_), None) => ui.label("No map shows it: an exposure changes the radiance alone"),
         (None, None) => ui.label("The best value changes nothing"),
     };
@@ -204,10 +206,12 @@ pub fn label(hypothesis: Hypothesis) -> &'static str {
         Hypothesis::NormalY => "Normal Y",
         Hypothesis::NormalX => "Normal X",
         Hypothesis::AlbedoEncoding => "Colour encoding",
+        Hypothesis::DiffuseEncoding => "Diffuse encoding",
         Hypothesis::SpecularEncoding => "Specular encoding",
         Hypothesis::Roughness => "Roughness",
         Hypothesis::Channels => "Red and blue",
         Hypothesis::Energy => "Diffuse scaling",
+        Hypothesis::GroundTruth => "Ground truth",
     }
 }
 

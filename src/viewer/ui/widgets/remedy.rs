@@ -22,8 +22,8 @@ pub fn remedy_button(
     material: &LoadedMaterial,
     remedy: Remedy,
 ) -> Vec<Command> {
-    let name = remedy.option().replace('-', " ").replace("specular albedo", "specular");
-    let button = ui.small_button(format!("Read with {name} {}", remedy.value()));
+    let words = remedy.to_string().replace("specular-albedo", "specular").replace(['-', '='], " ");
+    let button = ui.small_button(format!("Read with {}", words.replace(',', ", ")));
     let hover = format!(
         "Read {} again with this option, as Change... in Files does; undo (Ctrl+Z) goes back. If the ground truth is the one that is \
          read wrongly, change it instead",
