@@ -92,7 +92,8 @@ fn the_option_of_an_advice_gives_the_loss_that_was_computed() {
     for name in ["albedo_encoding", "diffuse_encoding", "specular_encoding"] {
         let finding = findings.iter().find(|finding| finding["hypothesis"] == name).unwrap();
         let option = finding["remedy"].as_str().unwrap();
-        let loss = succeed(folder.path(), &format!("loss truth.png encoded.png {READ} --read {option} {scenes}"));
+        let loss =
+            succeed(folder.path(), &format!("loss truth.png encoded.png {READ} --read {option} {scenes}"));
         let found = json(&loss)["results"][0]["loss"].as_f64().unwrap();
         let expected = finding["loss"].as_f64().unwrap();
         assert!((found - expected).abs() < 1e-4 * expected + 1e-6, "{name} {option}: {found} {expected}");

@@ -54,7 +54,7 @@ fn unknown_keys_values_and_names_are_refused_with_those_that_exist() {
         ),
         ("loss a.png gt.png --read gt:albedo=srgb", "give it another name"),
         ("info gt.png --read a:albedo=srgb", "the names are gt"),
-        ("loss --read albedo=srgb", "<GT>"),
+        ("loss --read albedo=srgb", "the built-in materials are not read from files; leave out --read"),
     ] {
         let stderr = fail(folder.path(), args, 64);
         assert!(stderr.contains(said), "{args}: `{said}` is missing in {stderr}");

@@ -18,8 +18,8 @@ const ONE: u32 = 0x3f80_0000;
 
 /// What adds up the log differences of two materials, tile by tile.
 pub(super) trait LogDifferences<S: Simd> {
-    /// Adds all channels of the texels in the first `vectors` vectors of a tile, an even number. Radiances are positive and, unless `SAFE`, below 2^21.
-    fn add<const SAFE: bool>(&mut self, simd: S, vectors: usize, a: &TileRadiance, b: &TileRadiance);
+    /// Adds all texels and channels of a tile. Radiances are positive and, unless `SAFE`, below 2^21.
+    fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance);
 }
 
 /// Running products, one per lane. Each factor rounds once, so n factors are off by about sqrt(n) 4e-8.
@@ -76,10 +76,10 @@ impl<S: Simd> LogProducts<S> {
 impl<S: Simd> LogDifferences<S> for LogProducts<S> {
     /// The product of six radiances below 2^21 and a mantissa fits a float.
     #[inline(always)]
-    fn add<const SAFE: bool>(&mut self, simd: S, vectors: usize, a: &TileRadiance, b: &TileRadiance) {
+    fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
         // In registers: through memory, each product would wait for the store of the one before.
         let mut products = *self;
-        for pair in 0..vectors / 2 {
+        for pair in 0..vectors::<S>() / 2 {
             for i in [2 * pair, 2 * pair + 1] {
                 let (a, b) = (TilePlane::load_three(&a.0, simd, i), TilePlane::load_three(&b.0, simd, i));
                 let (larger, smaller) = (vec3!(C => a[C].max(b[C])), vec3!(C => a[C].min(b[C])));
@@ -123,8 +123,8 @@ impl<S: Simd> TexelLogProducts<S> {
 
 impl<S: Simd> LogDifferences<S> for TexelLogProducts<S> {
     #[inline(always)]
-    fn add<const SAFE: bool>(&mut self, simd: S, vectors: usize, a: &TileRadiance, b: &TileRadiance) {
-        for (i, channels) in self.products.iter_mut().take(vectors).enumerate() {
+    fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
+        for (i, channels) in self.products.iter_mut().enumerate() {
             for (c, products) in channels.iter_mut().enumerate() {
                 let (a, b) = (a.0[c].load(simd, i), b.0[c].load(simd, i));
                 // One factor fits beside a mantissa, also a large one.

@@ -31,7 +31,7 @@ impl LossTile {
 
     #[inline(always)]
     pub(super) fn fill<S: Lanes>(&mut self, simd: S, inputs: &LossInputs<'_>, span: &TexelSpan<'_>) {
-        self.positions.fill(simd, &inputs.axes, span);
+        self.positions.fill(&inputs.axes, span);
         let ShadingParams { roughness_floor, narrow, .. } = inputs.params;
         self.ground_truth.fill(simd, inputs.ground_truth.planes(), span, roughness_floor, narrow);
         for (terms, material) in self.predictions.iter_mut().zip(inputs.predictions) {
@@ -106,9 +106,9 @@ impl LossTile {
                 |i| geometry(tile, i),
             );
             if predicted_is_small && expected_is_small {
-                sum.add::<false>(simd, terms.vectors, expected, predicted);
+                sum.add::<false>(simd, expected, predicted);
             } else {
-                sum.add::<true>(simd, terms.vectors, expected, predicted);
+                sum.add::<true>(simd, expected, predicted);
             }
         }
     }

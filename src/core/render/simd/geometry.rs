@@ -4,7 +4,7 @@ use fearless_simd::{Simd, prelude::*};
 use glam::DVec3;
 
 use super::lanes::{Lanes, V, neg_mul_add, vec3};
-use super::tile::{Positions, TilePlane};
+use super::tile::{Positions, TilePlane, vectors};
 use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
 
@@ -213,7 +213,7 @@ impl TileGeometry {
     #[inline(always)]
     pub(crate) fn fill<S: Lanes>(&mut self, simd: S, scene: &KernelScene, positions: &Positions) -> bool {
         let scene = scene.splat(simd);
-        for i in 0..positions.vectors {
+        for i in 0..vectors::<S>() {
             let (light, view, light_scale) =
                 near(simd, &scene, positions.x.load(simd, i), positions.y.load(simd, i));
             for c in 0..3 {
@@ -223,7 +223,7 @@ impl TileGeometry {
             self.light_scale.store::<S>(i, light_scale);
         }
         let mut shortest = V::<S>::splat(simd, SHORT_SQUARE);
-        for i in 0..positions.vectors {
+        for i in 0..vectors::<S>() {
             let light = TilePlane::load_three(&self.light, simd, i);
             let view = TilePlane::load_three(&self.view, simd, i);
             let (square, fresnel_weight) = half_way(simd, sum(light, view));

@@ -108,7 +108,7 @@ impl ImageTile {
             );
             return;
         }
-        self.positions.fill(simd, &inputs.axes, span);
+        self.positions.fill(&inputs.axes, span);
         let is_short = self.geometry.fill(simd, scene, &self.positions);
         let geometry = &self.geometry;
         self.radiance.render(

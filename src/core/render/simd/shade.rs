@@ -9,7 +9,7 @@ use fearless_simd::prelude::*;
 
 use super::geometry::{Geometry, KernelScene, cross, dot, sum};
 use super::lanes::{Lanes, V, neg_mul_add, vec3};
-use super::tile::{MaterialTerms, TilePlane};
+use super::tile::{MaterialTerms, TilePlane, vectors};
 use crate::model::convention::Convention;
 
 /// Largest highlight and light scale of the fast and the careful path. Above, a tile takes the overflow-safe path.
@@ -116,7 +116,7 @@ impl TileRadiance {
         geometry: impl Fn(usize) -> Geometry<V<S>>,
     ) -> bool {
         let mut highlights = V::<S>::splat(simd, 0.0);
-        for i in 0..terms.vectors {
+        for i in 0..vectors::<S>() {
             let geometry = geometry(i);
             let (lobe, e) = lobe::<S, CLAMPED, CAREFUL, SAFE>(simd, &params.clamps, terms, &geometry, i);
             // The sum of positive numbers is at least the largest, and NaN or infinite if any one is.

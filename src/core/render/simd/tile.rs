@@ -91,17 +91,6 @@ pub(crate) enum TexelSpan<'a> {
     Listed(&'a [usize]),
 }
 
-impl TexelSpan<'_> {
-    /// The vectors of a tile that hold its texels, an even number; all of them for consecutive texels, whose tiles are full.
-    #[inline(always)]
-    fn vectors<S: Simd>(&self) -> usize {
-        match self {
-            Self::Range(_) => vectors::<S>(),
-            Self::Listed(texels) => 2 * texels.len().div_ceil(2 * V::<S>::LEN),
-        }
-    }
-}
-
 /// Vectors in a tile.
 #[inline(always)]
 pub(crate) const fn vectors<S: Simd>() -> usize {
@@ -121,8 +110,6 @@ pub(crate) struct MaterialTerms {
     pub(crate) specular: [TilePlane; 3],
     /// d (1 - s).
     pub(crate) lambert: [TilePlane; 3],
-    /// The vectors that hold texels.
-    pub(crate) vectors: usize,
 }
 
 impl MaterialTerms {
@@ -133,7 +120,6 @@ impl MaterialTerms {
         one_minus_k: TilePlane::ZERO,
         specular: [TilePlane::ZERO; 3],
         lambert: [TilePlane::ZERO; 3],
-        vectors: 0,
     };
 
     /// Computes the terms of the texels `span`. The rest of the tile gets n = 0, so that R = 0 in every material and
@@ -147,7 +133,6 @@ impl MaterialTerms {
         roughness_floor: f32,
         narrow: f32,
     ) {
-        self.vectors = span.vectors::<S>();
         for (tile, plane) in self.normal.iter_mut().zip(&planes.normal) {
             tile.fill(simd, plane, span, 0.0);
         }
@@ -159,7 +144,7 @@ impl MaterialTerms {
             let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
             specular.fill(simd, &planes.specular[channel], span, 0.0);
             let diffuse = lambert.source(&planes.diffuse[channel], span, 0.0);
-            for i in 0..self.vectors {
+            for i in 0..vectors::<S>() {
                 let diffuse = lambert.load_from(simd, diffuse, i);
                 lambert.store::<S>(i, diffuse * (V::<S>::splat(simd, 1.0) - specular.load(simd, i)));
             }
@@ -172,7 +157,7 @@ impl MaterialTerms {
         let splat = |c| V::<S>::splat(simd, c);
         let roughness = self.a.source(plane, span, 1.0);
         let mut least = splat(1.0);
-        for i in 0..self.vectors {
+        for i in 0..vectors::<S>() {
             let rough = self.a.load_from(simd, roughness, i).max(splat(floor));
             let a = rough * rough;
             least = least.min(a);
@@ -229,17 +214,14 @@ impl GridAxes {
 pub(crate) struct Positions {
     pub(crate) x: TilePlane,
     pub(crate) y: TilePlane,
-    /// The vectors that hold texels.
-    pub(crate) vectors: usize,
 }
 
 impl Positions {
-    pub(crate) const ZERO: Self = Self { x: TilePlane::ZERO, y: TilePlane::ZERO, vectors: 0 };
+    pub(crate) const ZERO: Self = Self { x: TilePlane::ZERO, y: TilePlane::ZERO };
 
     /// Computes the positions of the texels `span`; the rest of the tile keeps its values.
     #[inline(always)]
-    pub(crate) fn fill<S: Simd>(&mut self, _: S, axes: &GridAxes, span: &TexelSpan<'_>) {
-        self.vectors = span.vectors::<S>();
+    pub(crate) fn fill(&mut self, axes: &GridAxes, span: &TexelSpan<'_>) {
         let width = axes.grid.width;
         let range = match span {
             TexelSpan::Range(range) => range,
