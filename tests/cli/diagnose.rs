@@ -65,7 +65,7 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
     }
 }
 
-/// `albedo` alone would leave specular in the encoding that an option specifies.
+/// The advice replaces the options of this material: with `albedo` alone specular would be read as its specified option says, or not.
 #[test]
 fn the_option_of_an_advice_gives_the_loss_that_was_computed() {
     let folder = folder();
@@ -84,7 +84,7 @@ fn the_option_of_an_advice_gives_the_loss_that_was_computed() {
     for name in ["albedo_encoding", "diffuse_encoding", "specular_encoding"] {
         let finding = findings.iter().find(|finding| finding["hypothesis"] == name).unwrap();
         let option = finding["remedy"].as_str().unwrap();
-        let loss = succeed(folder.path(), &format!("loss truth.png encoded.png {read} {option} {scenes}"));
+        let loss = succeed(folder.path(), &format!("loss truth.png encoded.png {READ} {option} {scenes}"));
         let found = json(&loss)["results"][0]["loss"].as_f64().unwrap();
         let expected = finding["loss"].as_f64().unwrap();
         assert!((found - expected).abs() < 1e-4 * expected + 1e-6, "{name} {option}: {found} {expected}");
