@@ -1,9 +1,9 @@
 //! Pairs with changes applied.
 
 use super::change::Change;
+use super::pair::Pair;
 use super::reading::Reading;
 use super::shift::interior;
-use super::trials::Pair;
 use crate::error::Error;
 use crate::material::Material;
 

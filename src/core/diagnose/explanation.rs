@@ -10,9 +10,8 @@ use crate::error::Error;
 
 /// The part of the loss that each change has to explain.
 pub(super) const LEAST_SHARE: f64 = 0.1;
-/// What another reading of the ground truth has to explain beyond one of the prediction: together half of the loss. A prediction that is
-/// wrong in itself comes closer to a ground truth that is read otherwise, too (by 45% where its roughness is wrong).
-const TRUTH: f64 = 0.4;
+/// The part that another reading of the ground truth has to explain: the loss against another reference may be smaller by chance.
+const TRUTH_SHARE: f64 = 0.8;
 /// Most changes of an explanation.
 const MOST: usize = 4;
 /// Explanations that are extended by another change.
@@ -40,7 +39,7 @@ impl Explanation {
     fn score(&self, resolvable: f64) -> f64 {
         let cost = |proposal: &Proposal| match proposal.hypothesis {
             Hypothesis::ExposureRgb => 2.0 * LEAST_SHARE,
-            Hypothesis::GroundTruth => LEAST_SHARE + TRUTH,
+            Hypothesis::GroundTruth => TRUTH_SHARE,
             _ => LEAST_SHARE,
         };
         self.ratio.max(resolvable) + self.proposals.iter().map(cost).sum::<f64>()
@@ -74,17 +73,25 @@ impl Explanation {
     fn admits(&self, hypothesis: Hypothesis) -> bool {
         self.proposals.iter().all(|proposal| !exclude([proposal.hypothesis, hypothesis]))
     }
+
+    /// Whether this change may join: not where both sides would be read otherwise in the same way, which explains no difference.
+    fn admits_change(&self, added: &Proposal) -> bool {
+        let reading = |change| match change {
+            Some(Change::Reading(reading) | Change::GroundTruth(reading)) => Some(reading),
+            _ => None,
+        };
+        let is_same =
+            |one: &Proposal| reading(one.change).is_some_and(|of| reading(added.change) == Some(of));
+        self.admits(added.hypothesis) && !self.proposals.iter().any(is_same)
+    }
 }
 
-/// Whether two hypotheses change the same, or read both materials otherwise: what makes them alike then need not be true of either,
-/// since two materials that are both rougher differ less.
+/// Whether two hypotheses change the same.
 fn exclude(pair: [Hypothesis; 2]) -> bool {
-    use Hypothesis::{AlbedoEncoding, DiffuseEncoding, GroundTruth, Shift, SpecularEncoding, Symmetry};
+    use Hypothesis::{AlbedoEncoding, DiffuseEncoding, SpecularEncoding};
     let both = |of: &[Hypothesis]| pair.iter().all(|one| of.contains(one));
     pair[0] == pair[1]
         || pair.iter().all(|one| is_exposure(*one))
-        || pair.contains(&GroundTruth)
-            && !pair.iter().any(|one| is_exposure(*one) || matches!(one, Shift | Symmetry))
         || pair.contains(&AlbedoEncoding) && both(&[AlbedoEncoding, DiffuseEncoding, SpecularEncoding])
 }
 
@@ -142,7 +149,7 @@ fn extended(
     for one in open.iter().filter(|one| one.ratio > resolvable) {
         let aligned = alignments.iter().filter(|_| one.admits(Hypothesis::Shift));
         let aligned = aligned.filter(|_| one.admits(Hypothesis::Symmetry)).cloned();
-        let added = singles(pilot).into_iter().filter(|added| one.admits(added.hypothesis));
+        let added = singles(pilot).into_iter().filter(|added| one.admits_change(added));
         let added: Vec<_> = added.map(|added| vec![added]).chain(aligned).collect();
         let with = |added: Vec<Proposal>| [one.proposals.clone(), added].concat();
         let tried = tried(pilot, added.into_iter().map(with).collect())?;
@@ -197,7 +204,7 @@ pub(super) fn alternatives(pilot: &Trials<'_>, proposals: &[Proposal]) -> Result
         let mut rest = Explanation { proposals: proposals.to_vec(), ratio: 1.0 };
         let replaced = rest.proposals.remove(place).hypothesis;
         let is_other = |other: &Proposal| {
-            rest.admits(other.hypothesis)
+            rest.admits_change(other)
                 && other.hypothesis != replaced
                 && !(is_exposure(other.hypothesis) && is_exposure(replaced))
         };

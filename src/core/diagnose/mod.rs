@@ -31,6 +31,7 @@ mod floor;
 mod holm;
 mod ladder;
 mod marking;
+mod pair;
 mod proposals;
 mod radiances;
 mod reading;

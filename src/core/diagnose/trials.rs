@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::change::Change;
 use super::corrected::Corrected;
 use super::exposure;
+use super::pair::Pair;
 use super::radiances::{Radiances, radiances};
-use super::storage::Storage;
 use crate::error::Error;
 use crate::loss::{Comparison, Compute as _, Request, Sampling, Texels};
 use crate::material::Material;
@@ -19,15 +19,6 @@ use crate::progress::Progress;
 const MOST_BYTES: usize = 1 << 30;
 /// Texels of a scene whose radiances are compared one by one, for exposures.
 const RADIANCES: usize = 1024;
-
-/// A ground truth and a prediction, and how each is stored.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Pair<'a> {
-    pub(super) ground_truth: &'a Material<f32>,
-    pub(super) prediction: &'a Material<f32>,
-    /// Of the ground truth and of the prediction.
-    pub(super) storages: [&'a Storage; 2],
-}
 
 /// A pair, and the scenes that changes of it are tried in.
 pub(super) struct Trials<'a> {

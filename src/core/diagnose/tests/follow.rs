@@ -11,10 +11,9 @@ use crate::model::sampler::Sampler;
 use crate::progress::Progress;
 
 const SIDE: usize = 64;
-/// Most diagnoses that are followed.
-const ROUNDS: usize = 6;
 const LINEAR: Transfer = Transfer::Linear;
 const SRGB: Transfer = Transfer::Srgb;
+const ENCODED: [Reading; 3] = [Reading::Colours(SRGB), Reading::Diffuse(SRGB), Reading::Specular(SRGB)];
 
 /// An error that is planted.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +53,7 @@ fn single() -> Vec<Vec<Planted>> {
     let shifts = [[1, 0], [0, -1], [3, -2], [-8, 5], [8, 8]].map(moved);
     let symmetries = Symmetry::ALL.map(|symmetry| Prediction(Change::Symmetry(symmetry)));
     let readings = [Y, X, GLOSS, SQUARED, ROOT, COLOURS, DIFFUSE, SPECULAR, SWAPPED, SCALED];
-    let encoded = [Reading::Colours(SRGB), Reading::Diffuse(SRGB), Reading::Specular(SRGB)].map(reading);
+    let encoded = ENCODED.map(reading);
     let stops = [-1.0, -0.5, 0.5].map(Stops);
     let truths = [Reading::NormalY, Reading::Gloss, Reading::Diffuse(LINEAR), Reading::Colours(LINEAR)];
     let all = shifts.into_iter().chain(symmetries).chain(readings).chain(encoded).chain(stops);
@@ -97,14 +96,9 @@ fn read_as(storage: Storage, reading: Reading) -> Storage {
 
 /// The encoding that a material was stored in before this reading was planted.
 fn stored(planted: &[Planted]) -> Storage {
-    let to_srgb = planted.iter().any(|one| {
-        matches!(
-            one,
-            Prediction(Change::Reading(
-                Reading::Colours(SRGB) | Reading::Diffuse(SRGB) | Reading::Specular(SRGB)
-            ))
-        )
-    });
+    let is_encoded =
+        |one: &Planted| matches!(one, Prediction(Change::Reading(reading)) if ENCODED.contains(reading));
+    let to_srgb = planted.iter().any(is_encoded);
     let transfer = if to_srgb { LINEAR } else { SRGB };
     Storage { colours: transfer, specular: transfer, ..Storage::default() }
 }
@@ -174,7 +168,7 @@ fn follow(truth: &Material<f32>, planted: &[Planted]) -> Followed {
     let progress = Progress::default();
     let floor = floor(&truth, &storages[0], &PRINTED, 1, &progress).unwrap().mean;
     let (mut steps, mut false_causes) = (Vec::new(), Vec::new());
-    for round in 0..ROUNDS {
+    for round in 0..6 {
         let found =
             diagnose([&truth, &prediction], storages.each_ref(), &PRINTED, floor, round as u64, &progress)
                 .unwrap();

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use super::super::pair::Pair;
 use super::super::proposals::shift;
 use super::super::shift::{fits, interior, shifted};
-use super::super::trials::{Pair, Trials, mean};
+use super::super::trials::{Trials, mean};
 use super::super::{Change, Storage, Value};
 use super::materials::with;
 use crate::loss::{Comparison, Compute as _};

@@ -1,6 +1,7 @@
 //! False marks and the coverage of intervals: long, so ignored unless asked for.
 
-use super::super::trials::{Pair, Trials, mean};
+use super::super::pair::Pair;
+use super::super::trials::{Trials, mean};
 use super::super::{Change, Diagnosis, Finding, Hypothesis, Storage, Value, diagnose, shifted};
 use super::materials::{generated, unexplained, with};
 use crate::loss::{Comparison, Request, Sampling};
