@@ -30,7 +30,7 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
         ("loss gt.png a.png --scenes one.json --seed 1", 64, "cannot be used with"),
         ("loss gt.png", 64, "no prediction"),
         ("loss gt.png a.png --colour", 64, "--colour"),
-        ("loss --read albedo=srgb", 64, "<GT>"),
+        ("loss --read albedo=srgb", 64, "leave out --read"),
         ("loss gt.png a.png --scenes nan.json", 1, "nan.json"),
         ("loss gt.png a.png --scenes below.json", 1, "scene 0: its light [0.5, 0.5, -1.0] is not above"),
         ("loss gt.png a.png --scenes none.json", 1, "no scene"),
