@@ -31,8 +31,8 @@ class Finding:
     p: float | None
     """The probability of such a fall where there is none, corrected for the number of hypotheses; None: not tested."""
     marked: bool
-    """Whether the loss falls significantly and by at least 10% beside the corrections of the other marked findings; never
-    where the loss is below the floor."""
+    """Whether the loss falls significantly and by at least 10% beside the corrections of the other marked findings;
+    never where the loss is below the floor."""
     remedy: str | None
     """What `--read` of the command line takes to correct the reading: NAME:KEY=VALUE."""
 

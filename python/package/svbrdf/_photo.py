@@ -104,8 +104,8 @@ def photo(
             for other integers.
         clip: The stored value from which on a pixel is clipped, where 1 is the largest integer; without, 1, and none
             for floats.
-        falloff: Divides the photograph by the falloff of a point light, (l.z / d)^3 at the distance d, which Algorithm 3
-            does not model.
+        falloff: Divides the photograph by the falloff of a point light, (l.z / d)^3 at the distance d, which Algorithm
+            3 does not model.
         difference: The difference that `PhotoReport.differences` has.
         convention: A name of `svbrdf.CONVENTIONS`.
         progress: True for a bar of tqdm, or a function of (steps done, steps in all).
