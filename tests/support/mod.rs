@@ -1,6 +1,7 @@
 //! Support shared by the tests.
 
 pub mod compare;
+#[cfg(feature = "viewer")]
 pub mod desktop;
 pub mod exr;
 pub mod fixtures;
