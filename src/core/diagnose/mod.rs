@@ -13,8 +13,8 @@
 //! let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
 //! let truth = Material::uniform("truth", 32, 32, &texel(0.3))?;
 //! let glossiness = Material::uniform("glossiness", 32, 32, &texel(0.7))?;
-//! let storages = [&Storage::default(); 2];
-//! let found = diagnose([&truth, &glossiness], storages, &Convention::default(), 0.0, 0, &Progress::default())?;
+//! let storage = Storage::default();
+//! let found = diagnose([&truth, &glossiness], [&storage; 2], &Convention::default(), 0.0, 0, &Progress::default())?;
 //! assert!(found.marked().next().is_some_and(|finding| finding.hypothesis.name() == "roughness"));
 //! # Ok::<(), svbrdf_core::error::Error>(())
 //! ```
