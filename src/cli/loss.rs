@@ -22,7 +22,7 @@ use super::output::{CommandError, exit, target, watched};
 /// Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the mean over scenes,
 /// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
 /// texels; it is unknown with a single scene of a kind. Without a number of scenes: the loss over all
-/// scenes to +-1%, in Sobol scenes with 128 random texels each, and the loss over the 6 + 3 scenes of the papers; of a session, what
+/// scenes to +-1%, in Sobol scenes with 32 random texels each, and the loss over the 6 + 3 scenes of the papers; of a session, what
 /// its window asked for. With --near or --distant: the loss over exactly these scenes. A folder of training
 /// steps, such as NAME_step000100.png or epoch_12/, stands for all its steps. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]

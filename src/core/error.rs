@@ -158,7 +158,7 @@ pub enum Error {
 
     /// A way of sampling scenes whose number is left open.
     #[error(
-        "without a number of scenes the loss is known to +-1%, over Sobol scenes with 128 random texels each, not with {found}; \
+        "without a number of scenes the loss is known to +-1%, over Sobol scenes with 32 random texels each, not with {found}; \
         specify the number of near-field or distant scenes, too"
     )]
     NoSceneCount { found: String },

@@ -1,7 +1,5 @@
 //! The losses of a prediction before and after changes, in the same scenes on the same texels.
 
-use rayon::prelude::*;
-
 use super::change::Change;
 use super::corrected::Corrected;
 use super::exposure;
@@ -146,22 +144,13 @@ impl<'a> Trials<'a> {
     ) -> Result<Vec<Vec<f64>>, Error> {
         let comparison = Comparison::new(ground_truth, predictions, *self.convention)?;
         let progress = self.progress.part();
-        let of_scenes = |scenes: &[Scene], some: &[usize]| match some {
-            [] => Ok(vec![vec![0.0; scenes.len()]; predictions.len()]),
-            some => f32::cpu().scene_losses(&comparison, scenes, Some(some), &Progress::default()),
-        };
-        progress.begin(self.scenes.len() as u64);
-        let of_scene = |(number, scene): (usize, &Scene)| {
-            let subset = self.subset(number).into_iter().filter(|texel| texels.binary_search(texel).is_ok());
-            let losses = of_scenes(std::slice::from_ref(scene), &subset.collect::<Vec<_>>())?;
-            progress.step().map(|()| losses)
-        };
-        let losses = match self.sampling.texels.sampled(ground_truth.size()) {
-            None => vec![of_scenes(&self.scenes, texels)?],
-            Some(_) => self.scenes.par_iter().enumerate().map(of_scene).collect::<Result<Vec<_>, _>>()?,
-        };
-        let of = |place: usize| losses.iter().flat_map(|losses| losses[place].iter().copied()).collect();
-        Ok((0..predictions.len()).map(of).collect())
+        let is_one_of_them = |texel: &usize| texels.binary_search(texel).is_ok();
+        let subset = |number: usize| self.subset(number).into_iter().filter(is_one_of_them).collect();
+        match self.sampling.texels.sampled(ground_truth.size()) {
+            None if texels.is_empty() => Ok(vec![vec![0.0; self.scenes.len()]; predictions.len()]),
+            None => f32::cpu().scene_losses(&comparison, &self.scenes, Some(texels), &progress),
+            Some(_) => f32::cpu().losses_on_own_texels(&comparison, &self.scenes, &subset, &progress),
+        }
     }
 
     /// The independent random subset of the texels that a scene is compared on.

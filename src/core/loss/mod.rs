@@ -32,3 +32,4 @@ pub use run::ALL_SCENES_TARGET;
 pub use settings::{Ask, FileScenes, LossSettings};
 pub(crate) use shared_texels::SharedTexels;
 pub use statistics::Estimate;
+pub(crate) use texels::scene_losses as losses_on_texels;

@@ -135,8 +135,8 @@ mod tests {
         for (sampler, texels) in [
             (None, None),
             (Some(Sampler::Sobol), None),
-            (None, Some(Texels::Sampled(128))),
-            (Some(Sampler::Sobol), Some(Texels::Sampled(128))),
+            (None, Some(Texels::Sampled(TEXELS))),
+            (Some(Sampler::Sobol), Some(Texels::Sampled(TEXELS))),
         ] {
             let choice = SceneChoice { sampler, texels, ..SceneChoice::default() };
             assert_eq!(choice.question(7).unwrap(), Question::of_seed(7));

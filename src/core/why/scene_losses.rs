@@ -1,13 +1,15 @@
 //! Scenes of a loss, worst first, and the distribution of their losses.
 
 use crate::error::Error;
-use crate::loss::{Comparison, Compute, Outcome};
+use crate::loss::{Comparison, Compute, Outcome, Sampling, Texels, losses_on_texels};
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::statistics::{median, quantile};
 
 /// Scenes that [`worst_on_all_texels`] recomputes at a time.
 const BATCH: usize = 64;
+/// The scenes that it orders anew first, by this many texels of each.
+const CLOSER: [usize; 2] = [1024, 1024];
 
 /// A scene and its losses.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,8 +38,9 @@ pub fn worst_first(outcome: &Outcome) -> Vec<RankedScene> {
 
 /// The `count` worst scenes of `outcome`, worst first, with their losses on all texels.
 ///
-/// Where the losses of `outcome` are of a random subset of the texels, a scene may lead by its subset. So the scenes are
-/// recomputed on all texels, 64 at a time in the order of their sampled losses, until 64 of them change nothing in the list.
+/// Where the losses of `outcome` are of a random subset of the texels, a scene may lead by its subset. So the 1,024 that lead are
+/// ordered by 1,024 texels of each, and all are recomputed on all texels, 64 at a time in this order, until 64 of them change
+/// nothing in the list.
 ///
 /// # Errors
 /// Those of the backend.
@@ -48,15 +51,22 @@ pub fn worst_on_all_texels<T: Compute>(
     progress: &Progress,
 ) -> Result<Vec<RankedScene>, Error> {
     let mut candidates = worst_first(outcome);
-    let sampled =
-        outcome.sampling.and_then(|sampling| sampling.texels.sampled(comparison.ground_truth().size()));
-    if sampled.is_none() {
+    let size = comparison.ground_truth().size();
+    let Some(sampling) = outcome.sampling.filter(|sampling| sampling.texels.sampled(size).is_some()) else {
         candidates.truncate(count);
         return Ok(candidates);
-    }
+    };
+    let [leading, texels] = CLOSER;
+    let rest = candidates.split_off(leading.min(candidates.len()));
+    let closer = Sampling { texels: Texels::Sampled(texels), ..sampling };
+    let on_more = |scenes: &[Scene]| {
+        losses_on_texels(&comparison.clone().on(T::cpu()), &closer, [0, 0], scenes, progress)
+    };
+    candidates = [sorted(recomputed(&candidates, on_more)?), rest].concat();
+    let on_all = |scenes: &[Scene]| comparison.backend().scene_losses(comparison, scenes, None, progress);
     let mut worst = Vec::new();
     for batch in candidates.chunks(BATCH) {
-        let mut grown = [worst.clone(), on_all_texels(comparison, batch, progress)?].concat();
+        let mut grown = [worst.clone(), recomputed(batch, on_all)?].concat();
         grown = sorted(grown);
         grown.truncate(count);
         if grown == worst {
@@ -67,14 +77,12 @@ pub fn worst_on_all_texels<T: Compute>(
     Ok(worst)
 }
 
-/// `scenes` with their losses on all texels.
-fn on_all_texels<T: Compute>(
-    comparison: &Comparison<'_, T>,
+/// `scenes` with the losses that `losses` gives, of each prediction in each scene.
+fn recomputed(
     scenes: &[RankedScene],
-    progress: &Progress,
+    losses: impl Fn(&[Scene]) -> Result<Vec<Vec<f64>>, Error>,
 ) -> Result<Vec<RankedScene>, Error> {
-    let rendered: Vec<Scene> = scenes.iter().map(|ranked| ranked.scene).collect();
-    let losses = comparison.backend().scene_losses(comparison, &rendered, None, progress)?;
+    let losses = losses(&scenes.iter().map(|ranked| ranked.scene).collect::<Vec<_>>())?;
     let of_scene = |k: usize| losses.iter().map(|of_prediction| of_prediction[k]).collect();
     Ok(scenes
         .iter()

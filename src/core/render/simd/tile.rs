@@ -219,7 +219,7 @@ pub(crate) struct Positions {
 impl Positions {
     pub(crate) const ZERO: Self = Self { x: TilePlane::ZERO, y: TilePlane::ZERO };
 
-    /// Computes the positions of the texels `span`; the rest of the tile keeps its values.
+    /// Computes the positions of the texels `span`; the rest of the tile has that of the first.
     #[inline(always)]
     pub(crate) fn fill(&mut self, axes: &GridAxes, span: &TexelSpan<'_>) {
         let width = axes.grid.width;
@@ -230,7 +230,7 @@ impl Positions {
                     let position = axes.grid.position::<Vec3>(texel % width, texel / width);
                     (*x, *y) = (position.x, position.y);
                 }
-                return;
+                return self.pad(texels.len());
             }
         };
         let mut next = range.start;
@@ -241,6 +241,16 @@ impl Positions {
             self.x.0[tile.clone()].copy_from_slice(&axes.x[column..column + count]);
             self.y.0[tile].fill(axes.y[row]);
             next += count;
+        }
+        self.pad(range.len());
+    }
+
+    /// Gives the texels after the first `count` the position of the first, so that no tile depends on what was in it before.
+    #[inline(always)]
+    fn pad(&mut self, count: usize) {
+        for plane in [&mut self.x.0, &mut self.y.0] {
+            let first = plane[0];
+            plane[count..].fill(first);
         }
     }
 }

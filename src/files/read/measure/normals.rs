@@ -37,7 +37,8 @@ fn score_of(raster: &Raster, normal: impl Fn([f64; 3]) -> [f64; 3]) -> f64 {
 /// `normal` is the vector at an index, y as stored.
 pub(crate) fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 3] + Sync) -> Option<f64> {
     const MOST: usize = 256;
-    let steps = [width, height].map(|side| (side / MOST).max(1));
+    // Odd, so that a pattern that repeats after a power of two is seen whole.
+    let steps = [width, height].map(|side| (side / MOST).max(1) | 1);
     let slopes = |index: usize| {
         let [x, y, z] = normal(index);
         (z > 0.1).then(|| [-x / z, y / z])

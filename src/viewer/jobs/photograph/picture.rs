@@ -9,8 +9,6 @@ use crate::viewer::jobs::work::picture::Picture;
 
 /// Longest side of the texture; larger photographs are reduced.
 const LONGEST: usize = 4096;
-/// Most pixels that are looked at to find the exposure.
-const SAMPLED: usize = 100_000;
 
 /// The photograph at the exposure at which its brightest 1% clips.
 pub fn picture(photograph: &Photograph, longest: usize) -> Picture {
@@ -41,9 +39,8 @@ fn reduced(image: &Image<f32>, longest: usize) -> Image<f32> {
 
 /// The exposure, in stops, at which the brightest 1% of the pixels clips.
 pub(super) fn exposure(image: &Image<f32>) -> f32 {
-    let step = image.pixels.len().div_ceil(SAMPLED).max(1);
     let brightest = |pixel: &[f32; 3]| pixel.iter().copied().fold(0.0, f32::max);
-    let mut values: Vec<f32> = image.pixels.iter().step_by(step).map(brightest).collect();
+    let mut values: Vec<f32> = image.pixels.iter().map(brightest).collect();
     match quantile(&mut values, 0.99) {
         Some(white) if white > 0.0 && white.is_finite() => -(white as f32).log2(),
         _ => 0.0,
