@@ -49,8 +49,8 @@ fn a_planted_reading_is_found_and_its_option_corrects_it() {
         assert!(marked.len() == 1, "{printed}");
         let found = ["hypothesis", "value", "remedy"].map(|key| marked[0][key].as_str().unwrap());
         assert_eq!(found, [hypothesis, value, option]);
-        // 128 + 64 scrambled Sobol scenes of the same seed on all texels.
-        let scenes = "--near 128 --distant 64 --sampler sobol --format json";
+        // 2,048 + 1,024 scrambled Sobol scenes of the same seed, of maps as small as these on all texels.
+        let scenes = "--near 2048 --distant 1024 --sampler sobol --format json";
         let loss = |options: &str| {
             let printed =
                 succeed(folder.path(), &format!("loss truth.png {name}.png {READ} {options} {scenes}"));
@@ -88,7 +88,7 @@ fn the_option_of_an_advice_gives_the_loss_that_was_computed() {
     let printed =
         json(&succeed(folder.path(), &format!("diagnose truth.png encoded.png {read} --format json")));
     let findings = printed["predictions"][0]["findings"].as_array().unwrap();
-    let scenes = "--near 128 --distant 64 --sampler sobol --format json";
+    let scenes = "--near 2048 --distant 1024 --sampler sobol --format json";
     for name in ["albedo_encoding", "diffuse_encoding", "specular_encoding"] {
         let finding = findings.iter().find(|finding| finding["hypothesis"] == name).unwrap();
         let option = finding["remedy"].as_str().unwrap();

@@ -197,7 +197,8 @@ pub(super) fn changes(pilot: &Trials<'_>, proposals: &[Proposal]) -> Result<Vec<
     Ok(changes)
 }
 
-/// The change in place of each proposal of `explanation` that lowers the loss as far, where there is one.
+/// The change in place of each proposal of `explanation` that lowers the loss as far, where there is one. In place of a factor on each
+/// channel it may come with one factor on all: both together are as free, or less.
 pub(super) fn alternatives(pilot: &Trials<'_>, proposals: &[Proposal]) -> Result<Vec<Option<Change>>, Error> {
     let with = tried(pilot, vec![proposals.to_vec()])?.first().map_or(1.0, |all| all.ratio);
     let of = |place: usize| {
@@ -208,8 +209,17 @@ pub(super) fn alternatives(pilot: &Trials<'_>, proposals: &[Proposal]) -> Result
                 && other.hypothesis != replaced
                 && !(is_exposure(other.hypothesis) && is_exposure(replaced))
         };
-        let sets = singles(pilot).into_iter().filter(is_other);
-        let sets = sets.map(|other| [rest.proposals.clone(), vec![other]].concat()).collect();
+        let others: Vec<Proposal> = singles(pilot).into_iter().filter(is_other).collect();
+        let exposure = singles(pilot).into_iter().find(|one| one.hypothesis == Hypothesis::Exposure);
+        let beside = exposure.filter(|_| replaced == Hypothesis::ExposureRgb).map(|exposure| vec![exposure]);
+        let set = |beside: Vec<Proposal>, other: &Proposal| {
+            [rest.proposals.clone(), beside, vec![other.clone()]].concat()
+        };
+        let sets = std::iter::once(Vec::new()).chain(beside);
+        let sets = sets.flat_map(|beside| {
+            others.iter().map(move |other| set(beside.clone(), other)).collect::<Vec<_>>()
+        });
+        let sets = sets.collect();
         let tried = tried(pilot, sets)?;
         let best = tried.iter().min_by(|a, b| a.ratio.total_cmp(&b.ratio));
         let best = best.filter(|other| other.ratio < with + 0.5 * LEAST_SHARE);

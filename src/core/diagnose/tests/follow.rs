@@ -167,7 +167,7 @@ fn follow(truth: &Material<f32>, planted: &[Planted]) -> Followed {
     let before = loss([&truth, &prediction]);
     let progress = Progress::default();
     let floor = floor(&truth, &storages[0], &PRINTED, 1, &progress).unwrap().mean;
-    let (mut steps, mut false_causes) = (Vec::new(), Vec::new());
+    let (mut steps, mut false_causes, mut has_exposed) = (Vec::new(), Vec::new(), false);
     for round in 0..6 {
         let found =
             diagnose([&truth, &prediction], storages.each_ref(), &PRINTED, floor, round as u64, &progress)
@@ -177,9 +177,12 @@ fn follow(truth: &Material<f32>, planted: &[Planted]) -> Followed {
             break;
         }
         marked.sort_by_key(|finding| order(finding.change));
+        let is_exposed = marked.iter().any(|finding| is_exposure(finding.change));
         for finding in marked {
             let words = sentence_of(&finding);
-            if !is_true(finding.hypothesis, planted) && names_cause(&words) {
+            // Factors that earlier advice applied are an error of what is left.
+            let is_own = is_exposure(finding.change) && has_exposed;
+            if !is_true(finding.hypothesis, planted) && !is_own && names_cause(&words) {
                 false_causes.push(words);
             }
             steps.push(format!("{} {}", finding.hypothesis.name(), finding.value));
@@ -196,9 +199,14 @@ fn follow(truth: &Material<f32>, planted: &[Planted]) -> Followed {
                 change => prediction = change.applied(&prediction, &storages[1]).unwrap(),
             }
         }
+        has_exposed |= is_exposed;
         steps.push(";".to_owned());
     }
     Followed { before, after: loss([&truth, &prediction]), floor, steps, false_causes }
+}
+
+fn is_exposure(change: Option<Change>) -> bool {
+    matches!(change, Some(Change::Exposure(_)))
 }
 
 /// Whether a sentence names a cause without "probably".
@@ -284,6 +292,21 @@ fn table(errors: &[Vec<Planted>]) -> [usize; 3] {
     [ended, pairs.len(), wrong]
 }
 
+/// Factors on three channels hide swapped channels of an exposure.
+#[test]
+fn swapped_and_darker_channels_are_no_certain_white_balance() {
+    let ([truth, prediction], storages) = plant(&generated(2, SIDE), &[SWAPPED, Stops(-0.5)]);
+    let found =
+        diagnose([&truth, &prediction], storages.each_ref(), &PRINTED, 0.0048, 0, &Progress::default());
+    let found = found.unwrap();
+    let [marked] = found.marked().collect::<Vec<_>>()[..] else { panic!("{:?}", found.findings) };
+    assert_eq!(marked.hypothesis, Hypothesis::ExposureRgb);
+    let swapped = [Change::Reading(Reading::RedBlue), Change::GroundTruth(Reading::RedBlue)];
+    let words = sentence_of(marked);
+    assert!(marked.alternative.is_some_and(|other| swapped.contains(&other)), "{words}");
+    assert!(!names_cause(&words), "{words}");
+}
+
 #[test]
 #[ignore = "takes minutes; docs/verification.md has its command and its result"]
 fn the_advice_for_two_and_three_errors_ends_below_the_floor() {
@@ -295,5 +318,5 @@ fn the_advice_for_two_and_three_errors_ends_below_the_floor() {
 #[ignore = "takes minutes; docs/verification.md has its command and its result"]
 fn the_advice_for_single_errors_ends_below_the_floor() {
     let [ended, count, wrong] = table(&single());
-    assert!(ended * 161 >= count * 158 && wrong == 0, "{ended} of {count}, {wrong}");
+    assert!(count - ended <= 3 && wrong == 0, "{ended} of {count}, {wrong}");
 }
