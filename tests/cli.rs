@@ -5,7 +5,6 @@ mod diagnose;
 mod ends;
 mod help;
 mod inputs;
-mod journal;
 mod links;
 mod loss;
 mod materials;

@@ -261,10 +261,9 @@ fn a_data_set_counts_the_materials_of_each_method_by_their_marks() {
     let csv = rank("--diagnose --format csv");
     assert!(csv.lines().next().unwrap().ends_with(",floor,resolvable,marked"), "{csv}");
     assert_eq!(csv.lines().filter(|line| line.ends_with(",true,normal_y")).count(), 2, "{csv}");
-    // A run that was kept prints the same, and has what results depend on in its head.
-    rank("--diagnose --journal run.jsonl");
-    assert_eq!(rank("--diagnose --journal run.jsonl"), text);
-    assert_eq!(succeed(folder.path(), "rank --merge run.jsonl"), text);
+    // Kept results print the same.
+    rank("--diagnose --results kept");
+    assert_eq!(rank("--diagnose --results kept"), text);
     assert!(!rank("").contains("number of materials"));
 }
 
