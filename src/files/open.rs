@@ -147,8 +147,11 @@ impl NamedFile {
     /// The SHA-256 of everything that it holds, in hexadecimal.
     ///
     /// # Errors
-    /// As [`Self::open`].
+    /// As [`Self::open`]; [`Error::NotAFile`] for a pipe, which could not be read again.
     pub(crate) fn digest(&self) -> Result<String, Error> {
+        if is_pipe_at(&self.path) {
+            return Err(Error::NotAFile { path: self.path.clone(), found: "a pipe" });
+        }
         let (mut file, mut buffer, mut hash) = (self.open()?, vec![0; 1 << 16], Sha256::new());
         loop {
             match file.read(&mut buffer).map_err(|source| Error::unreadable(&self.path, source))? {

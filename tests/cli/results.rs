@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use std::process::Stdio;
+use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
 use image::{Rgb, RgbImage};
@@ -205,7 +207,7 @@ fn every_file_of_a_material_counts_in_every_format() {
         let surface = r#"{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}"#;
         let gltf = format!(r#"{{"asset": {{"version": "2.0"}}, {picture}, "materials": [{surface}]}}"#);
         fs::write(of(name).join("e.gltf"), gltf).unwrap();
-        fs::write(of(name).join("f.mtl"), format!("newmtl f\nmap_Kd p_{roughness}\n")).unwrap();
+        fs::write(of(name).join("f.mtl"), format!("newmtl f\nmap_Kd p_{roughness}\nPr 0.5\n")).unwrap();
     }
     let rows =
         ["a.exr", "b.glb", "c.mtlx", "d", "e.gltf", "f.mtl", "p_"].map(|form| format!("gt/{form},gt.png\n"));
@@ -224,7 +226,7 @@ fn every_file_of_a_material_counts_in_every_format() {
             }
         }
     }
-    assert_eq!(noticed, ["a", "b", "efp", "c", "d"]);
+    assert_eq!(noticed, ["a", "b", "c", "efp", "c", "d"]);
 }
 
 #[test]
@@ -250,6 +252,55 @@ fn what_fails_is_tried_again() {
     }
     assert_eq!(run(folder.path(), RANK).0.len(), 4);
     assert_eq!(succeed(folder.path(), &format!("{RANK} --results kept")), whole);
+}
+
+#[test]
+fn a_file_that_changes_while_it_is_read_has_no_result_of_another() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str| folder.path().join(name);
+    for (name, roughness) in [("gt", 60), ("ours", 80), ("new", 140)] {
+        fs::create_dir(of(name)).unwrap();
+        write_material(&of(name).join("m.png"), 256, roughness);
+    }
+    let args = "rank --dataset gt ours --target-error 30% --format json --read albedo=srgb";
+    let contents = [fs::read(of("ours/m.png")).unwrap(), fs::read(of("new/m.png")).unwrap()];
+    let place = |bytes: &Vec<u8>| {
+        fs::write(of("next"), bytes).unwrap();
+        fs::rename(of("next"), of("ours/m.png")).unwrap();
+    };
+    for delay in [5, 10, 20, 40, 80, 160] {
+        place(&contents[0]);
+        let with = format!("{args} --results kept");
+        let mut child = svbrdf()
+            .args(with.split(' '))
+            .current_dir(folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        sleep(Duration::from_millis(delay));
+        place(&contents[1]);
+        assert!(child.wait().unwrap().success());
+        for bytes in &contents {
+            place(bytes);
+            run(folder.path(), args);
+        }
+        fs::remove_dir_all(of("kept")).unwrap();
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_read_once() {
+    let folder = data_set();
+    let of = |name: &str| folder.path().join(name);
+    assert!(super::command("mkfifo").arg(of("pipe.png")).status().unwrap().success());
+    fs::write(of("pairs.csv"), "ground_truth,prediction\ngt/m0.png,pipe.png\n").unwrap();
+    let (from, to) = (of("ours/m0.png"), of("pipe.png"));
+    let written = std::thread::spawn(move || fs::write(to, fs::read(from).unwrap()));
+    succeed(folder.path(), "rank --pairs pairs.csv --target-error 20% --results kept");
+    written.join().unwrap().unwrap();
+    assert_eq!(files(&of("kept")), [""; 0]);
 }
 
 #[test]

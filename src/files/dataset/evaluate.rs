@@ -112,14 +112,12 @@ impl Run<'_> {
     /// What the result of a prediction depends on; `None` where it cannot be known before it is computed.
     fn key(&self, case: &Case, candidate: &Candidate, truth: &Dependencies, seed: u64) -> Option<Key> {
         let Candidate { method, sample, path, .. } = candidate;
-        let options = self.reading.of_method(method);
-        let prediction = self.dependencies(path, options)?;
-        let material = |path: &Path, read: &ReadOptions, found: &Dependencies| {
-            json!({
-                "path": path.display().to_string(), "read": read, "sha256": found.sha256,
-            })
-        };
+        let prediction = self.dependencies(path, self.reading.of_method(method))?;
+        // How it is read is a part of the digest.
+        let material =
+            |path: &Path, sha256: &str| json!({"path": path.display().to_string(), "sha256": sha256});
         let DatasetSettings { convention, target_error, metrics, diagnose, .. } = self.settings;
+        // Another version may compute other numbers, and remark on other things.
         let of = json!({
             "software": SOFTWARE,
             "convention": convention,
@@ -128,8 +126,8 @@ impl Run<'_> {
             "metrics": metrics,
             "diagnose": diagnose,
             "strict": self.reading.strict,
-            "ground_truth": material(&case.ground_truth, &self.reading.ground_truths, truth),
-            "prediction": material(path, options, &prediction),
+            "ground_truth": material(&case.ground_truth, &truth.sha256),
+            "prediction": material(path, &prediction.sha256),
             "method": method,
             "sample": sample,
         });
