@@ -93,6 +93,18 @@ fn write_material(path: &Path, side: u32, roughness: u8) {
     });
 }
 
+/// Ground truths and methods in folders, with materials `m0.png` and so on. The roughness of a method is larger by a number.
+fn data_set(methods: &[(&str, u8)], materials: u8) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more) in [("gt", 0)].iter().chain(methods) {
+        std::fs::create_dir(folder.path().join(name)).unwrap();
+        for i in 0..materials {
+            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
+        }
+    }
+    folder
+}
+
 /// Writes a packed material of four tiles.
 fn write_tiles(path: &Path, side: u32, at: impl Fn(u32, u32) -> [u8; 3]) {
     RgbImage::from_fn(4 * side, side, |x, y| Rgb(at(x, y))).save(path).unwrap();

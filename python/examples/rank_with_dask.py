@@ -1,6 +1,7 @@
 """Ranks a data set on a Dask cluster: `python rank_with_dask.py gt/ ours/ theirs/` writes ranking.txt.
 
-All machines see the folder and have the program `svbrdf`. Dask repeats a part whose worker is killed. Needs `distributed`.
+All machines see the folder and have the program `svbrdf`. Dask repeats a part whose worker is killed.
+Needs `distributed`.
 """
 
 import subprocess

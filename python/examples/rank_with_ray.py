@@ -1,6 +1,7 @@
 """Ranks a data set on a Ray cluster: `python rank_with_ray.py gt/ ours/ theirs/` writes ranking.txt.
 
-All machines see the folder and have the program `svbrdf`. Ray repeats a part whose worker is killed. Needs `ray`.
+All machines see the folder and have the program `svbrdf`. Ray repeats a part whose worker is killed.
+Needs `ray`.
 """
 
 import subprocess

@@ -58,9 +58,11 @@ pub fn rank_dataset(
     let methods = asked.methods.into_iter().map(|(name, path)| Method { name, path }).collect();
     let source = Source::Folders { ground_truths: asked.ground_truths, methods };
     let cases = source.cases().map_err(exception)?;
-    let settings = DatasetSettings::new(source, convention.name, asked.target_error, asked.seed, &cases)
-        .with_metrics(asked.metrics)
-        .with_diagnoses(asked.diagnose);
+    let settings = DatasetSettings {
+        metrics: asked.metrics,
+        diagnose: asked.diagnose,
+        ..DatasetSettings::new(source, convention.name, asked.target_error, asked.seed, &cases)
+    };
     let folder = asked.results.as_deref();
     let DatasetResults { results, notes } =
         work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, folder, progress))?;

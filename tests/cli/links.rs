@@ -8,20 +8,13 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::{command, fail, files, folder, run_in, succeed, text, write_material};
+use super::{command, fail, files, folder, run_in, succeed, text};
 
 const RANK: &str = "rank --dataset gt ours --target-error 30%";
 
 /// A ground truth and a method with two materials each.
 fn data_set() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, more) in [("gt", 0), ("ours", 20)] {
-        fs::create_dir(folder.path().join(name)).unwrap();
-        for i in 0..2_u8 {
-            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
-        }
-    }
-    folder
+    super::data_set(&[("ours", 20)], 2)
 }
 
 /// The code and stderr of a run that must end soon.

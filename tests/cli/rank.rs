@@ -41,13 +41,7 @@ fn predictions_of_a_pattern_are_ranked() {
 
 /// Ground truths and two methods; of the second, a file is missing and one is broken.
 fn data_set() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
-        fs::create_dir(folder.path().join(name)).unwrap();
-        for i in 0..7_u8 {
-            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
-        }
-    }
+    let folder = super::data_set(&[("ours", 8), ("theirs", 40)], 7);
     fs::remove_file(folder.path().join("theirs/m3.png")).unwrap();
     fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();
     folder

@@ -187,18 +187,12 @@ fn a_limit_of_the_size_of_files_is_an_error_that_leaves_nothing() {
 
 /// A data set of so many materials that a run of it can be killed on its way.
 fn data_set() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
-        fs::create_dir(folder.path().join(name)).unwrap();
-        for i in 0..MATERIALS {
-            write_material(&folder.path().join(name).join(format!("m{i:02}.png")), 32, 60 + i + more);
-        }
-    }
-    fs::write(folder.path().join("theirs/m03.png"), "not an image").unwrap();
+    let folder = super::data_set(&[("ours", 8), ("theirs", 40)], MATERIALS);
+    fs::write(folder.path().join("theirs/m3.png"), "not an image").unwrap();
     folder
 }
 
-const MATERIALS: u8 = 12;
+const MATERIALS: u8 = 10;
 const RANK: &str = "rank --dataset gt ours theirs --target-error 3% --metrics";
 
 /// Starts a run with a results folder, of one material after the other: many cores would be done with all at once. Returns it when

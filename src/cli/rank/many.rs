@@ -26,9 +26,11 @@ fn evaluate(args: &RankArgs, progress: &Progress) -> Result<(), CommandError> {
     let source = source(args)?;
     let cases = source.cases()?;
     let convention = args.comparison.convention.unwrap_or_default();
-    let settings = DatasetSettings::new(source, convention.name, args.target_error, args.seed.seed, &cases)
-        .with_metrics(args.metrics)
-        .with_diagnoses(args.diagnose);
+    let settings = DatasetSettings {
+        metrics: args.metrics,
+        diagnose: args.diagnose,
+        ..DatasetSettings::new(source, convention.name, args.target_error, args.seed.seed, &cases)
+    };
     let reading = reading(args, &settings.methods)?;
     let cases = part(args.shard, cases);
     let results = args.results.as_deref();

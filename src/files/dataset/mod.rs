@@ -28,10 +28,9 @@ pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use mark_summary::{MarkSummary, summarize_marks};
 pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
 pub use pick::{Pick, counted_loss, counted_sample};
-pub use ranking::{MethodDifference, MethodSummary, Ranking};
+pub use ranking::{DatasetReport, MethodDifference, MethodSummary, Ranking};
 pub use record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
     PredictionResult, Source,
 };
 pub use remark::Remark;
-pub use report::DatasetReport;

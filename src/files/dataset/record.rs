@@ -106,18 +106,6 @@ impl DatasetSettings {
         }
     }
 
-    /// The same settings, with metrics of the maps or without.
-    #[must_use]
-    pub fn with_metrics(self, metrics: bool) -> Self {
-        Self { metrics, ..self }
-    }
-
-    /// The same settings, with the marks of a diagnosis or without.
-    #[must_use]
-    pub fn with_diagnoses(self, diagnose: bool) -> Self {
-        Self { diagnose, ..self }
-    }
-
     /// The seed of the scenes of each material, in order: by its name, and for materials of one name by their order, so that it does
     /// not depend on which other materials there are.
     pub fn seeds(&self) -> Vec<u64> {

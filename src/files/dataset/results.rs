@@ -60,10 +60,8 @@ impl KnownNeighbours {
     }
 
     fn are_current(&self, key: &Key) -> bool {
-        let [diffuse, specular] = self.of.map(|place| key.files.get(place).cloned());
-        let now =
-            diffuse.zip(specular).map(|(diffuse, specular)| Neighbours::of([diffuse, specular]).digest());
-        now.is_some_and(|now| now.is_ok_and(|now| now == self.sha256))
+        let maps = self.of.map(|place| key.files.get(place).cloned().unwrap_or_default());
+        Neighbours::of(maps).digest().is_ok_and(|now| now == self.sha256)
     }
 }
 
