@@ -133,8 +133,12 @@ fn folder() -> TempDir {
     folder
 }
 
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
 fn losses_as_json(folder: &Path, args: &str) -> Value {
-    serde_json::from_str(&succeed(folder, &format!("loss {args} --format json"))).unwrap()
+    json(&succeed(folder, &format!("loss {args} --format json")))
 }
 
 fn keys(object: &Value) -> Vec<&str> {

@@ -5,5 +5,5 @@ set -euo pipefail
 parts=${PARTS:-8}
 rank=(svbrdf rank --dataset "$@" --results losses)
 
-parallel --retries 4 --jobs "${JOBS:-2}" --quote "${rank[@]}" --shard "{}/$parts" ::: $(seq "$parts") >/dev/null
+parallel --retries 4 --jobs "${JOBS:-2}" --quote -I @part@ "${rank[@]}" --shard "@part@/$parts" ::: $(seq "$parts") >/dev/null
 "${rank[@]}"

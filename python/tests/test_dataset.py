@@ -27,17 +27,15 @@ def dataset(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def of_command_line(program: str, dataset: Path, *options: str) -> Any:
-    """The ranking of both methods as the command line's JSON."""
-    folders = [str(dataset / name) for name in ("gt", "good", "bad")]
-    command = [program, "rank", "--dataset", *folders, "--target-error", "5%", "--format", "json", *options]
-    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
-
-
 def text_of_command_line(program: str, dataset: Path, *options: str) -> str:
+    """The ranking of both methods."""
     folders = [str(dataset / name) for name in ("gt", "good", "bad")]
     command = [program, "rank", "--dataset", *folders, "--target-error", "5%", *options]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def of_command_line(program: str, dataset: Path, *options: str) -> Any:
+    return json.loads(text_of_command_line(program, dataset, "--format", "json", *options))
 
 
 def ranked(dataset: Path, **options: Any) -> svbrdf.DatasetReport:

@@ -4,14 +4,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::{folder, succeed, write_tiles};
+use super::{folder, json, succeed, write_tiles};
 
 const SIDE: u32 = 32;
 const READ: &str = "--preset deschaintre --read order=ndrs";
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap()
-}
 
 /// Writes a packed material with bumps; `change` sees each stored texel of a map (0 normals, 1 diffuse, 2 roughness, 3 specular).
 fn write(path: &Path, change: impl Fn(u32, [u8; 3]) -> [u8; 3]) {

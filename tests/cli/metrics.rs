@@ -6,11 +6,7 @@ use std::path::Path;
 use image::{Rgb, RgbImage};
 use serde_json::Value;
 
-use super::{fail, folder, succeed, text, write_material};
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap()
-}
+use super::{fail, folder, json, succeed, text, write_material};
 
 /// A packed strip of four tiles of one colour each: normal | diffuse | roughness | specular.
 fn write_tiles(path: &Path, tiles: [[u8; 3]; 4]) {

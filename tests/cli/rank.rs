@@ -3,14 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{fail, folder, run_in, succeed, text, write_material};
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap()
-}
+use super::{fail, folder, json, run_in, succeed, text, write_material};
 
 #[test]
 fn predictions_of_a_pattern_are_ranked() {

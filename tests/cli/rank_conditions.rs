@@ -3,14 +3,10 @@
 use std::fs;
 use std::path::Path;
 
-use super::{data_set, run_in, succeed, svbrdf, text, write_material};
+use super::{data_set, json, run_in, succeed, svbrdf, text, write_material};
 use serde_json::Value;
 
 const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap()
-}
 
 /// A material in a folder, without its normal map.
 fn write_without_normals(folder: &Path) {
@@ -126,24 +122,10 @@ fn a_loss_does_not_depend_on_its_rivals_nor_on_other_materials() {
 #[test]
 fn a_ranking_says_how_to_repeat_it() {
     let folder = data_set(&[("ours", 8), ("their maps", 16)], 5);
-    let args = [
-        "rank",
-        "--dataset",
-        "gt",
-        "ours",
-        "their maps",
-        "--target-error",
-        "3%",
-        "--seed",
-        "7",
-        "--pick",
-        "mean",
-        "--convention",
-        "guided-2020",
-        "--metrics",
-        "--preset",
-        "deschaintre",
-    ];
+    let args = "rank --dataset gt ours their_maps --target-error 3% --seed 7 --pick mean --convention guided-2020 --metrics \
+        --preset deschaintre";
+    let args: Vec<&str> =
+        args.split(' ').map(|word| if word == "their_maps" { "their maps" } else { word }).collect();
     let run = |args: &[&str]| {
         let output = svbrdf().args(args).current_dir(folder.path()).output().unwrap();
         assert!(output.status.success(), "{}", text(&output.stderr));

@@ -9,7 +9,6 @@ use svbrdf_files::inputs::check_output_of;
 use svbrdf_files::page::{check_destination, material_views, ranking};
 
 use super::args::{RankArgs, RankFormat};
-use super::cases::source;
 use crate::cli::args::{Given, modes};
 use crate::cli::output::{CommandError, watched_on};
 
@@ -18,13 +17,12 @@ use crate::cli::output::{CommandError, watched_on};
 ///
 /// # Errors
 /// [`CommandError::Usage`]; where the file cannot be written.
-pub fn check(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
+pub fn check(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<(), CommandError> {
     if args.format != RankFormat::Html {
         return given.check(&modes::RANK_PRINTED);
     }
     let path = output(args)?;
     check_destination(path)?;
-    let cases = source(args)?.cases()?;
     let predictions = cases.iter().flat_map(|case| case.candidates.iter().map(|one| &one.path));
     let materials = cases.iter().map(|case| &case.ground_truth).chain(predictions);
     Ok(check_output_of(path, materials.chain(args.comparison.materials.paths()))?)

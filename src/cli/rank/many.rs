@@ -4,7 +4,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::report::Report as _;
 use svbrdf_files::dataset::{
-    self, Case, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Shard,
+    self, Case, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Shard, Source,
 };
 
 use super::args::{RankArgs, RankFormat, check_limit};
@@ -15,16 +15,21 @@ use crate::cli::output::stop::stoppable;
 use crate::cli::output::{CommandError, exit, target, watched_on};
 
 pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
-    html::check(args, given)?;
     given.check(&modes::RANK_DATA_SET)?;
-    let evaluate = |progress: &Progress| evaluate(args, progress);
+    let source = source(args)?;
+    let cases = source.cases()?;
+    html::check(args, given, &cases)?;
+    let evaluate = |progress: &Progress| evaluate(args, source, cases, progress);
     let writes = args.results.is_some() || args.format == RankFormat::Html;
     if writes { stoppable(evaluate) } else { evaluate(&Progress::default()) }
 }
 
-fn evaluate(args: &RankArgs, progress: &Progress) -> Result<(), CommandError> {
-    let source = source(args)?;
-    let cases = source.cases()?;
+fn evaluate(
+    args: &RankArgs,
+    source: Source,
+    cases: Vec<Case>,
+    progress: &Progress,
+) -> Result<(), CommandError> {
     let convention = args.comparison.convention.unwrap_or_default();
     let settings = DatasetSettings {
         metrics: args.metrics,

@@ -21,7 +21,7 @@ use super::record::{
 use super::remark::Remark;
 use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
 use crate::atomic::SOFTWARE;
-use crate::read::{self, Dependencies, Neighbours, Read, ReadOptions};
+use crate::read::{self, Dependencies, Neighbours, ReadOptions};
 
 /// The results of a run over a data set.
 #[derive(Clone, Debug, PartialEq)]
@@ -262,11 +262,9 @@ struct OpenedMaterial {
 }
 
 fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
-    let read: Read<f32> = match read::read(path, options, &Progress::default()) {
+    let read = match read::read::<f32>(path, options, &Progress::default()) {
         Ok(read) => read,
-        Err(problem) => {
-            return Opened::failed(problem.to_string());
-        }
+        Err(problem) => return Opened::failed(problem.to_string()),
     };
     let guesses = if strict { read.refuse_guesses(path) } else { Ok(()) };
     let (remarks, storage) = (Remark::of(&read), read.storage());

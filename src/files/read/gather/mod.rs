@@ -78,12 +78,9 @@ fn pair(diffuse: &StoredMap, specular: &StoredMap, roughness: Option<Roughness>)
     }
     common.extend(colours::measured(&diffuse.raster, &specular.raster));
     let total: f64 = common.iter().map(|one| one.log_odds()).sum();
-    let (neighbours, evidence) = match total.abs() < SURE {
-        true => Some(neighbours::evidence(&diffuse.file, &specular.file)),
-        false => None,
-    }
-    .unzip();
-    common.extend(evidence.flatten());
+    let pictures = || [diffuse.file.clone(), specular.file.clone()];
+    let neighbours = (total.abs() < SURE).then(|| Neighbours::of(pictures()));
+    common.extend(neighbours.as_ref().and_then(Neighbours::evidence));
     let bright = colours::too_bright(&diffuse.raster, &specular.raster);
     let diffuse = common.iter().copied().chain(bright).collect();
     ColourEvidence::Pair { diffuse, specular: common, neighbours }

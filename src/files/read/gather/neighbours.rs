@@ -3,7 +3,7 @@
 //! They are located and decoded here, as those of the material itself were before, and only where its own pixels leave
 //! its colours open: a collection stores all its materials in one way.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use rayon::prelude::*;
 use sha2::{Digest as _, Sha256};
@@ -52,7 +52,8 @@ impl Neighbours {
         Ok(hexadecimal(hash))
     }
 
-    fn evidence(&self) -> Option<Evidence> {
+    /// The evidence of their pixels.
+    pub(super) fn evidence(&self) -> Option<Evidence> {
         let decoded = |file: &NamedFile| Some(decode::one(file, Subject::Picture).ok()?.0);
         let decoded = self.pairs.par_iter().filter_map(|[a, b]| Some([decoded(a)?, decoded(b)?]));
         let pairs: Vec<_> = decoded.collect();
@@ -61,11 +62,4 @@ impl Neighbours {
         let log_odds = log_odds.clamp(-MOST_OF_NEIGHBOURS, MOST_OF_NEIGHBOURS);
         (log_odds != 0.0).then_some(Evidence::Neighbours { count: pairs.len(), log_odds })
     }
-}
-
-/// The neighbours of the material with these pictures of diffuse and specular, and their evidence.
-pub(super) fn evidence(diffuse: &Path, specular: &Path) -> (Neighbours, Option<Evidence>) {
-    let neighbours = Neighbours::of([diffuse.to_owned(), specular.to_owned()]);
-    let evidence = neighbours.evidence();
-    (neighbours, evidence)
 }
