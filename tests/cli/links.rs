@@ -55,6 +55,19 @@ fn a_result_is_no_link_no_pipe_and_no_folder() {
 }
 
 #[test]
+fn a_material_of_a_pipe_is_read_once_and_not_kept() {
+    let folder = data_set();
+    let of = |name: &str| folder.path().join(name);
+    assert!(Command::new("mkfifo").arg(of("pipe.png")).status().unwrap().success());
+    fs::write(of("pairs.csv"), "ground_truth,prediction\ngt/m0.png,pipe.png\n").unwrap();
+    let (from, to) = (of("ours/m0.png"), of("pipe.png"));
+    // Not joined: it waits for a reader.
+    std::thread::spawn(move || fs::write(to, fs::read(from).unwrap()));
+    let (code, stderr) = soon(folder.path(), "rank --pairs pairs.csv --target-error 30% --results kept");
+    assert_eq!((code, files(&of("kept")).len()), (Some(0), 0), "{stderr}");
+}
+
+#[test]
 fn figures_are_not_written_through_links() {
     let folder = data_set();
     let of = |name: &str| folder.path().join(name);

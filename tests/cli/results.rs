@@ -261,20 +261,6 @@ fn a_file_that_changes_while_it_is_read_has_no_result_of_another() {
     }
 }
 
-#[cfg(unix)]
-#[test]
-fn a_pipe_is_read_once() {
-    let folder = data_set();
-    let of = |name: &str| folder.path().join(name);
-    assert!(super::command("mkfifo").arg(of("pipe.png")).status().unwrap().success());
-    fs::write(of("pairs.csv"), "ground_truth,prediction\ngt/m0.png,pipe.png\n").unwrap();
-    let (from, to) = (of("ours/m0.png"), of("pipe.png"));
-    let written = std::thread::spawn(move || fs::write(to, fs::read(from).unwrap()));
-    succeed(folder.path(), "rank --pairs pairs.csv --target-error 20% --results kept");
-    written.join().unwrap().unwrap();
-    assert_eq!(files(&of("kept")), NONE);
-}
-
 #[test]
 fn a_file_that_was_damaged_or_belongs_to_another_pair_is_not_used() {
     let folder = data_set();
